@@ -1,0 +1,359 @@
+#include "libfe/assemble.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "libfe/base/quadrature.hpp"
+#include "libfe/elements/beam.hpp"
+#include "libfe/elements/body.hpp"
+#include "libfe/elements/connection.hpp"
+#include "libfe/elements/disk.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// Collects element matrices at given indices of the full vector; index -1 is the ground.
+class Collector {
+ public:
+  template <int N>
+  void add(const ElementMatrices<N>& e, const std::vector<int>& index) {
+    add(e.M, index, M_);
+    add(e.C, index, C_);
+    add(e.G, index, G_);
+    add(e.K, index, K_);
+    add(e.H, index, H_);
+  }
+  Sparse M(int n) const { return matrix(M_, n); }
+  Sparse C(int n) const { return matrix(C_, n); }
+  Sparse G(int n) const { return matrix(G_, n); }
+  Sparse K(int n) const { return matrix(K_, n); }
+  Sparse H(int n) const { return matrix(H_, n); }
+
+ private:
+  template <class Block>
+  static void add(const Block& block, const std::vector<int>& index, std::vector<Triplet>& to) {
+    for (std::size_t j = 0; j < index.size(); ++j) {
+      for (std::size_t i = 0; i < index.size(); ++i) {
+        const double value = block(static_cast<int>(i), static_cast<int>(j));
+        if (index[i] >= 0 && index[j] >= 0 && value != 0.0) {
+          to.emplace_back(index[i], index[j], value);
+        }
+      }
+    }
+  }
+  static Sparse matrix(const std::vector<Triplet>& triplets, int n) {
+    Sparse A(n, n);
+    A.setFromTriplets(triplets.begin(), triplets.end());
+    return A;
+  }
+  std::vector<Triplet> M_, C_, G_, K_, H_;
+};
+
+Beam beam_of(const MeshElement& element, const Structure& structure, const Mesh& mesh) {
+  const Segment& segment = structure.shaft[static_cast<std::size_t>(element.segment)];
+  return {.L = mesh.z[element.right] - mesh.z[element.left],
+          .left = segment.at(element.from),
+          .right = segment.at(element.to),
+          .material = segment.material,
+          .theory = segment.theory,
+          .shear = segment.shear,
+          .axial_force = segment.axial_force,
+          .torque = segment.torque,
+          .internal_functions = segment.internal_functions};
+}
+
+std::vector<int> indices(const DofMap& dofs, const Point& point) {
+  std::vector<int> index(4);
+  for (int c = 0; c < 4; ++c) index[c] = dofs.full_index(point, c);
+  return index;
+}
+
+std::vector<int> indices(const DofMap& dofs, const Point& from, const Point& to) {
+  std::vector<int> index = indices(dofs, from);
+  const std::vector<int> other = indices(dofs, to);
+  index.insert(index.end(), other.begin(), other.end());
+  return index;
+}
+
+/// Groups of freedoms that rigid connections hold together; group 0 is the ground.
+class Ties {
+ public:
+  explicit Ties(int freedoms) : parent_(static_cast<std::size_t>(freedoms) + 1) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  /// Ties two indices of the full vector (-1: ground); false if they were tied already.
+  bool tie(int a, int b) {
+    int from = root(a + 1), to = root(b + 1);
+    if (from == to) return false;
+    if (from == 0) std::swap(from, to);
+    parent_[from] = to;
+    return true;
+  }
+  /// full = T q with one coordinate per group that is not the ground.
+  Sparse transformation() {
+    const int n = static_cast<int>(parent_.size()) - 1;
+    std::vector<int> coordinate(parent_.size(), -1);
+    std::vector<Triplet> entries;
+    int count = 0;
+    for (int i = 0; i < n; ++i) {
+      const int group = root(i + 1);
+      if (group == 0) continue;
+      if (coordinate[group] < 0) coordinate[group] = count++;
+      entries.emplace_back(i, coordinate[group], 1.0);
+    }
+    Sparse T(n, count);
+    T.setFromTriplets(entries.begin(), entries.end());
+    return T;
+  }
+
+ private:
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  std::vector<int> parent_;
+};
+
+bool is_identity(const Sparse& T) { return T.rows() == T.cols(); }
+
+Sparse project(const Sparse& T, const Sparse& A) {
+  if (is_identity(T)) return A;
+  return T.transpose() * Sparse(A * T);
+}
+
+/// Largest magnitude in each row.
+Vec row_sizes(const Sparse& A) {
+  Vec size = Vec::Zero(A.rows());
+  for (int j = 0; j < A.outerSize(); ++j) {
+    for (Sparse::InnerIterator it(A, j); it; ++it) {
+      size(it.row()) = std::max(size(it.row()), std::abs(it.value()));
+    }
+  }
+  return size;
+}
+
+/// Freedoms without mass whose damping is beta times their stiffness, with one common beta.
+std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& K) {
+  constexpr double tolerance = 1e-12;
+  const Vec mass = row_sizes(M), stiffness = row_sizes(K);
+  std::vector<int> massless;
+  for (int i = 0; i < mass.size(); ++i) {
+    if (mass(i) == 0.0) massless.push_back(i);
+  }
+  if (massless.empty()) return massless;
+  const Vec damping = C.diagonal(), stiff = K.diagonal();
+  std::vector<double> ratios;
+  for (const int i : massless) ratios.push_back(stiff(i) != 0.0 ? damping(i) / stiff(i) : 0.0);
+  std::vector<double> sorted = ratios;
+  std::sort(sorted.begin(), sorted.end());
+  const double beta = sorted[sorted.size() / 2];
+  const Vec misfit = row_sizes(Sparse(C - beta * K));
+  const double scale = std::abs(beta);
+  std::vector<int> chosen;
+  for (const int i : massless) {
+    if (misfit(i) <= tolerance * scale * stiffness(i)) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+/// Transformation from the kept freedoms to all, K_ss q_s + K_sk q_k = 0 for the others.
+Sparse condensation(const Sparse& K, const std::vector<int>& condensed) {
+  const int n = static_cast<int>(K.rows()), ns = static_cast<int>(condensed.size());
+  std::vector<int> place(static_cast<std::size_t>(n), -1);  // in s: -(index + 2), in kept: index
+  for (int i = 0; i < ns; ++i) place[condensed[i]] = -(i + 2);
+  int kept = 0;
+  for (int& p : place) {
+    if (p == -1) p = kept++;
+  }
+  std::vector<Triplet> ss, sk, T;
+  for (int j = 0; j < n; ++j) {
+    if (place[j] >= 0) T.emplace_back(j, place[j], 1.0);
+    for (Sparse::InnerIterator it(K, j); it; ++it) {
+      const int row = place[it.row()];
+      if (row >= 0) continue;
+      if (place[j] >= 0) {
+        sk.emplace_back(-row - 2, place[j], it.value());
+      } else {
+        ss.emplace_back(-row - 2, -place[j] - 2, it.value());
+      }
+    }
+  }
+  Sparse Kss(ns, ns), Ksk(ns, kept);
+  Kss.setFromTriplets(ss.begin(), ss.end());
+  Ksk.setFromTriplets(sk.begin(), sk.end());
+  Eigen::SparseLU<Sparse> solver(Kss);
+  if (solver.info() != Eigen::Success) {
+    throw NumericalError(
+        "some freedoms have neither inertia nor stiffness: give a massless part of the shaft "
+        "a density, or a massless body a mass or a support");
+  }
+  const Mat recovered = -solver.solve(Mat(Ksk));
+  for (int j = 0; j < kept; ++j) {
+    for (int i = 0; i < ns; ++i) {
+      if (recovered(i, j) != 0.0) T.emplace_back(condensed[i], j, recovered(i, j));
+    }
+  }
+  Sparse result(n, kept);
+  result.setFromTriplets(T.begin(), T.end());
+  return result;
+}
+
+}  // namespace
+
+Assembler::Assembler(Structure structure)
+    : structure_(std::move(structure)), mesh_(make_mesh(structure_)) {
+  const int nodes = mesh_.nodes();
+  dofs_.nodes = nodes;
+  int next = 4 * nodes;
+  for (const Body& body : structure_.bodies) {
+    dofs_.body_start.push_back(next);
+    dofs_.body_tilts.push_back(body.tilts);
+    next += body.tilts ? 4 : 2;
+  }
+
+  Collector collector;
+  for (const MeshElement& element : mesh_.elements) {
+    const auto e = matrices(beam_of(element, structure_, mesh_));
+    std::vector<int> index = indices(dofs_, {Point::Kind::node, element.left},
+                                     {Point::Kind::node, element.right});
+    while (static_cast<Eigen::Index>(index.size()) < e.M.rows()) index.push_back(next++);
+    collector.add(e, index);
+  }
+  dofs_.full_size = next;
+  for (const Disk& disk : structure_.disks) {
+    collector.add(matrices(disk), indices(dofs_, point(disk.at)));
+  }
+  for (std::size_t i = 0; i < structure_.bodies.size(); ++i) {
+    collector.add(matrices(structure_.bodies[i]),
+                  indices(dofs_, {Point::Kind::body, static_cast<int>(i)}));
+  }
+
+  std::vector<Problem> problems;
+  Ties ties(next);
+  for (const auto* list : {&structure_.bearings, &structure_.links}) {
+    for (const Connection& c : *list) {
+      const Point from = point(c.from), to = point(c.to);
+      if (from == to) {
+        problems.push_back({c.where, c.name, "both ends are at the same place"});
+        continue;
+      }
+      if (whirl::depends_on_speed(c.coefficients)) {
+        depends_on_speed_ = true;
+      } else {
+        collector.add(matrices(coefficients(c.coefficients, 0.0)), indices(dofs_, from, to));
+      }
+      if (!c.is_rigid && !c.is_clamped) continue;
+      for (int k = 0; k < (c.is_clamped ? 4 : 2); ++k) {
+        const int a = dofs_.full_index(from, k), b = dofs_.full_index(to, k);
+        const bool lacks = (a < 0 && from.kind != Point::Kind::ground) ||
+                           (b < 0 && to.kind != Point::Kind::ground);
+        if (lacks) {
+          problems.push_back({c.where, c.name, "cannot clamp to a body without tilts; give it tilts = true"});
+          break;
+        }
+        if (!ties.tie(a, b)) {
+          problems.push_back({c.where, c.name, "its ends are held together already by another rigid bearing or link"});
+          break;
+        }
+      }
+    }
+  }
+  if (!problems.empty()) throw ModelError(problems);
+  dofs_.T = ties.transformation();
+  fixed_ = {collector.M(next), collector.C(next), collector.G(next), collector.K(next),
+            collector.H(next)};
+  if (fixed_.H.nonZeros() > 0) depends_on_speed_ = true;
+}
+
+Assembler::FullMatrices Assembler::full(double Omega) const {
+  FullMatrices f = fixed_;
+  Collector collector;
+  bool any = false;
+  for (const auto* list : {&structure_.bearings, &structure_.links}) {
+    for (const Connection& c : *list) {
+      if (!whirl::depends_on_speed(c.coefficients)) continue;
+      any = true;
+      collector.add(matrices(coefficients(c.coefficients, Omega)),
+                    indices(dofs_, point(c.from), point(c.to)));
+    }
+  }
+  if (any) {
+    f.K += collector.K(dofs_.full_size);
+    f.C += collector.C(dofs_.full_size);
+  }
+  const Rayleigh& r = structure_.damping;
+  if (r.mass != 0.0) f.C += r.mass * f.M;
+  if (r.stiffness != 0.0) f.C += r.stiffness * f.K;
+  return f;
+}
+
+System Assembler::system_of(const FullMatrices& f, const Sparse& T, double Omega) const {
+  System s{project(T, f.M), project(T, f.C), project(T, f.G), project(T, f.K), dofs_, Omega};
+  if (Omega != 0.0 && f.H.nonZeros() > 0) s.K += Omega * project(T, f.H);
+  s.dofs.T = T;
+  return s;
+}
+
+System Assembler::uncondensed(double Omega) const {
+  return system_of(full(Omega), dofs_.T, Omega);
+}
+
+System Assembler::at(double Omega) const {
+  const FullMatrices f = full(Omega);
+  const Sparse& T = dofs_.T;
+  // condensation follows the conservative part of K: rotating damping vanishes with it
+  const Sparse K = project(T, f.K);
+  const std::vector<int> condensed = condensable(project(T, f.M), project(T, f.C), K);
+  if (condensed.empty()) return system_of(f, T, Omega);
+  System s = system_of(f, Sparse(T * condensation(K, condensed)), Omega);
+  s.dofs.condensed = static_cast<int>(condensed.size());
+  return s;
+}
+
+Vec Assembler::gravity_load() const {
+  Vec acceleration = Vec::Zero(dofs_.full_size);
+  for (const Point& p : dofs_.points()) acceleration(dofs_.full_index(p, Y)) = -structure_.gravity;
+  return fixed_.M * acceleration;
+}
+
+CVec Assembler::unbalance() const {
+  CVec u = CVec::Zero(dofs_.full_size);
+  for (const Unbalance& unbalance : structure_.unbalances) {
+    const Point p = point(unbalance.at);
+    const Complex amplitude = std::polar(unbalance.moment, unbalance.phase);
+    u(dofs_.full_index(p, X)) += amplitude;
+    u(dofs_.full_index(p, Y)) += Complex(0.0, -1.0) * amplitude;
+  }
+  return u;
+}
+
+Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) const {
+  const FullMatrices f = full(Omega);
+  const Vec displacement = dofs_.T * q;
+  return f.K * displacement + Omega * (f.H * displacement) - full_load;
+}
+
+double Assembler::rotor_mass() const {
+  double mass = 0.0;
+  const Quadrature q = Quadrature::gauss(3);  // a section's area is quadratic along a cone
+  for (const Segment& segment : structure_.shaft) {
+    for (int i = 0; i < 3; ++i) {
+      mass += q.w(i) * segment.at(q.x(i)).A() * segment.length * segment.material.rho;
+    }
+  }
+  for (const Disk& disk : structure_.disks) mass += disk.m;
+  for (const Body& body : structure_.bodies) mass += body.spins ? body.m : 0.0;
+  return mass;
+}
+
+System assemble(const Structure& structure, double Omega) {
+  return Assembler(structure).at(Omega);
+}
+
+}  // namespace whirl

@@ -1,0 +1,80 @@
+#pragma once
+/// From a structure to its sparse global matrices.
+
+#include "libfe/dofs.hpp"
+#include "libfe/mesh.hpp"
+#include "libfe/structure.hpp"
+
+namespace whirl {
+
+/// Linear equations of motion at one speed: M q'' + (C + Omega G) q' + K q = f.
+///
+/// K contains the circulatory part of damping that rotates with the shaft; G is skew; M, C without
+/// Omega G, and K need not be symmetric where bearings are not.
+struct System {
+  Sparse M, C, G, K;
+  DofMap dofs;
+  double Omega = 0.0;  ///< [rad/s]
+
+  int size() const { return static_cast<int>(M.rows()); }
+  /// C + Omega G.
+  Sparse D() const { return C + Omega * G; }
+};
+
+/// Assembles one structure at any number of speeds.
+class Assembler {
+ public:
+  /// @throws ModelError  as make_mesh, and for connections that cannot be (clamping a body without
+  ///                     tilts, a rigid bearing whose ends are held already, ...)
+  explicit Assembler(Structure structure);
+
+  const Structure& structure() const { return structure_; }
+  const Mesh& mesh() const { return mesh_; }
+  Point point(const Station& station) const { return resolve(station, structure_, mesh_); }
+
+  /// Whether K or C change with speed, beyond Omega G (tables, rotating damping).
+  bool depends_on_speed() const { return depends_on_speed_; }
+
+  /// Matrices at a speed [rad/s], freedoms without inertia condensed.
+  ///
+  /// Condensed exactly are those without mass whose damping is none or proportional to stiffness;
+  /// a massless freedom with a damper of its own stays, and makes M singular.
+  ///
+  /// @throws NumericalError  if a freedom has neither inertia nor stiffness
+  System at(double Omega) const;
+
+  /// The same with every freedom that supports leave; M is singular where there is no inertia.
+  System uncondensed(double Omega) const;
+
+  /// Weight of everything, a full vector of forces and moments [N, N.m]; exact for internal
+  /// functions too.
+  Vec gravity_load() const;
+
+  /// Complex amplitude of the unbalance force over Omega^2, a full vector [kg.m]:
+  /// f(t) = Omega^2 Re(u exp(i Omega t)), u_x = U e^(i phase), u_y = -i u_x.
+  CVec unbalance() const;
+
+  /// Forces that supports must exert on the full vector so that K T q = f holds there [N, N.m].
+  Vec support_forces(double Omega, const Vec& q, const Vec& full_load) const;
+
+  /// Mass of all parts that spin [kg] (shaft, disks, spinning bodies).
+  double rotor_mass() const;
+
+ private:
+  struct FullMatrices {
+    Sparse M, C, G, K, H;
+  };
+  FullMatrices full(double Omega) const;
+  System system_of(const FullMatrices& f, const Sparse& T, double Omega) const;
+
+  Structure structure_;
+  Mesh mesh_;
+  DofMap dofs_;         // supports eliminated, nothing condensed
+  FullMatrices fixed_;  // all that does not depend on speed
+  bool depends_on_speed_ = false;
+};
+
+/// Matrices of a structure at a speed [rad/s]; see Assembler::at.
+System assemble(const Structure& structure, double Omega);
+
+}  // namespace whirl

@@ -1,0 +1,53 @@
+#include "libfe/base/quadrature.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace whirl {
+
+namespace {
+
+/// Legendre polynomials P_0 ... P_n at x in [-1, 1].
+Vec legendre(int n, double x) {
+  Vec P(n + 1);
+  P(0) = 1.0;
+  if (n > 0) P(1) = x;
+  for (int k = 1; k < n; ++k) P(k + 1) = ((2 * k + 1) * x * P(k) - k * P(k - 1)) / (k + 1);
+  return P;
+}
+
+}  // namespace
+
+Quadrature Quadrature::gauss(int n) {
+  Quadrature q{Vec(n), Vec(n), Mat(n, n)};
+  Mat P(n, n + 1);  // row i: P_0 ... P_n at point i
+  Vec t(n), wt(n);  // on [-1, 1]
+  for (int i = 0; i < n; ++i) {
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
+    double slope = 1.0;
+    for (int it = 0; it < 100; ++it) {  // Newton on P_n
+      const Vec p = legendre(n, x);
+      slope = n * (x * p(n) - p(n - 1)) / (x * x - 1.0);
+      const double step = p(n) / slope;
+      x -= step;
+      if (std::abs(step) < 1e-16) break;
+    }
+    t(i) = x;
+    P.row(i) = legendre(n, x).transpose();
+    slope = n * (x * P(i, n) - P(i, n - 1)) / (x * x - 1.0);
+    wt(i) = 2.0 / ((1.0 - x * x) * slope * slope);
+  }
+  // Lagrange polynomial j = sum_k (k + 1/2) w_j P_k(x_j) P_k, integrated term by term from -1
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      double sum = 0.5 * (t(i) + 1.0);
+      for (int k = 1; k < n; ++k) sum += 0.5 * P(j, k) * (P(i, k + 1) - P(i, k - 1));
+      q.S(i, j) = 0.5 * wt(j) * sum;
+    }
+  }
+  q.x = 0.5 * (t.array() + 1.0);
+  q.w = 0.5 * wt;
+  return q;
+}
+
+}  // namespace whirl

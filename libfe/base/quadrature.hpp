@@ -1,0 +1,22 @@
+#pragma once
+
+#include "libfe/base/linalg.hpp"
+
+namespace whirl {
+
+/// Gauss-Legendre points on [0, 1], with weights and the matrix that integrates from 0 to each point.
+///
+///   integral_0^1 f      = w . f(x),           exact for polynomials up to degree 2 n - 1
+///   integral_0^{x_i} f  = (S f(x))_i,         exact for polynomials up to degree n - 1
+///
+/// @source Legendre series of the Lagrange polynomials; [Trefethen2013], ch. 17
+struct Quadrature {
+  Vec x;  ///< n points, ascending
+  Vec w;  ///< n weights, sum 1
+  Mat S;  ///< n x n
+
+  /// @param n  number of points, n >= 1
+  static Quadrature gauss(int n);
+};
+
+}  // namespace whirl

@@ -1,0 +1,180 @@
+#include "libfe/campbell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libfe/base/error.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double sure = 0.8;            ///< MAC from which a match needs no second look
+constexpr int deepest = 6;              ///< halvings of a speed interval
+constexpr int spare_modes = 2;          ///< computed beyond those followed, for newcomers
+constexpr double crossing_tol = 1e-12;  ///< of the speed at a crossing
+
+/// Shapes with their eigenvalues, in the order of the branches.
+struct Front {
+  double Omega = 0.0;
+  std::vector<Mode> modes;
+  std::vector<bool> is_alive;
+};
+
+/// Assigns modes to branches, best agreement first. Returns the poorest agreement that was used.
+double follow(const Front& from, const Modes& found, const Sparse& M, Front& to) {
+  const std::size_t branches = from.modes.size(), candidates = found.oscillatory.size();
+  struct Pair {
+    double score, agreement;
+    std::size_t branch, candidate;
+  };
+  std::vector<Pair> pairs;
+  std::vector<double> inertia;
+  for (const Mode& a : from.modes) inertia.push_back(a.shape.dot(CVec(M * a.shape)).real());
+  for (std::size_t c = 0; c < candidates; ++c) {
+    const Mode& z = found.oscillatory[c];
+    const CVec Mz = M * z.shape;
+    const double own = z.shape.dot(Mz).real();
+    for (std::size_t b = 0; b < branches; ++b) {
+      if (!from.is_alive[b]) continue;
+      const Mode& a = from.modes[b];
+      const double agreement = std::norm(a.shape.dot(Mz)) / (inertia[b] * own);
+      const double distance = std::abs(a.lambda - z.lambda) / std::abs(a.lambda);
+      pairs.push_back({agreement - 0.2 * std::min(distance, 1.0), agreement, b, c});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.score > b.score; });
+  std::vector<bool> is_taken(candidates, false);
+  to.modes = from.modes;
+  to.is_alive.assign(branches, false);
+  double poorest = 1.0;
+  for (const Pair& p : pairs) {
+    if (to.is_alive[p.branch] || is_taken[p.candidate] || p.agreement < 0.1) continue;
+    to.is_alive[p.branch] = is_taken[p.candidate] = true;
+    to.modes[p.branch] = found.oscillatory[p.candidate];
+    poorest = std::min(poorest, p.agreement);
+  }
+  for (std::size_t b = 0; b < branches; ++b) {
+    if (from.is_alive[b] && !to.is_alive[b]) poorest = 0.0;
+  }
+  return poorest;
+}
+
+class Tracker {
+ public:
+  Tracker(const ModeFinder& finder, int branches) : finder_(finder), branches_(branches) {}
+
+  Front start(double Omega) const {
+    Front front{Omega, modes(Omega).oscillatory, {}};
+    if (static_cast<int>(front.modes.size()) > branches_) front.modes.resize(branches_);
+    front.is_alive.assign(front.modes.size(), true);
+    return front;
+  }
+
+  /// Follows all branches to another speed, halving the way where shapes change much.
+  Front advance(const Front& from, double Omega, int depth = 0) const {
+    Front to{.Omega = Omega};
+    const double poorest = follow(from, modes(Omega), finder_.system(Omega).M, to);
+    // at rest equal pairs of planar modes match either sense of whirl by half: nothing to refine
+    const bool is_degenerate = from.Omega == 0.0 || Omega == 0.0;
+    if (poorest >= sure || depth == deepest || is_degenerate) return to;
+    return advance(advance(from, 0.5 * (from.Omega + Omega), depth + 1), Omega, depth + 1);
+  }
+
+ private:
+  Modes modes(double Omega) const { return finder_.at(Omega, branches_ + spare_modes); }
+
+  const ModeFinder& finder_;
+  int branches_;
+};
+
+/// Speed between two fronts at which a branch meets the line frequency = order * Omega.
+double crossing(const Tracker& tracker, Front low, Front high, std::size_t branch, double order) {
+  const auto gap = [&](const Front& f) {
+    return f.modes[branch].frequency() - order * f.Omega;
+  };
+  double a = low.Omega, b = high.Omega, ga = gap(low), gb = gap(high);
+  double best = b;
+  for (int it = 0; it < 60; ++it) {
+    const double guess = std::clamp(b - gb * (b - a) / (gb - ga), std::min(a, b), std::max(a, b));
+    const Front middle = tracker.advance(std::abs(guess - a) < std::abs(guess - b) ? low : high, guess);
+    if (!middle.is_alive[branch]) return nan;
+    const double g = gap(middle);
+    best = guess;
+    if (std::abs(g) < crossing_tol * guess || std::abs(b - a) < crossing_tol * b) break;
+    if (g * ga > 0.0) {
+      a = guess, ga = g, low = middle;
+      gb *= it > 0 ? 0.5 : 1.0;  // Illinois
+    } else {
+      b = guess, gb = g, high = middle;
+      ga *= it > 0 ? 0.5 : 1.0;
+    }
+  }
+  return best;
+}
+
+Whirl usual_whirl(const std::vector<Whirl>& seen) {
+  std::array<int, 4> count{};
+  for (const Whirl w : seen) ++count[static_cast<std::size_t>(w)];
+  const auto most = std::max_element(count.begin(), count.end() - 1);  // planar only if nothing else
+  return *most > 0 ? static_cast<Whirl>(most - count.begin()) : Whirl::planar;
+}
+
+}  // namespace
+
+double mac(const CVec& a, const CVec& b, const Sparse& W) {
+  const CVec Wb = W * b;
+  const double ab = std::norm(a.dot(Wb));
+  const double aa = a.dot(CVec(W * a)).real(), bb = b.dot(Wb).real();
+  return aa > 0.0 && bb > 0.0 ? ab / (aa * bb) : 0.0;
+}
+
+Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds, int branches,
+                  double order) {
+  Campbell result{.speeds = speeds};
+  if (speeds.empty()) return result;
+  if (!std::is_sorted(speeds.begin(), speeds.end()) || speeds.front() < 0.0) {
+    throw NumericalError("speeds of a Campbell diagram must ascend from zero or above");
+  }
+  const ModeFinder finder(assembler);
+  const Tracker tracker(finder, branches);
+
+  // numbers are those at the first speed that spins; rest is reached from there
+  const bool starts_at_rest = speeds.front() == 0.0 && speeds.size() > 1;
+  std::vector<Front> fronts(speeds.size());
+  const std::size_t first = starts_at_rest ? 1 : 0;
+  fronts[first] = tracker.start(speeds[first]);
+  if (starts_at_rest) fronts[0] = tracker.advance(fronts[1], 0.0);
+  for (std::size_t i = first + 1; i < speeds.size(); ++i) {
+    fronts[i] = tracker.advance(fronts[i - 1], speeds[i]);
+  }
+
+  for (std::size_t b = 0; b < fronts[first].modes.size(); ++b) {
+    CampbellBranch branch;
+    std::vector<Whirl> seen;
+    for (const Front& front : fronts) {
+      const Mode& mode = front.modes[b];
+      branch.frequency.push_back(front.is_alive[b] ? mode.frequency() : nan);
+      branch.log_decrement.push_back(front.is_alive[b] ? mode.log_decrement() : nan);
+      if (front.is_alive[b]) seen.push_back(mode.whirl);
+    }
+    branch.whirl = usual_whirl(seen);
+    for (std::size_t i = 0; i + 1 < fronts.size(); ++i) {
+      if (!fronts[i].is_alive[b] || !fronts[i + 1].is_alive[b]) continue;
+      const double before = branch.frequency[i] - order * speeds[i];
+      const double after = branch.frequency[i + 1] - order * speeds[i + 1];
+      if (before * after > 0.0 || before == 0.0) continue;
+      const double speed = crossing(tracker, fronts[i], fronts[i + 1], b, order);
+      if (std::isfinite(speed)) result.crossings.push_back({speed, static_cast<int>(b)});
+    }
+    result.branches.push_back(std::move(branch));
+  }
+  std::stable_sort(result.crossings.begin(), result.crossings.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.speed < b.speed; });
+  return result;
+}
+
+}  // namespace whirl

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "libfe/base/linalg.hpp"
+
+namespace whirl {
+
+/// Solves (K - w^2 M + i w (C + Omega G)) q = f for many frequencies of one system.
+class DynamicStiffness {
+ public:
+  DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K);
+  ~DynamicStiffness();
+  DynamicStiffness(DynamicStiffness&&) noexcept;
+  DynamicStiffness& operator=(DynamicStiffness&&) noexcept;
+
+  /// @param w      frequency of the excitation [rad/s]
+  /// @param Omega  spin speed [rad/s]
+  /// @return       the response, or nothing where the matrix is singular
+  std::optional<CVec> solve(double w, double Omega, const CVec& f);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace whirl

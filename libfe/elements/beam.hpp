@@ -1,0 +1,47 @@
+#pragma once
+
+#include "libfe/elements/element.hpp"
+#include "libfe/material.hpp"
+#include "libfe/section.hpp"
+
+namespace whirl {
+
+/// A two-node shaft element, cylinder or cone.
+struct Beam {
+  double L = 0.0;  ///< length [m]
+  Section left, right;
+  Material material;
+  Theory theory = Theory::timoshenko;
+  ShearCoefficient shear;
+  double axial_force = 0.0;    ///< tension > 0 [N]
+  double torque = 0.0;         ///< about +z on the face that looks to +z [N.m]
+  int internal_functions = 0;  ///< pairs of internal shape functions per plane, 0 to 4
+};
+
+/// Matrices of a shaft element.
+///
+/// Freedoms: (x, y, theta_x, theta_y) of the left node, of the right node, then the amplitudes of
+/// the internal functions of the x-z plane, then those of the y-z plane (dimensionless: each
+/// function's largest deflection is one metre or its largest rotation one over the length).
+///
+/// Shape functions are the exact static deflections of the element for unit displacements and
+/// rotations of its ends, found by integrating M / (E I) and V / (kappa G A) along the taper, so
+/// that K is exact for every cone, and M, G are the consistent ones:
+///
+///   w'' = theta' + (V / kappa G A)',   theta' = M / (E I),   M' = -V
+///
+/// For a cylinder these are the cubic functions with Phi = 12 E I / (kappa G A L^2).
+/// Internal functions are the deflections of the clamped element under distributed forces and
+/// moments that vary as xi^k; they are K-orthogonal to the others. The error of an eigenvalue falls
+/// as h^2 with shear and without internal functions, as h^4 without shear, and each pair of internal
+/// functions raises these orders by two.
+///
+/// Axial force: N integral w' w'. Torque: each section turns its axis, T integral
+/// (theta_y_i' theta_x_j ...), the skew remainder kept: the torque vector stays along z.
+///
+/// @throws NumericalError  if internal_functions is out of range
+/// @source [NelsonMcVaugh1976], [Nelson1980], [Przemieniecki1968] ch. 11 for the functions;
+///         [ZorziNelson1977] for the rotating damping; [ZorziNelson1980], [Greenhill1883] for torque
+ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam);
+
+}  // namespace whirl

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "libfe/elements/element.hpp"
+#include "libfe/structure.hpp"
+
+namespace whirl {
+
+/// Matrices of a body for (x, y, theta_x, theta_y); without tilts only the first two rows count.
+///
+/// A body that spins has the gyroscopic matrix of a disk.
+inline ElementMatrices<4> matrices(const Body& body) {
+  ElementMatrices<4> e;
+  e.M.diagonal() << body.m, body.m, body.Id, body.Id;
+  if (body.spins) {
+    e.G(2, 3) = +body.Ip;
+    e.G(3, 2) = -body.Ip;
+  }
+  return e;
+}
+
+}  // namespace whirl

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "libfe/bearings/coefficients.hpp"
+#include "libfe/elements/element.hpp"
+
+namespace whirl {
+
+/// Matrices of a bearing or link for the freedoms (x, y, theta_x, theta_y) of both its ends.
+inline ElementMatrices<8> matrices(const BearingCoefficients& c) {
+  ElementMatrices<8> e;
+  const auto add = [](auto& block, const Mat2& k, int at) {
+    block.template block<2, 2>(at, at) += k;
+    block.template block<2, 2>(at + 4, at + 4) += k;
+    block.template block<2, 2>(at, at + 4) -= k;
+    block.template block<2, 2>(at + 4, at) -= k;
+  };
+  add(e.K, c.K, 0);
+  add(e.K, c.Kt, 2);
+  add(e.C, c.C, 0);
+  add(e.C, c.Ct, 2);
+  return e;
+}
+
+}  // namespace whirl

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <tuple>
+
+#include "libfe/base/field.hpp"
+
+namespace whirl {
+
+/// An isotropic, linear elastic material.
+struct Material {
+  std::string name;
+  double rho = 0.0;  ///< density [kg/m^3]; 0 makes massless shafts
+  double E = 0.0;    ///< Young's modulus [Pa]
+  double G = 0.0;    ///< shear modulus [Pa]
+  double nu = 0.0;   ///< Poisson's ratio, nu = E / (2 G) - 1
+  double eta = 0.0;  ///< internal (rotating, viscous) damping: stress = E (strain + eta strain') [s]
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        required("density", &Material::rho, "kg/m^3", nonnegative, "mass per volume; 0: massless"),
+        required("youngs_modulus", &Material::E, "Pa", positive, "Young's modulus E"),
+        optional("shear_modulus", &Material::G, "Pa", positive, "shear modulus G, or ..."),
+        optional("poisson_ratio", &Material::nu, "", any, "... Poisson's ratio, -1 to 0.5"),
+        optional("internal_damping", &Material::eta, "s", nonnegative,
+                 "viscous damping that rotates with the shaft: stress E (strain + eta rate)")};
+  }
+};
+
+}  // namespace whirl

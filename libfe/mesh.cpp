@@ -1,0 +1,179 @@
+#include "libfe/mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace whirl {
+
+namespace {
+
+/// Positions closer than this share of the length are one place.
+constexpr double same_place = 1e-9;
+/// Positions closer than this, but not the same, are taken for a slip of the pen.
+constexpr double too_close = 1e-5;
+
+/// Elements of a segment without given number: as long as its mean diameter, and at least
+/// a 24th of the shaft; a massless cylinder is exact with one.
+int elements_for(const Segment& segment, double piece, double shaft_length) {
+  const bool is_cylinder = segment.left.outer == segment.right.outer;
+  if (segment.material.rho == 0.0 && is_cylinder) return 1;
+  const double diameter = 0.5 * (segment.left.outer + segment.right.outer);
+  const double h = std::max(diameter, shaft_length / 24.0);
+  return std::max(1, static_cast<int>(std::ceil(piece / h - 1e-9)));
+}
+
+}  // namespace
+
+std::vector<const Station*> all_stations(const Structure& structure) {
+  std::vector<const Station*> stations;
+  for (const Disk& disk : structure.disks) stations.push_back(&disk.at);
+  for (const auto* list : {&structure.bearings, &structure.links}) {
+    for (const Connection& connection : *list) {
+      stations.push_back(&connection.from);
+      stations.push_back(&connection.to);
+    }
+  }
+  for (const Unbalance& unbalance : structure.unbalances) stations.push_back(&unbalance.at);
+  for (const Station& station : structure.stations) stations.push_back(&station);
+  return stations;
+}
+
+Mesh make_mesh(const Structure& structure) {
+  const double length = structure.length();
+  std::vector<Problem> problems;
+
+  // positions that need a node
+  std::vector<double> wanted;
+  std::vector<const Station*> positions;
+  for (const Station* station : all_stations(structure)) {
+    if (station->kind == Station::Kind::position) positions.push_back(station);
+  }
+  for (const Station* station : positions) {
+    const double z = station->z;
+    if (z < -same_place * length || z > (1.0 + same_place) * length) {
+      const std::string found = fmt::format("{:g} mm is off the shaft", 1e3 * z);
+      const std::string right = structure.shaft.empty()
+                                    ? "the model has no shaft: name a body instead"
+                                    : fmt::format("the shaft reaches from 0 to {:g} mm", 1e3 * length);
+      problems.push_back({station->where, station->key, found + "; " + right});
+      continue;
+    }
+    const auto close = std::find_if(wanted.begin(), wanted.end(), [&](double other) {
+      return std::abs(other - z) < too_close * length;
+    });
+    if (close == wanted.end()) {
+      wanted.push_back(z);
+    } else if (std::abs(*close - z) > same_place * length) {
+      problems.push_back({station->where, station->key,
+                          fmt::format("{:.9g} mm and {:.9g} mm are the same place with different "
+                                      "numbers; write one of them in both",
+                                      1e3 * z, 1e3 * *close)});
+    }
+  }
+  if (!problems.empty()) throw ModelError(problems);
+  std::sort(wanted.begin(), wanted.end());
+
+  // the mesh that the segments describe
+  Mesh mesh;
+  if (structure.shaft.empty()) return mesh;
+  std::vector<bool> is_used(wanted.size(), false);
+  const auto inside = [&](double from, double to) {
+    std::vector<double> cuts;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (wanted[i] > from + same_place * length && wanted[i] < to - same_place * length) {
+        cuts.push_back(wanted[i]);
+        is_used[i] = true;
+      }
+    }
+    return cuts;
+  };
+  mesh.z.push_back(0.0);
+  double start = 0.0;
+  for (const Segment& segment : structure.shaft) {
+    const double end = start + segment.length;
+    std::vector<double> borders;
+    if (segment.elements == 0) borders = inside(start, end);
+    borders.push_back(end);
+    double piece_start = start;
+    for (const double piece_end : borders) {
+      const double piece = piece_end - piece_start;
+      const int n = segment.elements > 0 ? segment.elements : elements_for(segment, piece, length);
+      for (int i = 1; i < n; ++i) mesh.z.push_back(piece_start + piece * i / n);
+      mesh.z.push_back(piece_end);
+      piece_start = piece_end;
+    }
+    start = end;
+  }
+
+  // stations between its nodes
+  const std::vector<double> described = mesh.z;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const bool is_node = std::any_of(described.begin(), described.end(), [&](double z) {
+      return std::abs(z - wanted[i]) <= same_place * length;
+    });
+    if (is_used[i] || is_node) continue;
+    mesh.z.push_back(wanted[i]);
+  }
+  mesh.left_to_right.resize(mesh.z.size());
+  std::iota(mesh.left_to_right.begin(), mesh.left_to_right.end(), 0);
+  std::sort(mesh.left_to_right.begin(), mesh.left_to_right.end(),
+            [&](int a, int b) { return mesh.z[a] < mesh.z[b]; });
+
+  // elements between neighbors
+  std::size_t segment = 0;
+  start = 0.0;
+  for (std::size_t i = 0; i + 1 < mesh.left_to_right.size(); ++i) {
+    const int left = mesh.left_to_right[i], right = mesh.left_to_right[i + 1];
+    const double middle = 0.5 * (mesh.z[left] + mesh.z[right]);
+    while (middle > start + structure.shaft[segment].length) {
+      start += structure.shaft[segment].length;
+      ++segment;
+    }
+    const double L = structure.shaft[segment].length;
+    mesh.elements.push_back({left, right, static_cast<int>(segment), (mesh.z[left] - start) / L,
+                             (mesh.z[right] - start) / L});
+  }
+  return mesh;
+}
+
+Point resolve(const Station& station, const Structure& structure, const Mesh& mesh) {
+  switch (station.kind) {
+    case Station::Kind::ground:
+      return {Point::Kind::ground, 0};
+    case Station::Kind::node:
+      if (station.node < 1 || station.node > mesh.nodes()) {
+        throw ModelError(station.where, station.key,
+                         mesh.nodes() == 0
+                             ? "the model has no shaft and no nodes: name a body instead"
+                             : fmt::format("found node {}, expected a node from 1 to {}",
+                                           station.node, mesh.nodes()));
+      }
+      return {Point::Kind::node, station.node - 1};
+    case Station::Kind::body:
+      for (std::size_t i = 0; i < structure.bodies.size(); ++i) {
+        if (structure.bodies[i].name == station.body) {
+          return {Point::Kind::body, static_cast<int>(i)};
+        }
+      }
+      throw ModelError(station.where, station.key,
+                       fmt::format("there is no body named \"{}\"", station.body));
+    case Station::Kind::position:
+      break;
+  }
+  int nearest = -1;
+  for (int i = 0; i < mesh.nodes(); ++i) {
+    if (nearest < 0 || std::abs(mesh.z[i] - station.z) < std::abs(mesh.z[nearest] - station.z)) {
+      nearest = i;
+    }
+  }
+  if (nearest < 0 || std::abs(mesh.z[nearest] - station.z) > 2.0 * same_place * structure.length()) {
+    throw ModelError(station.where, station.key,
+                     fmt::format("{:g} mm is not a node of the shaft", 1e3 * station.z));
+  }
+  return {Point::Kind::node, nearest};
+}
+
+}  // namespace whirl

@@ -1,0 +1,51 @@
+#pragma once
+/// Nodes of the shaft: where they are, which segments lie between them, which station is which node.
+
+#include <vector>
+
+#include "libfe/structure.hpp"
+
+namespace whirl {
+
+/// A point that has displacements: a node of the shaft, a body, or the ground.
+struct Point {
+  enum class Kind { node, body, ground };
+  Kind kind = Kind::ground;
+  int index = 0;  ///< of the node or body, from 0
+
+  bool operator==(const Point&) const = default;
+};
+
+/// A piece of one segment between two neighboring nodes.
+struct MeshElement {
+  int left = 0, right = 0;  ///< nodes, from 0
+  int segment = 0;
+  double from = 0.0, to = 1.0;  ///< fractions of the segment's length
+};
+
+/// Nodes in the order of their numbers.
+///
+/// Segments with a given number of elements make equal ones; their nodes are numbered left to right.
+/// Segments without one are divided at the stations and finely enough for their shape. A station
+/// between the nodes of a given mesh adds a node with a number after all others, so that numbers
+/// that a model file uses keep their place.
+struct Mesh {
+  std::vector<double> z;              ///< position of each node [m]
+  std::vector<int> left_to_right;     ///< nodes ordered by position
+  std::vector<MeshElement> elements;  ///< left to right
+
+  int nodes() const { return static_cast<int>(z.size()); }
+};
+
+/// @throws ModelError  for stations off the shaft, unknown nodes or bodies, and two positions that
+///                     differ by less than 1e-5 of the shaft's length without being the same
+Mesh make_mesh(const Structure& structure);
+
+/// The point that a station stands for; the mesh has a node there.
+/// @throws ModelError  if there is none
+Point resolve(const Station& station, const Structure& structure, const Mesh& mesh);
+
+/// All stations of a structure, in the order disks, bearings, links, unbalances, others.
+std::vector<const Station*> all_stations(const Structure& structure);
+
+}  // namespace whirl

@@ -1,0 +1,88 @@
+#pragma once
+/// Complex modes of a damped, spinning system, and what their orbits look like.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "libfe/assemble.hpp"
+#include "libfe/base/field.hpp"
+
+namespace whirl {
+
+/// Sense of a mode along the whole rotor.
+enum class Whirl { forward, backward, mixed, planar };
+constexpr auto choices(Whirl) {
+  return std::array{Choice<Whirl>{"forward", Whirl::forward},
+                    Choice<Whirl>{"backward", Whirl::backward},
+                    Choice<Whirl>{"mixed", Whirl::mixed}, Choice<Whirl>{"planar", Whirl::planar}};
+}
+
+/// Elliptical orbit of a point, x = Re(X e^(i w t)), y = Re(Y e^(i w t)).
+struct Orbit {
+  double forward = 0.0;   ///< radius of the circle that turns forward, |X + i Y| / 2
+  double backward = 0.0;  ///< radius of the circle that turns backward, |X - i Y| / 2
+
+  Orbit() = default;
+  Orbit(Complex x, Complex y)
+      : forward(0.5 * std::abs(x + Complex(0, 1) * y)),
+        backward(0.5 * std::abs(x - Complex(0, 1) * y)) {}
+
+  double major() const { return forward + backward; }
+  double minor() const { return std::abs(forward - backward); }
+  /// Signed ratio of the axes, minor / major; 1 forward circle, -1 backward circle, 0 a line.
+  double kappa() const { return major() > 0.0 ? (forward - backward) / major() : 0.0; }
+};
+
+/// One oscillatory mode, q = Re(shape e^(lambda t)).
+struct Mode {
+  Complex lambda;             ///< eigenvalue, Im > 0 [rad/s]
+  CVec shape;                 ///< coordinates of the system, largest lateral radius one
+  Whirl whirl = Whirl::planar;
+  double kappa = 0.0;         ///< signed axis ratio at the point that moves most
+  std::vector<double> kappas; ///< the same at every point (nodes, then bodies)
+
+  double frequency() const { return lambda.imag(); }  ///< damped [rad/s]
+  double damping_ratio() const { return -lambda.real() / std::abs(lambda); }
+  /// 2 pi zeta / sqrt(1 - zeta^2); positive: stable.
+  double log_decrement() const;
+};
+
+struct Modes {
+  std::vector<Mode> oscillatory;   ///< ascending frequency
+  std::vector<Complex> overdamped; ///< eigenvalues with |Im| < 0.2 |Re| (real ones too: divergent or
+                                   ///< creeping), Im >= 0, nearest to zero first [rad/s]
+  std::vector<Mode> rigid_body;    ///< modes of free systems that do not deform them
+};
+
+/// Complex modes of a system at its speed.
+///
+/// Below 150 states all are found densely; above, those nearest to zero by Arnoldi. Rigid-body
+/// motions (of free rotors, including the precession of a free spinning rotor) are told apart by
+/// their strain energy and listed by themselves, as are overdamped motions: real eigenvalues, and
+/// pairs with a damping ratio above 0.98, which only gyroscopics keep from being real.
+///
+/// @param count  oscillatory modes wanted; fewer come back if there are fewer
+/// @throws NumericalError  if an eigensolver fails
+Modes complex_modes(const System& system, int count);
+
+/// The same for many speeds of one structure: work that does not depend on speed is done once.
+class ModeFinder {
+ public:
+  explicit ModeFinder(const Assembler& assembler);
+  ~ModeFinder();
+  Modes at(double Omega, int count) const;
+  System system(double Omega) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Orbits of all points (nodes, then bodies) of a complex shape.
+std::vector<Orbit> orbits(const DofMap& dofs, const CVec& shape);
+
+/// Sense of whirl from orbits: points below a thousandth of the largest are not asked.
+Whirl whirl_of(const std::vector<Orbit>& orbits);
+
+}  // namespace whirl

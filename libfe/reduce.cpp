@@ -1,0 +1,198 @@
+#include "libfe/reduce.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/dynamic_stiffness.hpp"
+#include "libfe/eigen/quadratic.hpp"
+#include "libfe/eigen/symmetric.hpp"
+#include "libfe/modes.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double dependent = 1e-7;   ///< of its M-norm: what is left of a shape that repeats others
+constexpr int band_samples = 25;     ///< frequencies at which receptances are compared
+constexpr int largest_basis = 60;
+
+/// Adds the part of `shapes` that is new, M-orthonormal.
+void append_orthonormal(Mat& basis, const Mat& shapes, const Sparse& M) {
+  for (Eigen::Index j = 0; j < shapes.cols(); ++j) {
+    Vec v = shapes.col(j);
+    const double before = std::sqrt(v.dot(M * v));
+    if (!(before > 0.0)) continue;
+    v /= before;
+    for (int twice = 0; twice < 2; ++twice) {
+      if (basis.cols() > 0) v -= basis * (basis.transpose() * (M * v));
+    }
+    const double left = std::sqrt(v.dot(M * v));
+    if (left < dependent) continue;
+    basis.conservativeResize(M.rows(), basis.cols() + 1);
+    basis.col(basis.cols() - 1) = v / left;
+  }
+}
+
+/// K_s^-1 r for every row; free systems by a shift that leaves their rigid modes aside.
+Mat static_shapes(const Sparse& K, const Sparse& M, const std::vector<Vec>& rows,
+                  const RealModes& modes) {
+  Mat loads(K.rows(), static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) loads.col(static_cast<Eigen::Index>(i)) = rows[i];
+  Sparse A = K;
+  if (modes.rigid > 0) {
+    const double shift = 0.09 * modes.omega2(std::min<Eigen::Index>(modes.rigid, modes.omega2.size() - 1));
+    A = K + shift * M;
+  }
+  const Eigen::SparseLU<Sparse> solver(A);
+  if (solver.info() != Eigen::Success) throw NumericalError("static shapes: the stiffness is singular");
+  return solver.solve(loads);
+}
+
+/// Basis of damped modes: real and imaginary parts of the lowest `size / 2`.
+Mat damped_basis(const Modes& modes, const Sparse& M, int size) {
+  Mat basis(M.rows(), 0);
+  for (const Mode& mode : modes.oscillatory) {
+    if (basis.cols() + 1 > size) break;
+    Mat parts(M.rows(), 2);
+    parts << mode.shape.real(), mode.shape.imag();
+    append_orthonormal(basis, parts, M);
+  }
+  return basis;
+}
+
+ReducedSystem unreduced(const System& system) {
+  const auto n = system.size();
+  return {Mat::Identity(n, n), Mat(system.M), Mat(system.C), Mat(system.G),
+          Mat(system.K),       system.dofs,   system.Omega};
+}
+
+}  // namespace
+
+ReducedSystem project(const System& system, const Mat& basis) {
+  const Mat M = basis.transpose() * (system.M * basis);
+  const Mat K = basis.transpose() * (system.K * basis);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> ritz(0.5 * (K + K.transpose()), M);
+  if (ritz.info() != Eigen::Success) {
+    throw NumericalError("the basis of the reduction has no inertia in some direction");
+  }
+  Mat Phi = basis * ritz.eigenvectors();
+  for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
+    Eigen::Index largest = 0;
+    Phi.col(j).cwiseAbs().maxCoeff(&largest);
+    if (Phi(largest, j) < 0.0) Phi.col(j) *= -1.0;
+  }
+  const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
+  ReducedSystem r{Phi, small(system.M), small(system.C), small(system.G), small(system.K),
+                  system.dofs, system.Omega};
+  return r;
+}
+
+ReductionError reduction_error(const System& system, const ReducedSystem& reduced,
+                               const std::vector<Vec>& ports, double band) {
+  ReductionError error;
+  const int wanted = std::max(4, reduced.size());
+  const Modes full = complex_modes(system, wanted);
+  const QuadraticModes small = dense_quadratic_modes(
+      Mat(reduced.M).sparseView(), Mat(reduced.D()).sparseView(), Mat(reduced.K).sparseView(),
+      full.rigid_body.empty() ? 0.0 : -0.1 * std::max(1.0, band));
+  for (const Mode& mode : full.oscillatory) {
+    if (mode.frequency() > band) break;
+    Complex nearest{};
+    double distance = std::numeric_limits<double>::infinity();
+    for (Eigen::Index i = 0; i < small.lambda.size(); ++i) {
+      const double d = std::abs(small.lambda(i) - mode.lambda) / std::abs(mode.lambda);
+      if (d < distance) {
+        distance = d;
+        nearest = small.lambda(i);
+      }
+    }
+    if (distance > error.eigenvalue) {
+      error.eigenvalue = distance;
+      error.full = mode.lambda;
+      error.reduced = nearest;
+    }
+  }
+  if (ports.empty()) return error;
+
+  const auto count = static_cast<Eigen::Index>(ports.size());
+  CMat rows(system.size(), count);
+  for (Eigen::Index j = 0; j < count; ++j) rows.col(j) = ports[static_cast<std::size_t>(j)].cast<Complex>();
+  const CMat small_rows = reduced.Phi.transpose().cast<Complex>() * rows;
+  DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
+  for (int s = 0; s < band_samples; ++s) {
+    const double w = band * (s + 0.5) / band_samples;
+    CMat exact(count, count);
+    bool is_regular = true;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const auto q = stiffness.solve(w, system.Omega, rows.col(j));
+      is_regular = is_regular && q;
+      if (q) exact.col(j) = rows.transpose() * *q;
+    }
+    if (!is_regular) continue;
+    const CMat Z = (reduced.K - w * w * reduced.M).cast<Complex>() +
+                   Complex(0.0, w) * reduced.D().cast<Complex>();
+    const CMat approximate = small_rows.transpose() * Z.partialPivLu().solve(small_rows);
+    error.receptance = std::max(error.receptance, (approximate - exact).norm() / exact.norm());
+  }
+  return error;
+}
+
+ReducedSystem reduce(const System& system, const Reduction& how, const std::vector<Vec>& ports,
+                     const std::vector<Vec>& dampers, ReductionError* error) {
+  const int n = system.size();
+  if ((system.M.diagonal().array() <= 0.0).any()) {
+    throw NumericalError(
+        "a freedom without inertia has a damper of its own, so that the motion cannot be integrated "
+        "as it stands: give the shaft a density or its station a mass");
+  }
+  const bool is_whole = how.method == ReductionMethod::none || how.modes >= n;
+  if (is_whole) {
+    if (error) *error = {};
+    return unreduced(system);
+  }
+
+  const Sparse K = symmetric_part(system.K);
+  const int most = how.modes > 0 ? how.modes : std::min(n, largest_basis);
+  double band = how.band > 0.0 ? how.band : 2.5 * std::abs(system.Omega);
+
+  RealModes real;
+  Modes damped;
+  Mat residual(n, 0);
+  if (how.method == ReductionMethod::damped) {
+    damped = complex_modes(system, (most + 1) / 2);
+  } else {
+    real = lowest_real_modes(K, system.M, most + 1);
+    if (band == 0.0) band = 3.0 * real.first_flexible();
+  }
+  if (how.method == ReductionMethod::modal_residual) {
+    std::vector<Vec> rows = ports;
+    rows.insert(rows.end(), dampers.begin(), dampers.end());
+    if (!rows.empty()) residual = static_shapes(K, system.M, rows, real);
+  }
+  const auto with = [&](int modes) {
+    if (how.method == ReductionMethod::damped) {
+      return project(system, damped_basis(damped, system.M, modes));
+    }
+    Mat basis = real.Phi.leftCols(std::min<Eigen::Index>(modes, real.Phi.cols()));
+    append_orthonormal(basis, residual, system.M);
+    return project(system, basis);
+  };
+
+  ReducedSystem reduced;
+  ReductionError found;
+  for (int modes = how.modes > 0 ? how.modes : std::min(4, most);; modes += 2) {
+    reduced = with(std::min(modes, most));
+    if (how.modes > 0 && !error) break;
+    found = reduction_error(system, reduced, ports, band);
+    found.within_tolerance = std::max(found.eigenvalue, found.receptance) <= how.tolerance;
+    if (found.within_tolerance || modes >= most) break;
+  }
+  if (error) *error = found;
+  return reduced;
+}
+
+}  // namespace whirl

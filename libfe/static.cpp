@@ -1,0 +1,53 @@
+#include "libfe/static.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseLU>
+
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/symmetric.hpp"
+
+namespace whirl {
+
+namespace {
+
+BearingLoad load_of(const Connection& c, const Assembler& assembler, const System& system,
+                    const Vec& full, const Vec& support) {
+  const Point from = assembler.point(c.from), to = assembler.point(c.to);
+  const Mat2 K = coefficients(c.coefficients, system.Omega).K;
+  Vec2 stretch = Vec2::Zero(), held = Vec2::Zero();
+  for (int k = 0; k < 2; ++k) {
+    const int a = system.dofs.full_index(from, k), b = system.dofs.full_index(to, k);
+    if (a >= 0) stretch(k) += full(a);
+    if (b >= 0) stretch(k) -= full(b);
+    if (a >= 0 && (c.is_rigid || c.is_clamped)) held(k) = -support(a);
+  }
+  return {c.name, K * stretch + held};
+}
+
+}  // namespace
+
+void require_supports(const Assembler& assembler, double Omega, std::string_view what) {
+  if (is_supported(symmetric_part(assembler.uncondensed(Omega).K))) return;
+  throw ModelError({}, "", fmt::format("{} supports, but the rotor or a body is free to move: "
+                                       "add a [[bearing]] or a [[link]] that holds it", what));
+}
+
+StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {
+  require_supports(assembler, Omega, "the static sag needs");
+  const System system = assembler.uncondensed(Omega);
+  const Vec load = assembler.gravity_load();
+  const Eigen::SparseLU<Sparse> solver(system.K);
+  if (solver.info() != Eigen::Success) {
+    throw NumericalError("the stiffness is singular at this speed");
+  }
+  const Vec q = solver.solve(Vec(system.dofs.T.transpose() * load));
+  StaticEquilibrium result{system.dofs.T * q, {}};
+  const Vec support = assembler.support_forces(Omega, q, load);
+  for (const Connection& c : assembler.structure().bearings) {
+    result.bearings.push_back(load_of(c, assembler, system, result.displacement, support));
+  }
+  return result;
+}
+
+}  // namespace whirl

@@ -1,0 +1,107 @@
+#pragma once
+/// What a model file says about the rotor and its surroundings, checked and in SI, before any mesh.
+
+#include <string>
+#include <vector>
+
+#include "libfe/base/error.hpp"
+#include "libfe/base/linalg.hpp"
+#include "libfe/bearings.hpp"
+#include "libfe/material.hpp"
+#include "libfe/section.hpp"
+
+namespace whirl {
+
+/// A place that something is attached to, as it was written.
+struct Station {
+  enum class Kind { position, node, body, ground };
+  Kind kind = Kind::ground;
+  double z = 0.0;    ///< position along the shaft [m]                     (Kind::position)
+  int node = 0;      ///< node number from 1                               (Kind::node)
+  std::string body;  ///< name of a body                                   (Kind::body)
+  Where where{};
+  std::string key{};  ///< path of the entry in the model file, for messages
+};
+
+/// Part of the shaft between two planes: a cylinder or a cone of one material.
+struct Segment {
+  Material material;
+  double length = 0.0;         ///< [m]
+  Section left, right;         ///< sections at both ends; diameters vary linearly between
+  int elements = 0;            ///< number of equal elements; 0: chosen by the mesh
+  int internal_functions = 0;  ///< pairs of internal shape functions per element and plane
+  Theory theory = Theory::timoshenko;
+  ShearCoefficient shear;
+  double axial_force = 0.0;  ///< tension > 0 [N]
+  double torque = 0.0;       ///< about +z on the face that looks to +z [N.m]
+  Where where{};
+
+  /// Section at a fraction s of the length, 0 <= s <= 1.
+  Section at(double s) const {
+    return {left.outer + s * (right.outer - left.outer),
+            left.inner + s * (right.inner - left.inner)};
+  }
+};
+
+/// A rigid disk on the shaft.
+struct Disk {
+  std::string name;
+  Station at;
+  double m = 0.0;   ///< mass [kg]
+  double Id = 0.0;  ///< diametral moment of inertia [kg.m^2]
+  double Ip = 0.0;  ///< polar moment of inertia [kg.m^2]
+  double outer_diameter = 0.0, inner_diameter = 0.0, width = 0.0;  ///< for pictures [m]; 0: unknown
+};
+
+/// A lumped mass: a stator, a pedestal, the mass of a Jeffcott rotor.
+struct Body {
+  std::string name;
+  double m = 0.0;            ///< mass [kg]
+  bool spins = false;        ///< part of the rotor: unbalance and gyroscopics
+  bool tilts = false;        ///< has theta_x, theta_y
+  double Id = 0.0, Ip = 0.0;  ///< moments of inertia [kg.m^2], if it tilts
+  Where where{};
+};
+
+/// A mass off the axis: force moment * Omega^2, turning with the rotor.
+struct Unbalance {
+  Station at;
+  double moment = 0.0;  ///< mass times eccentricity [kg.m]
+  double phase = 0.0;   ///< angle from +x at t = 0 [rad]
+};
+
+/// A bearing (station to ground or body) or a link (any two stations).
+struct Connection {
+  std::string name;
+  Station from, to;
+  AnyBearing coefficients;
+  bool is_rigid = false;    ///< x and y of both ends are the same
+  bool is_clamped = false;  ///< and the tilts too
+  Where where{};
+};
+
+/// Damping in proportion to mass and stiffness: C = mass M + stiffness K.
+struct Rayleigh {
+  double mass = 0.0;       ///< [1/s]
+  double stiffness = 0.0;  ///< [s]
+};
+
+struct Structure {
+  std::vector<Segment> shaft;  ///< left to right from z = 0
+  std::vector<Disk> disks;
+  std::vector<Body> bodies;
+  std::vector<Connection> bearings;
+  std::vector<Connection> links;
+  std::vector<Unbalance> unbalances;
+  std::vector<Station> stations;  ///< further places that need a node (contacts, probes)
+  Rayleigh damping;
+  double gravity = 0.0;  ///< acceleration along -y [m/s^2]
+
+  double length() const {
+    double sum = 0.0;
+    for (const Segment& segment : shaft) sum += segment.length;
+    return sum;
+  }
+};
+
+}  // namespace whirl

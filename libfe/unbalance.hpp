@@ -1,0 +1,24 @@
+#pragma once
+/// Steady response to unbalance.
+
+#include <vector>
+
+#include "libfe/assemble.hpp"
+
+namespace whirl {
+
+/// Complex displacements at points over speeds: u(t) = Re(value e^(i Omega t)).
+struct UnbalanceResponse {
+  std::vector<double> speeds;  ///< [rad/s]
+  std::vector<Point> points;
+  CMat x, y;  ///< points x speeds [m]
+};
+
+/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u at every speed.
+///
+/// @param points  where the response is wanted
+/// @throws NumericalError  at a speed where the dynamic stiffness is singular
+UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vector<double>& speeds,
+                                     const std::vector<Point>& points);
+
+}  // namespace whirl
