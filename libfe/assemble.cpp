@@ -8,7 +8,6 @@
 #include <numeric>
 #include <optional>
 
-#include "libfe/base/quadrature.hpp"
 #include "libfe/elements/beam.hpp"
 #include "libfe/elements/body.hpp"
 #include "libfe/elements/connection.hpp"
@@ -337,19 +336,6 @@ Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) 
   const FullMatrices f = full(Omega);
   const Vec displacement = dofs_.T * q;
   return f.K * displacement + Omega * (f.H * displacement) - full_load;
-}
-
-double Assembler::rotor_mass() const {
-  double mass = 0.0;
-  const Quadrature q = Quadrature::gauss(3);  // a section's area is quadratic along a cone
-  for (const Segment& segment : structure_.shaft) {
-    for (int i = 0; i < 3; ++i) {
-      mass += q.w(i) * segment.at(q.x(i)).A() * segment.length * segment.material.rho;
-    }
-  }
-  for (const Disk& disk : structure_.disks) mass += disk.m;
-  for (const Body& body : structure_.bodies) mass += body.spins ? body.m : 0.0;
-  return mass;
 }
 
 System assemble(const Structure& structure, double Omega) {

@@ -57,9 +57,6 @@ class Assembler {
   /// Forces that supports must exert on the full vector so that K T q = f holds there [N, N.m].
   Vec support_forces(double Omega, const Vec& q, const Vec& full_load) const;
 
-  /// Mass of all parts that spin [kg] (shaft, disks, spinning bodies).
-  double rotor_mass() const;
-
  private:
   struct FullMatrices {
     Sparse M, C, G, K, H;

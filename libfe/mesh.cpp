@@ -41,12 +41,32 @@ std::vector<const Station*> all_stations(const Structure& structure) {
   return stations;
 }
 
+double shaft_diameter(const Structure& structure, double z) {
+  double start = 0.0, largest = 0.0;
+  const double slack = same_place * structure.length();
+  for (const Segment& segment : structure.shaft) {
+    const double s = (z - start) / segment.length;
+    const double end = start + segment.length;
+    if (z >= start - slack && z <= end + slack) {
+      largest = std::max(largest, segment.at(std::clamp(s, 0.0, 1.0)).outer);
+    }
+    start = end;
+  }
+  return largest;
+}
+
 Mesh make_mesh(const Structure& structure) {
   const double length = structure.length();
   std::vector<Problem> problems;
 
-  // positions that need a node
+  // positions that need a node, beside those that have one already
   std::vector<double> wanted;
+  std::vector<double> taken{0.0};
+  for (const Segment& segment : structure.shaft) {
+    const double from = taken.back();
+    const int n = std::max(1, segment.elements);
+    for (int i = 1; i <= n; ++i) taken.push_back(from + segment.length * i / n);
+  }
   std::vector<const Station*> positions;
   for (const Station* station : all_stations(structure)) {
     if (station->kind == Station::Kind::position) positions.push_back(station);
@@ -61,11 +81,12 @@ Mesh make_mesh(const Structure& structure) {
       problems.push_back({station->where, station->key, found + "; " + right});
       continue;
     }
-    const auto close = std::find_if(wanted.begin(), wanted.end(), [&](double other) {
+    const auto close = std::find_if(taken.begin(), taken.end(), [&](double other) {
       return std::abs(other - z) < too_close * length;
     });
-    if (close == wanted.end()) {
+    if (close == taken.end()) {
       wanted.push_back(z);
+      taken.push_back(z);
     } else if (std::abs(*close - z) > same_place * length) {
       problems.push_back({station->where, station->key,
                           fmt::format("{:.9g} mm and {:.9g} mm are the same place with different "

@@ -45,6 +45,9 @@ Mesh make_mesh(const Structure& structure);
 /// @throws ModelError  if there is none
 Point resolve(const Station& station, const Structure& structure, const Mesh& mesh);
 
+/// Outer diameter of the shaft at a position [m]; the larger one at a step.
+double shaft_diameter(const Structure& structure, double z);
+
 /// All stations of a structure, in the order disks, bearings, links, unbalances, others.
 std::vector<const Station*> all_stations(const Structure& structure);
 

@@ -1,5 +1,6 @@
 #include "libfe/modes.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,7 +25,7 @@ constexpr double same_frequency = 1e-9;  ///< relative distance of equal eigenva
 /// What the modes of a free system are compared with.
 struct FreeBody {
   bool is_free = false;
-  double first_flexible = 0.0;  ///< [rad/s]
+  double first_flexible = 0.0;  ///< [rad/s]; 0: nothing deforms
 };
 
 FreeBody free_body(const System& system) {
@@ -41,32 +42,37 @@ double stiffness_ratio(const System& system, const CVec& q) {
   return inertia > 0.0 ? strain / inertia : std::numeric_limits<double>::infinity();
 }
 
-/// At rest, a pair with equal eigenvalues is turned so that each of its modes moves in one plane.
+/// At rest, modes with equal eigenvalues are turned so that each moves in one plane.
+///
+///   A^H (P_x - P_y) A v = mu A^H (P_x + P_y) A v,   mu = 1 in the x-z plane, -1 in the y-z plane
+///
+/// A: their shapes, P: the freedoms of all points that belong to a plane.
 void separate_planes(QuadraticModes& modes, const DofMap& dofs) {
-  for (Eigen::Index i = 0; i < modes.lambda.size(); ++i) {
-    for (Eigen::Index j = i + 1; j < modes.lambda.size(); ++j) {
-      if (std::abs(modes.lambda(i) - modes.lambda(j)) >
-          same_frequency * std::abs(modes.lambda(i))) {
-        continue;
-      }
-      const CVec a = dofs.T * modes.q.col(i), b = dofs.T * modes.q.col(j);
-      // the point that moves most in x, and the combination of both modes that does not move there
-      double largest = 0.0;
-      int x = 0;
-      for (const Point& p : dofs.points()) {
-        const int k = dofs.full_index(p, X);
-        const double size = std::abs(a(k)) + std::abs(b(k));
-        if (size > largest) {
-          largest = size;
-          x = k;
-        }
-      }
-      if (largest == 0.0) continue;
-      const CVec in_y = b(x) * modes.q.col(i) - a(x) * modes.q.col(j);
-      const CVec in_x = std::conj(a(x)) * modes.q.col(i) + std::conj(b(x)) * modes.q.col(j);
-      modes.q.col(i) = in_x.normalized();
-      modes.q.col(j) = in_y.normalized();
+  Vec plane = Vec::Zero(dofs.full_size);
+  for (const Point& p : dofs.points()) {
+    for (const int component : {X, Y, THETA_X, THETA_Y}) {
+      const int k = dofs.full_index(p, component);
+      if (k >= 0) plane(k) = component == X || component == THETA_Y ? 1.0 : -1.0;
     }
+  }
+  std::vector<bool> is_done(static_cast<std::size_t>(modes.lambda.size()), false);
+  for (Eigen::Index i = 0; i < modes.lambda.size(); ++i) {
+    if (modes.lambda(i).imag() == 0.0) continue;  // creeps, or a rigid body's double zero
+    std::vector<Eigen::Index> equal;
+    for (Eigen::Index j = i; j < modes.lambda.size(); ++j) {
+      const double distance = std::abs(modes.lambda(i) - modes.lambda(j));
+      if (is_done[j] || distance > same_frequency * std::abs(modes.lambda(i))) continue;
+      is_done[j] = true;
+      equal.push_back(j);
+    }
+    if (equal.size() < 2) continue;
+    const CMat q = modes.q(Eigen::all, equal);
+    const CMat A = dofs.T * q;
+    const CMat difference = A.adjoint() * plane.cast<Complex>().asDiagonal() * A;
+    const CMat sum = A.adjoint() * plane.cwiseAbs().cast<Complex>().asDiagonal() * A;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<CMat> planes(difference, sum);
+    if (planes.info() != Eigen::Success) continue;
+    modes.q(Eigen::all, equal) = (q * planes.eigenvectors().rowwise().reverse()).colwise().normalized();
   }
 }
 
@@ -100,7 +106,7 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
     const Complex lambda = found.lambda(i);
     const CVec q = found.q.col(i);
     const bool is_rigid =
-        body.is_free && std::abs(stiffness_ratio(system, q)) <
+        body.is_free && std::abs(stiffness_ratio(system, q)) <=
                             rigid_share * body.first_flexible * body.first_flexible;
     if (is_rigid) {
       modes.rigid_body.push_back(describe(lambda, q, system.dofs));
@@ -121,9 +127,10 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
   return modes;
 }
 
-/// Free systems are shifted by a part of their first flexible frequency.
+/// Free systems are shifted by a part of their first flexible frequency, if they have one.
 double shift_for(const FreeBody& body) {
-  return body.is_free ? -0.3 * body.first_flexible : 0.0;
+  if (!body.is_free) return 0.0;
+  return body.first_flexible > 0.0 ? -0.3 * body.first_flexible : -1.0;
 }
 
 /// The lowest modes by Arnoldi. Overdamped and rigid ones do not count: `others` is how many of

@@ -19,6 +19,7 @@ namespace {
 constexpr double dependent = 1e-7;   ///< of its M-norm: what is left of a shape that repeats others
 constexpr int band_samples = 25;     ///< frequencies at which receptances are compared
 constexpr int largest_basis = 60;
+constexpr int small_system = 12;     ///< freedoms that are not worth reducing
 
 /// Adds the part of `shapes` that is new, M-orthonormal.
 void append_orthonormal(Mat& basis, const Mat& shapes, const Sparse& M) {
@@ -93,7 +94,7 @@ ReducedSystem project(const System& system, const Mat& basis) {
 
 ReductionError reduction_error(const System& system, const ReducedSystem& reduced,
                                const std::vector<Vec>& ports, double band) {
-  ReductionError error;
+  ReductionError error{.band = band};
   const int wanted = std::max(4, reduced.size());
   const Modes full = complex_modes(system, wanted);
   const QuadraticModes small = dense_quadratic_modes(
@@ -101,20 +102,12 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
       full.rigid_body.empty() ? 0.0 : -0.1 * std::max(1.0, band));
   for (const Mode& mode : full.oscillatory) {
     if (mode.frequency() > band) break;
-    Complex nearest{};
-    double distance = std::numeric_limits<double>::infinity();
+    ReductionError::Pair pair{mode.lambda, 0.0};
     for (Eigen::Index i = 0; i < small.lambda.size(); ++i) {
-      const double d = std::abs(small.lambda(i) - mode.lambda) / std::abs(mode.lambda);
-      if (d < distance) {
-        distance = d;
-        nearest = small.lambda(i);
-      }
+      const Complex lambda = small.lambda(i);
+      if (std::abs(lambda - pair.full) < std::abs(pair.reduced - pair.full)) pair.reduced = lambda;
     }
-    if (distance > error.eigenvalue) {
-      error.eigenvalue = distance;
-      error.full = mode.lambda;
-      error.reduced = nearest;
-    }
+    error.pairs.push_back(pair);
   }
   if (ports.empty()) return error;
 
@@ -123,6 +116,7 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
   for (Eigen::Index j = 0; j < count; ++j) rows.col(j) = ports[static_cast<std::size_t>(j)].cast<Complex>();
   const CMat small_rows = reduced.Phi.transpose().cast<Complex>() * rows;
   DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
+  double static_size = 0.0;  // of the receptance at the lowest frequency
   for (int s = 0; s < band_samples; ++s) {
     const double w = band * (s + 0.5) / band_samples;
     CMat exact(count, count);
@@ -136,20 +130,27 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
     const CMat Z = (reduced.K - w * w * reduced.M).cast<Complex>() +
                    Complex(0.0, w) * reduced.D().cast<Complex>();
     const CMat approximate = small_rows.transpose() * Z.partialPivLu().solve(small_rows);
-    error.receptance = std::max(error.receptance, (approximate - exact).norm() / exact.norm());
+    // at an antiresonance the static receptance is the measure, not the vanishing one
+    if (static_size == 0.0) static_size = exact.norm();
+    error.receptance =
+        std::max(error.receptance, (approximate - exact).norm() / (exact.norm() + static_size));
   }
   return error;
 }
 
 ReducedSystem reduce(const System& system, const Reduction& how, const std::vector<Vec>& ports,
-                     const std::vector<Vec>& dampers, ReductionError* error) {
+                     const std::vector<Vec>& others, ReductionError* error) {
   const int n = system.size();
   if ((system.M.diagonal().array() <= 0.0).any()) {
     throw NumericalError(
         "a freedom without inertia has a damper of its own, so that the motion cannot be integrated "
         "as it stands: give the shaft a density or its station a mass");
   }
-  const bool is_whole = how.method == ReductionMethod::none || how.modes >= n;
+  ReductionMethod method = how.method;
+  if (method == ReductionMethod::automatic) {
+    method = n <= small_system ? ReductionMethod::none : ReductionMethod::modal_residual;
+  }
+  const bool is_whole = method == ReductionMethod::none || how.modes >= n;
   if (is_whole) {
     if (error) *error = {};
     return unreduced(system);
@@ -157,24 +158,24 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
 
   const Sparse K = symmetric_part(system.K);
   const int most = how.modes > 0 ? how.modes : std::min(n, largest_basis);
-  double band = how.band > 0.0 ? how.band : 2.5 * std::abs(system.Omega);
+  double band = how.band > 0.0 ? how.band : 2.0 * std::abs(system.Omega);
 
   RealModes real;
   Modes damped;
   Mat residual(n, 0);
-  if (how.method == ReductionMethod::damped) {
+  if (method == ReductionMethod::damped) {
     damped = complex_modes(system, (most + 1) / 2);
   } else {
     real = lowest_real_modes(K, system.M, most + 1);
     if (band == 0.0) band = 3.0 * real.first_flexible();
   }
-  if (how.method == ReductionMethod::modal_residual) {
+  if (method == ReductionMethod::modal_residual) {
     std::vector<Vec> rows = ports;
-    rows.insert(rows.end(), dampers.begin(), dampers.end());
+    rows.insert(rows.end(), others.begin(), others.end());
     if (!rows.empty()) residual = static_shapes(K, system.M, rows, real);
   }
   const auto with = [&](int modes) {
-    if (how.method == ReductionMethod::damped) {
+    if (method == ReductionMethod::damped) {
       return project(system, damped_basis(damped, system.M, modes));
     }
     Mat basis = real.Phi.leftCols(std::min<Eigen::Index>(modes, real.Phi.cols()));
@@ -188,7 +189,7 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
     reduced = with(std::min(modes, most));
     if (how.modes > 0 && !error) break;
     found = reduction_error(system, reduced, ports, band);
-    found.within_tolerance = std::max(found.eigenvalue, found.receptance) <= how.tolerance;
+    found.within_tolerance = std::max(found.eigenvalue(), found.receptance) <= how.tolerance;
     if (found.within_tolerance || modes >= most) break;
   }
   if (error) *error = found;

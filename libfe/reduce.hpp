@@ -2,6 +2,7 @@
 /// Reduction of a system to the few shapes that a scene needs.
 
 #include <array>
+#include <tuple>
 #include <vector>
 
 #include "libfe/assemble.hpp"
@@ -10,6 +11,7 @@
 namespace whirl {
 
 enum class ReductionMethod {
+  automatic,       ///< none up to 12 freedoms, modal_residual above
   modal,           ///< lowest undamped modes at rest
   modal_residual,  ///< and static shapes of given loads
   damped,          ///< real and imaginary parts of the damped modes at speed
@@ -23,10 +25,21 @@ constexpr auto choices(ReductionMethod) {
 }
 
 struct Reduction {
-  ReductionMethod method = ReductionMethod::modal_residual;
+  ReductionMethod method = ReductionMethod::automatic;
   int modes = 0;            ///< size without static shapes; 0: as many as the tolerance needs
   double tolerance = 1e-3;  ///< of eigenvalues in the band and of the receptance at `ports`
-  double band = 0.0;        ///< highest frequency of interest [rad/s]; 0: 2.5 Omega
+  double band = 0.0;        ///< highest frequency of interest [rad/s]; 0: twice the spin
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        optional("method", &Reduction::method, "", any, "how the rotor is reduced"),
+        optional("modes", &Reduction::modes, "", positive, "left out: as many as the tolerance needs"),
+        optional("tolerance", &Reduction::tolerance, "", positive,
+                 "of eigenvalues and contact receptances in the band"),
+        optional("band", &Reduction::band, "rad/s", positive,
+                 "highest frequency of interest; left out: twice the speed")};
+  }
 };
 
 /// Equations of motion in few coordinates, q = Phi eta.
@@ -42,10 +55,23 @@ struct ReducedSystem {
 
 /// How far a reduced system is from the full one.
 struct ReductionError {
-  double eigenvalue = 0.0;  ///< largest |lambda - lambda_full| / |lambda_full| in the band
-  Complex full{}, reduced{};  ///< the eigenvalue where that happens [rad/s]
-  double receptance = 0.0;  ///< largest relative error of the receptance between ports in the band
+  /// An eigenvalue of the full system in the band, and the nearest one of the reduced system [rad/s].
+  struct Pair {
+    Complex full, reduced;
+    double error() const { return std::abs(reduced - full) / std::abs(full); }
+  };
+  std::vector<Pair> pairs;  ///< ascending frequency
+  double band = 0.0;        ///< [rad/s]
+  double receptance = 0.0;  ///< largest error of the receptance between ports in the band, relative to
+                            ///< itself plus its static value
   bool within_tolerance = true;
+
+  /// Largest relative error of an eigenvalue.
+  double eigenvalue() const {
+    double largest = 0.0;
+    for (const Pair& pair : pairs) largest = std::max(largest, pair.error());
+    return largest;
+  }
 };
 
 /// Reduces a system.
@@ -55,19 +81,19 @@ struct ReductionError {
 ///   damped          Re and Im of the damped modes at speed, so that these are exact with real
 ///                   coordinates: one complex mode makes two of the `modes`
 ///   none            every freedom, M must be regular
+///   automatic       none up to 12 freedoms, modal+residual above
 ///
 /// Damping, gyroscopics and skew stiffness are projected, not diagonalized: they stay full.
 /// Where the number of modes is not given, it grows until both errors are below the tolerance.
 ///
 /// @param system   n x n matrices; M positive definite
-/// @param ports    rows of the points where forces act that the modes do not know: contacts,
-///                 unbalances
-/// @param dampers  rows of the points where damping is concentrated
+/// @param ports    rows of the points where contact forces act: their receptance is checked
+/// @param others   rows of further points with forces of their own: dampers, unbalances
 /// @param error    if not null, receives the error of the basis
 /// @throws NumericalError  if M is singular, or an eigensolver fails
 /// @source [Friswell2010], ch. 2; static shapes after [CraigChang1977]
 ReducedSystem reduce(const System& system, const Reduction& how, const std::vector<Vec>& ports,
-                     const std::vector<Vec>& dampers, ReductionError* error = nullptr);
+                     const std::vector<Vec>& others, ReductionError* error = nullptr);
 
 /// Compares eigenvalues and receptances of a reduced system with those of the full one.
 ReductionError reduction_error(const System& system, const ReducedSystem& reduced,

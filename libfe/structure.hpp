@@ -2,6 +2,7 @@
 /// What a model file says about the rotor and its surroundings, checked and in SI, before any mesh.
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "libfe/base/error.hpp"
@@ -41,6 +42,19 @@ struct Segment {
     return {left.outer + s * (right.outer - left.outer),
             left.inner + s * (right.inner - left.inner)};
   }
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        required("length", &Segment::length, "m", positive, "length of the segment"),
+        optional("elements", &Segment::elements, "", positive,
+                 "number of equal elements; left out: chosen from the shape and the stations"),
+        optional("internal_functions", &Segment::internal_functions, "", nonnegative,
+                 "pairs of internal shape functions per element, 0 to 4; each raises the order by two"),
+        optional("theory", &Segment::theory, "", any, "beam theory"),
+        optional("axial_force", &Segment::axial_force, "N", any, "tension > 0"),
+        optional("torque", &Segment::torque, "N.m", any, "about +z on the face that looks to +z")};
+  }
 };
 
 /// A rigid disk on the shaft.
@@ -51,6 +65,17 @@ struct Disk {
   double Id = 0.0;  ///< diametral moment of inertia [kg.m^2]
   double Ip = 0.0;  ///< polar moment of inertia [kg.m^2]
   double outer_diameter = 0.0, inner_diameter = 0.0, width = 0.0;  ///< for pictures [m]; 0: unknown
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        optional("mass", &Disk::m, "kg", nonnegative, "of a disk that is not given by its shape"),
+        optional("diametral_inertia", &Disk::Id, "kg.m^2", nonnegative, "about a diameter"),
+        optional("polar_inertia", &Disk::Ip, "kg.m^2", nonnegative, "about the axis"),
+        optional("outer_diameter", &Disk::outer_diameter, "m", positive, "of a disk of some material"),
+        optional("inner_diameter", &Disk::inner_diameter, "m", nonnegative, "bore; left out: none"),
+        optional("width", &Disk::width, "m", positive, "along the axis")};
+  }
 };
 
 /// A lumped mass: a stator, a pedestal, the mass of a Jeffcott rotor.
@@ -61,6 +86,16 @@ struct Body {
   bool tilts = false;        ///< has theta_x, theta_y
   double Id = 0.0, Ip = 0.0;  ///< moments of inertia [kg.m^2], if it tilts
   Where where{};
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        required("mass", &Body::m, "kg", nonnegative, "mass of the body"),
+        optional("spins", &Body::spins, "", any, "it is part of the rotor"),
+        optional("tilts", &Body::tilts, "", any, "it has theta_x and theta_y"),
+        optional("diametral_inertia", &Body::Id, "kg.m^2", nonnegative, "if it tilts"),
+        optional("polar_inertia", &Body::Ip, "kg.m^2", nonnegative, "if it tilts and spins")};
+  }
 };
 
 /// A mass off the axis: force moment * Omega^2, turning with the rotor.
@@ -84,6 +119,13 @@ struct Connection {
 struct Rayleigh {
   double mass = 0.0;       ///< [1/s]
   double stiffness = 0.0;  ///< [s]
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        optional("mass", &Rayleigh::mass, "1/s", nonnegative, "a in C = a M + b K"),
+        optional("stiffness", &Rayleigh::stiffness, "s", nonnegative, "b in C = a M + b K")};
+  }
 };
 
 struct Structure {

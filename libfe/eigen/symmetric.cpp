@@ -8,6 +8,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libfe/base/error.hpp"
 
@@ -157,6 +158,9 @@ bool is_supported(const Sparse& K) {
 RealModes lowest_real_modes(const Sparse& K, const Sparse& M, int count) {
   const auto n = static_cast<int>(K.rows());
   count = std::min(count, n);
+  if ((M.diagonal().array() <= 0.0).any()) {
+    throw NumericalError("the mass matrix is not positive definite: some freedoms lack inertia");
+  }
   const bool supported = is_supported(K);
   RealModes modes;
   if (n <= dense_below || 3 * count >= n) {
@@ -165,8 +169,9 @@ RealModes lowest_real_modes(const Sparse& K, const Sparse& M, int count) {
       // the largest step among the lowest seven separates at most six rigid modes from the rest
       const double scale = modes.omega2(std::min(n - 1, 12));
       Eigen::Index first = 0;
-      while (first < n && std::abs(modes.omega2(first)) < 1e-7 * scale) ++first;
-      if (first < n) mark_rigid(modes, modes.omega2(first));
+      while (first < n && std::abs(modes.omega2(first)) <= 1e-7 * scale) ++first;
+      const bool all = first == n;  // nothing but free bodies
+      mark_rigid(modes, all ? std::numeric_limits<double>::infinity() : modes.omega2(first));
     }
     modes.omega2.conservativeResize(count);
     modes.Phi.conservativeResize(n, count);

@@ -12,7 +12,7 @@ namespace whirl {
 
 namespace {
 
-constexpr int points = 16;  // exact for cylinders; a cone of ratio 1:10 integrates to 1e-9
+constexpr int points = 24;  // exact for cylinders; a cone of ratio 1:10 integrates to 1e-9
 
 /// Fields of all shape functions of one plane at the integration points, a column per function.
 struct PlaneFields {

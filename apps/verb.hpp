@@ -1,0 +1,90 @@
+#pragma once
+/// What a verb of the command line is: its options, and a function from an invocation to a report.
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libdyn/model.hpp"
+#include "libio/record.hpp"
+
+namespace whirl {
+
+class ResultWriter;
+
+/// An option of a verb beside the common ones.
+struct OptionSpec {
+  std::string_view name;   ///< without dashes
+  std::string_view value;  ///< placeholder of its value; empty: a flag
+  std::string_view help;
+};
+
+/// One call of the program.
+class Invocation {
+ public:
+  std::string verb;
+  std::string file;                          ///< model or result
+  std::vector<std::string> sets;             ///< PATH=VALUE lines, --speed included
+  std::map<std::string, std::string> given;  ///< options and their values; flags have an empty one
+  std::vector<std::string> line;             ///< the command line, to be stored in results
+  std::string model_text;                    ///< of a result that is run again; else empty
+  bool shows_progress = false;
+
+  bool has(const std::string& option) const { return given.count(option) > 0; }
+  /// Values of options; ModelError where they are not what they should be.
+  std::string text(const std::string& option, const std::string& otherwise = "") const;
+  long integer(const std::string& option, long otherwise, long least = 1) const;
+  double number(const std::string& option, std::string_view unit, double otherwise) const;
+  /// --speeds, or from zero to somewhat above the operating speed.
+  std::vector<double> speeds(const Model& model) const;
+
+  Model model() const;
+
+  /// The file of --out with the facts of this call in it, or nothing.
+  std::unique_ptr<ResultWriter> result_file(const Model& model) const;
+};
+
+/// What a verb found.
+struct Report {
+  Record record;     ///< for --json, without the entries that all verbs have
+  std::string text;  ///< for people
+  int status = 0;    ///< 0; 3: failed, what was computed is in the report; 130: stopped
+};
+
+struct Verb {
+  std::string_view name;
+  std::string_view group;    ///< heading in the help
+  std::string_view summary;
+  std::string_view takes;    ///< MODEL or RESULT.h5
+  std::string_view example;  ///< a command line
+  std::vector<OptionSpec> options;
+  Report (*run)(const Invocation&);
+};
+
+/// All verbs, in the order of the help.
+const std::vector<Verb>& verbs();
+
+/// Set by Ctrl-C; long work looks at it and stops with what it has.
+bool is_interrupted();
+
+/// A line on standard error that is rewritten while something long goes on; silent if not a terminal.
+class Progress {
+ public:
+  Progress(std::string what, long total, bool shows);
+  ~Progress();
+  /// Redraws at most ten times a second.
+  void update(long done);
+
+ private:
+  std::string what_;
+  long total_;
+  bool shows_;
+  double begin_, last_ = 0.0;
+  bool has_drawn_ = false;
+};
+
+}  // namespace whirl

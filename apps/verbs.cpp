@@ -1,0 +1,58 @@
+// The list of verbs. A new verb is a file in verbs/ and an entry here.
+
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/simulation.hpp"
+
+namespace whirl {
+
+namespace {
+
+const OptionSpec speeds{"speeds", "A:B:STEP", "speeds, such as 0:8000:50rpm"};
+
+std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
+  own.insert(own.end(), integration_options().begin(), integration_options().end());
+  return own;
+}
+
+}  // namespace
+
+const std::vector<Verb>& verbs() {
+  static const std::vector<Verb> all{
+      {"check", "The model", "reads and checks a model, draws its layout", "MODEL",
+       "whirl check models/two_disk_mac.toml", {}, run_check},
+      {"static", "The model", "sag under gravity and bearing loads", "MODEL",
+       "whirl static models/jeffcott.toml", {}, run_static},
+      {"modes", "Linear rotordynamics", "complex modes at a speed", "MODEL",
+       "whirl modes models/two_disk_mac.toml --speed 4430rpm",
+       {{"modes", "N", "how many modes (8)"}}, run_modes},
+      {"campbell", "Linear rotordynamics", "modes followed over speeds, with the critical speeds", "MODEL",
+       "whirl campbell models/two_disk_mac.toml --speeds 0:8000:50rpm",
+       {{"modes", "N", "how many modes (8)"}, speeds}, run_campbell},
+      {"critical", "Linear rotordynamics", "critical speeds, directly", "MODEL",
+       "whirl critical models/two_disk_mac.toml",
+       {{"modes", "N", "how many critical speeds (6)"}, {"order", "N", "excitation frequency over speed (1)"}},
+       run_critical},
+      {"unbalance", "Linear rotordynamics", "steady unbalance response over speeds", "MODEL",
+       "whirl unbalance models/two_disk_mac.toml --speeds 0:8000:10rpm",
+       {speeds, {"stations", "NAME,...", "names, node numbers or all (all)"}}, run_unbalance},
+      {"simulate", "Contact", "integrates in time, contacts and all", "MODEL",
+       "whirl simulate models/two_disk_mac.toml --speed 4430rpm --out run.h5", with_integration({}), run_simulate},
+      {"identify", "Contact", "says which complex modes make up the motion (MAC)", "MODEL",
+       "whirl identify models/two_disk_mac.toml --out run.h5",
+       with_integration({{"modes", "N", "how many modes to compare with (8)"},
+                         {"rotations", "", "let tilts count too, times the rotor's length"},
+                         {"mass-weighted", "", "weight the MAC with the mass matrix"},
+                         {"stiffened", "", "modes of the rotor with its contacts closed for good"}}),
+       run_identify},
+      {"export", "Results", "a result or a model to other programs", "FILE",
+       "whirl export run.h5 --format vtk --out run",
+       {{"format", "F", "vtk: series for ParaView (the default)"},
+        {"revolutions", "N", "last revolutions of a motion (4)"},
+        {"frames", "N", "frames of a motion at most (128)"},
+        {"modes", "N", "mode shapes (4)"}},
+       run_export},
+  };
+  return all;
+}
+
+}  // namespace whirl

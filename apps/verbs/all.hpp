@@ -1,0 +1,18 @@
+#pragma once
+/// The functions behind the verbs; each is in the file of its name.
+
+#include "apps/verb.hpp"
+
+namespace whirl {
+
+Report run_check(const Invocation& call);
+Report run_static(const Invocation& call);
+Report run_modes(const Invocation& call);
+Report run_campbell(const Invocation& call);
+Report run_critical(const Invocation& call);
+Report run_unbalance(const Invocation& call);
+Report run_simulate(const Invocation& call);
+Report run_identify(const Invocation& call);
+Report run_export(const Invocation& call);
+
+}  // namespace whirl

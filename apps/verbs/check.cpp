@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
+#include "libfe/properties.hpp"
+#include "libio/format.hpp"
+#include "libio/layout.hpp"
+#include "libio/table.hpp"
+
+namespace whirl {
+
+Report run_check(const Invocation& call) {
+  const Model model = call.model();
+  const Structure& s = model.structure;
+  const Assembler assembler(s);
+  const System system = assembler.at(model.speed);
+  const RotorProperties rotor = rotor_properties(s, assembler.mesh());
+  const int dofs = assembler.uncondensed(model.speed).size();
+
+  Report report{.record = begin_record(call, model)};
+  Record& r = report.record;
+  r.set("mass_kg", rotor.mass).set("length_m", s.length()).set("nodes", assembler.mesh().nodes());
+  r.set("dofs", dofs).set("condensed_dofs", system.dofs.condensed);
+  r.set("contacts", static_cast<long>(model.contacts.size()));
+  r.set("center_of_mass_m", s.shaft.empty() ? Record(nullptr) : Record(rotor.center_of_mass));
+  r.set("polar_inertia_kg_m2", rotor.Ip);
+
+  std::string& text = report.text;
+  text = (model.title.empty() ? call.file : model.title) + "\n\n";
+  if (!s.shaft.empty()) text += draw_layout(model, assembler) + "\n";
+  Table table({"what", "value"});
+  table.row({"mass of the rotor", format_engineering(rotor.mass, "kg")});
+  if (!s.shaft.empty()) {
+    table.row({"length", format_length(s.length())});
+    table.row({"center of mass at", format_length(rotor.center_of_mass)});
+  }
+  table.row({"polar moment of inertia", format_engineering(rotor.Ip, "kg.m^2")});
+  table.row({"nodes, bodies", fmt::format("{}, {}", assembler.mesh().nodes(), s.bodies.size())});
+  table.row({"freedoms", system.dofs.condensed > 0
+                             ? fmt::format("{}, of which {} without inertia are condensed", dofs, system.dofs.condensed)
+                             : fmt::format("{}", dofs)});
+  table.row({"disks, bearings, links", fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
+  table.row({"contacts", fmt::format("{}", model.contacts.size())});
+  table.row({"operating speed", model.has_speed ? format_speed(model.speed) : "not given"});
+  text += table.text() + "\n  The model is in order.\n";
+  return report;
+}
+
+}  // namespace whirl

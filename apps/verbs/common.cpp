@@ -1,0 +1,122 @@
+#include "apps/verbs/common.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/version.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/table.hpp"
+
+namespace whirl {
+
+Record begin_record(const Invocation& call, const Model& model) {
+  Record record;
+  record.set("model", call.file).set("version", version).set("speed_rpm", model.speed / rpm);
+  return record;
+}
+
+void add_modes(Record& record, const Modes& modes) {
+  const auto entry = [](const Mode& mode, int number) {
+    Record r;
+    r.set("number", number)
+        .set("frequency_rpm", mode.frequency() / rpm)
+        .set("damping_ratio", mode.damping_ratio())
+        .set("log_decrement", mode.log_decrement())
+        .set("whirl", name_of(mode.whirl))
+        .set("eigenvalue", mode.lambda)
+        .set("kappa", mode.kappa);
+    return r;
+  };
+  Record list = Record::array(), rigid = Record::array(), roots = Record::array();
+  int number = 0;
+  for (const Mode& mode : modes.oscillatory) list.add(entry(mode, ++number));
+  number = 0;
+  for (const Mode& mode : modes.rigid_body) rigid.add(entry(mode, ++number));
+  for (const Complex& root : modes.overdamped) roots.add(root.real());
+  Record overdamped = Record::array();
+  for (const Complex& root : modes.overdamped) overdamped.add(root);
+  record.set("modes", list).set("real_roots", roots).set("overdamped", overdamped).set("rigid_body", rigid);
+}
+
+std::string modes_table(const Modes& modes) {
+  Table table({"mode", "frequency [rpm]", "[Hz]", "log decrement", "damping ratio", "whirl", "kappa"});
+  int number = 0;
+  for (const Mode& m : modes.oscillatory) {
+    table.row({fmt::format("{}", ++number), fmt::format("{:.1f}", m.frequency() / rpm),
+               fmt::format("{:.3f}", m.frequency() / rpm / 60.0), fmt::format("{:.4f}", m.log_decrement()),
+               fmt::format("{:.5f}", m.damping_ratio()), std::string(name_of(m.whirl)),
+               fmt::format("{:+.3f}", m.kappa)});
+  }
+  std::string text = table.text();
+  if (!modes.overdamped.empty()) {
+    text += "\n  overdamped [1/s]:";
+    for (const Complex& root : modes.overdamped) text += fmt::format(" {:.4g}", root.real());
+    text += "\n";
+  }
+  if (!modes.rigid_body.empty()) {
+    text += fmt::format("\n  {} rigid-body modes: the rotor is free\n", modes.rigid_body.size());
+  }
+  return text;
+}
+
+void write_modes(ResultWriter& file, const Modes& modes, const DofMap& dofs) {
+  const auto n = static_cast<Eigen::Index>(modes.oscillatory.size());
+  CVec lambda(n);
+  Vec frequency(n), damping(n), decrement(n), kappa(n);
+  CMat shapes(dofs.full_size, n);
+  std::vector<std::string> whirl;
+  std::vector<int> number;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Mode& m = modes.oscillatory[static_cast<std::size_t>(i)];
+    lambda(i) = m.lambda;
+    frequency(i) = m.frequency();
+    damping(i) = m.damping_ratio();
+    decrement(i) = m.log_decrement();
+    kappa(i) = m.kappa;
+    shapes.col(i) = dofs.T * m.shape;
+    whirl.emplace_back(name_of(m.whirl));
+    number.push_back(static_cast<int>(i) + 1);
+  }
+  file.dataset("/modes/number", number, {"", "mode", {""}});
+  const std::vector<std::string> per_mode{"/modes/number"};
+  file.dataset("/modes/eigenvalue", lambda, {"rad/s", "eigenvalue", per_mode});
+  file.dataset("/modes/frequency", frequency, {"rad/s", "damped natural frequency", per_mode});
+  file.dataset("/modes/damping_ratio", damping, {"", "damping ratio", per_mode});
+  file.dataset("/modes/log_decrement", decrement, {"", "logarithmic decrement", per_mode});
+  file.dataset("/modes/kappa", kappa, {"", "signed axis ratio where the mode moves most", per_mode});
+  file.dataset("/modes/whirl", whirl, {"", "sense of whirl", per_mode});
+  file.dataset("/modes/shape", shapes,
+               {"m, rad", "complex shape: x, y, theta_x, theta_y of every node, then of every body",
+                {"", "/modes/number"}});
+}
+
+void write_points(ResultWriter& file, const Model& model, const Assembler& assembler) {
+  std::vector<std::string> names;
+  Vec z(assembler.mesh().nodes());
+  for (int i = 0; i < assembler.mesh().nodes(); ++i) {
+    z(i) = assembler.mesh().z[static_cast<std::size_t>(i)];
+    names.emplace_back();
+  }
+  for (const NamedPoint& p : named_points(model, assembler)) {
+    if (p.point.kind == Point::Kind::node) names[static_cast<std::size_t>(p.point.index)] = p.name;
+  }
+  if (z.size() > 0) {
+    file.dataset("/points/z", z, {"m", "position of the nodes along the shaft", {""}});
+    file.dataset("/points/node_name", names, {"", "what is at the nodes", {""}});
+  }
+  std::vector<std::string> bodies;
+  for (const Body& body : model.structure.bodies) bodies.push_back(body.name);
+  if (!bodies.empty()) file.dataset("/points/body_name", bodies, {"", "bodies", {""}});
+}
+
+std::string point_label(const NamedPoint& point) {
+  if (point.node() == 0) return point.name;
+  return point.name.empty() ? fmt::format("{}", point.node()) : fmt::format("{} {}", point.node(), point.name);
+}
+
+void commit(const Invocation& call, ResultWriter* file, Report& report) {
+  if (!file) return;
+  file->commit();
+  report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+}
+
+}  // namespace whirl

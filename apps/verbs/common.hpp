@@ -1,0 +1,39 @@
+#pragma once
+/// What several verbs say in the same words.
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "apps/verb.hpp"
+#include "libdyn/stations.hpp"
+#include "libfe/modes.hpp"
+
+namespace whirl {
+
+class ResultWriter;
+
+constexpr double rpm = std::numbers::pi / 30.0;  ///< one revolution per minute [rad/s]
+
+/// Record with the entries that all verbs have: model, version, speed_rpm.
+Record begin_record(const Invocation& call, const Model& model);
+
+/// `modes`, `real_roots`, `rigid_body` entries.
+void add_modes(Record& record, const Modes& modes);
+
+/// Table of modes for people.
+std::string modes_table(const Modes& modes);
+
+/// Group /modes of a result file: eigenvalues, shapes at all points.
+void write_modes(ResultWriter& file, const Modes& modes, const DofMap& dofs);
+
+/// Group /points of a result file: nodes and bodies with their positions and names.
+void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);
+
+/// "7 seal", "stator".
+std::string point_label(const NamedPoint& point);
+
+/// Commits a result file, if there is one, and says so.
+void commit(const Invocation& call, ResultWriter* file, Report& report);
+
+}  // namespace whirl

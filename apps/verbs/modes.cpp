@@ -1,0 +1,27 @@
+#include <fmt/format.h>
+
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
+#include "libio/hdf5.hpp"
+
+namespace whirl {
+
+Report run_modes(const Invocation& call) {
+  const Model model = call.model();
+  const Assembler assembler(model.structure);
+  const System system = assembler.at(model.speed);
+  const Modes modes = complex_modes(system, static_cast<int>(call.integer("modes", 8)));
+
+  Report report{.record = begin_record(call, model)};
+  add_modes(report.record, modes);
+  report.text = fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, modes_table(modes));
+  if (const auto file = call.result_file(model)) {
+    file->attribute("/", "speed", model.speed);
+    write_points(*file, model, assembler);
+    write_modes(*file, modes, system.dofs);
+    commit(call, file.get(), report);
+  }
+  return report;
+}
+
+}  // namespace whirl

@@ -1,0 +1,22 @@
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
+#include "apps/verbs/simulation.hpp"
+#include "libio/hdf5.hpp"
+
+namespace whirl {
+
+Report run_simulate(const Invocation& call) {
+  const Model model = call.model();
+  const auto file = call.result_file(model);
+  const Run run = run_simulation(call, model);
+
+  Report report{.record = begin_record(call, model), .status = status_of(run)};
+  add_run(report.record, run);
+  add_stations(report.record, run);
+  report.text = "Simulation" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" + run_text(run, model);
+  if (file) write_run(*file, run, model);
+  commit(call, file.get(), report);
+  return report;
+}
+
+}  // namespace whirl

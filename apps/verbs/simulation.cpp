@@ -1,0 +1,288 @@
+#include "apps/verbs/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/verbs/common.hpp"
+#include "libio/format.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/table.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// Motion of a station in a recording, samples x (x, y).
+Mat motion(const Run& run, const Point& point) {
+  const Mat map = run.scene.displacement_map();
+  const DofMap& dofs = run.scene.reduced.dofs;
+  Mat xy(run.simulation.recording.eta.cols(), 2);
+  for (const int c : {X, Y}) {
+    xy.col(c) = (map.row(dofs.full_index(point, c)) * run.simulation.recording.eta).transpose();
+  }
+  return xy;
+}
+
+Record peaks_record(const std::vector<Peak>& peaks) {
+  Record list = Record::array();
+  for (const Peak& p : peaks) {
+    Record r;
+    r.set("frequency_rpm", p.frequency / rpm).set("amplitude_m", p.amplitude);
+    list.add(r);
+  }
+  return list;
+}
+
+std::string peaks_text(const std::vector<Peak>& peaks) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, peaks.size()); ++i) {
+    text += fmt::format("{}{:+.1f} ({})", i > 0 ? ", " : "", peaks[i].frequency / rpm,
+                        format_length(peaks[i].amplitude));
+  }
+  return text.empty() ? "-" : text;
+}
+
+/// The end of an earlier result, as start.from = "file" asks for.
+FullState read_end(const std::string& path) {
+  const ResultReader file(path);
+  return {file.vector("/trajectory/end_displacement"), file.vector("/trajectory/end_velocity")};
+}
+
+}  // namespace
+
+const std::vector<OptionSpec>& integration_options() {
+  static const std::vector<OptionSpec> options{
+      {"revolutions", "N", "revolutions that are recorded (512)"},
+      {"discard", "N", "revolutions before them, for the transient (500)"},
+      {"samples", "N", "samples per revolution (64)"},
+      {"method", "M", "integrator: dop853 (the default), cvode-adams, cvode-bdf"},
+      {"tolerance", "T", "of a step, displacements by the clearance (1e-10)"},
+      {"from", "FILE.h5", "start where a result ended"},
+      {"stations", "NAME,...", "what is recorded and shown: names, node numbers, all (contacts, disks, bearings)"}};
+  return options;
+}
+
+Run run_simulation(const Invocation& call, const Model& original) {
+  Model model = original;
+  if (!model.has_speed) {
+    throw ModelError({}, "operation.speed", "missing, expected a speed (rad/s): write [operation] speed = "
+                                            "\"3000 rpm\", or use --speed 3000rpm");
+  }
+  SimulationOptions options;
+  options.revolutions = call.integer("revolutions", options.revolutions);
+  options.discard = call.integer("discard", options.discard, 0);
+  options.samples = static_cast<int>(call.integer("samples", options.samples, 4));
+  options.integration.tolerance = call.number("tolerance", "", options.integration.tolerance);
+  if (!(options.integration.tolerance >= 1e-15 && options.integration.tolerance <= 1e-2)) {
+    throw ModelError({"--tolerance " + call.text("tolerance")}, "", "expected a number from 1e-15 to 1e-2");
+  }
+  const std::string method = call.text("method", "dop853");
+  options.method = method_named(method);
+
+  std::optional<FullState> end;
+  if (call.has("from")) {
+    model.start.from = StartFrom::file;
+    model.start.file = call.given.at("from");
+  }
+  if (model.start.from == StartFrom::file) end = read_end(model.start.file);
+
+  Scene scene = make_scene(model);
+  std::vector<NamedPoint> stations = select_points(model, scene.assembler, call.text("stations"));
+  const MotionState start = start_state(model, scene, end ? &*end : nullptr);
+  const long total = options.discard + options.revolutions;
+  Progress progress("simulating", total, call.shows_progress);
+  is_interrupted();  // from now on Ctrl-C stops between revolutions
+  options.progress = [&](long done) {
+    progress.update(done);
+    return !is_interrupted();
+  };
+  Simulation simulation = simulate(scene, start, options);
+  return {std::move(scene), std::move(simulation), std::move(stations), method};
+}
+
+int status_of(const Run& run) {
+  switch (run.simulation.integration.outcome) {
+    case Outcome::reached_end: return 0;
+    case Outcome::stopped_by_observer: return 130;
+    default: return 3;
+  }
+}
+
+void add_run(Record& record, const Run& run) {
+  const Simulation& s = run.simulation;
+  const Recording& recording = s.recording;
+  record.set("revolutions", recording.revolutions);
+  Record contacts = Record::array();
+  for (const ContactMeasure& c : recording.contacts) {
+    const double revolutions = static_cast<double>(std::max(1L, recording.revolutions));
+    Record r;
+    r.set("name", c.name).set("regime", name_of(c.regime())).set("duty", c.duty);
+    r.set("impacts_per_rev", c.impacts / revolutions);
+    r.set("max_normal_n", c.max_normal).set("max_tangential_n", c.max_tangential);
+    r.set("sticking", c.sticking).set("mean_slip_m_s", c.mean_slip);
+    contacts.add(r);
+  }
+  record.set("contacts", contacts);
+  Record reduction;
+  const ReductionError& e = run.scene.error;
+  reduction.set("size", run.scene.reduced.size()).set("freedoms", run.scene.system.size());
+  reduction.set("eigenvalue_error", e.eigenvalue()).set("receptance_error", e.receptance);
+  record.set("reduction", reduction);
+  Record cost;
+  cost.set("steps", s.integration.cost.steps).set("evaluations", s.integration.cost.evaluations);
+  cost.set("events", s.integration.cost.events).set("wall_s", s.wall).set("method", run.method);
+  record.set("cost", cost);
+  if (!s.integration.diagnosis.empty()) record.set("failure", s.integration.diagnosis);
+}
+
+void add_stations(Record& record, const Run& run) {
+  Record list = Record::array();
+  if (run.has_motion()) {
+    const ResponseSpectra spectra(run.scene, run.simulation.recording);
+    for (const NamedPoint& p : run.stations) {
+      const Mat xy = motion(run, p.point);
+      const PointPeaks peaks = point_peaks(spectra, p.point, run.scene.system.Omega);
+      Record r;
+      r.set("node", p.node() > 0 ? Record(p.node()) : Record(nullptr)).set("name", p.name);
+      r.set("max_radius_m", xy.rowwise().norm().maxCoeff());
+      r.set("peaks", peaks_record(peaks.stationary)).set("peaks_rotating", peaks_record(peaks.rotating));
+      list.add(r);
+    }
+  }
+  record.set("stations", list);
+}
+
+std::string run_text(const Run& run, const Model& model) {
+  const Simulation& s = run.simulation;
+  const Recording& recording = s.recording;
+  const ReductionError& e = run.scene.error;
+  std::string text;
+  if (run.scene.reduced.size() == run.scene.system.size()) {
+    text += fmt::format("  {} freedoms, not reduced\n", run.scene.system.size());
+  } else {
+    text += fmt::format("  {} of {} freedoms; up to {:.0f} rpm eigenvalues are {:.2g} % off, contact receptances {:.2g} %\n",
+                        run.scene.reduced.size(), run.scene.system.size(), e.band / rpm,
+                        100.0 * e.eigenvalue(), 100.0 * e.receptance);
+    if (!e.within_tolerance) {
+      const auto worst = std::max_element(e.pairs.begin(), e.pairs.end(),
+                                          [](const auto& a, const auto& b) { return a.error() < b.error(); });
+      text += fmt::format("  warning: that is more than reduction.tolerance = {:g}", model.reduction.tolerance);
+      if (worst != e.pairs.end()) {
+        text += fmt::format(" ({:.1f} rpm comes out as {:.1f} rpm)", worst->full.imag() / rpm, worst->reduced.imag() / rpm);
+      }
+      text += "\n";
+    }
+  }
+  text += fmt::format("  {} revolutions recorded at {:.6g} rpm; {} steps, {} events, {:.2f} s with {}\n",
+                      recording.revolutions, model.speed / rpm, s.integration.cost.steps,
+                      s.integration.cost.events, s.wall, run.method);
+  if (!s.integration.diagnosis.empty()) text += fmt::format("  failed: {}\n", s.integration.diagnosis);
+  if (!run.has_motion()) return text;
+
+  if (!recording.contacts.empty()) {
+    Table table({"contact", "regime", "duty", "impacts/rev", "largest normal [N]", "tangential [N]", "mean slip [m/s]"});
+    for (const ContactMeasure& c : recording.contacts) {
+      table.row({c.name, std::string(name_of(c.regime())), fmt::format("{:.4f}", c.duty),
+                 fmt::format("{:.3f}", c.impacts / static_cast<double>(recording.revolutions)),
+                 fmt::format("{:.1f}", c.max_normal), fmt::format("{:.1f}", c.max_tangential),
+                 fmt::format("{:.4g}", c.mean_slip)});
+    }
+    text += "\n" + table.text();
+  }
+  Table table({"station", "largest radius", "strongest frequencies [rpm] (radius)", "seen from the rotor [rpm]"});
+  const ResponseSpectra spectra(run.scene, recording);
+  for (const NamedPoint& p : run.stations) {
+    const PointPeaks peaks = point_peaks(spectra, p.point, run.scene.system.Omega);
+    table.row({point_label(p), format_length(motion(run, p.point).rowwise().norm().maxCoeff()),
+               peaks_text(peaks.stationary), peaks_text(peaks.rotating)});
+  }
+  return text + "\n" + table.text();
+}
+
+void write_run(ResultWriter& file, const Run& run, const Model& model) {
+  const Recording& r = run.simulation.recording;
+  file.attribute("/", "speed", model.speed);
+  write_points(file, model, run.scene.assembler);
+  const FullState end = full_state(run.scene, run.simulation.end);
+  const std::string all = ": x, y, theta_x, theta_y of every node, then of every body";
+  file.dataset("/trajectory/end_displacement", end.displacement, {"m, rad", "displacement at the end" + all, {""}});
+  file.dataset("/trajectory/end_velocity", end.velocity, {"m/s, rad/s", "velocity at the end" + all, {""}});
+  file.attribute("/trajectory", "samples_per_revolution", r.samples);
+  file.attribute("/trajectory", "revolutions", static_cast<double>(r.revolutions));
+  file.attribute("/trajectory", "period", r.period);
+  if (!run.simulation.integration.diagnosis.empty()) {
+    file.attribute("/trajectory", "failure", run.simulation.integration.diagnosis);
+  }
+  if (!run.has_motion()) return;
+
+  const auto n = r.eta.cols();
+  Vec time(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    time(j) = r.period * (static_cast<double>(r.first_revolution) + static_cast<double>(j) / r.samples);
+  }
+  std::vector<std::string> names;
+  Mat x(static_cast<Eigen::Index>(run.stations.size()), n), y(x.rows(), n);
+  for (std::size_t i = 0; i < run.stations.size(); ++i) {
+    names.push_back(point_label(run.stations[i]));
+    const Mat xy = motion(run, run.stations[i].point);
+    x.row(static_cast<Eigen::Index>(i)) = xy.col(0).transpose();
+    y.row(static_cast<Eigen::Index>(i)) = xy.col(1).transpose();
+  }
+  file.dataset("/trajectory/time", time, {"s", "time since the start", {""}});
+  if (!names.empty()) {
+    file.dataset("/trajectory/station", names, {"", "station", {""}});
+    const std::vector<std::string> axes{"/trajectory/station", "/trajectory/time"};
+    file.dataset("/trajectory/x", x, {"m", "displacement x", axes});
+    file.dataset("/trajectory/y", y, {"m", "displacement y", axes});
+  }
+  file.dataset("/trajectory/coordinates", r.eta, {"", "reduced coordinates: displacement = basis * coordinates", {"", "/trajectory/time"}});
+  file.dataset("/trajectory/basis", run.scene.displacement_map(), {"m, rad", "displacement of the reduced coordinates" + all, {"", ""}});
+
+  if (!r.contacts.empty()) {
+    std::vector<std::string> contacts, regimes;
+    std::vector<double> duty, impacts, normal, tangential, sticking, slip;
+    for (const ContactMeasure& c : r.contacts) {
+      contacts.push_back(c.name);
+      regimes.emplace_back(name_of(c.regime()));
+      duty.push_back(c.duty);
+      impacts.push_back(c.impacts / static_cast<double>(r.revolutions));
+      normal.push_back(c.max_normal);
+      tangential.push_back(c.max_tangential);
+      sticking.push_back(c.sticking);
+      slip.push_back(c.mean_slip);
+    }
+    file.dataset("/contacts/name", contacts, {"", "contact", {""}});
+    const std::vector<std::string> per{"/contacts/name"};
+    file.dataset("/contacts/regime", regimes, {"", "regime", per});
+    file.dataset("/contacts/duty", duty, {"", "share of time in touch", per});
+    file.dataset("/contacts/impacts_per_rev", impacts, {"", "impacts per revolution", per});
+    file.dataset("/contacts/max_normal", normal, {"N", "largest normal force", per});
+    file.dataset("/contacts/max_tangential", tangential, {"N", "largest friction force", per});
+    file.dataset("/contacts/sticking", sticking, {"", "share of time sticking", per});
+    file.dataset("/contacts/mean_slip", slip, {"m/s", "mean slip velocity in touch", per});
+    const std::vector<std::string> axes{"/contacts/name", "/trajectory/time"};
+    file.dataset("/trajectory/normal_force", r.normal, {"N", "normal force", axes});
+    file.dataset("/trajectory/friction_force", r.friction, {"N", "friction force along the tangent", axes});
+  }
+
+  // spectra in ascending frequency, backward to the left
+  const ResponseSpectra spectra(run.scene, r);
+  const auto bins = spectra.size(), half = bins / 2;
+  Vec frequency(bins);
+  Mat amplitude(x.rows(), bins);
+  for (Eigen::Index k = 0; k < bins; ++k) frequency(k) = static_cast<double>(k - half) * spectra.bin();
+  for (std::size_t i = 0; i < run.stations.size(); ++i) {
+    const Spectrum s = spectra.at(run.stations[i].point);
+    for (Eigen::Index k = 0; k < bins; ++k) {
+      amplitude(static_cast<Eigen::Index>(i), k) = std::abs(s.at(k - half));
+    }
+  }
+  if (names.empty()) return;
+  file.dataset("/spectra/frequency", frequency, {"rad/s", "signed frequency, forward > 0", {""}});
+  file.dataset("/spectra/amplitude", amplitude,
+               {"m", "radius of the circle at a signed frequency (Hann window)", {"/trajectory/station", "/spectra/frequency"}});
+}
+
+}  // namespace whirl

@@ -1,0 +1,45 @@
+#pragma once
+/// What `simulate` and `identify` share: options, the run itself, its tables and its result group.
+
+#include <string>
+#include <vector>
+
+#include "apps/verb.hpp"
+#include "libdyn/response.hpp"
+#include "libdyn/simulate.hpp"
+#include "libdyn/stations.hpp"
+
+namespace whirl {
+
+class ResultWriter;
+
+/// Options of every verb that integrates.
+const std::vector<OptionSpec>& integration_options();
+
+/// A finished (or failed, or stopped) run.
+struct Run {
+  Scene scene;
+  Simulation simulation;
+  std::vector<NamedPoint> stations;
+  std::string method;
+  bool has_motion() const { return simulation.recording.revolutions > 0; }
+};
+
+/// Integrates a model as an invocation says. @throws ModelError for a model without a speed
+Run run_simulation(const Invocation& call, const Model& model);
+
+/// Exit status of a run: 0, 3 (failed) or 130 (stopped by the user).
+int status_of(const Run& run);
+
+/// `revolutions`, `contacts`, `cost`, `reduction` entries.
+void add_run(Record& record, const Run& run);
+/// `stations` entry with peaks in both frames.
+void add_stations(Record& record, const Run& run);
+
+/// What was integrated, how, at what cost, and what the contacts did, for people.
+std::string run_text(const Run& run, const Model& model);
+
+/// Groups /trajectory and /contacts, and /spectra of the stations.
+void write_run(ResultWriter& file, const Run& run, const Model& model);
+
+}  // namespace whirl

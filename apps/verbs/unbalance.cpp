@@ -1,0 +1,72 @@
+#include "libfe/unbalance.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/table.hpp"
+
+namespace whirl {
+
+Report run_unbalance(const Invocation& call) {
+  const Model model = call.model();
+  const Assembler assembler(model.structure);
+  const std::vector<double> speeds = call.speeds(model);
+  const std::string list = call.text("stations", "all");
+  const std::vector<NamedPoint> stations = select_points(model, assembler, list);
+  std::vector<Point> points;
+  for (const NamedPoint& p : stations) points.push_back(p.point);
+  const UnbalanceResponse response = unbalance_response(assembler, speeds, points);
+
+  Report report{.record = begin_record(call, model)};
+  std::vector<double> in_rpm = speeds;
+  for (double& v : in_rpm) v /= rpm;
+  report.record.set("speeds_rpm", in_rpm);
+  Record entries = Record::array();
+  Table table({"station", "largest [um]", "at [rpm]", "at the highest speed [um]"});
+  const auto ns = static_cast<Eigen::Index>(speeds.size());
+  Mat major(response.x.rows(), ns), minor(response.x.rows(), ns);
+  for (Eigen::Index p = 0; p < response.x.rows(); ++p) {
+    Record x = Record::array(), y = Record::array();
+    for (Eigen::Index s = 0; s < ns; ++s) {
+      const Orbit orbit(response.x(p, s), response.y(p, s));
+      major(p, s) = orbit.major();
+      minor(p, s) = orbit.forward - orbit.backward;
+      x.add(response.x(p, s));
+      y.add(response.y(p, s));
+    }
+    const NamedPoint& station = stations[static_cast<std::size_t>(p)];
+    Record r;
+    r.set("node", station.node() > 0 ? Record(station.node()) : Record(nullptr)).set("name", station.name);
+    r.set("major_m", Vec(major.row(p).transpose())).set("minor_m", Vec(minor.row(p).transpose()));
+    r.set("x_m", x).set("y_m", y);
+    entries.add(r);
+    Eigen::Index top = 0;
+    const double largest = major.row(p).maxCoeff(&top);
+    table.row({point_label(station), fmt::format("{:.3f}", 1e6 * largest),
+               fmt::format("{:.1f}", in_rpm[static_cast<std::size_t>(top)]),
+               fmt::format("{:.3f}", 1e6 * major(p, ns - 1))});
+  }
+  report.record.set("stations", entries);
+  report.text = fmt::format("Unbalance response, {} speeds from {:.6g} to {:.6g} rpm (major semi-axes)\n\n{}",
+                            speeds.size(), in_rpm.front(), in_rpm.back(), table.text());
+  if (model.structure.unbalances.empty()) report.text += "\n  The model has no unbalance.\n";
+  if (const auto file = call.result_file(model)) {
+    std::vector<std::string> names;
+    for (const NamedPoint& p : stations) names.push_back(point_label(p));
+    file->dataset("/unbalance/speed", speeds, {"rad/s", "rotor speed", {""}});
+    file->dataset("/unbalance/station", names, {"", "station", {""}});
+    const std::vector<std::string> axes{"/unbalance/station", "/unbalance/speed"};
+    file->dataset("/unbalance/x", response.x, {"m", "complex amplitude of x", axes});
+    file->dataset("/unbalance/y", response.y, {"m", "complex amplitude of y", axes});
+    file->dataset("/unbalance/major", major, {"m", "major semi-axis of the orbit", axes});
+    file->dataset("/unbalance/minor", minor, {"m", "minor semi-axis, > 0 forward", axes});
+    commit(call, file.get(), report);
+  }
+  return report;
+}
+
+}  // namespace whirl

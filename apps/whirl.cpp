@@ -1,0 +1,217 @@
+// The program: command line in, reports out. The only file that sees CLI11.
+
+#include <fmt/color.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+
+#include "apps/verb.hpp"
+#include "apps/version.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/nearest.hpp"
+#include "libio/replace_file.hpp"
+
+namespace {
+
+using namespace whirl;
+
+enum Status { done = 0, wrong_input = 2, failed = 3 };
+
+/// Prints every problem with the line it is in and a mark below the place.
+void print_problems(const ModelError& error, const Invocation& call) {
+  std::map<std::string, std::vector<std::string>> texts;
+  const auto lines_of = [&](const std::string& name) -> const std::vector<std::string>& {
+    const auto known = texts.find(name);
+    if (known != texts.end()) return known->second;
+    std::vector<std::string> lines;
+    std::istringstream stored(call.model_text);
+    std::ifstream file(name);
+    std::istream& from = call.model_text.empty() ? static_cast<std::istream&>(file) : stored;
+    for (std::string line; std::getline(from, line);) lines.push_back(line);
+    return texts[name] = lines;
+  };
+  for (Problem problem : error.problems()) {
+    if (problem.where.file.empty()) problem.where.file = call.file;
+    fmt::print(stderr, "{}\n", describe(problem));
+    const Where& w = problem.where;
+    if (w.line <= 0) continue;
+    const auto& lines = lines_of(w.file);
+    if (static_cast<std::size_t>(w.line) > lines.size()) continue;
+    fmt::print(stderr, "{:>5} | {}\n      | {:>{}}\n", w.line, lines[static_cast<std::size_t>(w.line - 1)],
+               "^", std::max(1, w.column));
+  }
+}
+
+/// Help of the whole program: verbs by group, an example each.
+std::string overview() {
+  std::string text =
+      "whirl: rotordynamics with contact\n\n"
+      "Usage: whirl VERB MODEL [options]\n\n";
+  std::string_view group;
+  for (const Verb& verb : verbs()) {
+    if (verb.group != group) text += fmt::format("{}{}\n", group.empty() ? "" : "\n", verb.group);
+    group = verb.group;
+    text += fmt::format("  {:<10} {}\n             {}\n", verb.name, verb.summary, verb.example);
+  }
+  return text +
+         "\nCommon options: --set PATH=VALUE, --speed S, --out FILE.h5, --json FILE, --threads N, --quiet\n"
+         "More: whirl VERB --help, docs/tutorial.md, docs/model-file.md\n";
+}
+
+/// A verb that does not exist, with the nearest one.
+int unknown_verb(const std::string& word) {
+  std::vector<std::string> known;
+  for (const Verb& verb : verbs()) known.emplace_back(verb.name);
+  const auto near = nearest(word, known);
+  fmt::print(stderr, "whirl: there is no verb \"{}\"; {}\n", word,
+             near ? fmt::format("did you mean \"{}\"?", *near)
+                  : fmt::format("known are {}", fmt::join(known, ", ")));
+  return wrong_input;
+}
+
+void write_json(const Report& report, const std::string& to) {
+  const std::string text = report.record.json();
+  if (to == "-") {
+    std::fputs(text.c_str(), stdout);
+  } else {
+    replace_file(to, text);
+  }
+}
+
+int run(const std::vector<std::string>& words, const std::string& model_text) {
+  CLI::App app("whirl");
+  app.set_help_flag();
+  app.allow_windows_style_options(false);
+  Invocation call;
+  call.line = words;
+  call.model_text = model_text;
+  std::vector<std::string> sets;
+  std::map<std::string, std::string> values;
+  std::map<std::string, bool> flags;
+  std::string json, speed;
+  bool quiet = false;
+
+  const std::string word = words.size() > 1 ? words[1] : "";
+  const auto verb = std::find_if(verbs().begin(), verbs().end(),
+                                 [&](const Verb& v) { return v.name == word; });
+  if (verb == verbs().end()) return unknown_verb(word);
+  call.verb = word;
+
+  app.name("whirl " + word);
+  app.description(fmt::format("{}\n\nExample: {}", verb->summary, verb->example));
+  app.set_help_flag("-h,--help", "this help");
+  app.add_option(std::string(verb->takes), call.file, verb->takes == "MODEL" ? "model file (TOML)" : "result file (HDF5)")
+      ->required();
+  app.add_option("--set", sets, "set a value of the model by its path; may be given several times")
+      ->type_name("PATH=VALUE")->take_all()->expected(1);
+  app.add_option("--speed", speed, "operating speed, such as 3650rpm")->type_name("S");
+  for (const OptionSpec& option : verb->options) {
+    const std::string name(option.name);
+    if (option.value.empty()) {
+      app.add_flag("--" + name, flags[name], std::string(option.help));
+    } else {
+      app.add_option("--" + name, values[name], std::string(option.help))->type_name(std::string(option.value));
+    }
+  }
+  app.add_option("--out", values["out"], "result file (HDF5)")->type_name("FILE.h5");
+  app.add_option("--json", json, "write the result as JSON; - is standard output")->type_name("FILE");
+  app.add_option("--threads", values["threads"], "processors to use; left out: all")->type_name("N");
+  app.add_flag("--quiet", quiet, "print nothing but errors");
+  try {
+    std::vector<std::string> arguments(words.rbegin(), words.rend() - 2);
+    app.parse(arguments);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app.help());
+    return done;
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "whirl {}: {}\n(whirl {} --help shows its options)\n", word, error.what(), word);
+    return wrong_input;
+  }
+  for (const auto& [name, value] : values) {
+    if (app.count("--" + name) > 0) call.given[name] = value;
+  }
+  for (const auto& [name, value] : flags) {
+    if (value) call.given[name] = "";
+  }
+  if (!speed.empty()) sets.push_back("operation.speed=" + speed);
+  call.sets = sets;
+  call.shows_progress = !quiet;
+
+  try {
+    call.integer("threads", 1);
+    const Report report = verb->run(call);
+    if (json != "-" && !quiet) fmt::print("{}", report.text);
+    if (!json.empty()) write_json(report, json);
+    return report.status;
+  } catch (const ModelError& error) {
+    print_problems(error, call);
+    return wrong_input;
+  } catch (const FileError& error) {
+    fmt::print(stderr, "whirl: {}\n", error.what());
+    return wrong_input;
+  } catch (const NumericalError& error) {
+    fmt::print(stderr, "{}: {}\n", call.file, error.what());
+    return failed;
+  }
+}
+
+/// Runs the command stored in a result again, on the model stored there.
+int rerun(const std::string& file, std::vector<std::string> further) {
+  std::vector<std::string> words;
+  std::string text;
+  try {
+    const ResultReader result(file);
+    words = result.strings("/arguments");
+    text = result.strings("/model").at(0);
+  } catch (const FileError& error) {
+    fmt::print(stderr, "whirl: {}\n", error.what());
+    return wrong_input;
+  }
+  // what was set is in the stored text already; --out would overwrite the result itself
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool takes_next = words[i] == "--set" || words[i] == "--speed" || words[i] == "--out" || words[i] == "--json";
+    const bool is_joined = words[i].rfind("--set=", 0) == 0 || words[i].rfind("--speed=", 0) == 0 ||
+                           words[i].rfind("--out=", 0) == 0 || words[i].rfind("--json=", 0) == 0;
+    if (takes_next) ++i;
+    if (!takes_next && !is_joined) kept.push_back(words[i]);
+  }
+  kept.insert(kept.end(), further.begin(), further.end());
+  return run(kept, text);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv, argv + argc);
+  const std::string word = words.size() > 1 ? words[1] : "--help";
+  if (word == "--help" || word == "-h" || word == "help") {
+    fmt::print("{}", overview());
+    return done;
+  }
+  if (word == "--version") {
+    fmt::print("whirl {}\n", version);
+    return done;
+  }
+  if (word == "rerun") {
+    if (words.size() < 3 || words[2] == "--help") {
+      fmt::print("Usage: whirl rerun RESULT.h5 [options]\n\nRuns the command that made a result again, on the model "
+                 "stored in it;\noptions are added to that command (--out NEW.h5, --set PATH=VALUE, ...).\n");
+      return words.size() < 3 ? wrong_input : done;
+    }
+    return rerun(words[2], {words.begin() + 3, words.end()});
+  }
+  try {
+    return run(words, "");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "whirl: {}\n", error.what());
+    return failed;
+  }
+}

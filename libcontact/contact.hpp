@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <tuple>
+
+#include "libcontact/friction.hpp"
+#include "libcontact/laws.hpp"
+#include "libfe/structure.hpp"
+
+namespace whirl {
+
+/// A place where the rotor may touch a stator, as the model file says it.
+struct Contact {
+  std::string name;
+  Station at;
+  Station against;         ///< the ground or a body
+  double clearance = 0.0;  ///< radius of the clearance circle [m]
+  Vec2 offset = Vec2::Zero();  ///< centre of the clearance circle [m]
+  Friction friction;
+  AnyContactLaw<> law;
+  Where where{};
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{required("clearance", &Contact::clearance, "m", positive,
+                               "radius of the clearance circle")};
+  }
+};
+
+}  // namespace whirl

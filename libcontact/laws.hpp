@@ -1,0 +1,22 @@
+#pragma once
+/// The list of contact laws.
+
+#include <variant>
+
+#include "libcontact/laws/radial.hpp"
+
+namespace whirl {
+
+template <class R = double>
+using AnyContactLaw = std::variant<Radial<R>>;
+
+/// Normal force [N] of any law at a depth [m] and its rate [m/s].
+inline double normal_force(const AnyContactLaw<>& law, double depth, double rate) {
+  return std::visit([&](const auto& l) { return l.normal(depth, rate); }, law);
+}
+
+inline bool is_continuous(const AnyContactLaw<>& law) {
+  return std::visit([](const auto& l) { return l.is_continuous(); }, law);
+}
+
+}  // namespace whirl

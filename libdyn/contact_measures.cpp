@@ -1,0 +1,75 @@
+#include "libdyn/contact_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whirl {
+
+namespace {
+
+constexpr int points = 8;  ///< intervals of a step in which the largest force is looked for
+
+/// Largest value of a parabola through three equidistant values, if its top lies between them.
+double top(double a, double b, double c) {
+  const double bend = a - 2.0 * b + c, slope = 0.5 * (c - a);
+  if (!(bend < 0.0) || std::abs(slope) > -bend) return std::max({a, b, c});
+  return b - 0.5 * slope * slope / bend;
+}
+
+}  // namespace
+
+ContactMeter::ContactMeter(const ContactSystem& system)
+    : system_(system), sums_(system.contacts().size()), was_in_touch_(system.contacts().size()) {
+  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].name = system.contacts()[i].name;
+}
+
+void ContactMeter::add(const Step& step) {
+  time_ += step.h;
+  const bool any = std::any_of(step.contacts.begin(), step.contacts.end(),
+                               [](const ContactState& c) { return c.in_touch(); });
+  std::vector<std::array<double, points + 1>> normal(sums_.size()), friction(sums_.size());
+  if (any) {
+    Vec y(system_.size());
+    std::vector<ContactForces> forces;
+    for (int k = 0; k <= points; ++k) {
+      const double s = static_cast<double>(k) / points;
+      step.at(s, y.data());
+      system_.forces(step.phase + s * step.turn, y.data(), step.contacts, forces);
+      for (std::size_t i = 0; i < sums_.size(); ++i) {
+        normal[i][static_cast<std::size_t>(k)] = forces[i].normal;
+        friction[i][static_cast<std::size_t>(k)] = std::abs(forces[i].friction);
+        const double weight = (k == 0 || k == points ? 0.5 : 1.0) / points;
+        if (step.contacts[i].in_touch()) sums_[i].mean_slip += weight * step.h * forces[i].slip;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const bool in_touch = step.contacts[i].in_touch();
+    if (in_touch) {
+      sums_[i].duty += step.h;
+      if (step.contacts[i].touch == Touch::sticking) sums_[i].sticking += step.h;
+      for (std::size_t k = 1; k < points; ++k) {
+        sums_[i].max_normal = std::max(
+            sums_[i].max_normal, top(normal[i][k - 1], normal[i][k], normal[i][k + 1]));
+        sums_[i].max_tangential = std::max(
+            sums_[i].max_tangential, top(friction[i][k - 1], friction[i][k], friction[i][k + 1]));
+      }
+      if (has_begun_ && !was_in_touch_[i]) sums_[i].impacts += 1.0;
+    }
+    was_in_touch_[i] = in_touch;
+  }
+  has_begun_ = true;
+}
+
+std::vector<ContactMeasure> ContactMeter::measures() const {
+  std::vector<ContactMeasure> result = sums_;
+  for (ContactMeasure& m : result) {
+    m.mean_slip = m.duty > 0.0 ? m.mean_slip / m.duty : 0.0;
+    // summed in another order than the whole, "always" may miss one by rounding
+    m.duty = m.duty > (1.0 - 1e-12) * time_ ? 1.0 : m.duty / time_;
+    m.sticking /= time_;
+  }
+  return result;
+}
+
+}  // namespace whirl

@@ -1,0 +1,53 @@
+#pragma once
+/// What contacts do over a stretch of motion.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "libdyn/trajectory.hpp"
+#include "libfe/base/field.hpp"
+
+namespace whirl {
+
+enum class Regime { none, intermittent, permanent };
+constexpr auto choices(Regime) {
+  return std::array{Choice<Regime>{"none", Regime::none},
+                    Choice<Regime>{"intermittent", Regime::intermittent},
+                    Choice<Regime>{"permanent", Regime::permanent}};
+}
+
+struct ContactMeasure {
+  std::string name;
+  double duty = 0.0;             ///< share of time in touch
+  double impacts = 0.0;          ///< times it began to touch
+  double sticking = 0.0;         ///< share of time sticking
+  double max_normal = 0.0;       ///< [N]
+  double max_tangential = 0.0;   ///< [N]
+  double mean_slip = 0.0;        ///< mean slip velocity while in touch [m/s]
+
+  Regime regime() const {
+    if (duty == 0.0) return Regime::none;
+    return duty >= 1.0 ? Regime::permanent : Regime::intermittent;
+  }
+};
+
+/// Collects measures from the steps of a motion.
+class ContactMeter {
+ public:
+  explicit ContactMeter(const ContactSystem& system);
+
+  void add(const Step& step);
+
+  /// Measures of all that was added.
+  std::vector<ContactMeasure> measures() const;
+
+ private:
+  const ContactSystem& system_;
+  std::vector<ContactMeasure> sums_;  // times instead of shares
+  std::vector<bool> was_in_touch_;
+  bool has_begun_ = false;
+  double time_ = 0.0;
+};
+
+}  // namespace whirl

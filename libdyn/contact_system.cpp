@@ -1,0 +1,226 @@
+#include "libdyn/contact_system.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libfe/base/error.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double rest_slip = 1e-12;  ///< of the rim speed: as good as no slip
+
+/// Radius of the contact for the slip velocity: given, or that of the shaft there.
+Eigen::Matrix<double, 2, Eigen::Dynamic> rows(const DofMap& dofs, const Point& p) {
+  Eigen::Matrix<double, 2, Eigen::Dynamic> r(2, dofs.size());
+  r.row(0) = dofs.row(p, X).transpose();
+  r.row(1) = dofs.row(p, Y).transpose();
+  return r;
+}
+
+}  // namespace
+
+ContactForces kinematics(const ReducedContact& c, const double* y, int coordinates) {
+  const Eigen::Map<const Vec> eta(y, coordinates), rate(y + coordinates, coordinates);
+  const Vec2 d = c.U * eta - c.offset, w = c.U * rate;
+  ContactForces f;
+  f.r = d.norm();
+  f.n = f.r > 0.0 ? Vec2(d / f.r) : Vec2(1.0, 0.0);
+  f.depth = f.r - c.clearance;
+  f.rate = f.n.dot(w);
+  f.slip = c.rim_speed + f.t().dot(w);
+  f.normal = normal_force(c.law, f.depth, f.rate);
+  return f;
+}
+
+ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
+                             const std::vector<Contact>& contacts)
+    : Omega_(reduced.Omega) {
+  const Eigen::PartialPivLU<Mat> mass(reduced.M);
+  K_ = mass.solve(reduced.K);
+  D_ = mass.solve(reduced.D());
+  const Mat back = reduced.dofs.T * reduced.Phi;  // full displacement of each coordinate
+  const auto load = [&](const Vec& full) -> Vec { return mass.solve(back.transpose() * full); };
+  const CVec u = Omega_ * Omega_ * assembler.unbalance();
+  f0_ = load(assembler.gravity_load());
+  fc_ = load(u.real());  // Re(u e^(i phase)) = Re u cos - Im u sin
+  fs_ = load(-u.imag());
+
+  double clearance = std::numeric_limits<double>::infinity();
+  for (const Contact& c : contacts) {
+    const Point at = assembler.point(c.at), against = assembler.point(c.against);
+    ReducedContact r{.name = c.name, .offset = c.offset, .clearance = c.clearance,
+                     .rim_speed = Omega_ * c.friction.radius, .friction = c.friction, .law = c.law};
+    r.U = (rows(reduced.dofs, at) - rows(reduced.dofs, against)) * reduced.Phi;
+    r.B = mass.solve(r.U.transpose());
+    contacts_.push_back(std::move(r));
+    clearance = std::min(clearance, c.clearance);
+  }
+
+  // scales: clearances, else what the loads do
+  if (contacts_.empty()) {
+    const Eigen::ColPivHouseholderQR<Mat> stiffness(K_);
+    const Vec sag = stiffness.solve(f0_);
+    const double turn = phase_rate();
+    const double size = std::max({(back * sag).cwiseAbs().maxCoeff(),
+                                  (back * fc_).cwiseAbs().maxCoeff() / (turn * turn),
+                                  (back * fs_).cwiseAbs().maxCoeff() / (turn * turn)});
+    clearance = size > 0.0 && std::isfinite(size) ? size : 1e-3;
+  }
+  length_scale_ = clearance;
+  const int n = coordinates();
+  scale_.resize(2 * n);
+  for (int i = 0; i < n; ++i) {
+    double largest = 0.0;
+    for (const Point& p : reduced.dofs.points()) {
+      for (const int component : {X, Y}) {
+        largest = std::max(largest, std::abs(back(reduced.dofs.full_index(p, component), i)));
+      }
+    }
+    scale_(i) = largest > 0.0 ? clearance / largest : clearance;
+    scale_(n + i) = scale_(i) * phase_rate();
+  }
+}
+
+double ContactSystem::period() const {
+  return 2.0 * std::numbers::pi / phase_rate();
+}
+
+double ContactSystem::phase_rate() const {
+  return Omega_ != 0.0 ? std::abs(Omega_) : 2.0 * std::numbers::pi;
+}
+
+Vec ContactSystem::smooth_acceleration(double phase, const double* y) const {
+  const int n = coordinates();
+  const Eigen::Map<const Vec> eta(y, n), rate(y + n, n);
+  Vec a = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
+  a.noalias() -= K_ * eta;
+  a.noalias() -= D_ * rate;
+  return a;
+}
+
+void ContactSystem::forces(double phase, const double* y, const ContactStates& states,
+                           std::vector<ContactForces>& out) const {
+  const int n = coordinates();
+  out.resize(contacts_.size());
+  std::vector<int> sticking;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    out[i] = kinematics(contacts_[i], y, n);
+    const Friction& friction = contacts_[i].friction;
+    if (states[i].touch == Touch::sticking) {
+      sticking.push_back(static_cast<int>(i));
+    } else if (states[i].touch == Touch::sliding && friction.mu > 0.0) {
+      const double share =
+          friction.is_exact() ? states[i].sign : friction.smooth_share(out[i].slip);
+      out[i].friction = friction.mu * share * out[i].normal;
+    }
+  }
+  if (sticking.empty()) return;
+
+  // friction that keeps every sticking slip velocity constant:
+  //   v_t' = t . u'' - (t . u')(n . u') / r = 0,   u'' = U eta''
+  Vec a = smooth_acceleration(phase, y);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (!states[i].in_touch()) continue;
+    a -= contacts_[i].B * (out[i].normal * out[i].n + out[i].friction * out[i].t());
+  }
+  const auto m = static_cast<Eigen::Index>(sticking.size());
+  Mat influence(m, m);
+  Vec slip_rate(m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    const auto ij = static_cast<std::size_t>(sticking[static_cast<std::size_t>(j)]);
+    const ContactForces& f = out[ij];
+    const double along = f.slip - contacts_[ij].rim_speed;  // t . u'
+    slip_rate(j) = f.t().dot(contacts_[ij].U * a) - along * f.rate / f.r;
+    for (Eigen::Index k = 0; k < m; ++k) {
+      const auto ik = static_cast<std::size_t>(sticking[static_cast<std::size_t>(k)]);
+      influence(j, k) = f.t().dot(contacts_[ij].U * (contacts_[ik].B * out[ik].t()));
+    }
+  }
+  const Vec T = influence.partialPivLu().solve(slip_rate);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    out[static_cast<std::size_t>(sticking[static_cast<std::size_t>(j)])].friction = T(j);
+  }
+}
+
+void ContactSystem::acceleration(double phase, const double* y, const ContactStates& states,
+                                 double* a) const {
+  const int n = coordinates();
+  Eigen::Map<Vec> result(a, n);
+  const Eigen::Map<const Vec> eta(y, n), rate(y + n, n);
+  result = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
+  result.noalias() -= K_ * eta;
+  result.noalias() -= D_ * rate;
+  bool any_sticks = false;
+  for (const ContactState& s : states) any_sticks = any_sticks || s.touch == Touch::sticking;
+  if (any_sticks) {
+    std::vector<ContactForces> all;
+    forces(phase, y, states, all);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      if (!states[i].in_touch()) continue;
+      result -= contacts_[i].B * (all[i].normal * all[i].n + all[i].friction * all[i].t());
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (states[i].touch != Touch::sliding) continue;
+    const ReducedContact& c = contacts_[i];
+    const ContactForces f = kinematics(c, y, n);
+    Vec2 force = f.normal * f.n;
+    if (c.friction.mu > 0.0) {
+      const double share =
+          c.friction.is_exact() ? states[i].sign : c.friction.smooth_share(f.slip);
+      force += c.friction.mu * share * f.normal * f.t();
+    }
+    result.noalias() -= c.B * force;
+  }
+}
+
+double ContactSystem::sticking_force(double phase, const double* y, const ContactStates& states,
+                                     int i) const {
+  ContactStates trial = states;
+  trial[static_cast<std::size_t>(i)].touch = Touch::sticking;
+  std::vector<ContactForces> all;
+  forces(phase, y, trial, all);
+  return all[static_cast<std::size_t>(i)].friction;
+}
+
+ContactStates ContactSystem::classify(double phase, const double* y) const {
+  ContactStates states(contacts_.size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const ReducedContact& c = contacts_[i];
+    const ContactForces f = kinematics(c, y, coordinates());
+    if (f.depth <= 0.0) continue;
+    if (f.normal <= 0.0) {
+      states[i].touch = Touch::receding;
+      continue;
+    }
+    states[i] = {Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
+    const double rest = rest_slip * std::max(std::abs(c.rim_speed), length_scale_ * phase_rate());
+    if (c.friction.is_exact() && std::abs(f.slip) <= rest) {
+      const double T = sticking_force(phase, y, states, static_cast<int>(i));
+      if (std::abs(T) <= c.friction.mu * f.normal) {
+        states[i].touch = Touch::sticking;
+      } else {
+        states[i].sign = T > 0.0 ? 1.0 : -1.0;
+      }
+    }
+  }
+  return states;
+}
+
+void ContactSystem::remove_slip(double* y, const ContactStates& states) const {
+  const int n = coordinates();
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (states[i].touch != Touch::sticking) continue;
+    const ContactForces f = kinematics(contacts_[i], y, n);
+    const Vec direction = contacts_[i].U.transpose() * f.t();
+    Eigen::Map<Vec>(y + n, n) -= direction * (f.slip / direction.squaredNorm());
+  }
+}
+
+}  // namespace whirl

@@ -1,0 +1,119 @@
+#pragma once
+/// Equations of motion of a reduced rotor with its contacts, ready for integration.
+
+#include <string>
+#include <vector>
+
+#include "libdyn/model.hpp"
+#include "libfe/assemble.hpp"
+
+namespace whirl {
+
+/// What a contact is doing.
+enum class Touch : unsigned char {
+  apart,     ///< the rotor is inside the clearance circle
+  receding,  ///< still beyond it, but the force would pull: there is none (damped laws)
+  sliding,   ///< in touch; friction is mu N times a share that is known
+  sticking   ///< in touch; friction is what keeps the slip velocity zero
+};
+
+/// State of a contact between events.
+struct ContactState {
+  Touch touch = Touch::apart;
+  double sign = 1.0;  ///< of the slip while sliding, if friction switches exactly
+
+  bool in_touch() const { return touch == Touch::sliding || touch == Touch::sticking; }
+  bool operator==(const ContactState&) const = default;
+};
+using ContactStates = std::vector<ContactState>;
+
+/// A contact in reduced coordinates eta.
+struct ReducedContact {
+  std::string name;
+  Eigen::Matrix<double, 2, Eigen::Dynamic> U;  ///< relative displacement u = U eta [m]
+  Eigen::Matrix<double, Eigen::Dynamic, 2> B;  ///< acceleration eta'' = -B (force on the stator)
+  Vec2 offset;
+  double clearance;   ///< [m]
+  double rim_speed;   ///< Omega R [m/s]
+  Friction friction;
+  AnyContactLaw<> law;
+};
+
+/// Kinematics and forces of one contact at one instant.
+struct ContactForces {
+  Vec2 n = Vec2::Zero();  ///< normal, from the centre of the clearance circle to the rotor
+  double r = 0.0;         ///< distance from that centre [m]
+  double depth = 0.0;     ///< r - clearance [m]
+  double rate = 0.0;      ///< of the depth [m/s]
+  double slip = 0.0;      ///< slip velocity v_t [m/s]
+  double normal = 0.0;    ///< N of the law, whether or not in touch [N]
+  double friction = 0.0;  ///< T along t = (-n_y, n_x): force on the rotor is -N n - T t [N]
+
+  Vec2 t() const { return {-n(1), n(0)}; }
+};
+
+/// Reduced equations of motion with contacts.
+///
+///   eta'' = f0 + fc cos(phase) + fs sin(phase) - K eta - D eta' - sum_j B_j (N_j n_j + T_j t_j)
+///
+/// M is multiplied out. The state of an integration is (eta, eta'), size 2 n; phase = Omega t.
+/// A value: copy it, one per thread.
+class ContactSystem {
+ public:
+  /// @throws ModelError  for contacts at stations without inertia
+  ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
+                const std::vector<Contact>& contacts);
+
+  int coordinates() const { return static_cast<int>(K_.rows()); }
+  int size() const { return 2 * coordinates(); }
+  double Omega() const { return Omega_; }
+  /// Duration of a revolution [s]; one second if the rotor does not spin.
+  double period() const;
+  /// Rate of the phase [rad/s]: Omega, or 2 pi if the rotor does not spin.
+  double phase_rate() const;
+
+  const Mat& K() const { return K_; }
+  const Mat& D() const { return D_; }
+  const Vec& constant_load() const { return f0_; }
+  const Vec& cosine_load() const { return fc_; }
+  const Vec& sine_load() const { return fs_; }
+  const std::vector<ReducedContact>& contacts() const { return contacts_; }
+
+  /// Scale of displacements for tolerances: the smallest clearance, or the motion of the loads [m].
+  double length_scale() const { return length_scale_; }
+  /// Error weights of the state: a displacement of one length scale in each coordinate.
+  const Vec& state_scale() const { return scale_; }
+
+  /// eta'' for given states of the contacts.
+  /// @param y  state, size 2 n
+  /// @param a  receives n accelerations
+  void acceleration(double phase, const double* y, const ContactStates& states, double* a) const;
+
+  /// Normal force, slip and friction of every contact; friction of sticking ones is solved for.
+  void forces(double phase, const double* y, const ContactStates& states,
+              std::vector<ContactForces>& out) const;
+
+  /// The friction force that would keep contact i from sliding, the others as they are [N].
+  double sticking_force(double phase, const double* y, const ContactStates& states, int i) const;
+
+  /// States that a motion has at an instant if nothing is known of its past.
+  ContactStates classify(double phase, const double* y) const;
+
+  /// Removes the slip that rounding leaves in sticking contacts, by the smallest change of velocity.
+  void remove_slip(double* y, const ContactStates& states) const;
+
+ private:
+  Vec smooth_acceleration(double phase, const double* y) const;
+
+  Mat K_, D_;
+  Vec f0_, fc_, fs_;
+  std::vector<ReducedContact> contacts_;
+  double Omega_ = 0.0;
+  double length_scale_ = 1.0;
+  Vec scale_;
+};
+
+/// Kinematics and normal force of one contact; friction is left zero.
+ContactForces kinematics(const ReducedContact& contact, const double* y, int coordinates);
+
+}  // namespace whirl

@@ -1,0 +1,202 @@
+#include "libdyn/events.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+namespace whirl {
+
+namespace {
+
+constexpr int samples = 12;  ///< of functions that are not polynomials of the displacement
+
+unsigned bit(EventKind kind) {
+  return 1u << static_cast<unsigned>(kind);
+}
+
+/// Chebyshev points on [0, 1] and the matrix from values there to coefficients of powers of s.
+struct Interpolation {
+  Eigen::Matrix<double, samples, 1> s;
+  Eigen::Matrix<double, samples, samples> to_powers;
+
+  Interpolation() {
+    Eigen::Matrix<double, samples, samples> powers;
+    for (int i = 0; i < samples; ++i) {
+      s(i) = 0.5 * (1.0 - std::cos(std::numbers::pi * i / (samples - 1)));
+      for (int k = 0; k < samples; ++k) powers(i, k) = std::pow(s(i), k);
+    }
+    to_powers = powers.inverse();
+  }
+};
+const Interpolation& interpolation() {
+  static const Interpolation table;
+  return table;
+}
+
+}  // namespace
+
+EventWatcher::EventWatcher(const ContactSystem& system)
+    : system_(system), surface_(system.contacts().size(), 0u) {
+  for (const ReducedContact& c : system.contacts()) {
+    const double speed = std::max(std::abs(c.rim_speed), c.clearance * system.phase_rate());
+    speed_scale_.push_back(speed);
+    force_scale_.push_back(normal_force(c.law, c.clearance, 0.0));
+  }
+}
+
+std::vector<EventKind> EventWatcher::kinds(int contact, const ContactState& state) const {
+  switch (state.touch) {
+    case Touch::apart:
+      return {EventKind::touch};
+    case Touch::receding:
+      return {EventKind::retouch, EventKind::part};
+    case Touch::sticking:
+      return {EventKind::release, EventKind::stick_limit};
+    case Touch::sliding:
+      break;
+  }
+  const auto& friction = system_.contacts()[static_cast<std::size_t>(contact)].friction;
+  if (friction.is_exact()) return {EventKind::release, EventKind::slip_stop};
+  return {EventKind::release};
+}
+
+bool EventWatcher::on_surface(int contact, EventKind kind) const {
+  return (surface_[static_cast<std::size_t>(contact)] & bit(kind)) != 0u;
+}
+
+double EventWatcher::value(const Event& event, double phase, const double* y,
+                           const ContactStates& states) const {
+  const auto i = static_cast<std::size_t>(event.contact);
+  const ReducedContact& c = system_.contacts()[i];
+  const ContactForces f = kinematics(c, y, system_.coordinates());
+  const double beyond = (f.r * f.r) / (c.clearance * c.clearance) - 1.0;
+  switch (event.kind) {
+    case EventKind::touch:
+      return -beyond;
+    case EventKind::part:
+      return beyond;
+    case EventKind::release:
+      return is_continuous(c.law) ? beyond : f.normal / force_scale_[i];
+    case EventKind::retouch:
+      return -f.normal / force_scale_[i];
+    case EventKind::slip_stop:
+      return states[i].sign * f.slip / speed_scale_[i];
+    case EventKind::stick_limit:
+      break;
+  }
+  const double limit = c.friction.mu * f.normal / force_scale_[i];
+  const double force = system_.sticking_force(phase, y, states, event.contact) / force_scale_[i];
+  return limit * limit - force * force;
+}
+
+Polynomial EventWatcher::polynomial(const Step& step, int contact, EventKind kind) const {
+  const ReducedContact& c = system_.contacts()[static_cast<std::size_t>(contact)];
+  Polynomial g;
+  const bool is_distance = kind == EventKind::touch || kind == EventKind::part ||
+                           (kind == EventKind::release && is_continuous(c.law));
+  if (is_distance) {  // r^2 is a polynomial: exact
+    Eigen::Matrix<double, 2, Eigen::Dynamic> d = c.U * step.q;
+    d.col(0) -= c.offset;
+    d /= c.clearance;
+    const double sign = kind == EventKind::touch ? -1.0 : 1.0;
+    const auto terms = static_cast<int>(d.cols());
+    g.degree = 2 * (terms - 1);
+    for (int k = 0; k <= g.degree; ++k) {
+      double sum = 0.0;
+      for (int j = std::max(0, k - terms + 1); j <= std::min(k, terms - 1); ++j) {
+        sum += d.col(j).dot(d.col(k - j));
+      }
+      g.c[static_cast<std::size_t>(k)] = sign * sum;
+    }
+    g.c[0] -= sign;
+    return g;
+  }
+  const Interpolation& table = interpolation();
+  Eigen::Matrix<double, samples, 1> values;
+  Vec y(system_.size());
+  const Event event{0.0, contact, kind};
+  for (int i = 0; i < samples; ++i) {
+    step.at(table.s(i), y.data());
+    values(i) = value(event, step.phase + table.s(i) * step.turn, y.data(), step.contacts);
+  }
+  const Eigen::Matrix<double, samples, 1> powers = table.to_powers * values;
+  g.degree = samples - 1;
+  for (int k = 0; k < samples; ++k) g.c[static_cast<std::size_t>(k)] = powers(k);
+  return g;
+}
+
+std::optional<Event> EventWatcher::first(const Step& step) const {
+  std::optional<Event> earliest;
+  for (int i = 0; i < static_cast<int>(step.contacts.size()); ++i) {
+    for (const EventKind kind : kinds(i, step.contacts[static_cast<std::size_t>(i)])) {
+      const auto s = first_fall(polynomial(step, i, kind), on_surface(i, kind));
+      if (s && (!earliest || *s < earliest->s)) earliest = Event{*s, i, kind};
+    }
+  }
+  return earliest;
+}
+
+void EventWatcher::enter_touch(int contact, double phase, const double* y, ContactStates& states) {
+  const auto i = static_cast<std::size_t>(contact);
+  const ReducedContact& c = system_.contacts()[i];
+  const ContactForces f = kinematics(c, y, system_.coordinates());
+  states[i] = {Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
+  const bool is_at_rest = std::abs(f.slip) <= 1e-12 * speed_scale_[i];
+  if (c.friction.is_exact() && is_at_rest) {
+    apply({0.0, contact, EventKind::slip_stop}, phase, y, states);
+  }
+}
+
+void EventWatcher::apply(const Event& event, double phase, const double* y,
+                         ContactStates& states) {
+  const auto i = static_cast<std::size_t>(event.contact);
+  const ReducedContact& c = system_.contacts()[i];
+  unsigned& surface = surface_[i];
+  surface = 0u;
+  switch (event.kind) {
+    case EventKind::touch:
+      surface = is_continuous(c.law) ? bit(EventKind::release) : 0u;
+      enter_touch(event.contact, phase, y, states);
+      break;
+    case EventKind::retouch:
+      surface = bit(EventKind::release);
+      enter_touch(event.contact, phase, y, states);
+      break;
+    case EventKind::part:
+      surface = bit(EventKind::touch);
+      states[i] = {Touch::apart, 1.0};
+      break;
+    case EventKind::release:
+      if (is_continuous(c.law) || kinematics(c, y, system_.coordinates()).depth <= 0.0) {
+        surface = bit(EventKind::touch);
+        states[i] = {Touch::apart, 1.0};
+      } else {
+        surface = bit(EventKind::retouch);
+        states[i] = {Touch::receding, 1.0};
+      }
+      break;
+    case EventKind::slip_stop: {
+      const double limit = c.friction.mu * kinematics(c, y, system_.coordinates()).normal;
+      const double force = system_.sticking_force(phase, y, states, event.contact);
+      if (std::abs(force) <= limit) {
+        states[i] = {Touch::sticking, 1.0};
+      } else {  // even full friction does not hold it: it slides on, or back
+        surface = bit(EventKind::slip_stop);
+        states[i] = {Touch::sliding, force > 0.0 ? 1.0 : -1.0};
+      }
+      break;
+    }
+    case EventKind::stick_limit: {
+      const double force = system_.sticking_force(phase, y, states, event.contact);
+      surface = bit(EventKind::slip_stop);
+      states[i] = {Touch::sliding, force > 0.0 ? 1.0 : -1.0};
+      break;
+    }
+  }
+}
+
+void EventWatcher::moved_on() {
+  std::fill(surface_.begin(), surface_.end(), 0u);
+}
+
+}  // namespace whirl

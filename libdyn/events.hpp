@@ -1,0 +1,59 @@
+#pragma once
+/// Events of contacts: where they happen within a step, and what changes there.
+
+#include <optional>
+
+#include "libdyn/polynomial.hpp"
+#include "libdyn/trajectory.hpp"
+
+namespace whirl {
+
+/// What can end the present state of a contact. Each has a function that is positive until then.
+enum class EventKind : unsigned char {
+  touch,        ///< apart:     1 - r^2 / clearance^2
+  release,      ///< in touch:  N, or r^2 / clearance^2 - 1 for laws that are continuous
+  retouch,      ///< receding:  -N
+  part,         ///< receding:  r^2 / clearance^2 - 1
+  slip_stop,    ///< sliding:   sign of the slip times the slip velocity
+  stick_limit,  ///< sticking:  (mu N)^2 - T^2
+};
+
+struct Event {
+  double s = 0.0;  ///< place within the step, 0 to 1
+  int contact = 0;
+  EventKind kind = EventKind::touch;
+};
+
+/// Watches the contacts of one motion.
+class EventWatcher {
+ public:
+  explicit EventWatcher(const ContactSystem& system);
+
+  /// The first event within a step.
+  std::optional<Event> first(const Step& step) const;
+
+  /// Function of an event and its rate [1/s] at a state; dimensionless, positive before the event.
+  double value(const Event& event, double phase, const double* y, const ContactStates& states) const;
+
+  /// Changes the states of the contacts at an event.
+  void apply(const Event& event, double phase, const double* y, ContactStates& states);
+
+  /// A step without an event was made: nothing starts on a surface any more.
+  void moved_on();
+
+  /// Kinds that can end a contact's state.
+  std::vector<EventKind> kinds(int contact, const ContactState& state) const;
+
+  /// Whether the function of this kind is zero by definition at the start of the next step.
+  bool on_surface(int contact, EventKind kind) const;
+
+ private:
+  Polynomial polynomial(const Step& step, int contact, EventKind kind) const;
+  void enter_touch(int contact, double phase, const double* y, ContactStates& states);
+
+  const ContactSystem& system_;
+  std::vector<unsigned> surface_;  ///< per contact, a bit per kind
+  std::vector<double> force_scale_, speed_scale_;
+};
+
+}  // namespace whirl

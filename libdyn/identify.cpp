@@ -1,0 +1,129 @@
+#include "libdyn/identify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "libfe/campbell.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr int largest_number = 9;     ///< in a ratio p:q
+constexpr double good_enough = 0.01;  ///< error of a ratio from which smaller numbers are preferred
+
+/// The two strongest lines that turn in the rotating frame.
+std::optional<InternalResonance> resonance_of(const std::vector<IdentifiedPeak>& peaks,
+                                              double Omega, double bin) {
+  std::vector<double> turning;
+  for (const IdentifiedPeak& p : peaks) {
+    const double seen = std::abs(p.frequency - Omega);
+    const bool stands_still = seen < 1.5 * bin;
+    if (!stands_still) turning.push_back(seen);
+  }
+  if (turning.size() < 2) return std::nullopt;
+  return ratio_of(std::max(turning[0], turning[1]), std::min(turning[0], turning[1]));
+}
+
+/// Peaks of the whole response, without the weaker halves of elliptic motions: these are in the
+/// deflection shapes of the stronger ones already.
+std::vector<Peak> distinct_peaks(const Vec& total, double bin, const IdentifyOptions& options) {
+  std::vector<Peak> kept;
+  for (const Peak& peak : find_peaks(total, bin, options.share, 4 * options.most_peaks)) {
+    const bool is_other_half = std::any_of(kept.begin(), kept.end(), [&](const Peak& p) {
+      return std::abs(p.frequency + peak.frequency) < 1.5 * bin;
+    });
+    if (!is_other_half) kept.push_back(peak);
+  }
+  if (static_cast<int>(kept.size()) > options.most_peaks) {
+    kept.resize(static_cast<std::size_t>(options.most_peaks));
+  }
+  return kept;
+}
+
+}  // namespace
+
+InternalResonance ratio_of(double high, double low) {
+  InternalResonance best;
+  double least = std::numeric_limits<double>::infinity();
+  const double ratio = high / low;
+  for (int sum = 2; sum <= 2 * largest_number; ++sum) {
+    for (int q = 1; q <= sum / 2; ++q) {
+      const int p = sum - q;
+      if (p > largest_number || std::gcd(p, q) != 1) continue;
+      const double error = std::abs(ratio * q / p - 1.0);
+      if (error >= least) continue;
+      least = error;
+      best = {p, q, error, high, low};
+    }
+    if (least < good_enough) break;
+  }
+  return best;
+}
+
+Sparse mac_weights(const DofMap& dofs, double length) {
+  std::vector<Triplet> entries;
+  for (const Point& p : dofs.points()) {
+    for (int component = 0; component < 4; ++component) {
+      const int i = dofs.full_index(p, component);
+      if (i >= 0) entries.emplace_back(i, i, component >= THETA_X ? length * length : 1.0);
+    }
+  }
+  Sparse W(dofs.full_size, dofs.full_size);
+  W.setFromTriplets(entries.begin(), entries.end());
+  return dofs.T.transpose() * Sparse(W * dofs.T);
+}
+
+System stiffened(const Model& model, const Scene& scene) {
+  System system = scene.system;
+  for (const Contact& c : model.contacts) {
+    const double depth = 1e-3 * c.clearance;
+    const double k = normal_force(c.law, depth, 0.0) / depth;
+    const Point at = scene.assembler.point(c.at), against = scene.assembler.point(c.against);
+    for (const int component : {X, Y}) {
+      const Vec row = system.dofs.row(at, component) - system.dofs.row(against, component);
+      const Sparse column = row.sparseView();
+      system.K += k * Sparse(column * Sparse(column.transpose()));
+    }
+  }
+  return system;
+}
+
+Identification identify(const Model& model, const Scene& scene, const Recording& recording,
+                        const IdentifyOptions& options) {
+  Identification result;
+  const System system = options.stiffened ? stiffened(model, scene) : scene.system;
+  result.modes = complex_modes(system, options.modes).oscillatory;
+
+  const double length = scene.assembler.structure().length();
+  const double arm = !options.rotations ? 0.0 : length > 0.0 ? length : 1.0;
+  const Sparse weights = options.mass_weighted ? system.M : mac_weights(system.dofs, arm);
+
+  const ResponseSpectra spectra(scene, recording);
+  result.bin = spectra.bin();
+  const Vec total = spectra.total();
+  for (const Peak& peak : distinct_peaks(total, spectra.bin(), options)) {
+    IdentifiedPeak found{.frequency = peak.frequency};
+    for (const Point& p : system.dofs.points()) {
+      found.amplitude = std::max(found.amplitude, std::abs(spectra.line(p, peak.bin)));
+    }
+    const auto place = (peak.bin + total.size()) % total.size();
+    found.amplitude *= peak.amplitude / total(place);  // between the bins
+
+    const CVec shape = scene.reduced.Phi * spectra.amplitudes(peak.bin);
+    for (const Mode& mode : result.modes) found.mac.push_back(mac(mode.shape, shape, weights));
+    const auto best = std::max_element(found.mac.begin(), found.mac.end());
+    found.mode = static_cast<int>(best - found.mac.begin());
+    if (best != found.mac.end()) {
+      const Mode& mode = result.modes[static_cast<std::size_t>(found.mode)];
+      found.shift = std::abs(found.frequency) / mode.frequency() - 1.0;
+    }
+    result.peaks.push_back(std::move(found));
+  }
+  result.resonance = resonance_of(result.peaks, system.Omega, spectra.bin());
+  return result;
+}
+
+}  // namespace whirl

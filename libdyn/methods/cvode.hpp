@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string_view>
+
+#include "libdyn/trajectory.hpp"
+
+namespace whirl {
+
+/// SUNDIALS' CVODE with its own root finding: an implementation that shares nothing with the others
+/// but the equations of motion. Each event restarts it at order one.
+///
+/// @source [Hindmarsh2005]
+struct CvodeAdams {
+  static constexpr std::string_view name = "cvode-adams";  ///< Adams-Moulton, fixed-point iteration
+  static Integration integrate(const ContactSystem& system, MotionState& state, long revolutions,
+                               const IntegrationOptions& options, const Observer& observer);
+};
+
+/// The same with backward differences and Newton's method, for stiff systems.
+struct CvodeBdf {
+  static constexpr std::string_view name = "cvode-bdf";
+  static Integration integrate(const ContactSystem& system, MotionState& state, long revolutions,
+                               const IntegrationOptions& options, const Observer& observer);
+};
+
+}  // namespace whirl

@@ -1,0 +1,46 @@
+#pragma once
+/// Everything that a model file says.
+
+#include <string>
+#include <vector>
+
+#include "libcontact/contact.hpp"
+#include "libfe/reduce.hpp"
+#include "libfe/structure.hpp"
+
+namespace whirl {
+
+/// A complex mode at speed, added to the start of a simulation.
+struct WhirlStart {
+  int mode = 1;            ///< number from 1, as `modes` lists them at the operating speed
+  double amplitude = 0.0;  ///< largest lateral radius [m]
+  double phase = 0.0;      ///< [rad]
+};
+
+enum class StartFrom { rest, equilibrium, file };
+constexpr auto choices(StartFrom) {
+  return std::array{Choice<StartFrom>{"rest", StartFrom::rest},
+                    Choice<StartFrom>{"static", StartFrom::equilibrium},
+                    Choice<StartFrom>{"file", StartFrom::file}};
+}
+
+/// Start of a simulation.
+struct Start {
+  StartFrom from = StartFrom::equilibrium;
+  std::string file;                ///< result whose end is the start (StartFrom::file)
+  std::vector<WhirlStart> whirl;   ///< added to it
+};
+
+struct Model {
+  std::string title;
+  std::string source;  ///< text of the model file, with everything set from the command line
+  std::string path;    ///< where it came from
+  Structure structure;
+  std::vector<Contact> contacts;
+  double speed = 0.0;  ///< operating speed [rad/s]
+  bool has_speed = false;  ///< whether the model says it
+  Reduction reduction;
+  Start start;
+};
+
+}  // namespace whirl

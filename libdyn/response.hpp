@@ -1,0 +1,54 @@
+#pragma once
+/// Steady motion in frequencies: signed spectra at points, and peaks in both frames.
+
+#include "libdyn/simulate.hpp"
+#include "libdyn/spectrum.hpp"
+
+namespace whirl {
+
+/// Spectra of all reduced coordinates of a recording; those of any point follow by summation.
+class ResponseSpectra {
+ public:
+  /// Uses the last revolutions whose number of samples has small prime factors.
+  ResponseSpectra(const Scene& scene, const Recording& recording);
+
+  double bin() const { return bin_; }              ///< [rad/s]
+  Eigen::Index size() const { return eta_.cols(); }
+  long revolutions() const { return revolutions_; }
+
+  /// Signed spectrum of x + i y at a point; the mean is left out (see mean()).
+  Spectrum at(const Point& point) const;
+  /// Mean of x + i y at a point [m].
+  Complex mean(const Point& point) const;
+
+  /// One line of it.
+  Complex line(const Point& point, Eigen::Index bin) const;
+
+  /// Magnitude over all points together, sqrt(sum |Z_p|^2), per bin.
+  Vec total() const;
+
+  /// Complex amplitudes a of the reduced coordinates at a bin, eta(t) = Re(a e^(i |w| t)).
+  CVec amplitudes(Eigen::Index bin) const;
+
+ private:
+  Eigen::RowVectorXcd row(const Point& point) const;
+
+  Mat map_;  // full displacements of the coordinates
+  DofMap dofs_;
+  CMat eta_;  // coordinates x bins, two-sided
+  Vec mean_;
+  double bin_ = 0.0;
+  long revolutions_ = 0;
+};
+
+/// Peaks of one point, stationary and seen from the rotor.
+struct PointPeaks {
+  std::vector<Peak> stationary;  ///< without the mean position
+  std::vector<Peak> rotating;    ///< frequencies less Omega, without what stands still there
+};
+
+/// @param share  of the largest line, below which nothing counts
+PointPeaks point_peaks(const ResponseSpectra& spectra, const Point& point, double Omega,
+                       double share = 0.01, int most = 12);
+
+}  // namespace whirl

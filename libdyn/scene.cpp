@@ -1,0 +1,128 @@
+#include "libdyn/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/symmetric.hpp"
+#include "libfe/modes.hpp"
+#include "libfe/static.hpp"
+
+namespace whirl {
+
+namespace {
+
+void add_rows(std::vector<Vec>& rows, const DofMap& dofs, const Point& at, const Point& against) {
+  for (const int component : {X, Y}) {
+    Vec row = dofs.row(at, component) - dofs.row(against, component);
+    if (row.squaredNorm() > 0.0) rows.push_back(std::move(row));
+  }
+}
+
+/// Forces can only act where the moving freedoms see them: on points that are held or have inertia.
+void require_inertia(const Assembler& assembler, const System& system, const Station& station,
+                     const std::string& what) {
+  if (system.dofs.condensed == 0) return;
+  const Point p = assembler.point(station);
+  if (p.kind == Point::Kind::ground) return;
+  for (const int component : {X, Y}) {
+    const Vec row = system.dofs.row(p, component);
+    const bool is_coordinate = (row.array() != 0.0).count() <= 1;
+    if (is_coordinate) continue;
+    throw ModelError(station.where, station.key,
+                     fmt::format("{} acts at a station without inertia, which cannot move by itself: "
+                                 "give the shaft a density or the station a disk", what));
+  }
+}
+
+}  // namespace
+
+Scene make_scene(const Model& model) {
+  Assembler assembler(model.structure);
+  System system = assembler.at(model.speed);
+  std::vector<Vec> ports, others;
+  for (const Contact& c : model.contacts) {
+    require_inertia(assembler, system, c.at, "contact \"" + c.name + "\"");
+    require_inertia(assembler, system, c.against, "contact \"" + c.name + "\"");
+    add_rows(ports, system.dofs, assembler.point(c.at), assembler.point(c.against));
+  }
+  for (const Unbalance& u : model.structure.unbalances) {
+    require_inertia(assembler, system, u.at, "unbalance");
+    add_rows(others, system.dofs, assembler.point(u.at), {});
+  }
+  for (const auto* list : {&model.structure.bearings, &model.structure.links}) {
+    for (const Connection& c : *list) {
+      if (coefficients(c.coefficients, model.speed).C.isZero(0.0)) continue;
+      add_rows(others, system.dofs, assembler.point(c.from), assembler.point(c.to));
+    }
+  }
+  ReductionError error;
+  ReducedSystem reduced = reduce(system, model.reduction, ports, others, &error);
+  ContactSystem contacts(assembler, reduced, model.contacts);
+  return {std::move(assembler), std::move(system), std::move(reduced), error, std::move(contacts)};
+}
+
+FullState full_state(const Scene& scene, const MotionState& state) {
+  const Mat map = scene.displacement_map();
+  const auto n = scene.contacts.coordinates();
+  return {map * state.y.head(n), map * state.y.tail(n)};
+}
+
+MotionState start_state(const Model& model, const Scene& scene, const FullState* end) {
+  const int n = scene.contacts.coordinates();
+  MotionState state;
+  state.y = Vec::Zero(2 * n);
+
+  // the coordinates whose motion is nearest to a given one in kinetic energy
+  const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
+  const Eigen::PartialPivLU<Mat> mass(scene.reduced.M);
+  const auto coordinates = [&](const Vec& q) -> Vec { return mass.solve(weighted * q); };
+
+  switch (model.start.from) {
+    case StartFrom::rest:
+      break;
+    case StartFrom::equilibrium:
+      if (model.structure.gravity != 0.0) {
+        require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
+        state.y.head(n) =
+            scene.contacts.K().partialPivLu().solve(scene.contacts.constant_load());
+      }
+      break;
+    case StartFrom::file: {
+      if (!end) throw ModelError({}, "start.file", "no result file was given to start from");
+      const Sparse& T = scene.system.dofs.T;
+      if (end->displacement.size() != T.rows()) {
+        throw ModelError({}, "start.file",
+                         fmt::format("the result has {} freedoms, the model {}: they do not fit",
+                                     end->displacement.size(), T.rows()));
+      }
+      // full vectors to the system's coordinates by least squares (T has full column rank)
+      const Mat dense_T(T);
+      const Eigen::PartialPivLU<Mat> normal(dense_T.transpose() * dense_T);
+      state.y.head(n) = coordinates(normal.solve(dense_T.transpose() * end->displacement));
+      state.y.tail(n) = coordinates(normal.solve(dense_T.transpose() * end->velocity));
+      break;
+    }
+  }
+  if (model.start.whirl.empty()) return state;
+  int highest = 0;
+  for (const WhirlStart& w : model.start.whirl) highest = std::max(highest, w.mode);
+  const Modes modes = complex_modes(scene.system, highest);
+  for (const WhirlStart& w : model.start.whirl) {
+    if (w.mode < 1 || w.mode > static_cast<int>(modes.oscillatory.size())) {
+      throw ModelError({}, "start.whirl",
+                       fmt::format("found mode {}, expected a mode from 1 to {}", w.mode,
+                                   modes.oscillatory.size()));
+    }
+    const Mode& mode = modes.oscillatory[static_cast<std::size_t>(w.mode - 1)];
+    const CVec q = std::polar(w.amplitude, w.phase) * mode.shape;
+    state.y.head(n) += coordinates(q.real());
+    state.y.tail(n) += coordinates((mode.lambda * q).real());
+  }
+  return state;
+}
+
+}  // namespace whirl

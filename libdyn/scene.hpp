@@ -1,0 +1,42 @@
+#pragma once
+/// A model made ready for computing at one speed: assembled, reduced, with its contacts.
+
+#include "libdyn/contact_system.hpp"
+#include "libdyn/model.hpp"
+#include "libdyn/trajectory.hpp"
+#include "libfe/reduce.hpp"
+
+namespace whirl {
+
+struct Scene {
+  Assembler assembler;
+  System system;          ///< all freedoms, at the operating speed
+  ReducedSystem reduced;
+  ReductionError error;   ///< of the reduction
+  ContactSystem contacts;
+
+  /// Displacements of all points (a full vector, see DofMap) from reduced ones: full = map * eta.
+  Mat displacement_map() const { return reduced.dofs.T * reduced.Phi; }
+};
+
+/// Assembles and reduces a model at its operating speed.
+///
+/// @throws ModelError      as Assembler, and for contacts or unbalances at stations without inertia
+/// @throws NumericalError  as reduce
+Scene make_scene(const Model& model);
+
+/// Motion of all points at an instant, as stored in results.
+struct FullState {
+  Vec displacement, velocity;  ///< full vectors
+};
+
+/// State at the start of a simulation, from the model's [start].
+///
+/// @param end  end of an earlier result, for `from = "file"`; may be null otherwise
+/// @throws ModelError  if the start asks for a mode that does not exist, or for a file that is not given
+MotionState start_state(const Model& model, const Scene& scene, const FullState* end);
+
+/// Motion of all points of a state.
+FullState full_state(const Scene& scene, const MotionState& state);
+
+}  // namespace whirl

@@ -1,0 +1,43 @@
+#pragma once
+/// A simulation: transient, then a recorded stretch with its contact measures.
+
+#include <functional>
+
+#include "libdyn/contact_measures.hpp"
+#include "libdyn/methods.hpp"
+#include "libdyn/scene.hpp"
+
+namespace whirl {
+
+struct SimulationOptions {
+  long revolutions = 512;  ///< recorded
+  long discard = 500;      ///< before, not recorded
+  int samples = 64;        ///< per revolution, at equal phases from 0
+  AnyMethod method = Dop853{};
+  IntegrationOptions integration;
+  /// Called once per revolution with those done; returns false to stop. May be empty.
+  std::function<bool(long)> progress;
+};
+
+/// A recorded stretch of motion in reduced coordinates.
+struct Recording {
+  int samples = 0;       ///< per revolution
+  long revolutions = 0;  ///< whole ones that were recorded
+  double period = 0.0;   ///< of a revolution [s]
+  long first_revolution = 0;  ///< number of the first one since the start
+  Mat eta;               ///< n x (revolutions * samples), sample j at phase 2 pi j / samples
+  Mat normal, friction;  ///< contact forces, contacts x samples [N]; friction signed along t
+  std::vector<ContactMeasure> contacts;
+};
+
+struct Simulation {
+  Recording recording;
+  MotionState end;          ///< where it ended
+  Integration integration;  ///< outcome, cost and diagnosis of the whole
+  double wall = 0.0;        ///< duration of the integration [s]
+};
+
+/// Integrates a scene from a state. What was recorded before a failure or a stop is kept.
+Simulation simulate(const Scene& scene, MotionState start, const SimulationOptions& options);
+
+}  // namespace whirl

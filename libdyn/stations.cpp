@@ -1,0 +1,89 @@
+#include "libdyn/stations.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "libfe/base/error.hpp"
+
+namespace whirl {
+
+namespace {
+
+struct Label {
+  Point point;
+  std::string name;
+};
+
+std::vector<Label> labels(const Model& model, const Assembler& assembler) {
+  std::vector<Label> all;
+  for (const Disk& d : model.structure.disks) all.push_back({assembler.point(d.at), d.name});
+  for (const Contact& c : model.contacts) all.push_back({assembler.point(c.at), c.name});
+  for (const Connection& b : model.structure.bearings) all.push_back({assembler.point(b.from), b.name});
+  return all;
+}
+
+}  // namespace
+
+std::vector<NamedPoint> named_points(const Model& model, const Assembler& assembler) {
+  const std::vector<Label> all = labels(model, assembler);
+  std::vector<NamedPoint> points;
+  for (const int node : assembler.mesh().left_to_right) points.push_back({{Point::Kind::node, node}, ""});
+  for (std::size_t i = 0; i < model.structure.bodies.size(); ++i) {
+    points.push_back({{Point::Kind::body, static_cast<int>(i)}, model.structure.bodies[i].name});
+  }
+  for (NamedPoint& p : points) {
+    if (p.point.kind == Point::Kind::body) continue;
+    for (const Label& label : all) {
+      if (label.point == p.point) p.name += (p.name.empty() ? "" : " + ") + label.name;
+    }
+  }
+  return points;
+}
+
+std::vector<NamedPoint> select_points(const Model& model, const Assembler& assembler,
+                                      const std::string& list) {
+  const std::vector<NamedPoint> all = named_points(model, assembler);
+  if (list == "all") return all;
+  std::vector<NamedPoint> chosen;
+  const auto choose = [&](const NamedPoint& p) {
+    const bool is_there = std::any_of(chosen.begin(), chosen.end(),
+                                      [&](const NamedPoint& c) { return c.point == p.point; });
+    if (!is_there) chosen.push_back(p);
+  };
+  if (list.empty()) {
+    for (const NamedPoint& p : all) {
+      if (!p.name.empty()) choose(p);
+    }
+    return chosen;
+  }
+  const std::vector<Label> known = labels(model, assembler);
+  std::istringstream parts(list);
+  for (std::string part; std::getline(parts, part, ',');) {
+    int node = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), node);
+    const bool is_number = error == std::errc{} && end == part.data() + part.size();
+    bool found = false;
+    for (const NamedPoint& p : all) {
+      const bool by_name = p.name == part || std::any_of(known.begin(), known.end(), [&](const Label& l) {
+        return l.name == part && l.point == p.point;
+      });
+      if (!by_name && !(is_number && p.node() == node)) continue;
+      choose(p);
+      found = true;
+      if (!by_name) break;
+    }
+    if (found) continue;
+    std::vector<std::string> names;
+    for (const Label& l : known) names.push_back(l.name);
+    for (const Body& b : model.structure.bodies) names.push_back(b.name);
+    throw ModelError({"--stations " + list}, "",
+                     fmt::format("there is no station \"{}\"; there are {} and nodes 1 to {}", part,
+                                 fmt::join(names, ", "), assembler.mesh().nodes()));
+  }
+  return chosen;
+}
+
+}  // namespace whirl

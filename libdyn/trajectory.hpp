@@ -1,0 +1,72 @@
+#pragma once
+/// What all integrators share: the state of a motion, one step of it with dense output, options,
+/// outcomes.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libdyn/contact_system.hpp"
+
+namespace whirl {
+
+/// Where a motion is. Time is a whole number of revolutions and a phase: it never loses digits.
+struct MotionState {
+  long revolution = 0;
+  double phase = 0.0;  ///< within the revolution, 0 <= phase < 2 pi [rad]
+  Vec y;               ///< (eta, eta')
+  ContactStates contacts;
+};
+
+/// One step of a motion without an event inside, as polynomials in s = (t - start) / h.
+struct Step {
+  long revolution = 0;
+  double phase = 0.0;  ///< at the start [rad]
+  double h = 0.0;      ///< duration [s]
+  double turn = 0.0;   ///< phase that passes, phase_rate * h [rad]
+  Mat q, v;            ///< coefficients of eta and eta', n x (degree + 1)
+  ContactStates contacts;
+
+  /// State at 0 <= s <= 1, 2 n numbers.
+  void at(double s, double* y) const {
+    const auto n = q.rows();
+    Eigen::Map<Vec> displacement(y, n), rate(y + n, n);
+    displacement = q.col(q.cols() - 1);
+    for (auto k = q.cols() - 2; k >= 0; --k) displacement = displacement * s + q.col(k);
+    rate = v.col(v.cols() - 1);
+    for (auto k = v.cols() - 2; k >= 0; --k) rate = rate * s + v.col(k);
+  }
+};
+
+/// Called with every step; returns false to stop the integration after it.
+using Observer = std::function<bool(const Step&)>;
+
+struct IntegrationOptions {
+  double tolerance = 1e-10;  ///< of a step, displacements by the length scale
+  double fixed_step = 0.0;   ///< [s]; not 0: no error control, steps of this size between events
+};
+
+enum class Outcome { reached_end, stopped_by_observer, step_too_small, not_finite };
+
+struct Cost {
+  long steps = 0;        ///< accepted
+  long rejected = 0;
+  long evaluations = 0;  ///< of the equations of motion
+  long events = 0;       ///< touching, parting, reversals of slip, sticking
+
+  Cost& operator+=(const Cost& other) {
+    steps += other.steps;
+    rejected += other.rejected;
+    evaluations += other.evaluations;
+    events += other.events;
+    return *this;
+  }
+};
+
+struct Integration {
+  Outcome outcome = Outcome::reached_end;
+  Cost cost;
+  std::string diagnosis;  ///< of a failure: when, which contact, in which state
+};
+
+}  // namespace whirl

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "libfe/mesh.hpp"
+
+namespace whirl {
+
+/// What a rotor weighs: shaft, disks and spinning bodies.
+struct RotorProperties {
+  double mass = 0.0;            ///< [kg]
+  double center_of_mass = 0.0;  ///< of shaft and disks, along the shaft [m]
+  double Ip = 0.0;              ///< polar moment of inertia [kg.m^2]
+};
+
+/// Integrates along the shaft; exact for cylinders and cones.
+RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh);
+
+}  // namespace whirl

@@ -1,0 +1,126 @@
+#include "libio/bearing_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "libio/nearest.hpp"
+#include "libio/units.hpp"
+
+namespace whirl {
+
+namespace {
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\"");
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1));
+}
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> result;
+  std::size_t start = 0;
+  for (;;) {
+    const auto comma = line.find_first_of(",;", start);
+    result.push_back(trimmed(std::string_view(line).substr(start, comma - start)));
+    if (comma == std::string::npos) return result;
+    start = comma + 1;
+  }
+}
+
+/// What a column means: an entry of a matrix, or the speed.
+struct Column {
+  std::string name, unit, si_unit;
+  Mat2 BearingCoefficients::* matrix = nullptr;  ///< null: the speed
+  int row = 0, column = 0;
+};
+
+const std::vector<Column>& known_columns() {
+  static const std::vector<Column> columns = [] {
+    std::vector<Column> all{{"speed", "", "rad/s"}};
+    const std::tuple<const char*, const char*, Mat2 BearingCoefficients::*> groups[] = {
+        {"k", "N/m", &BearingCoefficients::K},
+        {"c", "N.s/m", &BearingCoefficients::C},
+        {"kt", "N.m/rad", &BearingCoefficients::Kt},
+        {"ct", "N.m.s/rad", &BearingCoefficients::Ct}};
+    for (const auto& [prefix, unit, matrix] : groups) {
+      for (const int i : {0, 1}) {
+        for (const int j : {0, 1}) {
+          all.push_back({std::string(prefix) + "xy"[i] + "xy"[j], "", unit, matrix, i, j});
+        }
+      }
+    }
+    return all;
+  }();
+  return columns;
+}
+
+}  // namespace
+
+TableBearing parse_bearing_table(const std::string& text, const std::string& file,
+                                 std::vector<Problem>& problems) {
+  TableBearing table;
+  std::istringstream lines(text);
+  std::string line;
+  std::vector<Column> columns;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const auto report = [&](std::string key, std::string message) {
+      problems.push_back({{file, number, 1}, std::move(key), std::move(message)});
+    };
+    if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
+    const std::vector<std::string> parts = cells(line);
+    if (columns.empty()) {
+      std::vector<std::string> names;
+      for (const Column& c : known_columns()) names.push_back(c.name);
+      for (const std::string& part : parts) {
+        const auto bracket = part.find('[');
+        const std::string name = trimmed(std::string_view(part).substr(0, bracket));
+        const auto known = std::find(names.begin(), names.end(), name);
+        Column column;
+        if (known == names.end()) {
+          const auto near = nearest(name, names);
+          report(name, near ? fmt::format("unknown column, did you mean \"{}\"?", *near)
+                            : fmt::format("unknown column, known are {}", fmt::join(names, ", ")));
+        } else {
+          column = known_columns()[static_cast<std::size_t>(known - names.begin())];
+        }
+        if (bracket != std::string::npos) {
+          column.unit = trimmed(std::string_view(part).substr(bracket + 1, part.find(']') - bracket - 1));
+        }
+        columns.push_back(column);
+      }
+      if (columns.front().name != "speed") report("", "the first column must be speed");
+      if (!problems.empty()) return table;
+      continue;
+    }
+    if (parts.size() != columns.size()) {
+      report("", fmt::format("found {} values, expected {} as in the first line", parts.size(), columns.size()));
+      continue;
+    }
+    BearingCoefficients row;
+    double speed = 0.0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Column& column = columns[i];
+      const auto value = parse_as(parts[i] + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
+      if (!value) {
+        report(column.name, value.problem);
+      } else if (!column.matrix) {
+        speed = *value;
+      } else {
+        (row.*column.matrix)(column.row, column.column) = *value;
+      }
+    }
+    if (!table.speed.empty() && speed <= table.speed.back()) {
+      report("speed", "speeds must ascend from line to line");
+    }
+    table.speed.push_back(speed);
+    table.rows.push_back(row);
+  }
+  if (table.rows.empty() && problems.empty()) {
+    problems.push_back({{file}, "", "the table has no rows; expected a line of column names and one line per speed"});
+  }
+  return table;
+}
+
+}  // namespace whirl

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libfe/base/error.hpp"
+#include "libfe/bearings/table.hpp"
+
+namespace whirl {
+
+/// Reads bearing coefficients against speed from CSV.
+///
+/// The first line that is not a comment (#) names the columns: `speed` and any of kxx, kxy, kyx, kyy,
+/// cxx, cxy, cyx, cyy, and the same for tilts with a t (ktxx, ctxx, ...); what is absent is zero. A unit
+/// may follow in brackets, "speed [rpm]"; without one, SI. Speeds must ascend.
+///
+/// @param file      for messages
+/// @param problems  receives what is wrong, with file and line
+TableBearing parse_bearing_table(const std::string& text, const std::string& file,
+                                 std::vector<Problem>& problems);
+
+}  // namespace whirl

@@ -1,0 +1,286 @@
+#include "libio/config.hpp"
+
+#define TOML_HEADER_ONLY 0
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "libio/nearest.hpp"
+
+namespace whirl {
+
+namespace {
+
+Where place(const toml::source_region& source, const std::string& file) {
+  return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+ConfigNode convert(const toml::node& node, const std::string& file) {
+  ConfigNode result;
+  result.where = place(node.source(), file);
+  if (const auto* table = node.as_table()) {
+    for (const auto& [key, value] : *table) {
+      ConfigNode entry = convert(value, file);
+      entry.key_where = place(key.source(), file);
+      if (entry.where.line == 0) entry.where = entry.key_where;
+      result.entries.emplace_back(std::string(key.str()), std::move(entry));
+    }
+    std::stable_sort(result.entries.begin(), result.entries.end(), [](const auto& a, const auto& b) {
+      const Where &x = a.second.key_where, &y = b.second.key_where;
+      return std::pair(x.line, x.column) < std::pair(y.line, y.column);
+    });
+  } else if (const auto* array = node.as_array()) {
+    result.kind = ConfigNode::Kind::array;
+    for (const toml::node& item : *array) result.items.push_back(convert(item, file));
+  } else if (const auto* text = node.as_string()) {
+    result.kind = ConfigNode::Kind::string;
+    result.text = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    result.kind = ConfigNode::Kind::integer;
+    result.number = static_cast<double>(integer->get());
+  } else if (const auto* real = node.as_floating_point()) {
+    result.kind = ConfigNode::Kind::real;
+    result.number = real->get();
+  } else if (const auto* boolean = node.as_boolean()) {
+    result.kind = ConfigNode::Kind::boolean;
+    result.boolean = boolean->get();
+  } else {
+    result.kind = ConfigNode::Kind::other;
+  }
+  return result;
+}
+
+/// toml++ says "Error while parsing X: ..." with the source appended; people need the middle.
+std::string syntax_message(const toml::parse_error& error) {
+  return "not TOML: " + std::string(error.description());
+}
+
+bool is_text(std::string_view text) {
+  return std::none_of(text.begin(), text.end(), [](char c) {
+    const auto u = static_cast<unsigned char>(c);
+    return u < 0x20 && c != '\n' && c != '\r' && c != '\t';
+  });
+}
+
+std::string quoted(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    switch (c) {
+      case '"': result += "\\\""; break;
+      case '\\': result += "\\\\"; break;
+      case '\n': result += "\\n"; break;
+      case '\r': result += "\\r"; break;
+      case '\t': result += "\\t"; break;
+      default: result += c;
+    }
+  }
+  return result + "\"";
+}
+
+std::string key_text(std::string_view key) {
+  const bool is_bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-';
+  });
+  return is_bare ? std::string(key) : quoted(key);
+}
+
+std::string number_text(const ConfigNode& node) {
+  if (node.kind == ConfigNode::Kind::integer) return fmt::format("{:.0f}", node.number);
+  if (!std::isfinite(node.number)) return std::isnan(node.number) ? "nan" : node.number > 0 ? "inf" : "-inf";
+  std::string text = fmt::format("{}", node.number);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+std::string inline_text(const ConfigNode& node) {
+  std::string text;
+  switch (node.kind) {
+    case ConfigNode::Kind::string: return quoted(node.text);
+    case ConfigNode::Kind::integer:
+    case ConfigNode::Kind::real: return number_text(node);
+    case ConfigNode::Kind::boolean: return node.boolean ? "true" : "false";
+    case ConfigNode::Kind::other: return quoted("");
+    case ConfigNode::Kind::array:
+      for (const ConfigNode& item : node.items) text += (text.empty() ? "" : ", ") + inline_text(item);
+      return "[" + text + "]";
+    case ConfigNode::Kind::table: break;
+  }
+  for (const auto& [key, value] : node.entries) {
+    text += (text.empty() ? "" : ", ") + key_text(key) + " = " + inline_text(value);
+  }
+  return "{ " + text + " }";
+}
+
+bool is_array_of_tables(const ConfigNode& node) {
+  return node.kind == ConfigNode::Kind::array && !node.items.empty() &&
+         std::all_of(node.items.begin(), node.items.end(),
+                     [](const ConfigNode& n) { return n.kind == ConfigNode::Kind::table; });
+}
+
+/// Tables of tables (material.steel) get headers of their own, others stay inline below the top.
+void write_table(const ConfigNode& table, const std::string& path, std::string& out) {
+  const bool has_headers = path.empty() || std::all_of(table.entries.begin(), table.entries.end(),
+      [](const auto& e) { return e.second.kind == ConfigNode::Kind::table; });
+  for (const auto& [key, value] : table.entries) {
+    const bool is_table = value.kind == ConfigNode::Kind::table;
+    if (has_headers && (is_table || (path.empty() && is_array_of_tables(value)))) continue;
+    out += key_text(key) + " = " + inline_text(value) + "\n";
+  }
+  if (!has_headers) return;
+  for (const auto& [key, value] : table.entries) {
+    const std::string inner = path.empty() ? key_text(key) : path + "." + key_text(key);
+    if (value.kind == ConfigNode::Kind::table) {
+      const bool only_tables = !value.entries.empty() &&
+          std::all_of(value.entries.begin(), value.entries.end(),
+                      [](const auto& e) { return e.second.kind == ConfigNode::Kind::table; });
+      if (!only_tables || !path.empty()) out += "\n[" + inner + "]\n";
+      write_table(value, inner, out);
+    } else if (path.empty() && is_array_of_tables(value)) {
+      for (const ConfigNode& item : value.items) {
+        out += "\n[[" + inner + "]]\n";
+        for (const auto& [k, v] : item.entries) out += key_text(k) + " = " + inline_text(v) + "\n";
+      }
+    }
+  }
+}
+
+/// Parts of a path between dots; a part in quotation marks may contain dots.
+std::vector<std::string> split_path(std::string_view path) {
+  std::vector<std::string> parts(1);
+  bool in_quotes = false;
+  for (const char c : path) {
+    if (c == '"') {
+      in_quotes = !in_quotes;
+    } else if (c == '.' && !in_quotes) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// The element of an array that a name or a number from 1 stands for.
+ConfigNode& element(ConfigNode& array, const std::string& part, const std::string& path,
+                    const Where& where) {
+  std::vector<std::string> names;
+  for (ConfigNode& item : array.items) {
+    const ConfigNode* name = item.find("name");
+    if (!name) continue;
+    if (name->text == part) return item;
+    names.push_back(name->text);
+  }
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), number);
+  const bool is_number = error == std::errc{} && end == part.data() + part.size();
+  if (is_number && number >= 1 && number <= array.items.size()) return array.items[number - 1];
+  std::string hint;
+  if (is_number) {
+    hint = fmt::format("expected a number from 1 to {}", array.items.size());
+  } else if (const auto near = nearest(part, names)) {
+    hint = fmt::format("did you mean \"{}\"?", *near);
+  } else {
+    hint = names.empty() ? "its elements have no names, use numbers from 1"
+                         : fmt::format("there are \"{}\"", fmt::join(names, "\", \""));
+  }
+  throw ModelError(where, path, fmt::format("there is no element \"{}\"; {}", part, hint));
+}
+
+}  // namespace
+
+const ConfigNode* ConfigNode::find(std::string_view key) const {
+  for (const auto& [name, value] : entries) {
+    if (name == key) return &value;
+  }
+  return nullptr;
+}
+
+ConfigNode* ConfigNode::find(std::string_view key) {
+  return const_cast<ConfigNode*>(std::as_const(*this).find(key));
+}
+
+std::string ConfigNode::as_written() const {
+  switch (kind) {
+    case Kind::table: return "a table";
+    case Kind::array: return "an array";
+    case Kind::other: return "a date or time";
+    default: break;
+  }
+  std::string written = inline_text(*this);
+  if (written.size() > 60) written = written.substr(0, 57) + "...";
+  return written;
+}
+
+ConfigNode parse_toml(std::string_view text, const std::string& file) {
+  if (!is_text(text)) throw ModelError({file}, "", "this is not a text file; expected a model file (TOML)");
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
+    throw ModelError({file}, "", "the file is empty; expected a model file beginning with format = 1");
+  }
+  try {
+    const toml::table table = toml::parse(text, std::string_view(file));
+    ConfigNode root = convert(table, file);
+    root.where = {file, 1, 1};
+    return root;
+  } catch (const toml::parse_error& error) {
+    throw ModelError(place(error.source(), file), "", syntax_message(error));
+  }
+}
+
+void set_value(ConfigNode& root, std::string_view assignment) {
+  const Where where{"--set " + std::string(assignment)};
+  const auto equals = assignment.find('=');
+  if (equals == std::string_view::npos || equals == 0) {
+    throw ModelError(where, "", "expected PATH=VALUE, such as contact.seal.friction=0.1");
+  }
+  const std::string path(assignment.substr(0, equals));
+  const std::string text(assignment.substr(equals + 1));
+  ConfigNode value;
+  try {
+    value = convert(*toml::parse("value = " + text).get("value"), "");
+  } catch (const toml::parse_error&) {
+    value.kind = ConfigNode::Kind::string;
+    value.text = text;
+  }
+  const auto relocate = [&](auto&& self, ConfigNode& node) -> void {
+    node.where = node.key_where = where;
+    for (auto& [key, entry] : node.entries) self(self, entry);
+    for (ConfigNode& item : node.items) self(self, item);
+  };
+  relocate(relocate, value);
+
+  ConfigNode* node = &root;
+  const std::vector<std::string> parts = split_path(path);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool is_last = i + 1 == parts.size();
+    if (node->kind == ConfigNode::Kind::array) {
+      node = &element(*node, parts[i], path, where);
+      if (is_last) *node = value;
+      continue;
+    }
+    if (node->kind != ConfigNode::Kind::table) {
+      throw ModelError(where, path, fmt::format("\"{}\" is not a table and has no entries", parts[i - 1]));
+    }
+    ConfigNode* next = node->find(parts[i]);
+    if (!next) {
+      node->entries.emplace_back(parts[i], ConfigNode{});
+      next = &node->entries.back().second;
+      next->where = next->key_where = where;
+    }
+    if (is_last) {
+      *next = value;
+    }
+    node = next;
+  }
+}
+
+std::string to_toml(const ConfigNode& root) {
+  std::string out;
+  write_table(root, "", out);
+  return out;
+}
+
+}  // namespace whirl

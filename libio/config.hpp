@@ -1,0 +1,48 @@
+#pragma once
+/// The tree of a model file: values with their places, before anything is made of them.
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "libfe/base/error.hpp"
+
+namespace whirl {
+
+/// A value of a model file, or a table or array of them.
+struct ConfigNode {
+  enum class Kind { table, array, string, integer, real, boolean, other };
+  Kind kind = Kind::table;
+  std::string text;      ///< of a string
+  double number = 0.0;   ///< of an integer or real
+  bool boolean = false;
+  std::vector<std::pair<std::string, ConfigNode>> entries;  ///< of a table, in the order of the file
+  std::vector<ConfigNode> items;                            ///< of an array
+  Where where;      ///< of the value
+  Where key_where;  ///< of the key in front of it
+
+  const ConfigNode* find(std::string_view key) const;
+  ConfigNode* find(std::string_view key);
+
+  /// The value as it would be written, for messages.
+  std::string as_written() const;
+};
+
+/// Parses TOML.
+/// @param file  name for messages
+/// @throws ModelError  with the place of a syntax error, for an empty text and for one that is no text
+ConfigNode parse_toml(std::string_view text, const std::string& file);
+
+/// Sets a value by its path, as the command line does: "contact.seal.friction=0.1".
+///
+/// Elements of arrays go by name or by number from 1. The value is read as TOML where it is TOML, else
+/// as a string. Tables that do not exist yet are made; elements of arrays are not.
+///
+/// @throws ModelError  for a line without "=", an element that does not exist
+void set_value(ConfigNode& root, std::string_view assignment);
+
+/// The tree as TOML.
+std::string to_toml(const ConfigNode& root);
+
+}  // namespace whirl

@@ -1,0 +1,79 @@
+#include "libio/format.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace whirl {
+
+namespace {
+
+/// One way to write a unit.
+struct Rung {
+  std::string unit;
+  double size;  ///< of one such unit [SI]
+};
+
+/// The ways to write a unit, ascending.
+std::vector<Rung> ladder(std::string_view si_unit) {
+  struct Prefix {
+    char letter;  ///< 0: none
+    double size;
+  };
+  static constexpr Prefix prefixes[] = {{'n', 1e-9}, {'u', 1e-6}, {'m', 1e-3}, {0, 1.0},
+                                        {'k', 1e3},  {'M', 1e6},  {'G', 1e9}};
+  const std::string unit(si_unit);
+  if (unit == "kg") return {{"mg", 1e-6}, {"g", 1e-3}, {"kg", 1.0}};
+  if (unit == "kg.m") return {{"g.mm", 1e-6}, {"kg.mm", 1e-3}, {"kg.m", 1.0}};
+
+  // N and Pa go both ways, lengths, times and angles only down
+  const std::size_t end = unit.find_first_of("./^");
+  const std::string symbol = unit.substr(0, end);
+  const bool has_exponent = end != std::string::npos && unit[end] == '^';
+  const bool goes_up = symbol == "N" || symbol == "Pa";
+  const bool goes_down = goes_up || symbol == "m" || symbol == "rad" || unit == "s";
+  if (has_exponent || !goes_down) return {{unit, 1.0}};
+  std::vector<Rung> rungs;
+  for (const Prefix& prefix : prefixes) {
+    if (prefix.size > 1.0 && !goes_up) continue;
+    rungs.push_back({prefix.letter == 0 ? unit : prefix.letter + unit, prefix.size});
+  }
+  return rungs;
+}
+
+double to_four_digits(double value) {
+  const std::string rounded = fmt::format("{:.3e}", value);
+  std::from_chars(rounded.data(), rounded.data() + rounded.size(), value);
+  return value;
+}
+
+std::string number_and_unit(double value, const std::string& unit) {
+  const std::string number = fmt::format("{:.10g}", to_four_digits(value));
+  return unit.empty() ? number : number + ' ' + unit;
+}
+
+}  // namespace
+
+std::string format_engineering(double value, std::string_view si_unit) {
+  const double size = std::abs(to_four_digits(value));  // rounded first: 999.96 N is 1 kN
+  if (size == 0.0 || !std::isfinite(value)) return number_and_unit(value, std::string(si_unit));
+  const std::vector<Rung> rungs = ladder(si_unit);
+  const Rung* rung = &rungs.front();
+  for (const Rung& candidate : rungs) {
+    if (size >= candidate.size * (1.0 - 1e-12)) rung = &candidate;
+  }
+  return number_and_unit(value / rung->size, rung->unit);
+}
+
+std::string format_length(double value) {
+  return format_engineering(value, "m");
+}
+
+std::string format_speed(double value) {
+  return number_and_unit(value * 30.0 / std::numbers::pi, "rpm");
+}
+
+}  // namespace whirl

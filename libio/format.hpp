@@ -1,0 +1,26 @@
+#pragma once
+/// Quantities as people like to read them; units.hpp reads them back.
+
+#include <string>
+#include <string_view>
+
+namespace whirl {
+
+/// A value with an engineer's prefix, to four significant digits.
+///
+///   format_engineering(4e6, "N/m") = "4 MN/m",   format_engineering(5e-4, "m") = "500 um"
+///
+/// A prefix goes to a leading m, N, Pa or rad without exponent, and to s alone. Masses are given in
+/// mg, g, kg and unbalances in g.mm, kg.mm, kg.m; any other unit stays as it is.
+///
+/// @param value    [si_unit]; NaN and infinity are written as such
+/// @param si_unit  as in dimension_of; empty for a plain number
+std::string format_engineering(double value, std::string_view si_unit);
+
+/// A length [m]: "500 um", "20 mm", "1.2 m".
+std::string format_length(double value);
+
+/// A speed [rad/s], in revolutions per minute: "3650 rpm".
+std::string format_speed(double value);
+
+}  // namespace whirl

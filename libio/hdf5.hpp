@@ -1,0 +1,101 @@
+#pragma once
+/// Result files: self-describing HDF5, always whole.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libfe/base/linalg.hpp"
+#include "libio/replace_file.hpp"
+
+namespace whirl {
+
+/// What stands beside the numbers of a dataset.
+struct DatasetInfo {
+  std::string units;              ///< SI unit; empty for plain numbers, names and counts
+  std::string long_name;          ///< what it is, for a plot's axis: "whirl frequency"
+  std::vector<std::string> axes;  ///< per dimension the path of the dataset along it, "" for none
+};
+
+/// Writes a result file beside its place; commit() puts it there whole.
+///
+/// Objects are named by absolute paths, "/trajectory/x"; groups are made on the way. Datasets above
+/// 64 kB are compressed. The same calls write the same bytes. Every member throws FileError, which
+/// names file and object, when the disk is full or an object is written twice.
+class ResultWriter {
+ public:
+  /// @throws FileError  as FileReplacement
+  explicit ResultWriter(const std::filesystem::path& path);
+  /// Gives up what was written, unless it was committed.
+  ~ResultWriter();
+  ResultWriter(const ResultWriter&) = delete;
+  ResultWriter& operator=(const ResultWriter&) = delete;
+
+  /// Sets an attribute of a dataset or group, which is made if there is none; texts are UTF-8.
+  void attribute(const std::string& object, const std::string& name, const std::string& value);
+  void attribute(const std::string& object, const std::string& name, double value);
+  void attribute(const std::string& object, const std::string& name, int value);
+
+  /// Writes a dataset: vectors have one dimension, matrices rows x columns. Complex numbers are
+  /// compounds (r, i), as numpy reads them. Axes must have been written, with matching sizes; they
+  /// become HDF5 dimension scales. An axis keeps a list of its users, which costs some 1 ms for the
+  /// thousandth of them: put many equal things into one matrix.
+  void dataset(const std::string& path, const Vec& values, const DatasetInfo& info);
+  void dataset(const std::string& path, const Mat& values, const DatasetInfo& info);
+  void dataset(const std::string& path, const CVec& values, const DatasetInfo& info);
+  void dataset(const std::string& path, const CMat& values, const DatasetInfo& info);
+  void dataset(const std::string& path, const std::vector<double>& values, const DatasetInfo& info);
+  void dataset(const std::string& path, const std::vector<int>& values, const DatasetInfo& info);
+  void dataset(const std::string& path, const std::vector<std::string>& values,
+               const DatasetInfo& info);
+
+  /// Brings the file to the disk and to its place; nothing can be written after it.
+  /// @throws FileError  the place then is as it was
+  void commit();
+
+ private:
+  void write(const std::string& path, std::int64_t type, const void* values,
+             const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
+  void write_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                       const void* value);
+
+  FileReplacement file_;
+  std::int64_t id_ = -1;  ///< HDF5's handle; -1 once closed
+};
+
+/// Reads a result file, or any other HDF5 file of numbers and texts.
+///
+/// Every member but has() throws FileError, which names file and object, for what is missing,
+/// damaged or of another type or shape.
+class ResultReader {
+ public:
+  /// @throws FileError  if there is no such file, or if it is no HDF5 file or a damaged one
+  explicit ResultReader(const std::filesystem::path& path);
+  ~ResultReader();
+  ResultReader(const ResultReader&) = delete;
+  ResultReader& operator=(const ResultReader&) = delete;
+
+  bool has(const std::string& object) const;
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  std::string string_attribute(const std::string& object, const std::string& name) const;
+  double number_attribute(const std::string& object, const std::string& name) const;
+
+  /// Sizes of a dataset's dimensions.
+  std::vector<Eigen::Index> shape(const std::string& path) const;
+  Vec vector(const std::string& path) const;
+  Mat matrix(const std::string& path) const;
+  CVec complex_vector(const std::string& path) const;
+  CMat complex_matrix(const std::string& path) const;
+  std::vector<int> integers(const std::string& path) const;
+  std::vector<std::string> strings(const std::string& path) const;
+
+  /// Names of the members of a group, in the order of the alphabet.
+  std::vector<std::string> list(const std::string& group) const;
+
+ private:
+  std::filesystem::path path_;
+  std::int64_t id_ = -1;  ///< HDF5's handle
+};
+
+}  // namespace whirl

@@ -1,0 +1,130 @@
+#pragma once
+/// What reading and writing HDF5 share. For the files of this folder only, which alone see HDF5.
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libfe/base/linalg.hpp"
+#include "libio/replace_file.hpp"
+
+namespace whirl::hdf5 {
+
+static_assert(sizeof(hid_t) == sizeof(std::int64_t));
+
+/// Owner of one of HDF5's handles.
+class Handle {
+ public:
+  explicit Handle(hid_t id) : id_(id) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+};
+
+/// Before anything else is asked of HDF5, in every thread: errors are ours to print. Nor is there
+/// anything to clean up when the process ends, where HDF5 1.10 would crash after a full disk.
+inline void prepare() {
+  [[maybe_unused]] static const herr_t in_process = H5dont_atexit();
+  [[maybe_unused]] thread_local const herr_t in_thread =
+      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// The innermost of HDF5's reasons for the last failure; any further call of HDF5 forgets it.
+inline std::string reason() {
+  std::string text;
+  const auto take_first = [](unsigned n, const H5E_error2_t* error, void* result) -> herr_t {
+    if (n == 0 && error->desc) *static_cast<std::string*>(result) = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &text);
+  if (text.empty()) return "HDF5 gives no reason";
+  // of a long list of details only what the system says: "... error message = 'File too large',
+  // ..."
+  constexpr std::string_view key = "error message = '";
+  const std::size_t start = text.find(key);
+  if (start == std::string::npos) return text;
+  text.erase(0, start + key.size());
+  return text.substr(0, text.find('\''));
+}
+
+/// Something done with an object of a file; turns HDF5's negative results into errors.
+class Attempt {
+ public:
+  Attempt(const std::filesystem::path& file, std::string_view action, std::string object)
+      : file_(file), action_(action), object_(std::move(object)) {
+    prepare();
+  }
+
+  [[noreturn]] void fail(std::string_view why) const {
+    throw FileError(fmt::format("{}: cannot {} {}: {}", file_.string(), action_, object_, why));
+  }
+  template <class Result>
+  Result operator()(Result result) const {
+    if (result < 0) fail(reason());
+    return result;
+  }
+  const std::string& object() const { return object_; }
+
+ private:
+  const std::filesystem::path& file_;
+  std::string_view action_;  ///< "write dataset"
+  std::string object_;
+};
+
+inline Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+/// Pairs of doubles named as numpy and h5py name them.
+inline Handle complex_type() {
+  Handle type(H5Tcreate(H5T_COMPOUND, sizeof(Complex)));
+  H5Tinsert(type, "r", 0, H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "i", sizeof(double), H5T_NATIVE_DOUBLE);
+  return type;
+}
+
+/// Files are private to their writer and never change under a reader: no locks, which some network
+/// file systems refuse.
+inline Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS));
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_file_locking(access, false, true);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  return access;
+}
+
+/// Whether a file has an object of that path.
+inline bool exists(hid_t file, const std::string& object) {
+  prepare();
+  // HDF5 wants every group on the way asked for
+  for (std::size_t end = object.find_first_not_of('/'); end < object.size();) {
+    end = std::min(object.find('/', end), object.size());
+    const std::string part = object.substr(0, end);
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    end = object.find_first_not_of('/', end);
+  }
+  return !object.empty();
+}
+
+inline std::vector<hsize_t> sizes_of(hid_t space) {
+  std::vector<hsize_t> sizes(
+      static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  H5Sget_simple_extent_dims(space, sizes.data(), nullptr);
+  return sizes;
+}
+
+}  // namespace whirl::hdf5

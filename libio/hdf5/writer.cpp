@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+#include <hdf5_hl.h>
+
+#include <algorithm>
+#include <cassert>
+
+#include "libio/hdf5.hpp"
+#include "libio/hdf5/handle.hpp"
+
+namespace whirl {
+
+namespace fs = std::filesystem;
+using namespace hdf5;
+
+namespace {
+
+constexpr std::size_t uncompressed_bytes = 64 * 1024;  ///< up to here datasets stay as they are
+constexpr std::size_t chunk_bytes = 1024 * 1024;       ///< what is compressed and read at a time
+constexpr unsigned deflate_level = 1;  ///< of 9; higher ones take longer and gain next to nothing
+
+/// Properties of a new object: no times, which would make equal files differ.
+Handle creation(hid_t kind) {
+  Handle properties(H5Pcreate(kind));
+  H5Pset_obj_track_times(properties, false);
+  return properties;
+}
+
+/// Makes the groups that an object lies in, as far as there are none.
+void make_groups(const Attempt& attempt, hid_t file, const std::string& object) {
+  const Handle properties = creation(H5P_GROUP_CREATE);
+  for (std::size_t end = object.find('/', 1); end < object.size();
+       end = object.find('/', end + 1)) {
+    const std::string group = object.substr(0, end);
+    if (exists(file, group)) continue;
+    const Handle made(
+        attempt(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT)));
+  }
+}
+
+/// Whole rows, or a piece of one where rows are long.
+std::vector<hsize_t> chunks(const std::vector<hsize_t>& sizes, std::size_t item_bytes) {
+  std::vector<hsize_t> chunk = sizes;
+  hsize_t room = std::max<hsize_t>(1, chunk_bytes / item_bytes);
+  for (std::size_t i = chunk.size(); i-- > 0;) {
+    chunk[i] = std::min(chunk[i], room);
+    room = std::max<hsize_t>(1, room / chunk[i]);
+  }
+  return chunk;
+}
+
+template <class Matrix>
+auto row_major(const Matrix& values) {
+  using Scalar = typename Matrix::Scalar;
+  return Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>(values);
+}
+
+}  // namespace
+
+ResultWriter::ResultWriter(const fs::path& path) : file_(path) {
+  const Attempt attempt(file_.place(), "create", "the file");
+  const Handle properties = creation(H5P_FILE_CREATE), access = file_access();
+  id_ = attempt(H5Fcreate(file_.temporary().c_str(), H5F_ACC_TRUNC, properties, access));
+}
+
+ResultWriter::~ResultWriter() {
+  if (id_ >= 0) H5Fclose(id_);
+}
+
+void ResultWriter::commit() {
+  assert(id_ >= 0);
+  const Attempt attempt(file_.place(), "write", "the file");
+  attempt(H5Fflush(id_, H5F_SCOPE_GLOBAL));
+  attempt(H5Fclose(std::exchange(id_, -1)));
+  file_.commit();
+}
+
+void ResultWriter::write_attribute(const std::string& object, const std::string& name,
+                                   std::int64_t type, const void* value) {
+  const Attempt attempt(file_.place(), "write attribute", object + '@' + name);
+  if (object != "/" && !exists(id_, object)) make_groups(attempt, id_, object + '/');
+  const Handle owner(attempt(H5Oopen(id_, object.c_str(), H5P_DEFAULT)));
+  if (H5Aexists(owner, name.c_str()) > 0) attempt(H5Adelete(owner, name.c_str()));
+  const Handle space(attempt(H5Screate(H5S_SCALAR)));
+  const Handle attribute(
+      attempt(H5Acreate2(owner, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT)));
+  attempt(H5Awrite(attribute, type, value));
+}
+
+void ResultWriter::attribute(const std::string& object, const std::string& name,
+                             const std::string& value) {
+  const char* text = value.c_str();
+  write_attribute(object, name, text_type(), &text);
+}
+
+void ResultWriter::attribute(const std::string& object, const std::string& name, double value) {
+  write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void ResultWriter::attribute(const std::string& object, const std::string& name, int value) {
+  write_attribute(object, name, H5T_NATIVE_INT, &value);
+}
+
+void ResultWriter::write(const std::string& path, std::int64_t type, const void* values,
+                         const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
+  const Attempt attempt(file_.place(), "write dataset", path);
+  const std::vector<hsize_t> sizes(shape.begin(), shape.end());
+  hsize_t count = 1;
+  for (const hsize_t size : sizes) count *= size;
+
+  const Handle space(
+      attempt(H5Screate_simple(static_cast<int>(sizes.size()), sizes.data(), nullptr)));
+  const Handle properties = creation(H5P_DATASET_CREATE);
+  make_groups(attempt, id_, path);
+  const std::size_t item_bytes = H5Tget_size(type);
+  const bool is_compressed =
+      count * item_bytes > uncompressed_bytes && H5Tget_class(type) != H5T_STRING;
+  if (is_compressed) {
+    const auto chunk = chunks(sizes, item_bytes);
+    attempt(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()));
+    attempt(H5Pset_shuffle(properties));
+    attempt(H5Pset_deflate(properties, deflate_level));
+  }
+  const Handle dataset(
+      attempt(H5Dcreate2(id_, path.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT)));
+  if (count > 0) attempt(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+  if (is_compressed) attempt(H5Dflush(dataset));  // or a full disk is not seen here
+  attribute(path, "units", info.units);
+  attribute(path, "long_name", info.long_name);
+
+  if (info.axes.size() > sizes.size()) attempt.fail("more axes than dimensions");
+  for (std::size_t i = 0; i < info.axes.size(); ++i) {
+    const std::string& name = info.axes[i];
+    if (name.empty()) continue;
+    if (!exists(id_, name)) attempt.fail(fmt::format("its axis {} is not written", name));
+    const Handle axis(attempt(H5Dopen2(id_, name.c_str(), H5P_DEFAULT)));
+    const Handle axis_space(attempt(H5Dget_space(axis)));
+    if (sizes_of(axis_space) != std::vector<hsize_t>{sizes[i]}) {
+      attempt.fail(fmt::format("its axis {} has another size", name));
+    }
+    const std::string label = fs::path(name).filename().string();
+    if (H5DSis_scale(axis) <= 0) attempt(H5DSset_scale(axis, label.c_str()));
+    attempt(H5DSattach_scale(dataset, axis, static_cast<unsigned>(i)));
+    attempt(H5DSset_label(dataset, static_cast<unsigned>(i), label.c_str()));
+  }
+}
+
+void ResultWriter::dataset(const std::string& path, const Vec& values, const DatasetInfo& info) {
+  write(path, H5T_NATIVE_DOUBLE, values.data(), {values.size()}, info);
+}
+
+void ResultWriter::dataset(const std::string& path, const Mat& values, const DatasetInfo& info) {
+  write(path, H5T_NATIVE_DOUBLE, row_major(values).data(), {values.rows(), values.cols()}, info);
+}
+
+void ResultWriter::dataset(const std::string& path, const CVec& values, const DatasetInfo& info) {
+  write(path, complex_type(), values.data(), {values.size()}, info);
+}
+
+void ResultWriter::dataset(const std::string& path, const CMat& values, const DatasetInfo& info) {
+  write(path, complex_type(), row_major(values).data(), {values.rows(), values.cols()}, info);
+}
+
+void ResultWriter::dataset(const std::string& path, const std::vector<double>& values,
+                           const DatasetInfo& info) {
+  write(path, H5T_NATIVE_DOUBLE, values.data(), {std::ssize(values)}, info);
+}
+
+void ResultWriter::dataset(const std::string& path, const std::vector<int>& values,
+                           const DatasetInfo& info) {
+  write(path, H5T_NATIVE_INT, values.data(), {std::ssize(values)}, info);
+}
+
+void ResultWriter::dataset(const std::string& path, const std::vector<std::string>& values,
+                           const DatasetInfo& info) {
+  std::vector<const char*> texts;
+  for (const std::string& value : values) texts.push_back(value.c_str());
+  write(path, text_type(), texts.data(), {std::ssize(texts)}, info);
+}
+
+}  // namespace whirl

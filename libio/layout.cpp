@@ -1,0 +1,110 @@
+#include "libio/layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "libio/table.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr int half_rows = 4;  ///< above and below the axis
+
+/// A mark below the rotor and what it stands for.
+struct Mark {
+  double z;
+  const char* sign;
+  std::string name;
+};
+
+std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
+  std::vector<Mark> all;
+  const auto place = [&](const Station& station) {
+    const Point p = assembler.point(station);
+    return p.kind == Point::Kind::node ? assembler.mesh().z[static_cast<std::size_t>(p.index)] : -1.0;
+  };
+  for (const Connection& b : model.structure.bearings) all.push_back({place(b.from), "▲", b.name});
+  for (const Contact& c : model.contacts) all.push_back({place(c.at), "◯", c.name});
+  for (const Disk& d : model.structure.disks) all.push_back({place(d.at), "┃", d.name});
+  std::erase_if(all, [](const Mark& m) { return m.z < 0.0; });
+  std::stable_sort(all.begin(), all.end(), [](const Mark& a, const Mark& b) { return a.z < b.z; });
+  return all;
+}
+
+}  // namespace
+
+std::string draw_layout(const Model& model, const Assembler& assembler, int columns) {
+  const Structure& s = model.structure;
+  const double length = s.length();
+  if (!(length > 0.0)) return "";
+  const auto column = [&](double z) {
+    return std::clamp(static_cast<int>(std::lround(z / length * (columns - 1))), 0, columns - 1);
+  };
+  // radii of shaft and disks in every column
+  std::vector<double> shaft(static_cast<std::size_t>(columns)), disk(shaft.size());
+  double largest = 0.0;
+  for (int c = 0; c < columns; ++c) {
+    shaft[static_cast<std::size_t>(c)] = 0.5 * shaft_diameter(s, length * (c + 0.5) / columns);
+    largest = std::max(largest, shaft[static_cast<std::size_t>(c)]);
+  }
+  for (const Disk& d : s.disks) {
+    const double z = assembler.mesh().z[static_cast<std::size_t>(assembler.point(d.at).index)];
+    const double radius = d.outer_diameter > 0.0 ? 0.5 * d.outer_diameter : 2.5 * 0.5 * shaft_diameter(s, z);
+    const int middle = column(z), half = std::max(0, static_cast<int>(std::lround(0.5 * d.width / length * columns)));
+    for (int c = std::max(0, middle - half); c <= std::min(columns - 1, middle + half); ++c) {
+      disk[static_cast<std::size_t>(c)] = std::max(disk[static_cast<std::size_t>(c)], radius);
+    }
+    largest = std::max(largest, radius);
+  }
+
+  std::string text;
+  for (int row = half_rows; row >= -half_rows; --row) {
+    std::string line;
+    for (std::size_t c = 0; c < shaft.size(); ++c) {
+      const double at = (std::abs(row) - 0.5) / half_rows * largest;  // inner edge of the row
+      const bool in_shaft = row == 0 || at < shaft[c] - 0.25 * largest / half_rows;
+      line += in_shaft ? "█" : at < disk[c] ? "▓" : " ";
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    if (line.empty()) continue;
+    text += "  " + line + "\n";
+  }
+
+  // marks in one line, names below, each in the first line where it has room
+  const std::vector<Mark> all = marks(model, assembler);
+  std::vector<std::string> signs(static_cast<std::size_t>(columns), " ");
+  std::vector<std::vector<std::string>> lines;
+  for (const Mark& m : all) {
+    const int c = column(m.z);
+    std::string& sign = signs[static_cast<std::size_t>(c)];
+    sign = sign == " " || sign == "┃" ? m.sign : sign;
+    const std::string label = fmt::format("{} ({:g} mm)", m.name, 1e3 * m.z);
+    const int width = static_cast<int>(display_width(label));
+    const int start = std::clamp(c - width / 2, 0, std::max(0, columns - width));
+    for (std::size_t i = 0;; ++i) {
+      if (i == lines.size()) lines.emplace_back(static_cast<std::size_t>(columns), " ");
+      auto& line = lines[i];
+      const int from = std::max(0, start - 1), to = std::min(columns, start + width + 1);
+      const bool is_free = std::all_of(line.begin() + from, line.begin() + to,
+                                       [](const std::string& cell) { return cell == " "; });
+      if (!is_free) continue;
+      line[static_cast<std::size_t>(start)] = label;
+      for (int k = 1; k < width && start + k < columns; ++k) line[static_cast<std::size_t>(start + k)] = "";
+      break;
+    }
+  }
+  lines.insert(lines.begin(), signs);
+  for (const auto& cells : lines) {
+    std::string line;
+    for (const std::string& cell : cells) line += cell;
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += "  " + line + "\n";
+  }
+  return text + "\n  ▲ bearing   ◯ contact   ▓ disk\n";
+}
+
+}  // namespace whirl

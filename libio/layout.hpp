@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "libdyn/model.hpp"
+#include "libfe/assemble.hpp"
+
+namespace whirl {
+
+/// A side view of the rotor for the terminal: shaft, disks, and what is where below.
+/// @param columns  width of the drawing
+std::string draw_layout(const Model& model, const Assembler& assembler, int columns = 72);
+
+}  // namespace whirl

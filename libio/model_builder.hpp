@@ -1,0 +1,95 @@
+#pragma once
+/// Reading the parts of a model file, one function per kind of table.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "libdyn/model.hpp"
+#include "libio/config.hpp"
+#include "libio/read_fields.hpp"
+
+namespace whirl {
+
+/// Builds a model from the tree of a file, collecting all problems.
+class ModelBuilder {
+ public:
+  ModelBuilder(ConfigNode& root, std::filesystem::path directory);
+
+  /// @throws ModelError  with every problem found
+  Model build();
+
+ private:
+  // model_builder.cpp
+  void read_top();
+  void read_materials();
+  void read_shaft();
+  void read_disks();
+  void read_bodies();
+  void read_unbalances();
+  void read_contacts();
+  void read_settings();
+  void check_places();
+  // model_connections.cpp
+  void read_bearings();
+  void read_links();
+  bool read_coefficients(TableReader& table, BearingCoefficients& to);
+  std::optional<Mat2> matrix(TableReader& table, std::string_view key, std::string_view unit);
+
+  /// Calls f(reader, number from 0) for every element of an array of tables, by name where it has one.
+  template <class F>
+  void for_each(const char* array, F f);
+  std::optional<Station> station(TableReader& table);
+  std::optional<Station> named_station(const std::string& name, TableReader& table, std::string_view key);
+  std::optional<Unbalance> unbalance(TableReader& table, const Station& at, std::optional<double> mass);
+  std::optional<Material> material(TableReader& table);
+  std::optional<std::pair<double, double>> diameters(TableReader& table, std::string_view key,
+                                                     bool is_required);
+
+  /// A station that was given by position and by node number: both must be the same place.
+  struct DoubleStation {
+    Station position;
+    int node = 0;
+  };
+  /// A contact whose radius is that of the shaft at its station.
+  struct MissingRadius {
+    std::size_t contact = 0;
+    Where where;
+    std::string key;
+  };
+
+  ConfigNode& root_;
+  std::filesystem::path directory_;
+  std::vector<Problem> problems_;
+  Model model_;
+  std::map<std::string, Material> materials_;
+  std::vector<DoubleStation> double_stations_;
+  std::vector<MissingRadius> missing_radii_;
+};
+
+template <class F>
+void ModelBuilder::for_each(const char* array, F f) {
+  const ConfigNode* list = root_.find(array);
+  if (!list) return;
+  if (list->kind != ConfigNode::Kind::array) {
+    problems_.push_back({list->key_where, array,
+                         std::string("expected an array of tables: write [[") + array + "]]"});
+    return;
+  }
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    const ConfigNode* name = list->items[i].find("name");
+    const bool has_name = name && name->kind == ConfigNode::Kind::string;
+    const std::string label = has_name ? name->text : std::to_string(i + 1);
+    TableReader table(&list->items[i], std::string(array) + "." + label, problems_);
+    if (has_name && std::find(names.begin(), names.end(), label) != names.end()) {
+      table.problem("name", "another " + std::string(array) + " has this name already");
+    }
+    names.push_back(label);
+    f(table, i);
+    table.finish();
+  }
+}
+
+}  // namespace whirl

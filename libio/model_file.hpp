@@ -1,0 +1,25 @@
+#pragma once
+/// Model files: from TOML to a checked model.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "libdyn/model.hpp"
+
+namespace whirl {
+
+/// Reads a model file and everything it names (bearing tables).
+///
+/// @param sets  "PATH=VALUE" lines of the command line; they count as if they stood in the file
+/// @throws ModelError  with every problem of the file
+Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets = {});
+
+/// The same from a text, for tests and for models stored in results.
+/// @param name       for messages
+/// @param directory  where files that the model names are looked for
+Model parse_model(const std::string& text, const std::string& name = "model",
+                  const std::vector<std::string>& sets = {},
+                  const std::filesystem::path& directory = {});
+
+}  // namespace whirl

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace whirl {
+
+/// The known word that someone who wrote `word` most likely meant, if one is close enough.
+///
+/// Distance: a letter missing, too many or wrong costs 2, two neighbors swapped 2, a wrong case 1.
+/// Close enough is a distance up to the length of `word`, but no more than 6; of several the first.
+std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known);
+
+}  // namespace whirl

@@ -1,0 +1,152 @@
+#include "libio/read_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libio/nearest.hpp"
+#include "libio/units.hpp"
+
+namespace whirl {
+
+TableReader::TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems)
+    : table_(table), path_(std::move(path)), problems_(problems) {
+  if (table_ && table_->kind != ConfigNode::Kind::table) {
+    problems_.push_back({table_->where, path_,
+                         fmt::format("found {}, expected a table", table_->as_written())});
+    table_ = nullptr;
+  }
+}
+
+std::string TableReader::path(std::string_view key) const {
+  return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
+
+Where TableReader::where(std::string_view key) const {
+  const ConfigNode* value = table_ ? table_->find(key) : nullptr;
+  return value ? value->where : where();
+}
+
+const ConfigNode* TableReader::node(std::string_view key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+  return table_ ? table_->find(key) : nullptr;
+}
+
+void TableReader::problem(std::string_view key, std::string message) {
+  problems_.push_back({where(key), path(key), std::move(message)});
+}
+
+void TableReader::missing(std::string_view key, std::string_view expected) {
+  problems_.push_back({where(), path(key), fmt::format("missing, expected {}", expected)});
+}
+
+void TableReader::unknown_choice(std::string_view key, const std::string& found,
+                                 const std::vector<std::string>& known) {
+  const auto near = nearest(found, known);
+  problem(key, fmt::format("found {}, expected one of {}{}", in_quotes(found), fmt::join(known, ", "),
+                           near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+}
+
+bool TableReader::in_range(const ConfigNode& value, const std::string& at, double number,
+                           Range range, std::string_view unit) {
+  const bool is_good = range == Range::any || (range == Range::positive && number > 0.0) ||
+                       (range == Range::nonnegative && number >= 0.0);
+  if (is_good) return true;
+  problems_.push_back({value.where, at,
+                       fmt::format("found {}, expected {} {}", value.as_written(),
+                                   expected_quantity(unit),
+                                   range == Range::positive ? "above zero" : "of zero or more")});
+  return false;
+}
+
+std::optional<double> TableReader::quantity(const ConfigNode& value, const std::string& at,
+                                            std::string_view unit, Range range) {
+  const auto report = [&](std::string message) {
+    problems_.push_back({value.where, at, std::move(message)});
+  };
+  double number = value.number;
+  switch (value.kind) {
+    case ConfigNode::Kind::integer:
+    case ConfigNode::Kind::real:
+      break;
+    case ConfigNode::Kind::string: {
+      const auto parsed = parse_as(value.text, unit);
+      if (!parsed) {
+        report(parsed.problem);
+        return std::nullopt;
+      }
+      number = *parsed;
+      break;
+    }
+    default:
+      report(fmt::format("found {}, expected {}", value.as_written(), expected_quantity(unit)));
+      return std::nullopt;
+  }
+  if (!std::isfinite(number)) {
+    report(fmt::format("found {}, expected {}", value.as_written(), expected_quantity(unit)));
+    return std::nullopt;
+  }
+  if (!in_range(value, at, number, range, unit)) return std::nullopt;
+  return number;
+}
+
+std::optional<double> TableReader::quantity(std::string_view key, std::string_view unit,
+                                            Range range, bool is_required) {
+  const ConfigNode* value = node(key);
+  if (value) return quantity(*value, path(key), unit, range);
+  if (is_required) missing(key, expected_quantity(unit));
+  return std::nullopt;
+}
+
+std::optional<long> TableReader::integer(std::string_view key, Range range, bool is_required) {
+  const ConfigNode* value = node(key);
+  if (!value) {
+    if (is_required) missing(key, "a whole number");
+    return std::nullopt;
+  }
+  if (value->kind != ConfigNode::Kind::integer) {
+    problem(key, fmt::format("found {}, expected a whole number", value->as_written()));
+    return std::nullopt;
+  }
+  constexpr double largest = 1e9;
+  if (!in_range(*value, path(key), value->number, range, "")) return std::nullopt;
+  if (std::abs(value->number) > largest) {
+    problem(key, fmt::format("found {}, expected a number up to {:.0f}", value->as_written(), largest));
+    return std::nullopt;
+  }
+  return static_cast<long>(value->number);
+}
+
+std::optional<bool> TableReader::boolean(std::string_view key) {
+  const ConfigNode* value = node(key);
+  if (!value) return std::nullopt;
+  if (value->kind == ConfigNode::Kind::boolean) return value->boolean;
+  problem(key, fmt::format("found {}, expected true or false", value->as_written()));
+  return std::nullopt;
+}
+
+std::optional<std::string> TableReader::string(std::string_view key, bool is_required) {
+  const ConfigNode* value = node(key);
+  if (!value) {
+    if (is_required) missing(key, "a text");
+    return std::nullopt;
+  }
+  if (value->kind == ConfigNode::Kind::string) return value->text;
+  problem(key, fmt::format("found {}, expected a text in quotation marks", value->as_written()));
+  return std::nullopt;
+}
+
+void TableReader::finish() {
+  if (!table_) return;
+  for (const auto& [key, value] : table_->entries) {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    const auto near = nearest(key, known_);
+    problems_.push_back(
+        {value.key_where, path(key),
+         near ? fmt::format("unknown key, did you mean \"{}\"?", *near)
+              : fmt::format("unknown key, known here: {}", fmt::join(known_, ", "))});
+  }
+}
+
+}  // namespace whirl

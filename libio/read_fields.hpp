@@ -1,0 +1,96 @@
+#pragma once
+/// From the tree of a model file to structs, by their tables of fields; every problem is collected.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "libfe/base/error.hpp"
+#include "libfe/base/field.hpp"
+#include "libio/config.hpp"
+
+namespace whirl {
+
+/// Reads one table. Keys that are read or accepted are known; `finish` reports all others.
+class TableReader {
+ public:
+  /// @param table     null: the table is absent, everything in it is left out
+  /// @param path      of the table, for messages
+  /// @param problems  receives what is wrong
+  TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems);
+
+  bool has(std::string_view key) const { return table_ && table_->find(key); }
+  const ConfigNode* node(std::string_view key);  ///< value of a key, which becomes known; or null
+  std::string path(std::string_view key) const;
+  Where where() const { return table_ ? table_->where : Where{}; }
+  Where where(std::string_view key) const;  ///< of the key's value, or of the table
+
+  /// All fields of a struct. What is absent or wrong stays as it is.
+  template <class Struct>
+  void read(Struct& to) {
+    std::apply([&](const auto&... field) { (read_field(to, field), ...); }, Struct::fields());
+  }
+
+  /// A physical quantity in SI; reports wrong units, ranges, a required one that is missing.
+  std::optional<double> quantity(std::string_view key, std::string_view unit, Range range,
+                                 bool is_required = false);
+  /// The same of a value that stands in an array or an inline table.
+  std::optional<double> quantity(const ConfigNode& value, const std::string& at,
+                                 std::string_view unit, Range range);
+  std::optional<long> integer(std::string_view key, Range range, bool is_required = false);
+  std::optional<bool> boolean(std::string_view key);
+  std::optional<std::string> string(std::string_view key, bool is_required = false);
+
+  /// One of the names of an enum; reports the known ones otherwise.
+  template <class Enum>
+  std::optional<Enum> choice(std::string_view key) {
+    const auto name = string(key);
+    if (!name) return std::nullopt;
+    std::vector<std::string> known;
+    for (const auto& [candidate, value] : choices(Enum{})) {
+      if (candidate == *name) return value;
+      known.emplace_back(candidate);
+    }
+    unknown_choice(key, *name, known);
+    return std::nullopt;
+  }
+
+  /// A required key is missing.
+  void missing(std::string_view key, std::string_view expected);
+  void problem(std::string_view key, std::string message);
+  void unknown_choice(std::string_view key, const std::string& found,
+                      const std::vector<std::string>& known);
+
+  /// Reports keys that nobody asked for, with the nearest known one.
+  void finish();
+
+ private:
+  template <class Struct, class Member>
+  void read_field(Struct& to, const Field<Struct, Member>& field) {
+    if constexpr (std::is_same_v<Member, double>) {
+      if (const auto v = quantity(field.name, field.unit, field.range, field.is_required)) to.*field.member = *v;
+    } else if constexpr (std::is_same_v<Member, int>) {
+      if (const auto v = integer(field.name, field.range, field.is_required)) to.*field.member = static_cast<int>(*v);
+    } else if constexpr (std::is_same_v<Member, bool>) {
+      if (const auto v = boolean(field.name)) to.*field.member = *v;
+    } else if constexpr (std::is_enum_v<Member>) {
+      if (const auto v = choice<Member>(field.name)) to.*field.member = *v;
+    } else {
+      static_assert(std::is_same_v<Member, std::string>, "a field of a type that is not read");
+      if (const auto v = string(field.name, field.is_required)) to.*field.member = *v;
+    }
+  }
+  bool in_range(const ConfigNode& value, const std::string& at, double number, Range range,
+                std::string_view unit);
+
+  const ConfigNode* table_;
+  std::string path_;
+  std::vector<Problem>& problems_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace whirl

@@ -1,0 +1,105 @@
+#include "libio/record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace whirl {
+
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    switch (c) {
+      case '"': out += "\\\""; break;
+      case '\\': out += "\\\\"; break;
+      case '\n': out += "\\n"; break;
+      case '\t': out += "\\t"; break;
+      case '\r': out += "\\r"; break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20) {
+          out += fmt::format("\\u{:04x}", static_cast<int>(c));
+        } else {
+          out += c;
+        }
+    }
+  }
+  return out + "\"";
+}
+
+}  // namespace
+
+Record& Record::set(std::string_view key, Record value) {
+  assert(std::holds_alternative<Object>(value_));
+  std::get<Object>(value_).emplace_back(std::string(key), std::move(value));
+  return *this;
+}
+
+void Record::add(Record item) {
+  assert(std::holds_alternative<Array>(value_));
+  std::get<Array>(value_).push_back(std::move(item));
+}
+
+bool Record::is_flat() const {
+  if (const auto* array = std::get_if<Array>(&value_)) {
+    return std::all_of(array->begin(), array->end(), [](const Record& r) {
+      return !std::holds_alternative<Object>(r.value_) && r.is_flat();
+    });
+  }
+  if (const auto* object = std::get_if<Object>(&value_)) {
+    return object->size() <= 8 && std::all_of(object->begin(), object->end(), [](const auto& e) {
+      return !std::holds_alternative<Object>(e.second.value_) &&
+             !std::holds_alternative<Array>(e.second.value_);
+    });
+  }
+  return true;
+}
+
+void Record::write(std::string& out, int depth) const {
+  const auto list = [&](const auto& items, char open, char close, const auto& write_item) {
+    const bool flat = is_flat();
+    const std::string indent = flat ? "" : "\n" + std::string(static_cast<std::size_t>(2 * depth + 2), ' ');
+    out += open;
+    bool first = true;
+    for (const auto& item : items) {
+      if (!first) out += flat ? ", " : ",";
+      first = false;
+      out += indent;
+      write_item(item);
+    }
+    if (!flat && !items.empty()) out += "\n" + std::string(static_cast<std::size_t>(2 * depth), ' ');
+    out += close;
+  };
+  struct Writer {
+    const Record& self;
+    std::string& out;
+    decltype(list)& write_list;
+    int depth;
+    void operator()(std::nullptr_t) { out += "null"; }
+    void operator()(bool v) { out += v ? "true" : "false"; }
+    void operator()(std::int64_t v) { out += fmt::format("{}", v); }
+    void operator()(double v) { out += std::isfinite(v) ? fmt::format("{}", v) : "null"; }
+    void operator()(const std::string& v) { out += escaped(v); }
+    void operator()(const Array& v) {
+      write_list(v, '[', ']', [&](const Record& item) { item.write(out, depth + 1); });
+    }
+    void operator()(const Object& v) {
+      write_list(v, '{', '}', [&](const auto& entry) {
+        out += escaped(entry.first) + ": ";
+        entry.second.write(out, depth + 1);
+      });
+    }
+  };
+  std::visit(Writer{*this, out, list, depth}, value_);
+}
+
+std::string Record::json() const {
+  std::string out;
+  write(out, 0);
+  return out + "\n";
+}
+
+}  // namespace whirl

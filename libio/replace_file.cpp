@@ -1,0 +1,73 @@
+#include "libio/replace_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace whirl {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(const fs::path& place, std::string_view reason) {
+  throw FileError(fmt::format("cannot write {}: {}", place.string(), reason));
+}
+
+/// Has the system write its buffers of a file or directory to the disk.
+/// @return 0 or the number of the error
+int synchronize(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return errno;
+  const int code = ::fsync(file) == 0 ? 0 : errno;
+  ::close(file);
+  return code;
+}
+
+}  // namespace
+
+FileReplacement::FileReplacement(const fs::path& place) : place_(place) {
+  std::error_code ignored;
+  // what is behind a link is replaced, not the link
+  if (fs::is_symlink(place_, ignored)) place_ = fs::weakly_canonical(place_, ignored);
+  const fs::path directory = place_.has_parent_path() ? place_.parent_path() : ".";
+  if (!place_.has_filename()) fail(place, "this is not the name of a file");
+  if (fs::exists(place_, ignored) && !fs::is_regular_file(place_, ignored)) {
+    fail(place, fs::is_directory(place_, ignored) ? "it is a directory" : "it is not a file");
+  }
+  if (!fs::is_directory(directory, ignored)) {
+    fail(place, fmt::format("there is no directory {}", directory.string()));
+  }
+  temporary_ = place_;
+  temporary_ += fmt::format(".tmp.{}", ::getpid());
+}
+
+FileReplacement::~FileReplacement() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void FileReplacement::commit() {
+  if (const int code = synchronize(temporary_)) fail(place_, std::strerror(code));
+  std::error_code problem;
+  fs::rename(temporary_, place_, problem);
+  if (problem) fail(place_, problem.message());
+  temporary_.clear();
+  // the new name must reach the disk too; some file systems cannot do that, and then need not
+  synchronize(place_.has_parent_path() ? place_.parent_path() : ".");
+}
+
+void replace_file(const fs::path& place, std::string_view text) {
+  FileReplacement file(place);
+  std::ofstream stream(file.temporary(), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) fail(place, std::strerror(errno));
+  file.commit();
+}
+
+}  // namespace whirl

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace whirl {
+
+/// A file cannot be read or written; says which one and why.
+class FileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A file that is written under another name and takes its place when it is complete.
+///
+/// Whoever opens the place finds the old file or the new one, whole, at whatever moment this
+/// process is killed; a killed one leaves "<name>.tmp.<process number>" behind.
+class FileReplacement {
+ public:
+  /// @param place  a file, which need not exist yet, in a directory that does
+  /// @throws FileError  if there is no such directory, or if the place is taken by something else
+  /// than
+  ///                    a file, such as /dev/null
+  explicit FileReplacement(const std::filesystem::path& place);
+  /// Removes what was written, unless it was committed.
+  ~FileReplacement();
+  FileReplacement(const FileReplacement&) = delete;
+  FileReplacement& operator=(const FileReplacement&) = delete;
+
+  const std::filesystem::path& place() const { return place_; }
+  /// Where to write: a file next to the place.
+  const std::filesystem::path& temporary() const { return temporary_; }
+
+  /// Brings the closed temporary file to the disk and moves it to its place.
+  /// @throws FileError  the place then is as it was
+  void commit();
+
+ private:
+  std::filesystem::path place_, temporary_;
+};
+
+/// Replaces a file by a text.
+/// @throws FileError
+void replace_file(const std::filesystem::path& place, std::string_view text);
+
+}  // namespace whirl

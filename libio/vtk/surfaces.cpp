@@ -1,0 +1,183 @@
+#include "libio/vtk/surfaces.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace whirl {
+
+using Eigen::Vector3d;
+
+namespace vtk {
+
+namespace {
+
+using Ring = std::vector<int>;
+
+/// Builds the surfaces of one member, normals outward.
+class Builder {
+ public:
+  Builder(Surfaces& surfaces, int facets, Part part, std::size_t index)
+      : surfaces_(surfaces), facets_(facets), part_(part), member_(static_cast<int>(index) + 1) {}
+
+  /// A circle of vertices about the center's arm, from +x towards +y.
+  Ring ring(const Vertex& center, double radius, double gap_radius = 0.0) {
+    Ring result;
+    for (int i = 0; i < facets_; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / facets_;
+      const Vector3d direction(std::cos(angle), std::sin(angle), 0.0);
+      result.push_back(static_cast<int>(surfaces_.vertices.size()));
+      surfaces_.vertices.push_back(center);
+      surfaces_.vertices.back().arm += radius * direction;
+      surfaces_.vertices.back().gap += gap_radius * direction;
+    }
+    return result;
+  }
+
+  /// Quadrangles between two rings; the normal is that of (along the ring) x (from ring to ring).
+  void band(const Ring& from, const Ring& to) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      const std::size_t next = (i + 1) % from.size();
+      add({from[i], from[next], to[next], to[i]});
+    }
+  }
+
+  /// The polygon that closes a ring, with its normal towards -z or +z.
+  void left_cap(Ring ring) {
+    std::reverse(ring.begin(), ring.end());
+    add(std::move(ring));
+  }
+  void right_cap(const Ring& ring) { add(ring); }
+
+ private:
+  void add(std::vector<int> vertices) {
+    surfaces_.cells.push_back({std::move(vertices), part_, member_});
+  }
+
+  Surfaces& surfaces_;
+  int facets_;
+  Part part_;
+  int member_;
+};
+
+/// Whether a shaft piece ends at a point in a neighbor of the same radius, and needs no face there.
+bool continues(const VtkScene& scene, const VtkShaftPiece& piece, bool at_right) {
+  const int point = at_right ? piece.right : piece.left;
+  const double radius = at_right ? piece.right_radius : piece.left_radius;
+  return std::any_of(scene.shaft.begin(), scene.shaft.end(), [&](const VtkShaftPiece& other) {
+    if (&other == &piece) return false;
+    return (other.left == point && std::abs(other.left_radius - radius) < 1e-9 * radius) ||
+           (other.right == point && std::abs(other.right_radius - radius) < 1e-9 * radius);
+  });
+}
+
+/// Length of the rotor, or its diameter if that is larger [m].
+double size_of(const VtkScene& scene) {
+  double size = 0.0;
+  if (!scene.z.empty()) {
+    const auto [first, last] = std::minmax_element(scene.z.begin(), scene.z.end());
+    size = *last - *first;
+  }
+  for (const VtkDisk& d : scene.disks) size = std::max(size, 2.0 * d.outer_radius);
+  for (const VtkStator& s : scene.stators) {
+    size = std::max(size, 2.0 * (s.rotor_radius + s.clearance));
+  }
+  return size > 0.0 ? size : 1.0;
+}
+
+}  // namespace
+
+Surfaces surfaces_of(const VtkScene& scene, const VtkOptions& options) {
+  Surfaces surfaces;
+  for (std::size_t k = 0; k < scene.shaft.size(); ++k) {
+    const VtkShaftPiece& piece = scene.shaft[k];
+    Builder builder(surfaces, options.facets, shaft, k);
+    Ring before;
+    for (int i = 0; i <= options.sections; ++i) {
+      const double s = static_cast<double>(i) / options.sections;
+      const double radius = (1.0 - s) * piece.left_radius + s * piece.right_radius;
+      const Ring ring = builder.ring({piece.left, piece.right, s, Vector3d::Zero()}, radius);
+      if (i == 0 && !continues(scene, piece, false)) builder.left_cap(ring);
+      if (i > 0) builder.band(before, ring);
+      before = ring;
+    }
+    if (!continues(scene, piece, true)) builder.right_cap(before);
+  }
+  for (std::size_t k = 0; k < scene.disks.size(); ++k) {
+    const VtkDisk& d = scene.disks[k];
+    Builder builder(surfaces, options.facets, disk, k);
+    const Vertex left{d.point, d.point, 0.0, Vector3d(0.0, 0.0, -0.5 * d.width)};
+    const Vertex right{d.point, d.point, 0.0, Vector3d(0.0, 0.0, 0.5 * d.width)};
+    const Ring outer_left = builder.ring(left, d.outer_radius);
+    const Ring outer_right = builder.ring(right, d.outer_radius);
+    builder.band(outer_left, outer_right);
+    if (d.inner_radius > 0.0) {
+      const Ring inner_left = builder.ring(left, d.inner_radius);
+      const Ring inner_right = builder.ring(right, d.inner_radius);
+      builder.band(inner_right, inner_left);
+      builder.band(inner_left, outer_left);
+      builder.band(outer_right, inner_right);
+    } else {
+      builder.left_cap(outer_left);
+      builder.right_cap(outer_right);
+    }
+  }
+  for (std::size_t k = 0; k < scene.stators.size(); ++k) {
+    const VtkStator& s = scene.stators[k];
+    Builder builder(surfaces, options.facets, stator, k);
+    const double width = s.width > 0.0 ? s.width : 0.2 * (s.rotor_radius + s.clearance);
+    const double z = s.z - (s.point < 0 ? 0.0 : scene.z[static_cast<std::size_t>(s.point)]);
+    const Vector3d offset(s.offset.x(), s.offset.y(), 0.0);
+    const Vertex left{s.point, s.point, 0.0, Vector3d(0.0, 0.0, z - 0.5 * width), offset};
+    const Vertex right{s.point, s.point, 0.0, Vector3d(0.0, 0.0, z + 0.5 * width), offset};
+    builder.band(builder.ring(left, s.rotor_radius, s.clearance),
+                 builder.ring(right, s.rotor_radius, s.clearance));
+  }
+  return surfaces;
+}
+
+Placement place(const Vertex& vertex, const VtkScene& scene, const Mat& motion) {
+  const Vector3d arm = vertex.arm + vertex.gap;
+  if (vertex.left < 0) return {arm, Vector3d::Zero(), Vector3d::Zero()};
+  const double s = vertex.share;
+  const double z_left = scene.z[static_cast<std::size_t>(vertex.left)];
+  const double z_right = scene.z[static_cast<std::size_t>(vertex.right)];
+  const Eigen::RowVector4d left = motion.row(vertex.left), right = motion.row(vertex.right);
+
+  // cubic Hermite polynomials; slopes are dx/dz = theta_y, dy/dz = -theta_x
+  const double L = z_right - z_left;
+  const double h_right = s * s * (3.0 - 2.0 * s), h_left = 1.0 - h_right;
+  const double slope_left = L * s * (1.0 - s) * (1.0 - s), slope_right = -L * s * s * (1.0 - s);
+  const Vector3d u(
+      h_left * left[0] + h_right * right[0] + slope_left * left[3] + slope_right * right[3],
+      h_left * left[1] + h_right * right[1] - slope_left * left[2] - slope_right * right[2], 0.0);
+  const Vector3d theta((1.0 - s) * left[2] + s * right[2], (1.0 - s) * left[3] + s * right[3], 0.0);
+  const Vector3d axis(0.0, 0.0, (1.0 - s) * z_left + s * z_right);
+  return {axis + arm, u + theta.cross(arm), theta};
+}
+
+double force_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames) {
+  double largest = 0.0;
+  for (const VtkFrame& frame : frames) {
+    for (const VtkForce& f : frame.forces) {
+      if (f.force.allFinite()) largest = std::max(largest, f.force.norm());
+    }
+  }
+  return largest > 0.0 ? 0.15 * size_of(scene) / largest : 1.0;
+}
+
+}  // namespace vtk
+
+double vtk_deflection_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames) {
+  double largest = 0.0;
+  for (const VtkFrame& frame : frames) {
+    for (Eigen::Index i = 0; i < frame.motion.rows(); ++i) {
+      const double r = frame.motion.row(i).head<2>().norm();
+      if (std::isfinite(r)) largest = std::max(largest, r);
+    }
+  }
+  return largest > 0.0 ? std::max(1.0, 0.12 * vtk::size_of(scene) / largest) : 1.0;
+}
+
+}  // namespace whirl

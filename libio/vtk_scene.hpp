@@ -1,0 +1,27 @@
+#pragma once
+/// From models and results to what ParaView shows.
+
+#include "libdyn/model.hpp"
+#include "libfe/assemble.hpp"
+#include "libfe/modes.hpp"
+#include "libio/vtk.hpp"
+
+namespace whirl {
+
+/// Shaft with its diameters, disks, spinning bodies, stators of all contacts.
+///
+/// Bodies have no place along the shaft: each is put where a contact, bearing or link joins it to the
+/// shaft. Sizes that the model does not tell (disks by mass, bodies) are drawn as plausible ones.
+VtkScene vtk_scene(const Model& model, const Assembler& assembler);
+
+/// One cycle of a mode, q = Re(shape e^(i phase)): damping is left out.
+std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, std::size_t contacts,
+                                      int frames);
+
+/// A moment of a motion.
+/// @param full      full vector of displacements
+/// @param normal    normal force of every contact [N], friction force likewise
+VtkFrame vtk_frame(const Model& model, const Assembler& assembler, double time, const Vec& full,
+                   const Vec& normal, const Vec& friction);
+
+}  // namespace whirl

@@ -1,0 +1,30 @@
+#include "libio/nearest.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace whirl {
+namespace {
+
+const std::vector<std::string> keys = {"friction", "stiffness", "damping", "clearance", "at"};
+
+TEST(Nearest, FindsWhatWasMeant) {
+  EXPECT_EQ(nearest("frictoin", keys), "friction");
+  EXPECT_EQ(nearest("Friction", keys), "friction");
+  EXPECT_EQ(nearest("stifness", keys), "stiffness");
+  EXPECT_EQ(nearest("clearence", keys), "clearance");
+  EXPECT_EQ(nearest("dampings", keys), "damping");
+  EXPECT_EQ(nearest("att", keys), "at");
+}
+
+TEST(Nearest, DoesNotGuessWildly) {
+  EXPECT_EQ(nearest("viscosity", keys), std::nullopt);
+  EXPECT_EQ(nearest("", keys), std::nullopt);
+  EXPECT_EQ(nearest("x", keys), std::nullopt);
+  EXPECT_EQ(nearest("friction", {}), std::nullopt);
+  EXPECT_EQ(nearest(std::string(1'000'000, 'x'), keys), std::nullopt);
+}
+
+}  // namespace
+}  // namespace whirl
