@@ -13,8 +13,8 @@ namespace whirl {
 struct Contact {
   std::string name;
   Station at;
-  Station against;         ///< the ground or a body
-  double clearance = 0.0;  ///< radius of the clearance circle [m]
+  Station against;             ///< the ground or a body
+  double clearance = 0.0;      ///< radius of the clearance circle [m]
   Vec2 offset = Vec2::Zero();  ///< centre of the clearance circle [m]
   Friction friction;
   AnyContactLaw<> law;

@@ -5,12 +5,12 @@
 ///
 ///   static constexpr std::string_view name;      the word in the model file
 ///   static constexpr auto fields();              its keys (libfe/base/field.hpp)
-///   auto normal(d, d_rate) const;                normal force [N] at depth d [m] and its rate [m/s]
-///   bool is_continuous() const;                  normal(0, d_rate) = 0 for every rate
+///   auto normal(d, d_rate) const;                normal force [N] at depth d [m] and its rate
+///   [m/s] bool is_continuous() const;                  normal(0, d_rate) = 0 for every rate
 ///
 /// `normal` is the smooth force of the law while in touch, and its smooth continuation a little
-/// beyond (trial steps of integrators end there). It does not branch, allocate or remember: touching,
-/// parting, sliding and sticking are decided by the engine, from events.
+/// beyond (trial steps of integrators end there). It does not branch, allocate or remember:
+/// touching, parting, sliding and sticking are decided by the engine, from events.
 
 /// Laws are inlined everywhere, so that one source serves every number type and instruction set.
 #define WHIRL_INLINE [[gnu::always_inline]] inline

@@ -119,7 +119,9 @@ class Ties {
   std::vector<int> parent_;
 };
 
-bool is_identity(const Sparse& T) { return T.rows() == T.cols(); }
+bool is_identity(const Sparse& T) {
+  return T.rows() == T.cols();
+}
 
 Sparse project(const Sparse& T, const Sparse& A) {
   if (is_identity(T)) return A;
@@ -137,13 +139,13 @@ Vec row_sizes(const Sparse& A) {
   return size;
 }
 
-/// Freedoms without mass whose damping is beta times their stiffness, with one common beta.
-std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& K) {
+/// Freedoms without inertia whose damping is beta times their stiffness, with one common beta.
+std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K) {
   constexpr double tolerance = 1e-12;
-  const Vec mass = row_sizes(M), stiffness = row_sizes(K);
+  const Vec mass = row_sizes(M), gyroscopic = row_sizes(G), stiffness = row_sizes(K);
   std::vector<int> massless;
   for (int i = 0; i < mass.size(); ++i) {
-    if (mass(i) == 0.0) massless.push_back(i);
+    if (mass(i) == 0.0 && gyroscopic(i) == 0.0) massless.push_back(i);
   }
   if (massless.empty()) return massless;
   const Vec damping = C.diagonal(), stiff = K.diagonal();
@@ -219,8 +221,8 @@ Assembler::Assembler(Structure structure)
   Collector collector;
   for (const MeshElement& element : mesh_.elements) {
     const auto e = matrices(beam_of(element, structure_, mesh_));
-    std::vector<int> index = indices(dofs_, {Point::Kind::node, element.left},
-                                     {Point::Kind::node, element.right});
+    std::vector<int> index =
+        indices(dofs_, {Point::Kind::node, element.left}, {Point::Kind::node, element.right});
     while (static_cast<Eigen::Index>(index.size()) < e.M.rows()) index.push_back(next++);
     collector.add(e, index);
   }
@@ -253,11 +255,14 @@ Assembler::Assembler(Structure structure)
         const bool lacks = (a < 0 && from.kind != Point::Kind::ground) ||
                            (b < 0 && to.kind != Point::Kind::ground);
         if (lacks) {
-          problems.push_back({c.where, c.name, "cannot clamp to a body without tilts; give it tilts = true"});
+          problems.push_back(
+              {c.where, c.name, "cannot clamp to a body without tilts; give it tilts = true"});
           break;
         }
         if (!ties.tie(a, b)) {
-          problems.push_back({c.where, c.name, "its ends are held together already by another rigid bearing or link"});
+          problems.push_back(
+              {c.where, c.name,
+               "its ends are held together already by another rigid bearing or link"});
           break;
         }
       }
@@ -308,7 +313,8 @@ System Assembler::at(double Omega) const {
   const Sparse& T = dofs_.T;
   // condensation follows the conservative part of K: rotating damping vanishes with it
   const Sparse K = project(T, f.K);
-  const std::vector<int> condensed = condensable(project(T, f.M), project(T, f.C), K);
+  const std::vector<int> condensed =
+      condensable(project(T, f.M), project(T, f.C), project(T, f.G), K);
   if (condensed.empty()) return system_of(f, T, Omega);
   System s = system_of(f, Sparse(T * condensation(K, condensed)), Omega);
   s.dofs.condensed = static_cast<int>(condensed.size());

@@ -93,14 +93,13 @@ class Tracker {
 
 /// Speed between two fronts at which a branch meets the line frequency = order * Omega.
 double crossing(const Tracker& tracker, Front low, Front high, std::size_t branch, double order) {
-  const auto gap = [&](const Front& f) {
-    return f.modes[branch].frequency() - order * f.Omega;
-  };
+  const auto gap = [&](const Front& f) { return f.modes[branch].frequency() - order * f.Omega; };
   double a = low.Omega, b = high.Omega, ga = gap(low), gb = gap(high);
   double best = b;
   for (int it = 0; it < 60; ++it) {
     const double guess = std::clamp(b - gb * (b - a) / (gb - ga), std::min(a, b), std::max(a, b));
-    const Front middle = tracker.advance(std::abs(guess - a) < std::abs(guess - b) ? low : high, guess);
+    const Front middle =
+        tracker.advance(std::abs(guess - a) < std::abs(guess - b) ? low : high, guess);
     if (!middle.is_alive[branch]) return nan;
     const double g = gap(middle);
     best = guess;
@@ -119,7 +118,8 @@ double crossing(const Tracker& tracker, Front low, Front high, std::size_t branc
 Whirl usual_whirl(const std::vector<Whirl>& seen) {
   std::array<int, 4> count{};
   for (const Whirl w : seen) ++count[static_cast<std::size_t>(w)];
-  const auto most = std::max_element(count.begin(), count.end() - 1);  // planar only if nothing else
+  const auto most =
+      std::max_element(count.begin(), count.end() - 1);  // planar only if nothing else
   return *most > 0 ? static_cast<Whirl>(most - count.begin()) : Whirl::planar;
 }
 

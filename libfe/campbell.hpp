@@ -9,8 +9,8 @@ namespace whirl {
 
 /// One mode, followed through the speeds by its shape.
 struct CampbellBranch {
-  Whirl whirl = Whirl::planar;        ///< the sense it has at most speeds other than zero
-  std::vector<double> frequency;      ///< damped, per speed [rad/s]; NaN where it does not oscillate
+  Whirl whirl = Whirl::planar;    ///< the sense it has at most speeds other than zero
+  std::vector<double> frequency;  ///< damped, per speed [rad/s]; NaN where it does not oscillate
   std::vector<double> log_decrement;  ///< per speed; NaN likewise
 };
 
@@ -32,7 +32,7 @@ struct Campbell {
 /// they do not agree well, speeds between are computed too until they do.
 ///
 /// @param speeds    ascending, nonnegative [rad/s]
-/// @param branches  how many of the lowest modes at the first speed are followed
+/// @param branches  how many of the lowest modes at the first speed above zero are followed
 /// @param order     excitation line whose crossings are reported, 1 for unbalance
 Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds, int branches,
                   double order = 1.0);

@@ -25,8 +25,8 @@ std::vector<Critical> of_pencil(const System& system, const CriticalOptions& opt
   for (Eigen::Index i = 0; i < modes.nu.size(); ++i) {
     if (modes.nu(i) <= 0.0) break;  // no real speed: a disk that stiffens faster than it spins
     const CVec q = modes.q.col(i);
-    criticals.push_back({1.0 / (options.order * std::sqrt(modes.nu(i))), nan,
-                         whirl_of(orbits(system.dofs, q)), q});
+    criticals.push_back(
+        {1.0 / (options.order * std::sqrt(modes.nu(i))), nan, whirl_of(orbits(system.dofs, q)), q});
   }
   return criticals;
 }
@@ -55,7 +55,8 @@ Critical self_consistent(const Assembler& assembler, const CriticalOptions& opti
   return start;
 }
 
-/// Solves Im lambda(Omega) = order * Omega from an undamped critical speed; NaN if the mode is lost.
+/// Solves Im lambda(Omega) = order * Omega from an undamped critical speed; NaN if the mode is
+/// lost.
 double damped_speed(const ModeFinder& finder, const Critical& undamped,
                     const CriticalOptions& options) {
   CVec shape = undamped.shape;

@@ -14,7 +14,8 @@ struct Material {
   double E = 0.0;    ///< Young's modulus [Pa]
   double G = 0.0;    ///< shear modulus [Pa]
   double nu = 0.0;   ///< Poisson's ratio, nu = E / (2 G) - 1
-  double eta = 0.0;  ///< internal (rotating, viscous) damping: stress = E (strain + eta strain') [s]
+  double eta =
+      0.0;  ///< internal (rotating, viscous) damping: stress = E (strain + eta strain') [s]
 
   static constexpr auto fields() {
     using enum Range;

@@ -75,9 +75,10 @@ Mesh make_mesh(const Structure& structure) {
     const double z = station->z;
     if (z < -same_place * length || z > (1.0 + same_place) * length) {
       const std::string found = fmt::format("{:g} mm is off the shaft", 1e3 * z);
-      const std::string right = structure.shaft.empty()
-                                    ? "the model has no shaft: name a body instead"
-                                    : fmt::format("the shaft reaches from 0 to {:g} mm", 1e3 * length);
+      const std::string right =
+          structure.shaft.empty()
+              ? "the model has no shaft: name a body instead"
+              : fmt::format("the shaft reaches from 0 to {:g} mm", 1e3 * length);
       problems.push_back({station->where, station->key, found + "; " + right});
       continue;
     }
@@ -130,13 +131,8 @@ Mesh make_mesh(const Structure& structure) {
   }
 
   // stations between its nodes
-  const std::vector<double> described = mesh.z;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const bool is_node = std::any_of(described.begin(), described.end(), [&](double z) {
-      return std::abs(z - wanted[i]) <= same_place * length;
-    });
-    if (is_used[i] || is_node) continue;
-    mesh.z.push_back(wanted[i]);
+    if (!is_used[i]) mesh.z.push_back(wanted[i]);
   }
   mesh.left_to_right.resize(mesh.z.size());
   std::iota(mesh.left_to_right.begin(), mesh.left_to_right.end(), 0);
@@ -190,7 +186,8 @@ Point resolve(const Station& station, const Structure& structure, const Mesh& me
       nearest = i;
     }
   }
-  if (nearest < 0 || std::abs(mesh.z[nearest] - station.z) > 2.0 * same_place * structure.length()) {
+  if (nearest < 0 ||
+      std::abs(mesh.z[nearest] - station.z) > 2.0 * same_place * structure.length()) {
     throw ModelError(station.where, station.key,
                      fmt::format("{:g} mm is not a node of the shaft", 1e3 * station.z));
   }

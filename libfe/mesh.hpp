@@ -1,5 +1,6 @@
 #pragma once
-/// Nodes of the shaft: where they are, which segments lie between them, which station is which node.
+/// Nodes of the shaft: where they are, which segments lie between them, which station is which
+/// node.
 
 #include <vector>
 
@@ -25,10 +26,10 @@ struct MeshElement {
 
 /// Nodes in the order of their numbers.
 ///
-/// Segments with a given number of elements make equal ones; their nodes are numbered left to right.
-/// Segments without one are divided at the stations and finely enough for their shape. A station
-/// between the nodes of a given mesh adds a node with a number after all others, so that numbers
-/// that a model file uses keep their place.
+/// Segments with a given number of elements make equal ones; their nodes are numbered left to
+/// right. Segments without one are divided at the stations and finely enough for their shape. A
+/// station between the nodes of a given mesh adds a node with a number after all others, so that
+/// numbers that a model file uses keep their place.
 struct Mesh {
   std::vector<double> z;              ///< position of each node [m]
   std::vector<int> left_to_right;     ///< nodes ordered by position

@@ -31,7 +31,12 @@ struct FreeBody {
 FreeBody free_body(const System& system) {
   const Sparse K = symmetric_part(system.K);
   if (is_supported(K)) return {};
-  const RealModes real = lowest_real_modes(K, system.M, std::min(system.size(), 16));
+  Sparse M = system.M;  // joints without mass get plenty, which makes first_flexible low: safe
+  const double plenty = M.diagonal().maxCoeff();
+  for (int i = 0; i < system.size(); ++i) {
+    if (system.M.coeff(i, i) <= 0.0) M.coeffRef(i, i) = plenty;
+  }
+  const RealModes real = lowest_real_modes(K, M, std::min(system.size(), 16));
   return {true, real.first_flexible()};
 }
 
@@ -72,7 +77,8 @@ void separate_planes(QuadraticModes& modes, const DofMap& dofs) {
     const CMat sum = A.adjoint() * plane.cwiseAbs().cast<Complex>().asDiagonal() * A;
     const Eigen::GeneralizedSelfAdjointEigenSolver<CMat> planes(difference, sum);
     if (planes.info() != Eigen::Success) continue;
-    modes.q(Eigen::all, equal) = (q * planes.eigenvectors().rowwise().reverse()).colwise().normalized();
+    const CMat turned = q * planes.eigenvectors().rowwise().reverse();
+    modes.q(Eigen::all, equal) = turned.colwise().normalized();
   }
 }
 
@@ -91,8 +97,8 @@ Mode describe(Complex lambda, const CVec& q, const DofMap& dofs) {
     const Point p = dofs.points()[largest];
     const Complex x = full(dofs.full_index(p, X)), y = full(dofs.full_index(p, Y));
     const Complex square = x * x + y * y;
-    const double angle = std::abs(square) > 1e-12 * std::norm(x) ? 0.5 * std::arg(square)
-                                                                 : std::arg(x);
+    const double angle =
+        std::abs(square) > 1e-12 * std::norm(x) ? 0.5 * std::arg(square) : std::arg(x);
     mode.shape *= std::polar(1.0 / at[largest].major(), -angle);
     mode.kappa = at[largest].kappa();
   }
@@ -185,7 +191,8 @@ Whirl whirl_of(const std::vector<Orbit>& orbits) {
 Modes complex_modes(const System& system, int count) {
   const FreeBody body = free_body(system);
   if (system.size() < dense_below) {
-    return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift_for(body)), system, body, count);
+    return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift_for(body)), system,
+                  body, count);
   }
   const QuadraticSolver solver(system.M, system.K, shift_for(body));
   int others = usual_others(body);
@@ -205,8 +212,8 @@ ModeFinder::ModeFinder(const Assembler& assembler)
   if (assembler.depends_on_speed()) return;
   state_->body = free_body(state_->base);
   if (state_->base.size() >= dense_below) {
-    state_->solver = std::make_unique<QuadraticSolver>(state_->base.M, state_->base.K,
-                                                       shift_for(state_->body));
+    state_->solver =
+        std::make_unique<QuadraticSolver>(state_->base.M, state_->base.K, shift_for(state_->body));
   }
 }
 

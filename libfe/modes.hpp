@@ -36,11 +36,11 @@ struct Orbit {
 
 /// One oscillatory mode, q = Re(shape e^(lambda t)).
 struct Mode {
-  Complex lambda;             ///< eigenvalue, Im > 0 [rad/s]
-  CVec shape;                 ///< coordinates of the system, largest lateral radius one
+  Complex lambda;  ///< eigenvalue, Im > 0 [rad/s]
+  CVec shape;      ///< coordinates of the system, largest lateral radius one
   Whirl whirl = Whirl::planar;
-  double kappa = 0.0;         ///< signed axis ratio at the point that moves most
-  std::vector<double> kappas; ///< the same at every point (nodes, then bodies)
+  double kappa = 0.0;          ///< signed axis ratio at the point that moves most
+  std::vector<double> kappas;  ///< the same at every point (nodes, then bodies)
 
   double frequency() const { return lambda.imag(); }  ///< damped [rad/s]
   double damping_ratio() const { return -lambda.real() / std::abs(lambda); }
@@ -49,18 +49,19 @@ struct Mode {
 };
 
 struct Modes {
-  std::vector<Mode> oscillatory;   ///< ascending frequency
-  std::vector<Complex> overdamped; ///< eigenvalues with |Im| < 0.2 |Re| (real ones too: divergent or
-                                   ///< creeping), Im >= 0, nearest to zero first [rad/s]
-  std::vector<Mode> rigid_body;    ///< modes of free systems that do not deform them
+  std::vector<Mode> oscillatory;    ///< ascending frequency
+  std::vector<Complex> overdamped;  ///< eigenvalues with |Im| < 0.2 |Re| (real ones too: divergent
+                                    ///< or creeping), Im >= 0, nearest to zero first [rad/s]
+  std::vector<Mode> rigid_body;     ///< modes of free systems that do not deform them
 };
 
 /// Complex modes of a system at its speed.
 ///
-/// Below 150 states all are found densely; above, those nearest to zero by Arnoldi. Rigid-body
-/// motions (of free rotors, including the precession of a free spinning rotor) are told apart by
-/// their strain energy and listed by themselves, as are overdamped motions: real eigenvalues, and
-/// pairs with a damping ratio above 0.98, which only gyroscopics keep from being real.
+/// Below 150 states all are found densely; above, those nearest to zero by Arnoldi, so that a mode
+/// with a damping ratio near one, far from zero but slow, may be missing there. Rigid-body motions
+/// (of free rotors, including the precession of a free spinning rotor) are told apart by their
+/// strain energy and listed by themselves, as are overdamped motions: real eigenvalues, and pairs
+/// with a damping ratio above 0.98, which only gyroscopics keep from being real.
 ///
 /// @param count  oscillatory modes wanted; fewer come back if there are fewer
 /// @throws NumericalError  if an eigensolver fails

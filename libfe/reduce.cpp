@@ -16,10 +16,10 @@ namespace whirl {
 
 namespace {
 
-constexpr double dependent = 1e-7;   ///< of its M-norm: what is left of a shape that repeats others
-constexpr int band_samples = 25;     ///< frequencies at which receptances are compared
+constexpr double dependent = 1e-7;  ///< of its M-norm: what is left of a shape that repeats others
+constexpr int band_samples = 25;    ///< frequencies at which receptances are compared
 constexpr int largest_basis = 60;
-constexpr int small_system = 12;     ///< freedoms that are not worth reducing
+constexpr int small_system = 12;  ///< freedoms that are not worth reducing
 
 /// Adds the part of `shapes` that is new, M-orthonormal.
 void append_orthonormal(Mat& basis, const Mat& shapes, const Sparse& M) {
@@ -45,17 +45,18 @@ Mat static_shapes(const Sparse& K, const Sparse& M, const std::vector<Vec>& rows
   for (std::size_t i = 0; i < rows.size(); ++i) loads.col(static_cast<Eigen::Index>(i)) = rows[i];
   Sparse A = K;
   if (modes.rigid > 0) {
-    const double shift = 0.09 * modes.omega2(std::min<Eigen::Index>(modes.rigid, modes.omega2.size() - 1));
-    A = K + shift * M;
+    const double flexible = modes.first_flexible();  // 0: nothing deforms, K = 0
+    A = K + (flexible > 0.0 ? 0.09 * flexible * flexible : 1.0) * M;
   }
   const Eigen::SparseLU<Sparse> solver(A);
-  if (solver.info() != Eigen::Success) throw NumericalError("static shapes: the stiffness is singular");
+  if (solver.info() != Eigen::Success)
+    throw NumericalError("static shapes: the stiffness is singular");
   return solver.solve(loads);
 }
 
-/// Basis of damped modes: real and imaginary parts of the lowest `size / 2`.
-Mat damped_basis(const Modes& modes, const Sparse& M, int size) {
-  Mat basis(M.rows(), 0);
+/// Basis of damped modes: the rigid ones, real and imaginary parts of the lowest others.
+Mat damped_basis(const Modes& modes, const Mat& rigid, const Sparse& M, int size) {
+  Mat basis = rigid.leftCols(std::min<Eigen::Index>(size, rigid.cols()));
   for (const Mode& mode : modes.oscillatory) {
     if (basis.cols() + 1 > size) break;
     Mat parts(M.rows(), 2);
@@ -74,6 +75,7 @@ ReducedSystem unreduced(const System& system) {
 }  // namespace
 
 ReducedSystem project(const System& system, const Mat& basis) {
+  if (basis.cols() == 0) throw NumericalError("the reduction has no shape: nothing oscillates");
   const Mat M = basis.transpose() * (system.M * basis);
   const Mat K = basis.transpose() * (system.K * basis);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> ritz(0.5 * (K + K.transpose()), M);
@@ -87,7 +89,7 @@ ReducedSystem project(const System& system, const Mat& basis) {
     if (Phi(largest, j) < 0.0) Phi.col(j) *= -1.0;
   }
   const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
-  ReducedSystem r{Phi, small(system.M), small(system.C), small(system.G), small(system.K),
+  ReducedSystem r{Phi,         small(system.M), small(system.C), small(system.G), small(system.K),
                   system.dofs, system.Omega};
   return r;
 }
@@ -95,8 +97,13 @@ ReducedSystem project(const System& system, const Mat& basis) {
 ReductionError reduction_error(const System& system, const ReducedSystem& reduced,
                                const std::vector<Vec>& ports, double band) {
   ReductionError error{.band = band};
-  const int wanted = std::max(4, reduced.size());
-  const Modes full = complex_modes(system, wanted);
+  int wanted = std::max(4, reduced.size());
+  Modes full = complex_modes(system, wanted);
+  const auto ends_within = [&] {
+    return static_cast<int>(full.oscillatory.size()) == wanted &&
+           full.oscillatory.back().frequency() <= band;
+  };
+  while (wanted < 2 * largest_basis && ends_within()) full = complex_modes(system, wanted *= 2);
   const QuadraticModes small = dense_quadratic_modes(
       Mat(reduced.M).sparseView(), Mat(reduced.D()).sparseView(), Mat(reduced.K).sparseView(),
       full.rigid_body.empty() ? 0.0 : -0.1 * std::max(1.0, band));
@@ -113,7 +120,8 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
 
   const auto count = static_cast<Eigen::Index>(ports.size());
   CMat rows(system.size(), count);
-  for (Eigen::Index j = 0; j < count; ++j) rows.col(j) = ports[static_cast<std::size_t>(j)].cast<Complex>();
+  for (Eigen::Index j = 0; j < count; ++j)
+    rows.col(j) = ports[static_cast<std::size_t>(j)].cast<Complex>();
   const CMat small_rows = reduced.Phi.transpose().cast<Complex>() * rows;
   DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
   double static_size = 0.0;  // of the receptance at the lowest frequency
@@ -143,7 +151,8 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   const int n = system.size();
   if ((system.M.diagonal().array() <= 0.0).any()) {
     throw NumericalError(
-        "a freedom without inertia has a damper of its own, so that the motion cannot be integrated "
+        "a freedom without inertia has a damper of its own, so that the motion cannot be "
+        "integrated "
         "as it stands: give the shaft a density or its station a mass");
   }
   ReductionMethod method = how.method;
@@ -165,8 +174,15 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   Mat residual(n, 0);
   if (method == ReductionMethod::damped) {
     damped = complex_modes(system, (most + 1) / 2);
+    if (!damped.rigid_body.empty()) real = lowest_real_modes(K, system.M, std::min(n, 16));
+    if (band == 0.0 && !damped.oscillatory.empty()) {
+      band = 3.0 * damped.oscillatory.front().frequency();
+    }
   } else {
-    real = lowest_real_modes(K, system.M, most + 1);
+    for (int count = most + 1;; count *= 2) {  // beyond the rigid ones of a free system
+      real = lowest_real_modes(K, system.M, count);
+      if (real.first_flexible() > 0.0 || count >= n) break;
+    }
     if (band == 0.0) band = 3.0 * real.first_flexible();
   }
   if (method == ReductionMethod::modal_residual) {
@@ -176,7 +192,7 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   }
   const auto with = [&](int modes) {
     if (method == ReductionMethod::damped) {
-      return project(system, damped_basis(damped, system.M, modes));
+      return project(system, damped_basis(damped, real.Phi.leftCols(real.rigid), system.M, modes));
     }
     Mat basis = real.Phi.leftCols(std::min<Eigen::Index>(modes, real.Phi.cols()));
     append_orthonormal(basis, residual, system.M);

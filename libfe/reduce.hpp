@@ -32,13 +32,13 @@ struct Reduction {
 
   static constexpr auto fields() {
     using enum Range;
-    return std::tuple{
-        optional("method", &Reduction::method, "", any, "how the rotor is reduced"),
-        optional("modes", &Reduction::modes, "", positive, "left out: as many as the tolerance needs"),
-        optional("tolerance", &Reduction::tolerance, "", positive,
-                 "of eigenvalues and contact receptances in the band"),
-        optional("band", &Reduction::band, "rad/s", positive,
-                 "highest frequency of interest; left out: twice the speed")};
+    return std::tuple{optional("method", &Reduction::method, "", any, "how the rotor is reduced"),
+                      optional("modes", &Reduction::modes, "", positive,
+                               "left out: as many as the tolerance needs"),
+                      optional("tolerance", &Reduction::tolerance, "", positive,
+                               "of eigenvalues and contact receptances in the band"),
+                      optional("band", &Reduction::band, "rad/s", positive,
+                               "highest frequency of interest; left out: twice the speed")};
   }
 };
 
@@ -55,15 +55,16 @@ struct ReducedSystem {
 
 /// How far a reduced system is from the full one.
 struct ReductionError {
-  /// An eigenvalue of the full system in the band, and the nearest one of the reduced system [rad/s].
+  /// An eigenvalue of the full system in the band, and the nearest one of the reduced system
+  /// [rad/s].
   struct Pair {
     Complex full, reduced;
     double error() const { return std::abs(reduced - full) / std::abs(full); }
   };
   std::vector<Pair> pairs;  ///< ascending frequency
   double band = 0.0;        ///< [rad/s]
-  double receptance = 0.0;  ///< largest error of the receptance between ports in the band, relative to
-                            ///< itself plus its static value
+  double receptance = 0.0;  ///< largest error of the receptance between ports in the band, relative
+                            ///< to itself plus its static value
   bool within_tolerance = true;
 
   /// Largest relative error of an eigenvalue.
@@ -77,7 +78,7 @@ struct ReductionError {
 /// Reduces a system.
 ///
 ///   modal           K_s phi = omega^2 M phi at rest, with K_s the symmetric part of K
-///   modal+residual  and K_s^-1 r for every row r of `ports` and `dampers`, made orthonormal
+///   modal+residual  and K_s^-1 r for every row r of `ports` and `others`, made orthonormal
 ///   damped          Re and Im of the damped modes at speed, so that these are exact with real
 ///                   coordinates: one complex mode makes two of the `modes`
 ///   none            every freedom, M must be regular

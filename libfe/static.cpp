@@ -29,8 +29,10 @@ BearingLoad load_of(const Connection& c, const Assembler& assembler, const Syste
 
 void require_supports(const Assembler& assembler, double Omega, std::string_view what) {
   if (is_supported(symmetric_part(assembler.uncondensed(Omega).K))) return;
-  throw ModelError({}, "", fmt::format("{} supports, but the rotor or a body is free to move: "
-                                       "add a [[bearing]] or a [[link]] that holds it", what));
+  throw ModelError({}, "",
+                   fmt::format("{} supports, but the rotor or a body is free to move: "
+                               "add a [[bearing]] or a [[link]] that holds it",
+                               what));
 }
 
 StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {

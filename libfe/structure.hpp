@@ -49,8 +49,9 @@ struct Segment {
         required("length", &Segment::length, "m", positive, "length of the segment"),
         optional("elements", &Segment::elements, "", positive,
                  "number of equal elements; left out: chosen from the shape and the stations"),
-        optional("internal_functions", &Segment::internal_functions, "", nonnegative,
-                 "pairs of internal shape functions per element, 0 to 4; each raises the order by two"),
+        optional(
+            "internal_functions", &Segment::internal_functions, "", nonnegative,
+            "pairs of internal shape functions per element, 0 to 4; each raises the order by two"),
         optional("theory", &Segment::theory, "", any, "beam theory"),
         optional("axial_force", &Segment::axial_force, "N", any, "tension > 0"),
         optional("torque", &Segment::torque, "N.m", any, "about +z on the face that looks to +z")};
@@ -72,7 +73,8 @@ struct Disk {
         optional("mass", &Disk::m, "kg", nonnegative, "of a disk that is not given by its shape"),
         optional("diametral_inertia", &Disk::Id, "kg.m^2", nonnegative, "about a diameter"),
         optional("polar_inertia", &Disk::Ip, "kg.m^2", nonnegative, "about the axis"),
-        optional("outer_diameter", &Disk::outer_diameter, "m", positive, "of a disk of some material"),
+        optional("outer_diameter", &Disk::outer_diameter, "m", positive,
+                 "of a disk of some material"),
         optional("inner_diameter", &Disk::inner_diameter, "m", nonnegative, "bore; left out: none"),
         optional("width", &Disk::width, "m", positive, "along the axis")};
   }
@@ -81,9 +83,9 @@ struct Disk {
 /// A lumped mass: a stator, a pedestal, the mass of a Jeffcott rotor.
 struct Body {
   std::string name;
-  double m = 0.0;            ///< mass [kg]
-  bool spins = false;        ///< part of the rotor: unbalance and gyroscopics
-  bool tilts = false;        ///< has theta_x, theta_y
+  double m = 0.0;             ///< mass [kg]
+  bool spins = false;         ///< part of the rotor: unbalance and gyroscopics
+  bool tilts = false;         ///< has theta_x, theta_y
   double Id = 0.0, Ip = 0.0;  ///< moments of inertia [kg.m^2], if it tilts
   Where where{};
 

@@ -25,9 +25,9 @@ struct Radial {
 
   static constexpr auto fields() {
     using enum Range;
-    return std::tuple{
-        required("stiffness", &Radial::k, "N/m", positive, "k in N = k d + c d'"),
-        optional("damping", &Radial::c, "N.s/m", nonnegative, "c in N = k d + c d', never pulling")};
+    return std::tuple{required("stiffness", &Radial::k, "N/m", positive, "k in N = k d + c d'"),
+                      optional("damping", &Radial::c, "N.s/m", nonnegative,
+                               "c in N = k d + c d', never pulling")};
   }
 
   /// Whether the force vanishes with the depth whatever its rate.

@@ -14,7 +14,7 @@ enum class Range { any, nonnegative, positive };
 template <class Struct, class Member>
 struct Field {
   std::string_view name;     ///< key in the model file
-  Member Struct::* member;   ///< where its value goes
+  Member Struct::*member;    ///< where its value goes
   std::string_view unit;     ///< SI unit of the value; empty if it has none
   Range range;               ///< which numbers are allowed
   std::string_view meaning;  ///< half a sentence for the manual
@@ -22,13 +22,13 @@ struct Field {
 };
 
 template <class S, class T>
-constexpr Field<S, T> required(std::string_view name, T S::* member, std::string_view unit,
+constexpr Field<S, T> required(std::string_view name, T S::*member, std::string_view unit,
                                Range range, std::string_view meaning) {
   return {name, member, unit, range, meaning, true};
 }
 
 template <class S, class T>
-constexpr Field<S, T> optional(std::string_view name, T S::* member, std::string_view unit,
+constexpr Field<S, T> optional(std::string_view name, T S::*member, std::string_view unit,
                                Range range, std::string_view meaning) {
   return {name, member, unit, range, meaning, false};
 }
@@ -39,7 +39,7 @@ using Choice = std::pair<std::string_view, Enum>;
 
 /// Name of an enumerator, from its list of choices.
 template <class Enum>
-  requires std::is_enum_v<Enum>
+requires std::is_enum_v<Enum>
 constexpr std::string_view name_of(Enum value) {
   for (const auto& [name, candidate] : choices(Enum{})) {
     if (candidate == value) return name;

@@ -22,7 +22,7 @@ struct TableBearing {
     if (above == speed.end()) return rows.back();
     const auto i = static_cast<std::size_t>(above - speed.begin());
     const double s = (Omega - speed[i - 1]) / (speed[i] - speed[i - 1]);
-    const auto mix = [&](Mat2 BearingCoefficients::* part) -> Mat2 {
+    const auto mix = [&](Mat2 BearingCoefficients::*part) -> Mat2 {
       return (1.0 - s) * (rows[i - 1].*part) + s * (rows[i].*part);
     };
     return {mix(&BearingCoefficients::K), mix(&BearingCoefficients::C),

@@ -19,7 +19,8 @@ constexpr double dependent = 1e-6;  ///< share of a vector that is left when it 
 
 HermitianModes dense(const Sparse& M, const Sparse& G, double g, const Sparse& K, int count) {
   const Eigen::LLT<Mat> factor{Mat(K)};
-  if (factor.info() != Eigen::Success) throw NumericalError("the stiffness is not positive definite");
+  if (factor.info() != Eigen::Success)
+    throw NumericalError("the stiffness is not positive definite");
   CMat B = M.cast<Complex>() - Complex(0.0, g) * G.cast<Complex>();
   const CMat L = Mat(factor.matrixL()).cast<Complex>();
   L.triangularView<Eigen::Lower>().solveInPlace(B);

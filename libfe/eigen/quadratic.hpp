@@ -12,13 +12,13 @@ struct QuadraticModes {
   CMat q;       ///< n x lambda.size(), columns of length one
 };
 
-/// All eigenpairs, densely, by inverting the state matrix about a real shift: for small systems, and
-/// as the oracle in tests.
+/// All eigenpairs, densely, by inverting the state matrix about a real shift: for small systems,
+/// and as the oracle in tests.
 ///
 /// The inverse resolves the lowest modes to rounding even where supports of 1e15 N/m or nearly
-/// massless freedoms put others at 1e10 rad/s; velocities are scaled by a typical frequency, without
-/// which the small real parts drown, and with them the verdict on stability. Infinite eigenvalues
-/// of a singular M are left out.
+/// massless freedoms put others at 1e10 rad/s; velocities are scaled by a typical frequency,
+/// without which the small real parts drown, and with them the verdict on stability. Infinite
+/// eigenvalues of a singular M are left out.
 ///
 /// @param shift  [rad/s]; 0 needs a regular K; free systems take a negative one
 /// @throws NumericalError  if the QR iteration fails

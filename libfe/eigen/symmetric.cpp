@@ -66,12 +66,13 @@ double estimate_first_flexible(const Sparse& K, const Sparse& M) {
     const Ldlt factor(Sparse(K + s * M));
     V = factor.solve(M * V);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> ritz{Mat(V.transpose() * (K * V)),
-                                                              Mat(V.transpose() * (M * V))};
+                                                             Mat(V.transpose() * (M * V))};
     V = V * ritz.eigenvectors();
     // the largest gap between neighbors separates rigid from flexible
     const Vec& theta = ritz.eigenvalues();
     Eigen::Index first = 0;
-    while (first + 1 < theta.size() && std::abs(theta(first)) < rigid_share * theta(theta.size() - 1))
+    while (first + 1 < theta.size() &&
+           std::abs(theta(first)) < rigid_share * theta(theta.size() - 1))
       ++first;
     const double previous = estimate;
     estimate = theta(first);

@@ -11,9 +11,7 @@ struct RealModes {
   int rigid = 0;  ///< how many of them are rigid-body modes
 
   /// Lowest frequency of a mode that deforms [rad/s]; 0 if none was computed.
-  double first_flexible() const {
-    return omega2.size() > rigid ? std::sqrt(omega2(rigid)) : 0.0;
-  }
+  double first_flexible() const { return omega2.size() > rigid ? std::sqrt(omega2(rigid)) : 0.0; }
 };
 
 /// Lowest modes of a symmetric pencil.

@@ -84,8 +84,8 @@ PlaneFields shape_functions(const Beam& beam, const Along& along, const Quadratu
   const auto add = [&](double w0, double theta0, const Vec& moment, const Vec& shear, double w_end,
                        double theta_end) {
     const Deflection p = integrate(moment, shear, along, q, L);
-    const Vec2 ab = stiffness * Vec2(theta_end - theta0 - p.theta_end,
-                                     w_end - w0 - theta0 * L - p.w_end);
+    const Vec2 ab =
+        stiffness * Vec2(theta_end - theta0 - p.theta_end, w_end - w0 - theta0 * L - p.w_end);
     f.moment.col(columns) = moment + ab(0) * one + ab(1) * z;
     f.shear.col(columns) = shear - ab(1) * one;
     f.theta.col(columns) = theta0 * one + p.theta + ab(0) * by_a.theta + ab(1) * by_b.theta;
@@ -107,10 +107,9 @@ PlaneFields shape_functions(const Beam& beam, const Along& along, const Quadratu
 
   // internal functions: orthogonal in elastic energy, largest value one
   const auto energy = [&](Eigen::Index i, Eigen::Index j) {
-    return q.w.dot(f.moment.col(i).cwiseProduct(along.bending_flexibility)
-                       .cwiseProduct(f.moment.col(j)) +
-                   f.shear.col(i).cwiseProduct(along.shear_flexibility)
-                       .cwiseProduct(f.shear.col(j)));
+    return q.w.dot(
+        f.moment.col(i).cwiseProduct(along.bending_flexibility).cwiseProduct(f.moment.col(j)) +
+        f.shear.col(i).cwiseProduct(along.shear_flexibility).cwiseProduct(f.shear.col(j)));
   };
   const std::array<Mat*, 4> fields{&f.w, &f.theta, &f.moment, &f.shear};
   for (Eigen::Index i = 4; i < columns; ++i) {

@@ -33,15 +33,16 @@ struct Beam {
 /// For a cylinder these are the cubic functions with Phi = 12 E I / (kappa G A L^2).
 /// Internal functions are the deflections of the clamped element under distributed forces and
 /// moments that vary as xi^k; they are K-orthogonal to the others. The error of an eigenvalue falls
-/// as h^2 with shear and without internal functions, as h^4 without shear, and each pair of internal
-/// functions raises these orders by two.
+/// as h^2 with shear and without internal functions, as h^4 without shear, and each pair of
+/// internal functions raises these orders by two.
 ///
 /// Axial force: N integral w' w'. Torque: each section turns its axis, T integral
 /// (theta_y_i' theta_x_j ...), the skew remainder kept: the torque vector stays along z.
 ///
 /// @throws NumericalError  if internal_functions is out of range
 /// @source [NelsonMcVaugh1976], [Nelson1980], [Przemieniecki1968] ch. 11 for the functions;
-///         [ZorziNelson1977] for the rotating damping; [ZorziNelson1980], [Greenhill1883] for torque
+///         [ZorziNelson1977] for the rotating damping; [ZorziNelson1980], [Greenhill1883] for
+///         torque
 ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam);
 
 }  // namespace whirl

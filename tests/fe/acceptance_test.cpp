@@ -1,80 +1,82 @@
-// The reference cases of tests/data/rotors.json: frequencies, damping, whirl, unbalance response.
+// The modes of tests/data/rotors.json: frequencies, damping and whirl, computed and published.
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <numbers>
+#include <string>
+#include <vector>
 
 #include "libfe/modes.hpp"
+#include "tests/support/reference_cases.hpp"
 
 namespace whirl {
 namespace {
 
-using Json = nlohmann::json;
+using test::Json;
 
-const Json& cases() {
-  static const Json all = Json::parse(std::ifstream(WHIRL_TEST_DATA "/rotors.json"));
-  return all.at("cases");
-}
-
-Station node(int from_zero) {
-  return {.kind = Station::Kind::node, .node = from_zero + 1};
-}
-
-Structure structure_of(const Json& c) {
-  Structure s;
-  const Json& beam = c.at("beam");
-  Theory theory = Theory::timoshenko;
-  if (!beam.at("shear")) theory = beam.at("rotary_inertia") ? Theory::rayleigh : Theory::euler_bernoulli;
-  for (const Json& e : c.at("shaft")) {
-    const Json& m = c.at("materials").at(e.at("material").get<std::size_t>());
-    const double E = m.at("E"), G = m.at("G");
-    s.shaft.push_back({.material = {.name = "m", .rho = m.at("rho"), .E = E, .G = G,
-                                    .nu = E / (2.0 * G) - 1.0},
-                       .length = e.at("L"),
-                       .left = {e.at("od_l"), e.at("id_l")},
-                       .right = {e.at("od_r"), e.at("id_r")},
-                       .elements = 1,
-                       .theory = theory});
-  }
-  for (const Json& d : c.at("disks")) {
-    s.disks.push_back({.at = node(d.at("node")), .m = d.at("m"), .Id = d.at("Id"), .Ip = d.at("Ip")});
-  }
-  for (const Json& b : c.at("bearings")) {
-    BearingCoefficients k;
-    k.K << b.at("kxx"), b.at("kxy"), b.at("kyx"), b.at("kyy");
-    k.C << b.at("cxx"), b.at("cxy"), b.at("cyx"), b.at("cyy");
-    s.bearings.push_back({.from = node(b.at("node")), .coefficients = ConstantBearing{k}});
-  }
-  return s;
-}
-
-TEST(Acceptance, Modes) {
-  for (const Json& c : cases()) {
-    const Structure structure = structure_of(c);
-    const Assembler assembler(structure);
+/// Calls f(case, analysis, modes) for every modal analysis of the file.
+template <class Function>
+void for_every_modal_analysis(const Function& f) {
+  int analyses = 0;
+  for (const Json& c : test::reference_cases()) {
+    const Assembler assembler(test::structure_of(c));
     for (const Json& a : c.at("analyses")) {
       if (a.at("type") != "modal_lateral") continue;
       const double Omega = a.at("speed_rad_s");
       SCOPED_TRACE(c.at("id").get<std::string>() + " at " + std::to_string(Omega));
-      const Json& x = a.at("expected");
-      const auto wd = x.at("wd_rad_s").get<std::vector<double>>();
-      const Modes modes = complex_modes(assembler.at(Omega), static_cast<int>(wd.size()) + 2);
-      ASSERT_GE(modes.oscillatory.size(), wd.size());
-      for (std::size_t i = 0; i < wd.size(); ++i) {
-        const Mode& mode = modes.oscillatory[i];
-        EXPECT_NEAR(mode.frequency(), wd[i], x.at("rtol").get<double>() * wd[i]);
-        if (x.contains("eigenvalue_re")) {
-          const double zeta = x.at("damping_ratio")[i];
-          EXPECT_NEAR(mode.damping_ratio(), zeta,
-                      std::max(x.at("atol_damping_ratio").get<double>(), 1e-6 * zeta));
-        }
-        if (x.contains("whirl")) {
-          EXPECT_EQ(name_of(mode.whirl), x.at("whirl")[i].get<std::string>()) << "mode " << i + 1;
-        }
-      }
+      const int count = static_cast<int>(a.at("expected").at("wd_rad_s").size()) + 2;
+      f(a, complex_modes(assembler.at(Omega), count).oscillatory);
+      ++analyses;
     }
   }
+  EXPECT_GT(analyses, 15);
+}
+
+TEST(Acceptance, Modes) {
+  for_every_modal_analysis([](const Json& a, const std::vector<Mode>& modes) {
+    const Json& x = a.at("expected");
+    const auto wd = x.at("wd_rad_s").get<std::vector<double>>();
+    ASSERT_GE(modes.size(), wd.size());
+    for (std::size_t i = 0; i < wd.size(); ++i) {
+      EXPECT_NEAR(modes[i].frequency(), wd[i], x.at("rtol").get<double>() * wd[i]);
+      if (x.contains("eigenvalue_re")) {
+        const double zeta = x.at("damping_ratio")[i];
+        EXPECT_NEAR(modes[i].damping_ratio(), zeta,
+                    std::max(x.at("atol_damping_ratio").get<double>(), 1e-6 * zeta));
+      }
+      if (x.contains("whirl")) {
+        EXPECT_EQ(name_of(modes[i].whirl), x.at("whirl")[i].get<std::string>()) << "mode " << i + 1;
+      }
+    }
+  });
+}
+
+// Numbers as printed in the sources that the file names; the tolerance is their digits. wn is
+// |lambda|, wd is Im lambda.
+TEST(Acceptance, ModesAsPublished) {
+  int compared = 0;
+  for_every_modal_analysis([&](const Json& a, const std::vector<Mode>& modes) {
+    if (!a.contains("published")) return;
+    const Json& all = a.at("published");
+    for (const Json& p : all.is_array() ? all : Json::array({all})) {
+      const double unit = p.at("unit") == "Hz" ? 2.0 * std::numbers::pi : 1.0;  // [rad/s]
+      const auto values = p.at("values").get<std::vector<double>>();
+      const auto index = p.at("lateral_mode_index").get<std::vector<std::size_t>>();
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const Json& rtol = p.at("rtol");
+        const double tolerance = rtol.is_array() ? rtol[i] : rtol;
+        const Mode& mode = modes.at(index[i]);
+        const double found = p.at("quantity") == "wn" ? std::abs(mode.lambda) : mode.frequency();
+        EXPECT_NEAR(found / unit, values[i], tolerance * values[i]) << "mode " << index[i] + 1;
+        if (p.contains("whirl")) {
+          EXPECT_EQ(name_of(mode.whirl), p.at("whirl")[i].get<std::string>());
+        }
+        ++compared;
+      }
+    }
+  });
+  EXPECT_GT(compared, 60);
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+// What a rotor weighs.
+
+#include "libfe/properties.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/rotors.hpp"
+
+namespace whirl {
+namespace {
+
+using test::at;
+using test::pi;
+
+constexpr double rounding = 1e-12;  // relative; quadrature is exact for cones
+
+// Truncated cone: m = rho pi L (d1^2 + d1 d2 + d2^2) / 12, center at
+// L / 4 (d1^2 + 2 d1 d2 + 3 d2^2) / (d1^2 + d1 d2 + d2^2), Ip = rho pi L (d2^5 - d1^5) / (160 (d2 -
+// d1)).
+TEST(RotorProperties, OfAConeAreItsClosedForms) {
+  const double L = 0.5, d1 = 0.04, d2 = 0.1, rho = 7810.0;
+  const Structure s{.shaft = {test::cone(L, d1, d2, 3)}};
+  const RotorProperties p = rotor_properties(s, make_mesh(s));
+  const double sum = d1 * d1 + d1 * d2 + d2 * d2;
+  EXPECT_NEAR(p.mass, rho * pi * L * sum / 12.0, rounding * p.mass);
+  EXPECT_NEAR(p.center_of_mass, 0.25 * L * (d1 * d1 + 2 * d1 * d2 + 3 * d2 * d2) / sum, rounding);
+  const double Ip = rho * pi * L * (std::pow(d2, 5) - std::pow(d1, 5)) / (160.0 * (d2 - d1));
+  EXPECT_NEAR(p.Ip, Ip, rounding * Ip);
+}
+
+// Shaft of mass m0 with its center amid, a disk at z: (m0 L / 2 + m z) / (m0 + m). What spins
+// counts, a stator does not; bodies have no place along the shaft.
+TEST(RotorProperties, CountDisksAndBodiesThatSpin) {
+  Structure s{.shaft = {test::cylinder(1.0, 0.05, 2)},
+              .disks = {{.at = at(0.8), .m = 3.0, .Id = 0.1, .Ip = 0.2}},
+              .bodies = {{.name = "stator", .m = 40.0, .tilts = true, .Id = 1.0, .Ip = 2.0},
+                         {.name = "wheel", .m = 7.0, .spins = true, .tilts = true, .Ip = 0.3}}};
+  const double shaft = 7810.0 * pi / 4.0 * 0.05 * 0.05;
+  const RotorProperties p = rotor_properties(s, make_mesh(s));
+  EXPECT_NEAR(p.mass, shaft + 3.0 + 7.0, rounding * p.mass);
+  EXPECT_NEAR(p.center_of_mass, (0.5 * shaft + 0.8 * 3.0) / (shaft + 3.0), rounding);
+  EXPECT_NEAR(p.Ip, shaft * 0.05 * 0.05 / 8.0 + 0.2 + 0.3, rounding);
+}
+
+}  // namespace
+}  // namespace whirl
