@@ -49,8 +49,8 @@ void ContactMeter::add(const Step& step) {
       sums_[i].duty += step.h;
       if (step.contacts[i].touch == Touch::sticking) sums_[i].sticking += step.h;
       for (std::size_t k = 1; k < points; ++k) {
-        sums_[i].max_normal = std::max(
-            sums_[i].max_normal, top(normal[i][k - 1], normal[i][k], normal[i][k + 1]));
+        sums_[i].max_normal =
+            std::max(sums_[i].max_normal, top(normal[i][k - 1], normal[i][k], normal[i][k + 1]));
         sums_[i].max_tangential = std::max(
             sums_[i].max_tangential, top(friction[i][k - 1], friction[i][k], friction[i][k + 1]));
       }

@@ -19,12 +19,12 @@ constexpr auto choices(Regime) {
 
 struct ContactMeasure {
   std::string name;
-  double duty = 0.0;             ///< share of time in touch
-  double impacts = 0.0;          ///< times it began to touch
-  double sticking = 0.0;         ///< share of time sticking
-  double max_normal = 0.0;       ///< [N]
-  double max_tangential = 0.0;   ///< [N]
-  double mean_slip = 0.0;        ///< mean slip velocity while in touch [m/s]
+  double duty = 0.0;            ///< share of time in touch
+  double impacts = 0.0;         ///< times it began to touch
+  double sticking = 0.0;        ///< share of time sticking
+  double max_normal = 0.0;      ///< [N]
+  double max_tangential = 0.0;  ///< [N]
+  double mean_slip = 0.0;       ///< mean slip velocity while in touch [m/s]
 
   Regime regime() const {
     if (duty == 0.0) return Regime::none;

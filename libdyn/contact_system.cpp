@@ -53,8 +53,12 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
   double clearance = std::numeric_limits<double>::infinity();
   for (const Contact& c : contacts) {
     const Point at = assembler.point(c.at), against = assembler.point(c.against);
-    ReducedContact r{.name = c.name, .offset = c.offset, .clearance = c.clearance,
-                     .rim_speed = Omega_ * c.friction.radius, .friction = c.friction, .law = c.law};
+    ReducedContact r{.name = c.name,
+                     .offset = c.offset,
+                     .clearance = c.clearance,
+                     .rim_speed = Omega_ * c.friction.radius,
+                     .friction = c.friction,
+                     .law = c.law};
     r.U = (rows(reduced.dofs, at) - rows(reduced.dofs, against)) * reduced.Phi;
     r.B = mass.solve(r.U.transpose());
     contacts_.push_back(std::move(r));
@@ -172,8 +176,7 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
     const ContactForces f = kinematics(c, y, n);
     Vec2 force = f.normal * f.n;
     if (c.friction.mu > 0.0) {
-      const double share =
-          c.friction.is_exact() ? states[i].sign : c.friction.smooth_share(f.slip);
+      const double share = c.friction.is_exact() ? states[i].sign : c.friction.smooth_share(f.slip);
       force += c.friction.mu * share * f.normal * f.t();
     }
     result.noalias() -= c.B * force;
@@ -218,8 +221,8 @@ void ContactSystem::remove_slip(double* y, const ContactStates& states) const {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (states[i].touch != Touch::sticking) continue;
     const ContactForces f = kinematics(contacts_[i], y, n);
-    const Vec direction = contacts_[i].U.transpose() * f.t();
-    Eigen::Map<Vec>(y + n, n) -= direction * (f.slip / direction.squaredNorm());
+    const Vec impulse = contacts_[i].B * f.t();  // velocity from one along t: keeps the momentum
+    Eigen::Map<Vec>(y + n, n) -= impulse * (f.slip / f.t().dot(contacts_[i].U * impulse));
   }
 }
 

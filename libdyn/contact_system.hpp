@@ -33,8 +33,8 @@ struct ReducedContact {
   Eigen::Matrix<double, 2, Eigen::Dynamic> U;  ///< relative displacement u = U eta [m]
   Eigen::Matrix<double, Eigen::Dynamic, 2> B;  ///< acceleration eta'' = -B (force on the stator)
   Vec2 offset;
-  double clearance;   ///< [m]
-  double rim_speed;   ///< Omega R [m/s]
+  double clearance;  ///< [m]
+  double rim_speed;  ///< Omega R [m/s]
   Friction friction;
   AnyContactLaw<> law;
 };
@@ -99,7 +99,7 @@ class ContactSystem {
   /// States that a motion has at an instant if nothing is known of its past.
   ContactStates classify(double phase, const double* y) const;
 
-  /// Removes the slip that rounding leaves in sticking contacts, by the smallest change of velocity.
+  /// Removes the slip that rounding leaves in sticking contacts, by an impulse of friction.
   void remove_slip(double* y, const ContactStates& states) const;
 
  private:

@@ -147,8 +147,7 @@ void EventWatcher::enter_touch(int contact, double phase, const double* y, Conta
   }
 }
 
-void EventWatcher::apply(const Event& event, double phase, const double* y,
-                         ContactStates& states) {
+void EventWatcher::apply(const Event& event, double phase, const double* y, ContactStates& states) {
   const auto i = static_cast<std::size_t>(event.contact);
   const ReducedContact& c = system_.contacts()[i];
   unsigned& surface = surface_[i];

@@ -33,7 +33,8 @@ class EventWatcher {
   std::optional<Event> first(const Step& step) const;
 
   /// Function of an event and its rate [1/s] at a state; dimensionless, positive before the event.
-  double value(const Event& event, double phase, const double* y, const ContactStates& states) const;
+  double value(const Event& event, double phase, const double* y,
+               const ContactStates& states) const;
 
   /// Changes the states of the contacts at an event.
   void apply(const Event& event, double phase, const double* y, ContactStates& states);

@@ -9,26 +9,26 @@
 namespace whirl {
 
 struct IdentifyOptions {
-  int modes = 8;              ///< compared with
-  bool rotations = false;     ///< tilts count too, times a length
-  bool mass_weighted = false; ///< MAC with the mass matrix instead
-  bool stiffened = false;     ///< modes of the system with its contacts closed for good
-  double share = 0.02;        ///< of the largest peak, below which peaks are left out
+  int modes = 8;               ///< compared with
+  bool rotations = false;      ///< tilts count too, times a length
+  bool mass_weighted = false;  ///< MAC with the mass matrix instead
+  bool stiffened = false;      ///< modes of the system with its contacts closed for good
+  double share = 0.02;         ///< of the largest peak, below which peaks are left out
   int most_peaks = 10;
 };
 
 struct IdentifiedPeak {
-  double frequency = 0.0;  ///< signed: forward > 0 [rad/s]
-  double amplitude = 0.0;  ///< largest radius of a point at this frequency [m]
-  std::vector<double> mac; ///< against each mode
-  int mode = 0;            ///< best one, from 0
-  double shift = 0.0;      ///< |frequency| over that mode's, less one
+  double frequency = 0.0;   ///< signed: forward > 0 [rad/s]
+  double amplitude = 0.0;   ///< largest radius of a point at this frequency [m]
+  std::vector<double> mac;  ///< against each mode
+  int mode = 0;             ///< best one, from 0
+  double shift = 0.0;       ///< |frequency| over that mode's, less one
 };
 
 /// Ratio of the two strongest frequencies seen from the rotor.
 struct InternalResonance {
-  int p = 0, q = 0;    ///< p >= q
-  double error = 0.0;  ///< |ratio / (p/q) - 1|
+  int p = 0, q = 0;              ///< p >= q
+  double error = 0.0;            ///< |ratio / (p/q) - 1|
   double high = 0.0, low = 0.0;  ///< the frequencies, unsigned [rad/s]
 };
 
@@ -42,13 +42,13 @@ struct Identification {
 /// Identifies the modes in a steady motion.
 ///
 /// Peaks are those of the spectrum over all points together; at each, the deflection shape is the
-/// complex amplitude of every displacement at the frequency's magnitude, so that a mode's forward and
-/// backward parts are compared together.
+/// complex amplitude of every displacement at the frequency's magnitude, so that a mode's forward
+/// and backward parts are compared together.
 Identification identify(const Model& model, const Scene& scene, const Recording& recording,
                         const IdentifyOptions& options);
 
-/// Weights of a MAC over the coordinates of a system: one for translations of every point; for tilts
-/// length^2, or nothing if the length is zero.
+/// Weights of a MAC over the coordinates of a system: one for translations of every point; for
+/// tilts length^2, or nothing if the length is zero.
 Sparse mac_weights(const DofMap& dofs, double length);
 
 /// The ratio p:q of small numbers nearest to high / low; smaller numbers win among good ones.

@@ -2,8 +2,8 @@
 /// The list of integrators. A member has a `name` and `integrate` (see methods/dop853.hpp).
 
 #include <string_view>
-#include <vector>
 #include <variant>
+#include <vector>
 
 #include "libdyn/methods/cvode.hpp"
 #include "libdyn/methods/dop853.hpp"

@@ -27,8 +27,8 @@ constexpr auto choices(StartFrom) {
 /// Start of a simulation.
 struct Start {
   StartFrom from = StartFrom::equilibrium;
-  std::string file;                ///< result whose end is the start (StartFrom::file)
-  std::vector<WhirlStart> whirl;   ///< added to it
+  std::string file;               ///< result whose end is the start (StartFrom::file)
+  std::vector<WhirlStart> whirl;  ///< added to it
 };
 
 struct Model {
@@ -37,7 +37,7 @@ struct Model {
   std::string path;    ///< where it came from
   Structure structure;
   std::vector<Contact> contacts;
-  double speed = 0.0;  ///< operating speed [rad/s]
+  double speed = 0.0;      ///< operating speed [rad/s]
   bool has_speed = false;  ///< whether the model says it
   Reduction reduction;
   Start start;

@@ -28,19 +28,20 @@ struct Polynomial {
 
 /// First s in [0, 1] at which a polynomial falls below zero; nothing if it stays positive.
 ///
-/// Conservative advancement: with M >= |g''| on [0, 1], g(s + u) >= g + g' u - M u^2 / 2, so s moves
-/// by the positive root of the right side. No root can be jumped over, not even a double one, and at
-/// a simple root the steps converge quadratically.
+/// Conservative advancement: with M >= |g''| on [0, 1], g(s + u) >= g + g' u - M u^2 / 2, so s
+/// moves by the positive root of the right side. No root can be jumped over, not even a double one,
+/// and at a simple root the steps converge quadratically.
 ///
-/// @param on_surface  g(0) is zero by definition (an event just happened there): its rounded value is
+/// @param on_surface  g(0) is zero by definition (an event just happened there): its rounded value
+/// is
 ///                    taken off, and only a fall right at the start or a later one counts
 /// @source ../docs/methods.md, "Events"
 inline std::optional<double> first_fall(Polynomial g, bool on_surface) {
-  constexpr double zero = 1e-15;  // of g, which is made dimensionless by its owner
+  constexpr double zero = 1e-15;      // of g, which is made dimensionless by its owner
   constexpr double rounding = 1e-12;  // of coefficients that were interpolated
-  constexpr double no_slope = 1e-10;  // of all coefficients: as good as none, as where sticking ends
-                                      // and the slip begins with zero rate
-  constexpr int most_steps = 400;
+  constexpr double no_slope = 1e-10;  // of all coefficients: as good as none, as where sticking
+                                      // ends and the slip begins with zero rate
+  constexpr int most_steps = 20'000;  // few, but at triple roots and where M is far above |g''|
   if (on_surface) g.c[0] = 0.0;
   if (g.c[0] < 0.0) return 0.0;
 
@@ -51,6 +52,7 @@ inline std::optional<double> first_fall(Polynomial g, bool on_surface) {
     M += size;
     third += (k - 2) * size;
   }
+  if (M == 0.0 && g.c[1] >= 0.0) return std::nullopt;  // a line that does not fall
   double s = 0.0;
   if (g.c[0] <= zero) {
     g.c[0] = 0.0;

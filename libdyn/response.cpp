@@ -7,7 +7,8 @@ namespace whirl {
 
 ResponseSpectra::ResponseSpectra(const Scene& scene, const Recording& recording)
     : map_(scene.displacement_map()), dofs_(scene.reduced.dofs) {
-  // whole revolutions, so that harmonics of the spin fall on bins; small factors, so that it is fast
+  // whole revolutions, so that harmonics of the spin fall on bins; small factors, so that it is
+  // fast
   revolutions_ = smooth_length(recording.revolutions);
   const auto n = revolutions_ * recording.samples;
   const auto coordinates = recording.eta.rows();
@@ -17,7 +18,8 @@ ResponseSpectra::ResponseSpectra(const Scene& scene, const Recording& recording)
   for (Eigen::Index i = 0; i < coordinates; ++i) {
     const Vec samples = recording.eta.row(i).tail(n).transpose();
     mean_(i) = samples.mean();
-    const Spectrum s = hann_spectrum((samples.array() - mean_(i)).matrix().cast<Complex>(), spacing);
+    const Spectrum s =
+        hann_spectrum((samples.array() - mean_(i)).matrix().cast<Complex>(), spacing);
     eta_.row(i) = s.lines.transpose();
     bin_ = s.bin;
   }

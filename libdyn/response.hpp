@@ -12,7 +12,7 @@ class ResponseSpectra {
   /// Uses the last revolutions whose number of samples has small prime factors.
   ResponseSpectra(const Scene& scene, const Recording& recording);
 
-  double bin() const { return bin_; }              ///< [rad/s]
+  double bin() const { return bin_; }  ///< [rad/s]
   Eigen::Index size() const { return eta_.cols(); }
   long revolutions() const { return revolutions_; }
 

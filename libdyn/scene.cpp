@@ -22,19 +22,23 @@ void add_rows(std::vector<Vec>& rows, const DofMap& dofs, const Point& at, const
   }
 }
 
-/// Forces can only act where the moving freedoms see them: on points that are held or have inertia.
+/// Forces can only act on points that are held or have inertia: those of massless freedoms, which
+/// are condensed, would not bend the shaft there.
 void require_inertia(const Assembler& assembler, const System& system, const Station& station,
                      const std::string& what) {
   if (system.dofs.condensed == 0) return;
   const Point p = assembler.point(station);
   if (p.kind == Point::Kind::ground) return;
+  const System whole = assembler.uncondensed(system.Omega);
   for (const int component : {X, Y}) {
-    const Vec row = system.dofs.row(p, component);
-    const bool is_coordinate = (row.array() != 0.0).count() <= 1;
-    if (is_coordinate) continue;
-    throw ModelError(station.where, station.key,
-                     fmt::format("{} acts at a station without inertia, which cannot move by itself: "
-                                 "give the shaft a density or the station a disk", what));
+    const Vec row = whole.dofs.row(p, component);
+    const bool is_held = row.isZero(0.0), has_inertia = row.dot(whole.M * row) > 0.0;
+    if (is_held || has_inertia) continue;
+    throw ModelError(
+        station.where, station.key,
+        fmt::format("{} acts at a station without inertia, which cannot move by itself: "
+                    "give the shaft a density or the station a disk",
+                    what));
   }
 }
 
@@ -87,8 +91,7 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
     case StartFrom::equilibrium:
       if (model.structure.gravity != 0.0) {
         require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
-        state.y.head(n) =
-            scene.contacts.K().partialPivLu().solve(scene.contacts.constant_load());
+        state.y.head(n) = scene.contacts.K().partialPivLu().solve(scene.contacts.constant_load());
       }
       break;
     case StartFrom::file: {

@@ -10,9 +10,9 @@ namespace whirl {
 
 struct Scene {
   Assembler assembler;
-  System system;          ///< all freedoms, at the operating speed
+  System system;  ///< all freedoms, at the operating speed
   ReducedSystem reduced;
-  ReductionError error;   ///< of the reduction
+  ReductionError error;  ///< of the reduction
   ContactSystem contacts;
 
   /// Displacements of all points (a full vector, see DofMap) from reduced ones: full = map * eta.
@@ -33,7 +33,8 @@ struct FullState {
 /// State at the start of a simulation, from the model's [start].
 ///
 /// @param end  end of an earlier result, for `from = "file"`; may be null otherwise
-/// @throws ModelError  if the start asks for a mode that does not exist, or for a file that is not given
+/// @throws ModelError  if the start asks for a mode that does not exist, or for a file that is not
+/// given
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end);
 
 /// Motion of all points of a state.

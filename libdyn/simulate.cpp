@@ -75,7 +75,8 @@ Simulation simulate(const Scene& scene, MotionState start, const SimulationOptio
 
   Integration& total = result.integration;
   if (options.discard > 0) {
-    total = integrate(options.method, system, result.end, options.discard, options.integration, goes_on);
+    total = integrate(options.method, system, result.end, options.discard, options.integration,
+                      goes_on);
   }
   Recording& recording = result.recording;
   recording.samples = options.samples;

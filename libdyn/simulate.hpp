@@ -21,12 +21,12 @@ struct SimulationOptions {
 
 /// A recorded stretch of motion in reduced coordinates.
 struct Recording {
-  int samples = 0;       ///< per revolution
-  long revolutions = 0;  ///< whole ones that were recorded
-  double period = 0.0;   ///< of a revolution [s]
+  int samples = 0;            ///< per revolution
+  long revolutions = 0;       ///< whole ones that were recorded
+  double period = 0.0;        ///< of a revolution [s]
   long first_revolution = 0;  ///< number of the first one since the start
-  Mat eta;               ///< n x (revolutions * samples), sample j at phase 2 pi j / samples
-  Mat normal, friction;  ///< contact forces, contacts x samples [N]; friction signed along t
+  Mat eta;                    ///< n x (revolutions * samples), sample j at phase 2 pi j / samples
+  Mat normal, friction;       ///< contact forces, contacts x samples [N]; friction signed along t
   std::vector<ContactMeasure> contacts;
 };
 

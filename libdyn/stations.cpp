@@ -21,7 +21,8 @@ std::vector<Label> labels(const Model& model, const Assembler& assembler) {
   std::vector<Label> all;
   for (const Disk& d : model.structure.disks) all.push_back({assembler.point(d.at), d.name});
   for (const Contact& c : model.contacts) all.push_back({assembler.point(c.at), c.name});
-  for (const Connection& b : model.structure.bearings) all.push_back({assembler.point(b.from), b.name});
+  for (const Connection& b : model.structure.bearings)
+    all.push_back({assembler.point(b.from), b.name});
   return all;
 }
 
@@ -30,7 +31,8 @@ std::vector<Label> labels(const Model& model, const Assembler& assembler) {
 std::vector<NamedPoint> named_points(const Model& model, const Assembler& assembler) {
   const std::vector<Label> all = labels(model, assembler);
   std::vector<NamedPoint> points;
-  for (const int node : assembler.mesh().left_to_right) points.push_back({{Point::Kind::node, node}, ""});
+  for (const int node : assembler.mesh().left_to_right)
+    points.push_back({{Point::Kind::node, node}, ""});
   for (std::size_t i = 0; i < model.structure.bodies.size(); ++i) {
     points.push_back({{Point::Kind::body, static_cast<int>(i)}, model.structure.bodies[i].name});
   }
@@ -67,9 +69,10 @@ std::vector<NamedPoint> select_points(const Model& model, const Assembler& assem
     const bool is_number = error == std::errc{} && end == part.data() + part.size();
     bool found = false;
     for (const NamedPoint& p : all) {
-      const bool by_name = p.name == part || std::any_of(known.begin(), known.end(), [&](const Label& l) {
-        return l.name == part && l.point == p.point;
-      });
+      const bool by_name =
+          p.name == part || std::any_of(known.begin(), known.end(), [&](const Label& l) {
+            return l.name == part && l.point == p.point;
+          });
       if (!by_name && !(is_number && p.node() == node)) continue;
       choose(p);
       found = true;

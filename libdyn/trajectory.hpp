@@ -49,7 +49,7 @@ struct IntegrationOptions {
 enum class Outcome { reached_end, stopped_by_observer, step_too_small, not_finite };
 
 struct Cost {
-  long steps = 0;        ///< accepted
+  long steps = 0;  ///< accepted
   long rejected = 0;
   long evaluations = 0;  ///< of the equations of motion
   long events = 0;       ///< touching, parting, reversals of slip, sticking

@@ -63,8 +63,8 @@ int derivative(realtype t, N_Vector y, N_Vector dy, void* data) {
 int root_functions(realtype t, N_Vector y, realtype* g, void* data) {
   auto& p = *static_cast<Problem*>(data);
   for (std::size_t i = 0; i < p.roots.size(); ++i) {
-    g[i] = p.watcher.value({0.0, p.roots[i].first, p.roots[i].second},
-                           t * p.system.phase_rate(), N_VGetArrayPointer(y), p.state.contacts);
+    g[i] = p.watcher.value({0.0, p.roots[i].first, p.roots[i].second}, t * p.system.phase_rate(),
+                           N_VGetArrayPointer(y), p.state.contacts);
   }
   return 0;
 }
@@ -115,12 +115,14 @@ Integration run(int method, const ContactSystem& system, MotionState& state, lon
       work(N_VNew_Serial(2 * n, raw_context));
   Eigen::Map<Vec> values(N_VGetArrayPointer(y.get()), 2 * n);
   values = state.y;
-  Eigen::Map<Vec>(N_VGetArrayPointer(weight.get()), 2 * n) = options.tolerance * system.state_scale();
+  Eigen::Map<Vec>(N_VGetArrayPointer(weight.get()), 2 * n) =
+      options.tolerance * system.state_scale();
 
   Problem problem{system, watcher, state, roots_of(watcher, state.contacts), result.cost};
   const std::unique_ptr<void, CvodeFree> memory(CVodeCreate(method, raw_context));
   void* cv = memory.get();
-  CVodeSetErrHandlerFn(cv, [](int, const char*, const char*, char*, void*) {}, nullptr);
+  CVodeSetErrHandlerFn(
+      cv, [](int, const char*, const char*, char*, void*) {}, nullptr);
   double t = state.phase / rate;  // since the start of the revolution
   CVodeInit(cv, derivative, t, y.get());
   CVodeSVtolerances(cv, options.tolerance, weight.get());
@@ -204,9 +206,8 @@ Integration run(int method, const ContactSystem& system, MotionState& state, lon
 
 }  // namespace
 
-Integration CvodeAdams::integrate(const ContactSystem& system, MotionState& state,
-                                  long revolutions, const IntegrationOptions& options,
-                                  const Observer& observer) {
+Integration CvodeAdams::integrate(const ContactSystem& system, MotionState& state, long revolutions,
+                                  const IntegrationOptions& options, const Observer& observer) {
   return run(CV_ADAMS, system, state, revolutions, options, observer);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "libdyn/events.hpp"
@@ -15,15 +16,21 @@ namespace whirl {
 namespace {
 
 constexpr double safety = 0.9, smallest_factor = 0.2, largest_factor = 5.0;
-constexpr double too_small = 1e-14;     ///< of a revolution
+constexpr double too_small = 1e-14;      ///< of a revolution
 constexpr int most_instant_events = 50;  ///< without time passing
-constexpr int most_restarts = 4;        ///< Newton steps on the length of a step to an event
+constexpr int most_restarts = 4;         ///< Newton steps on the length of a step to an event
+constexpr double missed = 1e-6;  ///< an event's function there: the step was too coarse for it
 
 class Stepper {
  public:
   Stepper(const ContactSystem& system, const IntegrationOptions& options, Cost& cost)
-      : system_(system), options_(options), cost_(cost), n_(system.coordinates()),
-        k_(2 * n_, dop853::all_stages), y1_(2 * n_), argument_(2 * n_) {}
+      : system_(system),
+        options_(options),
+        cost_(cost),
+        n_(system.coordinates()),
+        k_(2 * n_, dop853::all_stages),
+        y1_(2 * n_),
+        argument_(2 * n_) {}
 
   /// Derivative of the state at the start of the next steps.
   void start(const MotionState& state) { evaluate(0, state.phase, state.y, state.contacts); }
@@ -132,31 +139,34 @@ class Stepper {
 };
 
 /// Moves the end of a step onto an event: Newton on its length, each time with a new step.
-void step_onto(const Event& event, const EventWatcher& watcher, Stepper& stepper,
-               const MotionState& state, Step& step, double rate) {
+/// @return  what is left of the event's function
+double step_onto(const Event& event, const EventWatcher& watcher, Stepper& stepper,
+                 const MotionState& state, Step& step, double rate) {
   const double whole = step.h;
   double s = event.s;
-  double best = std::numeric_limits<double>::infinity();
+  double best = std::numeric_limits<double>::infinity(), last = best;
   for (int restart = 0; restart <= most_restarts; ++restart) {
     stepper.attempt(state, s * whole);
-    const double g = watcher.value(event, state.phase + s * whole * rate, stepper.end().data(),
-                                   state.contacts);
-    if (std::abs(g) <= 2e-15 || std::abs(g) >= 0.5 * best) break;
-    best = std::abs(g);
+    const double g =
+        watcher.value(event, state.phase + s * whole * rate, stepper.end().data(), state.contacts);
+    last = std::abs(g);
+    if (last <= 2e-15 || last >= 0.5 * best) break;
+    best = last;
     // slope by a difference of the function over the dense output of the whole step
     Vec y(stepper.end().size());
     const double ds = 1e-6;
     step.at(s - ds, y.data());
-    const double before = watcher.value(event, state.phase + (s - ds) * whole * rate, y.data(),
-                                        state.contacts);
+    const double before =
+        watcher.value(event, state.phase + (s - ds) * whole * rate, y.data(), state.contacts);
     step.at(s + ds, y.data());
-    const double after = watcher.value(event, state.phase + (s + ds) * whole * rate, y.data(),
-                                       state.contacts);
+    const double after =
+        watcher.value(event, state.phase + (s + ds) * whole * rate, y.data(), state.contacts);
     const double change = -g * 2.0 * ds / (after - before);
     if (!(std::abs(change) < 0.05) || s + change <= 0.0) break;  // a graze: as good as it gets
     s += change;
   }
   stepper.dense(state, step);
+  return last;
 }
 
 }  // namespace
@@ -170,6 +180,7 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
   const double rate = system.phase_rate(), period = system.period();
   const long last = state.revolution + revolutions;
   double h = options.fixed_step > 0.0 ? options.fixed_step : period / 50.0;
+  double longest = std::numeric_limits<double>::infinity();  // after an event was missed
   bool is_rejected = false;
   int instant_events = 0;
   Step step;
@@ -180,12 +191,12 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
 
   while (state.revolution < last) {
     const double left = period - state.phase / rate;  // steps end on revolutions
-    if (left <= too_small * period) {  // an event fell on the end
+    if (left <= too_small * period) {                 // an event fell on the end
       ++state.revolution;
       state.phase = 0.0;
       continue;
     }
-    double trial = h;
+    double trial = std::min(h, longest);
     bool ends_revolution = false;
     if (trial >= left * (1.0 - 1e-12)) {
       trial = left;
@@ -197,8 +208,9 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
     if (!std::isfinite(error) || (error > 1.0 && options.fixed_step == 0.0)) {
       ++cost.rejected;
       is_rejected = true;
-      const double factor =
-          std::isfinite(error) ? std::max(smallest_factor, safety * std::pow(error, -1.0 / 8.0)) : 0.1;
+      const double factor = std::isfinite(error)
+                                ? std::max(smallest_factor, safety * std::pow(error, -1.0 / 8.0))
+                                : 0.1;
       h = trial * factor;
       if (h < too_small * period) {
         result.outcome = std::isfinite(error) ? Outcome::step_too_small : Outcome::not_finite;
@@ -214,7 +226,6 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
     stepper.dense(state, step);
     const auto event = watcher.first(step);
     if (event) {
-      ++cost.events;
       ends_revolution = false;
       const bool is_instant = event->s * trial <= too_small * period;
       if (is_instant && ++instant_events > most_instant_events) {
@@ -223,13 +234,25 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
         return result;
       }
       if (is_instant) {
+        ++cost.events;
         watcher.apply(*event, state.phase, state.y.data(), state.contacts);
         stepper.start(state);
         continue;
       }
-      step_onto(*event, watcher, stepper, state, step, rate);
+      if (step_onto(*event, watcher, stepper, state, step, rate) > missed) {
+        ++cost.rejected;
+        longest = 0.5 * trial;
+        if (longest < too_small * period) {
+          result.outcome = Outcome::step_too_small;
+          result.diagnosis = diagnosis(system, state, "an event could not be located");
+          return result;
+        }
+        continue;
+      }
+      ++cost.events;
     }
     instant_events = 0;
+    longest = std::numeric_limits<double>::infinity();
 
     state.y = stepper.end();
     state.phase += step.turn;

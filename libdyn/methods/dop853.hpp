@@ -9,8 +9,8 @@ namespace whirl {
 /// Explicit Runge-Kutta method of order 8 with events.
 ///
 /// Dormand and Prince's pair 8(5,3); its interpolant of order 7 is searched for events by
-/// conservative advancement, and the step is made again up to each event, with Newton's method on its
-/// length, until the event's function vanishes to rounding: the order is kept across events.
+/// conservative advancement, and the step is made again up to each event, with Newton's method on
+/// its length, until the event's function vanishes to rounding: the order is kept across events.
 ///
 /// @source [HairerNorsettWanner1993], sec. II.5 and II.6
 struct Dop853 {

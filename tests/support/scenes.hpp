@@ -1,0 +1,140 @@
+#pragma once
+/// Builders that let a test say a scene with contacts in a few lines, and run it.
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libdyn/methods.hpp"
+#include "libdyn/scene.hpp"
+#include "tests/support/rotors.hpp"
+
+namespace whirl::test {
+
+/// Rotor and stator of "Nonlinear dynamics of a rotor-stator system with contacts", coordinates
+/// x_r, y_r, x_s, y_s; the contact is "ring".
+///
+///   m_r z_r'' + c_r z_r' + k_r z_r = m_r e Omega^2 e^(i (Omega t + phase)) - i m_r g + F
+///   m_s z_s'' + c_s z_s' + k_s z_s = -i m_s g - F
+struct RotorStator {
+  double Omega = 136.0;             ///< [rad/s]
+  double kC = 150e6, mu = 0.1;      ///< contact: stiffness [N/m], friction
+  double cC = 0.0;                  ///< and damping [N.s/m]
+  double mr = 50.0, ms = 50.0;      ///< [kg]
+  double kr = 980e3, ks = 14.58e6;  ///< [N/m]
+  double cr = 280.0, cs = 2700.0;   ///< [N.s/m]
+  double e = 1e-3, phase = 0.0;     ///< unbalance: offset [m], phase [rad]
+  double gap = 6e-3;                ///< [m]
+  double gravity = 9.81;            ///< [m/s^2]
+  double R = 0.1;                   ///< of the contact, for the slip velocity [m]
+  double slip_tolerance = 0.0;      ///< [m/s]
+  Slip slip = Slip::actual;
+  Vec2 offset = Vec2::Zero();  ///< centre of the clearance circle [m]
+
+  Model model() const {
+    Model m;
+    m.speed = Omega;
+    m.has_speed = true;
+    m.structure.bodies = {{.name = "rotor", .m = mr, .spins = true}, {.name = "stator", .m = ms}};
+    m.structure.bearings = {bearing(body("rotor"), isotropic(kr, cr)),
+                            bearing(body("stator"), isotropic(ks, cs))};
+    m.structure.unbalances = {{.at = body("rotor"), .moment = mr * e, .phase = phase}};
+    m.structure.gravity = gravity;
+    m.contacts = {{.name = "ring",
+                   .at = body("rotor"),
+                   .against = body("stator"),
+                   .clearance = gap,
+                   .offset = offset,
+                   .friction = {.mu = mu, .slip = slip, .radius = R, .tolerance = slip_tolerance},
+                   .law = Radial<>{.k = kC, .c = cC}}};
+    return m;
+  }
+  Scene scene() const { return make_scene(model()); }
+};
+
+/// Reference points of the rotor and stator: what their steady motion is, from the two static sags.
+inline const RotorStator P1{.Omega = 136.0, .kC = 150e6, .mu = 0.10};  ///< five impacts a period
+inline const RotorStator P2{.Omega = 136.0, .kC = 20e6, .mu = 0.10};   ///< two long contacts
+inline const RotorStator P3{.Omega = 151.0, .kC = 50e6, .mu = 0.05};   ///< permanent contact
+inline const RotorStator P4{.Omega = 151.0, .kC = 150e6, .mu = 0.20};  ///< weakly chaotic
+
+/// A mass on a spring within a ring that stands still, coordinates x, y; the contact is "ring".
+struct MassInRing {
+  double Omega = 100.0;         ///< [rad/s]; 0: does not spin
+  double m = 1.0;               ///< [kg]
+  double k = 1e4, c = 0.0;      ///< of the spring [N/m] and damper [N.s/m]; 0: the mass is free
+  double U = 0.0, phase = 0.0;  ///< unbalance [kg.m], [rad]
+  double kC = 1e6, cC = 0.0;    ///< of the contact [N/m], [N.s/m]
+  double mu = 0.0, R = 0.0;     ///< friction and its radius [m]
+  double clearance = 1e-3;      ///< [m]
+  double gravity = 0.0;         ///< [m/s^2]
+  Vec2 offset = Vec2::Zero();   ///< [m]
+
+  Model model() const {
+    Model s;
+    s.speed = Omega;
+    s.has_speed = true;
+    s.structure.bodies = {{.name = "mass", .m = m, .spins = true}};
+    if (k != 0.0 || c != 0.0) s.structure.bearings = {bearing(body("mass"), isotropic(k, c))};
+    if (U != 0.0) s.structure.unbalances = {{.at = body("mass"), .moment = U, .phase = phase}};
+    s.structure.gravity = gravity;
+    s.contacts = {{.name = "ring",
+                   .at = body("mass"),
+                   .clearance = clearance,
+                   .offset = offset,
+                   .friction = {.mu = mu, .radius = R},
+                   .law = Radial<>{.k = kC, .c = cC}}};
+    return s;
+  }
+  Scene scene() const { return make_scene(model()); }
+};
+
+/// State (eta, eta') at the start of a revolution.
+inline MotionState state_of(Vec y) {
+  MotionState state;
+  state.y = std::move(y);
+  return state;
+}
+
+/// State of a mass in a ring: place [m] and velocity [m/s].
+inline MotionState state_of(const Vec2& place, const Vec2& velocity) {
+  return state_of((Vec(4) << place, velocity).finished());
+}
+
+/// Where a model starts by itself.
+inline MotionState start_of(const Model& model, const Scene& scene) {
+  return start_state(model, scene, nullptr);
+}
+
+struct RunOptions {
+  double tolerance = 1e-10;
+  double fixed_step = 0.0;  ///< [s]; 0: the step is controlled
+  AnyMethod method = Dop853{};
+};
+
+/// Moves a state on by whole revolutions.
+inline Integration run(const Scene& scene, MotionState& state, long revolutions,
+                       const RunOptions& how = {}, const Observer& observer = {}) {
+  return integrate(how.method, scene.contacts, state, revolutions,
+                   {.tolerance = how.tolerance, .fixed_step = how.fixed_step}, observer);
+}
+
+/// Largest difference of two states, displacements by the length scale, velocities by it and the
+/// rate of the phase.
+inline double distance(const ContactSystem& system, const Vec& a, const Vec& b) {
+  return ((a - b).array() / system.state_scale().array()).abs().maxCoeff();
+}
+
+/// Order of convergence: slope of the line through log(error) over log(1 / number), least squares.
+inline double order_of(const std::vector<double>& number, const std::vector<double>& error) {
+  const auto n = static_cast<double>(number.size());
+  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    const double a = -std::log(number[i]), b = std::log(error[i]);
+    x += a, y += b, xx += a * a, xy += a * b;
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+}  // namespace whirl::test
