@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <ctime>
+#include <filesystem>
 
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
@@ -32,7 +33,8 @@ std::string utc_now() {
 std::string shell_line(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) {
-    const bool is_plain = !word.empty() && word.find_first_of(" \t\n\"'\\$`*?[]{}()<>|&;#~!") == std::string::npos;
+    const bool is_plain =
+        !word.empty() && word.find_first_of(" \t\n\"'\\$`*?[]{}()<>|&;#~!") == std::string::npos;
     std::string quoted = "'";
     for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     line += (line.empty() ? "" : " ") + (is_plain ? word : quoted + "'");
@@ -53,13 +55,15 @@ long Invocation::integer(const std::string& option, long otherwise, long least) 
   long number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   constexpr long most = 1'000'000'000;
-  if (error != std::errc{} || end != value.data() + value.size() || number < least || number > most) {
+  if (error != std::errc{} || end != value.data() + value.size() || number < least ||
+      number > most) {
     throw option_error(option, value, fmt::format("expected a whole number of {} or more", least));
   }
   return number;
 }
 
-double Invocation::number(const std::string& option, std::string_view unit, double otherwise) const {
+double Invocation::number(const std::string& option, std::string_view unit,
+                          double otherwise) const {
   if (!has(option)) return otherwise;
   const auto value = parse_as(given.at(option), unit);
   if (!value) throw option_error(option, given.at(option), value.problem);
@@ -70,7 +74,8 @@ std::vector<double> Invocation::speeds(const Model& model) const {
   if (has("speeds")) {
     const auto range = parse_range(given.at("speeds"), "rad/s");
     if (!range) throw option_error("speeds", given.at("speeds"), range.problem);
-    if (range->first < 0.0) throw option_error("speeds", given.at("speeds"), "expected speeds of zero or more");
+    if (range->first < 0.0)
+      throw option_error("speeds", given.at("speeds"), "expected speeds of zero or more");
     return range->step ? values(*range) : values(*range, default_speeds);
   }
   const double last = model.speed > 0.0 ? 1.5 * model.speed : 10'000.0 * rpm;
@@ -78,7 +83,8 @@ std::vector<double> Invocation::speeds(const Model& model) const {
 }
 
 Model Invocation::model() const {
-  return model_text.empty() ? read_model(file, sets) : parse_model(model_text, file, sets);
+  if (model_text.empty()) return read_model(file, sets);
+  return parse_model(model_text, file, sets, std::filesystem::path(file).parent_path());
 }
 
 std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const {

@@ -42,7 +42,9 @@ bool is_interrupted() {
 }
 
 Progress::Progress(std::string what, long total, bool shows)
-    : what_(std::move(what)), total_(total), shows_(shows && isatty(STDERR_FILENO) != 0),
+    : what_(std::move(what)),
+      total_(total),
+      shows_(shows && isatty(STDERR_FILENO) != 0),
       begin_(seconds()) {}
 
 Progress::~Progress() {
@@ -61,8 +63,8 @@ void Progress::update(long done) {
   for (int i = 0; i < width; ++i) bar += i < share * width ? "━" : "╌";
   const double elapsed = now - begin_;
   const double left = done > 0 ? elapsed * (1.0 / share - 1.0) : 0.0;
-  fmt::print(stderr, "\r{} {} {:3.0f} %  {} of {}, {:.0f}/s, {} left\033[K", what_, bar, 100.0 * share,
-             done, total_, static_cast<double>(done) / elapsed, clock_text(left));
+  fmt::print(stderr, "\r{} {} {:3.0f} %  {} of {}, {:.0f}/s, {} left\033[K", what_, bar,
+             100.0 * share, done, total_, static_cast<double>(done) / elapsed, clock_text(left));
   std::fflush(stderr);
 }
 

@@ -57,7 +57,7 @@ struct Report {
 
 struct Verb {
   std::string_view name;
-  std::string_view group;    ///< heading in the help
+  std::string_view group;  ///< heading in the help
   std::string_view summary;
   std::string_view takes;    ///< MODEL or RESULT.h5
   std::string_view example;  ///< a command line
@@ -71,7 +71,8 @@ const std::vector<Verb>& verbs();
 /// Set by Ctrl-C; long work looks at it and stops with what it has.
 bool is_interrupted();
 
-/// A line on standard error that is rewritten while something long goes on; silent if not a terminal.
+/// A line on standard error that is rewritten while something long goes on; silent if not a
+/// terminal.
 class Progress {
  public:
   Progress(std::string what, long total, bool shows);

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <sstream>
 
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
@@ -24,8 +25,29 @@ using namespace whirl;
 
 enum Status { done = 0, wrong_input = 2, failed = 3 };
 
+/// The part of a line around a column that fits a terminal, and the column in that part.
+std::pair<std::string, int> excerpt(const std::string& line, int column) {
+  constexpr int most = 100, before = 60;
+  std::vector<std::string> signs;  // columns count characters, not bytes
+  for (const char c : line) {
+    const bool continues = (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
+    if (continues && !signs.empty()) {
+      signs.back() += c;
+    } else {
+      signs.emplace_back(1, static_cast<unsigned char>(c) < ' ' ? ' ' : c);
+    }
+  }
+  const int size = static_cast<int>(signs.size());
+  column = std::clamp(column, 1, size + 1);
+  const int from = size <= most ? 0 : std::max(0, column - 1 - before);
+  const int to = std::min(size, from + most);
+  std::string text = from > 0 ? "…" : "";
+  for (int i = from; i < to; ++i) text += signs[static_cast<std::size_t>(i)];
+  return {text + (to < size ? "…" : ""), column - from + (from > 0 ? 1 : 0)};
+}
+
 /// Prints every problem with the line it is in and a mark below the place.
-void print_problems(const ModelError& error, const Invocation& call) {
+void print_problems(const ModelError& error, const Invocation& call, const std::string* speed) {
   std::map<std::string, std::vector<std::string>> texts;
   const auto lines_of = [&](const std::string& name) -> const std::vector<std::string>& {
     const auto known = texts.find(name);
@@ -33,19 +55,26 @@ void print_problems(const ModelError& error, const Invocation& call) {
     std::vector<std::string> lines;
     std::istringstream stored(call.model_text);
     std::ifstream file(name);
-    std::istream& from = call.model_text.empty() ? static_cast<std::istream&>(file) : stored;
+    const bool is_stored = name == call.file && !call.model_text.empty();
+    std::istream& from = is_stored ? stored : static_cast<std::istream&>(file);
     for (std::string line; std::getline(from, line);) lines.push_back(line);
+    if (!lines.empty() && lines[0].starts_with("\x89HDF"))
+      lines.clear();  // a result: nothing to show
     return texts[name] = lines;
   };
   for (Problem problem : error.problems()) {
     if (problem.where.file.empty()) problem.where.file = call.file;
+    if (speed && problem.where.file == "--set operation.speed=" + *speed) {
+      problem.where.file = "--speed " + *speed;
+      problem.key.clear();
+    }
     fmt::print(stderr, "{}\n", describe(problem));
     const Where& w = problem.where;
     if (w.line <= 0) continue;
     const auto& lines = lines_of(w.file);
     if (static_cast<std::size_t>(w.line) > lines.size()) continue;
-    fmt::print(stderr, "{:>5} | {}\n      | {:>{}}\n", w.line, lines[static_cast<std::size_t>(w.line - 1)],
-               "^", std::max(1, w.column));
+    const auto [text, column] = excerpt(lines[static_cast<std::size_t>(w.line - 1)], w.column);
+    fmt::print(stderr, "{:>5} | {}\n      | {:>{}}\n", w.line, text, "^", column);
   }
 }
 
@@ -60,20 +89,48 @@ std::string overview() {
     group = verb.group;
     text += fmt::format("  {:<10} {}\n             {}\n", verb.name, verb.summary, verb.example);
   }
+  text += fmt::format("  {:<10} {}\n             {}\n", "rerun",
+                      "runs the command that made a result again", "whirl rerun run.h5");
   return text +
-         "\nCommon options: --set PATH=VALUE, --speed S, --out FILE.h5, --json FILE, --threads N, --quiet\n"
-         "More: whirl VERB --help, docs/tutorial.md, docs/model-file.md\n";
+         "\nCommon options: --set PATH=VALUE, --speed S, --out FILE.h5, --json FILE, --threads N, "
+         "--quiet\n"
+         "More: whirl VERB --help, docs/command-line.md, docs/model-file.md\n";
 }
 
 /// A verb that does not exist, with the nearest one.
 int unknown_verb(const std::string& word) {
   std::vector<std::string> known;
   for (const Verb& verb : verbs()) known.emplace_back(verb.name);
+  for (const char* other : {"rerun", "--help", "--version"}) known.emplace_back(other);
   const auto near = nearest(word, known);
-  fmt::print(stderr, "whirl: there is no verb \"{}\"; {}\n", word,
+  fmt::print(stderr, "whirl: there is no {} \"{}\"; {}\n",
+             word.starts_with('-') ? "option" : "verb", word,
              near ? fmt::format("did you mean \"{}\"?", *near)
                   : fmt::format("known are {}", fmt::join(known, ", ")));
   return wrong_input;
+}
+
+/// What is wrong with words that CLI11 could not place: an option that does not exist, or a second
+/// file.
+std::string misplaced(const CLI::App& app, const std::vector<std::string>& words,
+                      const CLI::ParseError& error) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  for (std::size_t i = 2; i < words.size(); ++i) {
+    const std::string word = words[i].substr(0, words[i].find('='));
+    if (!word.starts_with("--") || word == "--" ||
+        std::find(known.begin(), known.end(), word) != known.end())
+      continue;
+    const auto near = nearest(word, known);
+    return fmt::format("there is no option \"{}\"{}", word,
+                       near ? fmt::format("; did you mean \"{}\"?", *near) : "");
+  }
+  std::string what = error.what();
+  if (!app.remaining().empty())
+    what = fmt::format("cannot place \"{}\"", fmt::join(app.remaining(), " "));
+  return what;
 }
 
 void write_json(const Report& report, const std::string& to) {
@@ -99,30 +156,43 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   bool quiet = false;
 
   const std::string word = words.size() > 1 ? words[1] : "";
-  const auto verb = std::find_if(verbs().begin(), verbs().end(),
-                                 [&](const Verb& v) { return v.name == word; });
+  const auto verb =
+      std::find_if(verbs().begin(), verbs().end(), [&](const Verb& v) { return v.name == word; });
   if (verb == verbs().end()) return unknown_verb(word);
   call.verb = word;
 
   app.name("whirl " + word);
   app.description(fmt::format("{}\n\nExample: {}", verb->summary, verb->example));
   app.set_help_flag("-h,--help", "this help");
-  app.add_option(std::string(verb->takes), call.file, verb->takes == "MODEL" ? "model file (TOML)" : "result file (HDF5)")
+  app.add_option(
+         std::string(verb->takes), call.file,
+         verb->takes == "MODEL" ? "model file (TOML)" : "result file (HDF5) or model file (TOML)")
       ->required();
   app.add_option("--set", sets, "set a value of the model by its path; may be given several times")
-      ->type_name("PATH=VALUE")->take_all()->expected(1);
-  app.add_option("--speed", speed, "operating speed, such as 3650rpm")->type_name("S");
+      ->type_name("PATH=VALUE")
+      ->take_all()
+      ->expected(1);
+  app.add_option("--speed", speed, "operating speed, such as 3650rpm")->type_name("S")->take_last();
+  bool has_out = false;
   for (const OptionSpec& option : verb->options) {
     const std::string name(option.name);
+    has_out = has_out || name == "out";
     if (option.value.empty()) {
       app.add_flag("--" + name, flags[name], std::string(option.help));
     } else {
-      app.add_option("--" + name, values[name], std::string(option.help))->type_name(std::string(option.value));
+      app.add_option("--" + name, values[name], std::string(option.help))
+          ->type_name(std::string(option.value))
+          ->take_last();
     }
   }
-  app.add_option("--out", values["out"], "result file (HDF5)")->type_name("FILE.h5");
-  app.add_option("--json", json, "write the result as JSON; - is standard output")->type_name("FILE");
-  app.add_option("--threads", values["threads"], "processors to use; left out: all")->type_name("N");
+  if (!has_out)
+    app.add_option("--out", values["out"], "result file (HDF5)")->type_name("FILE.h5")->take_last();
+  app.add_option("--json", json, "write the result as JSON; - is standard output")
+      ->type_name("FILE")
+      ->take_last();
+  app.add_option("--threads", values["threads"], "processors to use; left out: all")
+      ->type_name("N")
+      ->take_last();
   app.add_flag("--quiet", quiet, "print nothing but errors");
   try {
     std::vector<std::string> arguments(words.rbegin(), words.rend() - 2);
@@ -131,7 +201,8 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
     fmt::print("{}", app.help());
     return done;
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "whirl {}: {}\n(whirl {} --help shows its options)\n", word, error.what(), word);
+    fmt::print(stderr, "whirl {}: {}\n(whirl {} --help shows its options)\n", word,
+               misplaced(app, words, error), word);
     return wrong_input;
   }
   for (const auto& [name, value] : values) {
@@ -140,24 +211,29 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   for (const auto& [name, value] : flags) {
     if (value) call.given[name] = "";
   }
-  if (!speed.empty()) sets.push_back("operation.speed=" + speed);
+  if (app.count("--speed") > 0) sets.push_back("operation.speed=" + speed);
   call.sets = sets;
   call.shows_progress = !quiet;
 
   try {
     call.integer("threads", 1);
+    if (!json.empty() && json != "-")
+      FileReplacement{json};  // a wrong place is said before the work
     const Report report = verb->run(call);
     if (json != "-" && !quiet) fmt::print("{}", report.text);
     if (!json.empty()) write_json(report, json);
     return report.status;
   } catch (const ModelError& error) {
-    print_problems(error, call);
+    print_problems(error, call, app.count("--speed") > 0 ? &speed : nullptr);
     return wrong_input;
   } catch (const FileError& error) {
     fmt::print(stderr, "whirl: {}\n", error.what());
     return wrong_input;
   } catch (const NumericalError& error) {
     fmt::print(stderr, "{}: {}\n", call.file, error.what());
+    return failed;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "{}: not enough memory for this\n", call.file);
     return failed;
   }
 }
@@ -174,14 +250,19 @@ int rerun(const std::string& file, std::vector<std::string> further) {
     fmt::print(stderr, "whirl: {}\n", error.what());
     return wrong_input;
   }
+  if (words.size() < 3) {
+    fmt::print(stderr, "whirl: {} does not hold the command that made it\n", file);
+    return wrong_input;
+  }
   // what was set is in the stored text already; --out would overwrite the result itself
   std::vector<std::string> kept;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool takes_next = words[i] == "--set" || words[i] == "--speed" || words[i] == "--out" || words[i] == "--json";
+    const bool takes_next =
+        words[i] == "--set" || words[i] == "--speed" || words[i] == "--out" || words[i] == "--json";
     const bool is_joined = words[i].rfind("--set=", 0) == 0 || words[i].rfind("--speed=", 0) == 0 ||
                            words[i].rfind("--out=", 0) == 0 || words[i].rfind("--json=", 0) == 0;
     if (takes_next) ++i;
-    if (!takes_next && !is_joined) kept.push_back(words[i]);
+    if (!takes_next && !is_joined && words[i] != "--quiet") kept.push_back(words[i]);
   }
   kept.insert(kept.end(), further.begin(), further.end());
   return run(kept, text);
@@ -192,7 +273,7 @@ int rerun(const std::string& file, std::vector<std::string> further) {
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv, argv + argc);
   const std::string word = words.size() > 1 ? words[1] : "--help";
-  if (word == "--help" || word == "-h" || word == "help") {
+  if (word == "--help" || word == "-h" || (word == "help" && words.size() == 2)) {
     fmt::print("{}", overview());
     return done;
   }
@@ -200,16 +281,18 @@ int main(int argc, char** argv) {
     fmt::print("whirl {}\n", version);
     return done;
   }
-  if (word == "rerun") {
+  try {
+    if (word == "help") return run({words[0], words[2], "--help"}, "");
+    if (word != "rerun") return run(words, "");
     if (words.size() < 3 || words[2] == "--help") {
-      fmt::print("Usage: whirl rerun RESULT.h5 [options]\n\nRuns the command that made a result again, on the model "
-                 "stored in it;\noptions are added to that command (--out NEW.h5, --set PATH=VALUE, ...).\n");
+      fmt::print(
+          "Usage: whirl rerun RESULT.h5 [options]\n\nRuns the command that made a result again, on "
+          "the model "
+          "stored in it;\noptions are added to that command (--out NEW.h5, --set PATH=VALUE, "
+          "...).\n");
       return words.size() < 3 ? wrong_input : done;
     }
     return rerun(words[2], {words.begin() + 3, words.end()});
-  }
-  try {
-    return run(words, "");
   } catch (const std::exception& error) {
     fmt::print(stderr, "whirl: {}\n", error.what());
     return failed;

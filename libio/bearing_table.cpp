@@ -32,7 +32,7 @@ std::vector<std::string> cells(const std::string& line) {
 /// What a column means: an entry of a matrix, or the speed.
 struct Column {
   std::string name, unit, si_unit;
-  Mat2 BearingCoefficients::* matrix = nullptr;  ///< null: the speed
+  Mat2 BearingCoefficients::*matrix = nullptr;  ///< null: the speed
   int row = 0, column = 0;
 };
 
@@ -65,6 +65,7 @@ TableBearing parse_bearing_table(const std::string& text, const std::string& fil
   std::string line;
   std::vector<Column> columns;
   for (int number = 1; std::getline(lines, line); ++number) {
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
     const auto report = [&](std::string key, std::string message) {
       problems.push_back({{file, number, 1}, std::move(key), std::move(message)});
     };
@@ -86,8 +87,18 @@ TableBearing parse_bearing_table(const std::string& text, const std::string& fil
           column = known_columns()[static_cast<std::size_t>(known - names.begin())];
         }
         if (bracket != std::string::npos) {
-          column.unit = trimmed(std::string_view(part).substr(bracket + 1, part.find(']') - bracket - 1));
+          column.unit =
+              trimmed(std::string_view(part).substr(bracket + 1, part.find(']') - bracket - 1));
         }
+        if (known != names.end() && !column.unit.empty()) {
+          const auto one = parse_as("1 " + column.unit, column.si_unit);
+          if (!one)
+            report(name, fmt::format("the unit [{}] does not fit: {}", column.unit, one.problem));
+        }
+        const bool is_double = std::any_of(columns.begin(), columns.end(), [&](const Column& c) {
+          return !c.name.empty() && c.name == column.name;
+        });
+        if (is_double) report(name, "this column is there already");
         columns.push_back(column);
       }
       if (columns.front().name != "speed") report("", "the first column must be speed");
@@ -95,14 +106,16 @@ TableBearing parse_bearing_table(const std::string& text, const std::string& fil
       continue;
     }
     if (parts.size() != columns.size()) {
-      report("", fmt::format("found {} values, expected {} as in the first line", parts.size(), columns.size()));
+      report("", fmt::format("found {} values, expected {} as in the first line", parts.size(),
+                             columns.size()));
       continue;
     }
     BearingCoefficients row;
     double speed = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const Column& column = columns[i];
-      const auto value = parse_as(parts[i] + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
+      const auto value =
+          parse_as(parts[i] + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
       if (!value) {
         report(column.name, value.problem);
       } else if (!column.matrix) {
@@ -118,7 +131,10 @@ TableBearing parse_bearing_table(const std::string& text, const std::string& fil
     table.rows.push_back(row);
   }
   if (table.rows.empty() && problems.empty()) {
-    problems.push_back({{file}, "", "the table has no rows; expected a line of column names and one line per speed"});
+    problems.push_back(
+        {{file},
+         "",
+         "the table has no rows; expected a line of column names and one line per speed"});
   }
   return table;
 }

@@ -29,10 +29,11 @@ ConfigNode convert(const toml::node& node, const std::string& file) {
       if (entry.where.line == 0) entry.where = entry.key_where;
       result.entries.emplace_back(std::string(key.str()), std::move(entry));
     }
-    std::stable_sort(result.entries.begin(), result.entries.end(), [](const auto& a, const auto& b) {
-      const Where &x = a.second.key_where, &y = b.second.key_where;
-      return std::pair(x.line, x.column) < std::pair(y.line, y.column);
-    });
+    std::stable_sort(result.entries.begin(), result.entries.end(),
+                     [](const auto& a, const auto& b) {
+                       const Where &x = a.second.key_where, &y = b.second.key_where;
+                       return std::pair(x.line, x.column) < std::pair(y.line, y.column);
+                     });
   } else if (const auto* array = node.as_array()) {
     result.kind = ConfigNode::Kind::array;
     for (const toml::node& item : *array) result.items.push_back(convert(item, file));
@@ -54,9 +55,14 @@ ConfigNode convert(const toml::node& node, const std::string& file) {
   return result;
 }
 
-/// toml++ says "Error while parsing X: ..." with the source appended; people need the middle.
+/// toml++ says "Error while parsing string: ..."; people need to know what is wrong with the text.
 std::string syntax_message(const toml::parse_error& error) {
-  return "not TOML: " + std::string(error.description());
+  const std::string what(error.description());
+  if (what.find("unescaped control character") != std::string::npos) {
+    return "not TOML: a text without closing quotation mark, or with a control character in it";
+  }
+  constexpr std::string_view start = "Error while parsing ";
+  return "not TOML: " + (what.starts_with(start) ? what.substr(start.size()) : what);
 }
 
 bool is_text(std::string_view text) {
@@ -70,12 +76,27 @@ std::string quoted(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     switch (c) {
-      case '"': result += "\\\""; break;
-      case '\\': result += "\\\\"; break;
-      case '\n': result += "\\n"; break;
-      case '\r': result += "\\r"; break;
-      case '\t': result += "\\t"; break;
-      default: result += c;
+      case '"':
+        result += "\\\"";
+        break;
+      case '\\':
+        result += "\\\\";
+        break;
+      case '\n':
+        result += "\\n";
+        break;
+      case '\r':
+        result += "\\r";
+        break;
+      case '\t':
+        result += "\\t";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
+          result += fmt::format("\\u{:04X}", static_cast<int>(c));
+        } else {
+          result += c;
+        }
     }
   }
   return result + "\"";
@@ -90,7 +111,8 @@ std::string key_text(std::string_view key) {
 
 std::string number_text(const ConfigNode& node) {
   if (node.kind == ConfigNode::Kind::integer) return fmt::format("{:.0f}", node.number);
-  if (!std::isfinite(node.number)) return std::isnan(node.number) ? "nan" : node.number > 0 ? "inf" : "-inf";
+  if (!std::isfinite(node.number))
+    return std::isnan(node.number) ? "nan" : node.number > 0 ? "inf" : "-inf";
   std::string text = fmt::format("{}", node.number);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return text;
@@ -99,15 +121,21 @@ std::string number_text(const ConfigNode& node) {
 std::string inline_text(const ConfigNode& node) {
   std::string text;
   switch (node.kind) {
-    case ConfigNode::Kind::string: return quoted(node.text);
+    case ConfigNode::Kind::string:
+      return quoted(node.text);
     case ConfigNode::Kind::integer:
-    case ConfigNode::Kind::real: return number_text(node);
-    case ConfigNode::Kind::boolean: return node.boolean ? "true" : "false";
-    case ConfigNode::Kind::other: return quoted("");
+    case ConfigNode::Kind::real:
+      return number_text(node);
+    case ConfigNode::Kind::boolean:
+      return node.boolean ? "true" : "false";
+    case ConfigNode::Kind::other:
+      return quoted("");
     case ConfigNode::Kind::array:
-      for (const ConfigNode& item : node.items) text += (text.empty() ? "" : ", ") + inline_text(item);
+      for (const ConfigNode& item : node.items)
+        text += (text.empty() ? "" : ", ") + inline_text(item);
       return "[" + text + "]";
-    case ConfigNode::Kind::table: break;
+    case ConfigNode::Kind::table:
+      break;
   }
   for (const auto& [key, value] : node.entries) {
     text += (text.empty() ? "" : ", ") + key_text(key) + " = " + inline_text(value);
@@ -123,8 +151,10 @@ bool is_array_of_tables(const ConfigNode& node) {
 
 /// Tables of tables (material.steel) get headers of their own, others stay inline below the top.
 void write_table(const ConfigNode& table, const std::string& path, std::string& out) {
-  const bool has_headers = path.empty() || std::all_of(table.entries.begin(), table.entries.end(),
-      [](const auto& e) { return e.second.kind == ConfigNode::Kind::table; });
+  const bool has_headers =
+      path.empty() || std::all_of(table.entries.begin(), table.entries.end(), [](const auto& e) {
+        return e.second.kind == ConfigNode::Kind::table;
+      });
   for (const auto& [key, value] : table.entries) {
     const bool is_table = value.kind == ConfigNode::Kind::table;
     if (has_headers && (is_table || (path.empty() && is_array_of_tables(value)))) continue;
@@ -134,7 +164,8 @@ void write_table(const ConfigNode& table, const std::string& path, std::string& 
   for (const auto& [key, value] : table.entries) {
     const std::string inner = path.empty() ? key_text(key) : path + "." + key_text(key);
     if (value.kind == ConfigNode::Kind::table) {
-      const bool only_tables = !value.entries.empty() &&
+      const bool only_tables =
+          !value.entries.empty() &&
           std::all_of(value.entries.begin(), value.entries.end(),
                       [](const auto& e) { return e.second.kind == ConfigNode::Kind::table; });
       if (!only_tables || !path.empty()) out += "\n[" + inner + "]\n";
@@ -205,10 +236,14 @@ ConfigNode* ConfigNode::find(std::string_view key) {
 
 std::string ConfigNode::as_written() const {
   switch (kind) {
-    case Kind::table: return "a table";
-    case Kind::array: return "an array";
-    case Kind::other: return "a date or time";
-    default: break;
+    case Kind::table:
+      return "a table";
+    case Kind::array:
+      return "an array";
+    case Kind::other:
+      return "a date or time";
+    default:
+      break;
   }
   std::string written = inline_text(*this);
   if (written.size() > 60) written = written.substr(0, 57) + "...";
@@ -216,9 +251,11 @@ std::string ConfigNode::as_written() const {
 }
 
 ConfigNode parse_toml(std::string_view text, const std::string& file) {
-  if (!is_text(text)) throw ModelError({file}, "", "this is not a text file; expected a model file (TOML)");
+  if (!is_text(text))
+    throw ModelError({file}, "", "this is not a text file; expected a model file (TOML)");
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) {
-    throw ModelError({file}, "", "the file is empty; expected a model file beginning with format = 1");
+    throw ModelError({file}, "",
+                     "the file is empty; expected a model file beginning with format = 1");
   }
   try {
     const toml::table table = toml::parse(text, std::string_view(file));
@@ -240,7 +277,9 @@ void set_value(ConfigNode& root, std::string_view assignment) {
   const std::string text(assignment.substr(equals + 1));
   ConfigNode value;
   try {
-    value = convert(*toml::parse("value = " + text).get("value"), "");
+    const toml::table parsed = toml::parse("value = " + text);
+    if (parsed.size() != 1) throw ModelError(where, path, "expected one value");
+    value = convert(*parsed.get("value"), "");
   } catch (const toml::parse_error&) {
     value.kind = ConfigNode::Kind::string;
     value.text = text;
@@ -262,7 +301,8 @@ void set_value(ConfigNode& root, std::string_view assignment) {
       continue;
     }
     if (node->kind != ConfigNode::Kind::table) {
-      throw ModelError(where, path, fmt::format("\"{}\" is not a table and has no entries", parts[i - 1]));
+      throw ModelError(where, path,
+                       fmt::format("\"{}\" is not a table and has no entries", parts[i - 1]));
     }
     ConfigNode* next = node->find(parts[i]);
     if (!next) {

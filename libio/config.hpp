@@ -14,13 +14,14 @@ namespace whirl {
 struct ConfigNode {
   enum class Kind { table, array, string, integer, real, boolean, other };
   Kind kind = Kind::table;
-  std::string text;      ///< of a string
-  double number = 0.0;   ///< of an integer or real
+  std::string text;     ///< of a string
+  double number = 0.0;  ///< of an integer or real
   bool boolean = false;
-  std::vector<std::pair<std::string, ConfigNode>> entries;  ///< of a table, in the order of the file
-  std::vector<ConfigNode> items;                            ///< of an array
-  Where where;      ///< of the value
-  Where key_where;  ///< of the key in front of it
+  std::vector<std::pair<std::string, ConfigNode>>
+      entries;                    ///< of a table, in the order of the file
+  std::vector<ConfigNode> items;  ///< of an array
+  Where where;                    ///< of the value
+  Where key_where;                ///< of the key in front of it
 
   const ConfigNode* find(std::string_view key) const;
   ConfigNode* find(std::string_view key);
@@ -31,13 +32,14 @@ struct ConfigNode {
 
 /// Parses TOML.
 /// @param file  name for messages
-/// @throws ModelError  with the place of a syntax error, for an empty text and for one that is no text
+/// @throws ModelError  with the place of a syntax error, for an empty text and for one that is no
+/// text
 ConfigNode parse_toml(std::string_view text, const std::string& file);
 
 /// Sets a value by its path, as the command line does: "contact.seal.friction=0.1".
 ///
-/// Elements of arrays go by name or by number from 1. The value is read as TOML where it is TOML, else
-/// as a string. Tables that do not exist yet are made; elements of arrays are not.
+/// Elements of arrays go by name or by number from 1. The value is read as TOML where it is TOML,
+/// else as a string. Tables that do not exist yet are made; elements of arrays are not.
 ///
 /// @throws ModelError  for a line without "=", an element that does not exist
 void set_value(ConfigNode& root, std::string_view assignment);

@@ -25,7 +25,8 @@ std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
   std::vector<Mark> all;
   const auto place = [&](const Station& station) {
     const Point p = assembler.point(station);
-    return p.kind == Point::Kind::node ? assembler.mesh().z[static_cast<std::size_t>(p.index)] : -1.0;
+    return p.kind == Point::Kind::node ? assembler.mesh().z[static_cast<std::size_t>(p.index)]
+                                       : -1.0;
   };
   for (const Connection& b : model.structure.bearings) all.push_back({place(b.from), "▲", b.name});
   for (const Contact& c : model.contacts) all.push_back({place(c.at), "◯", c.name});
@@ -33,6 +34,17 @@ std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
   std::erase_if(all, [](const Mark& m) { return m.z < 0.0; });
   std::stable_sort(all.begin(), all.end(), [](const Mark& a, const Mark& b) { return a.z < b.z; });
   return all;
+}
+
+/// A name and what follows it in so many columns; a longer name loses its end.
+std::string shortened(const std::string& name, const std::string& rest, int columns) {
+  const auto room = static_cast<std::size_t>(columns);
+  std::string kept = name;
+  while (!kept.empty() && display_width(kept + rest) + (kept == name ? 0 : 1) > room) {
+    while ((static_cast<unsigned char>(kept.back()) & 0xC0u) == 0x80u) kept.pop_back();
+    kept.pop_back();
+  }
+  return kept + (kept == name ? "" : "…") + rest;
 }
 
 }  // namespace
@@ -53,8 +65,10 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
   }
   for (const Disk& d : s.disks) {
     const double z = assembler.mesh().z[static_cast<std::size_t>(assembler.point(d.at).index)];
-    const double radius = d.outer_diameter > 0.0 ? 0.5 * d.outer_diameter : 2.5 * 0.5 * shaft_diameter(s, z);
-    const int middle = column(z), half = std::max(0, static_cast<int>(std::lround(0.5 * d.width / length * columns)));
+    const double radius =
+        d.outer_diameter > 0.0 ? 0.5 * d.outer_diameter : 2.5 * 0.5 * shaft_diameter(s, z);
+    const int middle = column(z),
+              half = std::max(0, static_cast<int>(std::lround(0.5 * d.width / length * columns)));
     for (int c = std::max(0, middle - half); c <= std::min(columns - 1, middle + half); ++c) {
       disk[static_cast<std::size_t>(c)] = std::max(disk[static_cast<std::size_t>(c)], radius);
     }
@@ -82,7 +96,7 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
     const int c = column(m.z);
     std::string& sign = signs[static_cast<std::size_t>(c)];
     sign = sign == " " || sign == "┃" ? m.sign : sign;
-    const std::string label = fmt::format("{} ({:g} mm)", m.name, 1e3 * m.z);
+    const std::string label = shortened(m.name, fmt::format(" ({:g} mm)", 1e3 * m.z), columns);
     const int width = static_cast<int>(display_width(label));
     const int start = std::clamp(c - width / 2, 0, std::max(0, columns - width));
     for (std::size_t i = 0;; ++i) {
@@ -93,11 +107,12 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
                                        [](const std::string& cell) { return cell == " "; });
       if (!is_free) continue;
       line[static_cast<std::size_t>(start)] = label;
-      for (int k = 1; k < width && start + k < columns; ++k) line[static_cast<std::size_t>(start + k)] = "";
+      for (int k = 1; k < width && start + k < columns; ++k)
+        line[static_cast<std::size_t>(start + k)] = "";
       break;
     }
   }
-  lines.insert(lines.begin(), signs);
+  if (!all.empty()) lines.insert(lines.begin(), signs);
   for (const auto& cells : lines) {
     std::string line;
     for (const std::string& cell : cells) line += cell;

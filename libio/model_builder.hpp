@@ -1,6 +1,7 @@
 #pragma once
 /// Reading the parts of a model file, one function per kind of table.
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -23,29 +24,34 @@ class ModelBuilder {
  private:
   // model_builder.cpp
   void read_top();
+  void read_settings();
+  void check_places();
+  std::optional<Station> station(TableReader& table);
+  std::optional<Station> named_station(const std::string& name, TableReader& table,
+                                       std::string_view key, bool may_be_ground = true);
+  // model_rotor.cpp
   void read_materials();
   void read_shaft();
   void read_disks();
   void read_bodies();
   void read_unbalances();
+  std::optional<Material> material(TableReader& table);
+  std::optional<std::pair<double, double>> diameters(TableReader& table, std::string_view key,
+                                                     bool is_required);
+  std::optional<Unbalance> unbalance(TableReader& table, const Station& at,
+                                     std::optional<double> mass);
+  // model_contacts.cpp
   void read_contacts();
-  void read_settings();
-  void check_places();
   // model_connections.cpp
   void read_bearings();
   void read_links();
   bool read_coefficients(TableReader& table, BearingCoefficients& to);
   std::optional<Mat2> matrix(TableReader& table, std::string_view key, std::string_view unit);
 
-  /// Calls f(reader, number from 0) for every element of an array of tables, by name where it has one.
+  /// Calls f(reader, number from 0) for every element of an array of tables, by name where it has
+  /// one.
   template <class F>
   void for_each(const char* array, F f);
-  std::optional<Station> station(TableReader& table);
-  std::optional<Station> named_station(const std::string& name, TableReader& table, std::string_view key);
-  std::optional<Unbalance> unbalance(TableReader& table, const Station& at, std::optional<double> mass);
-  std::optional<Material> material(TableReader& table);
-  std::optional<std::pair<double, double>> diameters(TableReader& table, std::string_view key,
-                                                     bool is_required);
 
   /// A station that was given by position and by node number: both must be the same place.
   struct DoubleStation {

@@ -66,8 +66,10 @@ void ModelBuilder::read_bearings() {
         const bool is_file = text.find('\n') == std::string::npos;
         if (is_file) {
           std::ifstream file(directory_ / text);
-          if (!file) {
-            table.problem("table", fmt::format("cannot read the file \"{}\"", (directory_ / text).string()));
+          std::error_code ignored;
+          if (!file || std::filesystem::is_directory(directory_ / text, ignored)) {
+            table.problem("table",
+                          fmt::format("cannot read the file \"{}\"", (directory_ / text).string()));
           } else {
             std::ostringstream content;
             content << file.rdbuf();
@@ -76,16 +78,24 @@ void ModelBuilder::read_bearings() {
         }
         if (!is_file || text != *name) {
           std::vector<Problem> wrong;
-          c.coefficients = parse_bearing_table(text, is_file ? (directory_ / *name).string() : table.path("table"), wrong);
+          c.coefficients = parse_bearing_table(
+              text, is_file ? (directory_ / *name).string() : table.path("table"), wrong);
           problems_.insert(problems_.end(), wrong.begin(), wrong.end());
           source->text = text;
         }
       }
-      if (has_values) table.problem("table", "found a table and coefficients, expected one of them");
+      if (has_values)
+        table.problem("table", "found a table and coefficients, expected one of them");
+      if (c.is_rigid)
+        table.problem("table",
+                      "a rigid bearing has no coefficients of its own; leave out the table");
     } else if (c.is_rigid && has_values) {
-      table.problem("rigid", "a rigid bearing has no stiffness or damping of its own; leave them out");
+      table.problem("rigid",
+                    "a rigid bearing has no stiffness or damping of its own; leave them out");
     } else if (!c.is_rigid && !has_values) {
-      table.missing("stiffness", "a stiffness (N/m), damping, rigid = true, clamped = true, or a table");
+      table.missing("stiffness",
+                    "a stiffness (N/m), damping, rigid = true, clamped = true, or a table",
+                    {"damping", "tilt_stiffness", "tilt_damping", "rigid", "clamped", "table"});
     }
     model_.structure.bearings.push_back(c);
   });
@@ -112,7 +122,13 @@ void ModelBuilder::read_links() {
     const bool has_values = read_coefficients(table, value);
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
-    if (!has_values && !c.is_rigid) table.missing("stiffness", "a stiffness (N/m) or damping (N.s/m)");
+    if (!has_values && !c.is_rigid) {
+      table.missing("stiffness", "a stiffness (N/m), damping, rigid = true or clamped = true",
+                    {"damping", "tilt_stiffness", "tilt_damping", "rigid", "clamped"});
+    }
+    if (has_values && c.is_rigid) {
+      table.problem("rigid", "a rigid link has no stiffness or damping of its own; leave them out");
+    }
     c.coefficients = ConstantBearing{value};
     model_.structure.links.push_back(c);
   });

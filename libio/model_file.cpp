@@ -12,13 +12,13 @@ namespace whirl {
 Model parse_model(const std::string& text, const std::string& name,
                   const std::vector<std::string>& sets, const std::filesystem::path& directory) {
   ConfigNode root = parse_toml(text, name);
+  const std::string as_read = to_toml(root);
   for (const std::string& set : sets) set_value(root, set);
   Model model = ModelBuilder(root, directory).build();
   model.path = name;
-  // the text as it was, comments and all, where nothing from outside came into it
+  // the text as it was, comments and all, where nothing from outside (--set, tables) came into it
   const std::string complete = to_toml(root);
-  const bool is_untouched = sets.empty() && text.find("table") == std::string::npos;
-  model.source = is_untouched ? text : complete;
+  model.source = complete == as_read ? text : complete;
   return model;
 }
 
@@ -28,7 +28,9 @@ Model read_model(const std::filesystem::path& path, const std::vector<std::strin
     throw ModelError({path.string()}, "", "this is a directory; expected a model file");
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw ModelError({path.string()}, "", std::string("cannot read the file: ") + std::strerror(errno));
+  if (!file)
+    throw ModelError({path.string()}, "",
+                     std::string("cannot read the file: ") + std::strerror(errno));
   std::ostringstream text;
   text << file.rdbuf();
   return parse_model(text.str(), path.string(), sets, path.parent_path());

@@ -13,9 +13,13 @@ namespace whirl {
 TableReader::TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems)
     : table_(table), path_(std::move(path)), problems_(problems) {
   if (table_ && table_->kind != ConfigNode::Kind::table) {
+    const bool is_top = path_.find('.') == std::string::npos;
+    const bool is_array = table_->kind == ConfigNode::Kind::array;
     problems_.push_back({table_->where, path_,
-                         fmt::format("found {}, expected a table", table_->as_written())});
+                         fmt::format("found {}, expected a table{}", table_->as_written(),
+                                     is_top && is_array ? ": write [" + path_ + "]" : "")});
     table_ = nullptr;
+    is_malformed_ = true;
   }
 }
 
@@ -34,28 +38,33 @@ const ConfigNode* TableReader::node(std::string_view key) {
 }
 
 void TableReader::problem(std::string_view key, std::string message) {
+  if (is_malformed_) return;
   problems_.push_back({where(key), path(key), std::move(message)});
 }
 
-void TableReader::missing(std::string_view key, std::string_view expected) {
-  problems_.push_back({where(), path(key), fmt::format("missing, expected {}", expected)});
+void TableReader::missing(std::string_view key, std::string_view expected,
+                          std::vector<std::string> alternatives) {
+  if (is_malformed_) return;
+  alternatives.emplace_back(key);
+  missing_.push_back({std::move(alternatives),
+                      {where(), path(key), fmt::format("missing, expected {}", expected)}});
 }
 
 void TableReader::unknown_choice(std::string_view key, const std::string& found,
                                  const std::vector<std::string>& known) {
   const auto near = nearest(found, known);
-  problem(key, fmt::format("found {}, expected one of {}{}", in_quotes(found), fmt::join(known, ", "),
-                           near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+  problem(key,
+          fmt::format("found {}, expected one of {}{}", in_quotes(found), fmt::join(known, ", "),
+                      near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
 }
 
 bool TableReader::in_range(const ConfigNode& value, const std::string& at, double number,
-                           Range range, std::string_view unit) {
+                           Range range, const std::string& expected) {
   const bool is_good = range == Range::any || (range == Range::positive && number > 0.0) ||
                        (range == Range::nonnegative && number >= 0.0);
   if (is_good) return true;
   problems_.push_back({value.where, at,
-                       fmt::format("found {}, expected {} {}", value.as_written(),
-                                   expected_quantity(unit),
+                       fmt::format("found {}, expected {} {}", value.as_written(), expected,
                                    range == Range::positive ? "above zero" : "of zero or more")});
   return false;
 }
@@ -87,7 +96,7 @@ std::optional<double> TableReader::quantity(const ConfigNode& value, const std::
     report(fmt::format("found {}, expected {}", value.as_written(), expected_quantity(unit)));
     return std::nullopt;
   }
-  if (!in_range(value, at, number, range, unit)) return std::nullopt;
+  if (!in_range(value, at, number, range, expected_quantity(unit))) return std::nullopt;
   return number;
 }
 
@@ -110,9 +119,10 @@ std::optional<long> TableReader::integer(std::string_view key, Range range, bool
     return std::nullopt;
   }
   constexpr double largest = 1e9;
-  if (!in_range(*value, path(key), value->number, range, "")) return std::nullopt;
+  if (!in_range(*value, path(key), value->number, range, "a whole number")) return std::nullopt;
   if (std::abs(value->number) > largest) {
-    problem(key, fmt::format("found {}, expected a number up to {:.0f}", value->as_written(), largest));
+    problem(key,
+            fmt::format("found {}, expected a number up to {:.0f}", value->as_written(), largest));
     return std::nullopt;
   }
   return static_cast<long>(value->number);
@@ -138,15 +148,25 @@ std::optional<std::string> TableReader::string(std::string_view key, bool is_req
 }
 
 void TableReader::finish() {
-  if (!table_) return;
+  const auto report_missing = [&] {
+    for (Missing& m : missing_) problems_.push_back(std::move(m.problem));
+    missing_.clear();
+  };
+  if (!table_) return report_missing();
   for (const auto& [key, value] : table_->entries) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     const auto near = nearest(key, known_);
+    if (near) {
+      std::erase_if(missing_, [&](const Missing& m) {
+        return std::find(m.keys.begin(), m.keys.end(), *near) != m.keys.end();
+      });
+    }
     problems_.push_back(
         {value.key_where, path(key),
          near ? fmt::format("unknown key, did you mean \"{}\"?", *near)
               : fmt::format("unknown key, known here: {}", fmt::join(known_, ", "))});
   }
+  report_missing();
 }
 
 }  // namespace whirl

@@ -24,6 +24,8 @@ class TableReader {
   TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems);
 
   bool has(std::string_view key) const { return table_ && table_->find(key); }
+  /// Whether something stands here that is no table; that is reported, and nothing else in it.
+  bool is_malformed() const { return is_malformed_; }
   const ConfigNode* node(std::string_view key);  ///< value of a key, which becomes known; or null
   std::string path(std::string_view key) const;
   Where where() const { return table_ ? table_->where : Where{}; }
@@ -59,22 +61,26 @@ class TableReader {
     return std::nullopt;
   }
 
-  /// A required key is missing.
-  void missing(std::string_view key, std::string_view expected);
+  /// A required key is missing; so are others that would do as well.
+  void missing(std::string_view key, std::string_view expected,
+               std::vector<std::string> alternatives = {});
   void problem(std::string_view key, std::string message);
   void unknown_choice(std::string_view key, const std::string& found,
                       const std::vector<std::string>& known);
 
-  /// Reports keys that nobody asked for, with the nearest known one.
+  /// Reports keys that nobody asked for, with the nearest known one, and those that are missing,
+  /// unless an unknown key was meant for them.
   void finish();
 
  private:
   template <class Struct, class Member>
   void read_field(Struct& to, const Field<Struct, Member>& field) {
     if constexpr (std::is_same_v<Member, double>) {
-      if (const auto v = quantity(field.name, field.unit, field.range, field.is_required)) to.*field.member = *v;
+      if (const auto v = quantity(field.name, field.unit, field.range, field.is_required))
+        to.*field.member = *v;
     } else if constexpr (std::is_same_v<Member, int>) {
-      if (const auto v = integer(field.name, field.range, field.is_required)) to.*field.member = static_cast<int>(*v);
+      if (const auto v = integer(field.name, field.range, field.is_required))
+        to.*field.member = static_cast<int>(*v);
     } else if constexpr (std::is_same_v<Member, bool>) {
       if (const auto v = boolean(field.name)) to.*field.member = *v;
     } else if constexpr (std::is_enum_v<Member>) {
@@ -85,12 +91,19 @@ class TableReader {
     }
   }
   bool in_range(const ConfigNode& value, const std::string& at, double number, Range range,
-                std::string_view unit);
+                const std::string& expected);
 
   const ConfigNode* table_;
+  bool is_malformed_ = false;
   std::string path_;
   std::vector<Problem>& problems_;
   std::vector<std::string> known_;
+
+  struct Missing {
+    std::vector<std::string> keys;  ///< the one to name, and alternatives
+    Problem problem;
+  };
+  std::vector<Missing> missing_;
 };
 
 }  // namespace whirl

@@ -14,11 +14,21 @@ std::string escaped(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     switch (c) {
-      case '"': out += "\\\""; break;
-      case '\\': out += "\\\\"; break;
-      case '\n': out += "\\n"; break;
-      case '\t': out += "\\t"; break;
-      case '\r': out += "\\r"; break;
+      case '"':
+        out += "\\\"";
+        break;
+      case '\\':
+        out += "\\\\";
+        break;
+      case '\n':
+        out += "\\n";
+        break;
+      case '\t':
+        out += "\\t";
+        break;
+      case '\r':
+        out += "\\r";
+        break;
       default:
         if (static_cast<unsigned char>(c) < 0x20) {
           out += fmt::format("\\u{:04x}", static_cast<int>(c));
@@ -51,9 +61,9 @@ bool Record::is_flat() const {
   }
   if (const auto* object = std::get_if<Object>(&value_)) {
     return object->size() <= 8 && std::all_of(object->begin(), object->end(), [](const auto& e) {
-      return !std::holds_alternative<Object>(e.second.value_) &&
-             !std::holds_alternative<Array>(e.second.value_);
-    });
+             return !std::holds_alternative<Object>(e.second.value_) &&
+                    !std::holds_alternative<Array>(e.second.value_);
+           });
   }
   return true;
 }
@@ -61,7 +71,8 @@ bool Record::is_flat() const {
 void Record::write(std::string& out, int depth) const {
   const auto list = [&](const auto& items, char open, char close, const auto& write_item) {
     const bool flat = is_flat();
-    const std::string indent = flat ? "" : "\n" + std::string(static_cast<std::size_t>(2 * depth + 2), ' ');
+    const std::string indent =
+        flat ? "" : "\n" + std::string(static_cast<std::size_t>(2 * depth + 2), ' ');
     out += open;
     bool first = true;
     for (const auto& item : items) {
@@ -70,7 +81,8 @@ void Record::write(std::string& out, int depth) const {
       out += indent;
       write_item(item);
     }
-    if (!flat && !items.empty()) out += "\n" + std::string(static_cast<std::size_t>(2 * depth), ' ');
+    if (!flat && !items.empty())
+      out += "\n" + std::string(static_cast<std::size_t>(2 * depth), ' ');
     out += close;
   };
   struct Writer {

@@ -19,7 +19,8 @@ std::string Table::text() const {
     for (const auto& cells : rows_) {
       if (c >= cells.size()) continue;
       width[c] = std::max(width[c], display_width(cells[c]));
-      const char first = cells[c].empty() ? '-' : cells[c][0];
+      const bool is_nothing = cells[c].empty() || cells[c] == "·";
+      const char first = is_nothing ? '-' : cells[c][0];
       if (!(first >= '0' && first <= '9') && first != '-' && first != '+' && first != '.') {
         is_number[c] = false;
       }

@@ -12,7 +12,8 @@ class Table {
 
   void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
-  /// Lines of equal columns; a column is set right if all its cells begin with a digit, sign or dash.
+  /// Lines of equal columns; a column is set right if all its cells begin with a digit, sign or
+  /// dash, are empty or "·".
   std::string text() const;
 
  private:

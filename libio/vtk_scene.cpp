@@ -10,11 +10,14 @@ namespace {
 
 /// Position along the shaft of a point: of a node its own, of a body that of what joins it.
 double position(const Model& model, const Assembler& assembler, const Point& point) {
-  if (point.kind == Point::Kind::node) return assembler.mesh().z[static_cast<std::size_t>(point.index)];
+  if (point.kind == Point::Kind::node)
+    return assembler.mesh().z[static_cast<std::size_t>(point.index)];
   const auto partner = [&](const Station& a, const Station& b) -> double {
     const Point pa = assembler.point(a), pb = assembler.point(b);
-    if (pa == point && pb.kind == Point::Kind::node) return assembler.mesh().z[static_cast<std::size_t>(pb.index)];
-    if (pb == point && pa.kind == Point::Kind::node) return assembler.mesh().z[static_cast<std::size_t>(pa.index)];
+    if (pa == point && pb.kind == Point::Kind::node)
+      return assembler.mesh().z[static_cast<std::size_t>(pb.index)];
+    if (pb == point && pa.kind == Point::Kind::node)
+      return assembler.mesh().z[static_cast<std::size_t>(pa.index)];
     return -1.0;
   };
   for (const Contact& c : model.contacts) {
@@ -37,7 +40,8 @@ double contact_radius(const Model& model, const Assembler& assembler, const Cont
   if (c.friction.radius > 0.0) return c.friction.radius;
   const Point p = assembler.point(c.at);
   if (p.kind == Point::Kind::node) {
-    return 0.5 * shaft_diameter(model.structure, assembler.mesh().z[static_cast<std::size_t>(p.index)]);
+    return 0.5 *
+           shaft_diameter(model.structure, assembler.mesh().z[static_cast<std::size_t>(p.index)]);
   }
   return 5.0 * c.clearance;
 }
@@ -54,28 +58,33 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
   }
   for (const MeshElement& e : mesh.elements) {
     const Segment& segment = s.shaft[static_cast<std::size_t>(e.segment)];
-    scene.shaft.push_back({e.left, e.right, 0.5 * segment.at(e.from).outer, 0.5 * segment.at(e.to).outer});
+    scene.shaft.push_back(
+        {e.left, e.right, 0.5 * segment.at(e.from).outer, 0.5 * segment.at(e.to).outer});
   }
   for (const Disk& d : s.disks) {
     const int node = assembler.point(d.at).index;
     const double shaft = shaft_diameter(s, mesh.z[static_cast<std::size_t>(node)]);
-    VtkDisk disk{d.name, node, 0.5 * d.outer_diameter, 0.5 * std::max(d.inner_diameter, 0.0), d.width};
+    VtkDisk disk{d.name, node, 0.5 * d.outer_diameter, 0.5 * std::max(d.inner_diameter, 0.0),
+                 d.width};
     if (disk.outer_radius <= 0.0) disk.outer_radius = 2.5 * shaft;
     if (disk.width <= 0.0) disk.width = 0.5 * shaft;
     scene.disks.push_back(disk);
   }
   double typical = 0.0;  // radius for bodies that have no size
-  for (const Contact& c : model.contacts) typical = std::max(typical, contact_radius(model, assembler, c));
+  for (const Contact& c : model.contacts)
+    typical = std::max(typical, contact_radius(model, assembler, c));
   for (std::size_t i = 0; i < s.bodies.size(); ++i) {
     if (!s.bodies[i].spins) continue;
     const double radius = typical > 0.0 ? typical : 0.1;
-    scene.disks.push_back({s.bodies[i].name, mesh.nodes() + static_cast<int>(i), radius, 0.0, 0.5 * radius});
+    scene.disks.push_back(
+        {s.bodies[i].name, mesh.nodes() + static_cast<int>(i), radius, 0.0, 0.5 * radius});
   }
   for (const Contact& c : model.contacts) {
     const Point at = assembler.point(c.at), against = assembler.point(c.against);
-    scene.stators.push_back({c.name, against.kind == Point::Kind::body ? index_of(against, assembler) : -1,
-                             position(model, assembler, at), c.offset, contact_radius(model, assembler, c),
-                             c.clearance, 0.0});
+    scene.stators.push_back({c.name,
+                             against.kind == Point::Kind::body ? index_of(against, assembler) : -1,
+                             position(model, assembler, at), c.offset,
+                             contact_radius(model, assembler, c), c.clearance, 0.0});
     scene.contacts.push_back({c.name, index_of(at, assembler)});
   }
   return scene;

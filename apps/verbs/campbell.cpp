@@ -34,7 +34,9 @@ Report run_campbell(const Invocation& call) {
     head.push_back(fmt::format("{} {} [rpm]", number, name_of(b.whirl)));
   }
   for (const Crossing& c : diagram.crossings) criticals.add(c.speed / rpm);
-  report.record.set("speeds_rpm", in_rpm(speeds)).set("branches", branches).set("criticals_rpm", criticals);
+  report.record.set("speeds_rpm", in_rpm(speeds))
+      .set("branches", branches)
+      .set("criticals_rpm", criticals);
 
   // a table of at most about twenty speeds; the whole is in the JSON and the result file
   Table table(head);
@@ -42,7 +44,8 @@ Report run_campbell(const Invocation& call) {
   for (std::size_t i = 0; i < speeds.size(); i += stride) {
     std::vector<std::string> cells{fmt::format("{:.1f}", speeds[i] / rpm)};
     for (const CampbellBranch& b : diagram.branches) {
-      cells.push_back(std::isfinite(b.frequency[i]) ? fmt::format("{:.1f}", b.frequency[i] / rpm) : "-");
+      cells.push_back(std::isfinite(b.frequency[i]) ? fmt::format("{:.1f}", b.frequency[i] / rpm)
+                                                    : "-");
     }
     table.row(cells);
   }
@@ -82,7 +85,8 @@ Report run_campbell(const Invocation& call) {
     file->dataset("/campbell/whirl", whirl, {"", "sense of whirl", {"/campbell/branch"}});
     if (!crossing_speed.empty()) {
       file->dataset("/campbell/critical_speed", crossing_speed, {"rad/s", "critical speed", {""}});
-      file->dataset("/campbell/critical_branch", crossing_branch, {"", "branch that is critical", {""}});
+      file->dataset("/campbell/critical_branch", crossing_branch,
+                    {"", "branch that is critical", {""}});
     }
     commit(call, file.get(), report);
   }

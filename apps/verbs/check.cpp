@@ -4,6 +4,7 @@
 #include "apps/verbs/common.hpp"
 #include "libfe/properties.hpp"
 #include "libio/format.hpp"
+#include "libio/hdf5.hpp"
 #include "libio/layout.hpp"
 #include "libio/table.hpp"
 
@@ -37,12 +38,18 @@ Report run_check(const Invocation& call) {
   table.row({"polar moment of inertia", format_engineering(rotor.Ip, "kg.m^2")});
   table.row({"nodes, bodies", fmt::format("{}, {}", assembler.mesh().nodes(), s.bodies.size())});
   table.row({"freedoms", system.dofs.condensed > 0
-                             ? fmt::format("{}, of which {} without inertia are condensed", dofs, system.dofs.condensed)
+                             ? fmt::format("{}, of which {} without inertia are condensed", dofs,
+                                           system.dofs.condensed)
                              : fmt::format("{}", dofs)});
-  table.row({"disks, bearings, links", fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
+  table.row({"disks, bearings, links",
+             fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
   table.row({"contacts", fmt::format("{}", model.contacts.size())});
   table.row({"operating speed", model.has_speed ? format_speed(model.speed) : "not given"});
   text += table.text() + "\n  The model is in order.\n";
+  if (const auto file = call.result_file(model)) {
+    write_points(*file, model, assembler);
+    commit(call, file.get(), report);
+  }
   return report;
 }
 

@@ -34,17 +34,26 @@ void add_modes(Record& record, const Modes& modes) {
   for (const Complex& root : modes.overdamped) roots.add(root.real());
   Record overdamped = Record::array();
   for (const Complex& root : modes.overdamped) overdamped.add(root);
-  record.set("modes", list).set("real_roots", roots).set("overdamped", overdamped).set("rigid_body", rigid);
+  record.set("modes", list)
+      .set("real_roots", roots)
+      .set("overdamped", overdamped)
+      .set("rigid_body", rigid);
+}
+
+std::string fixed(double value, int digits) {
+  std::string text = fmt::format("{:.{}f}", value, digits);
+  const bool is_zero = text.find_first_of("123456789ni") == std::string::npos;
+  return is_zero && text.starts_with('-') ? text.substr(1) : text;
 }
 
 std::string modes_table(const Modes& modes) {
-  Table table({"mode", "frequency [rpm]", "[Hz]", "log decrement", "damping ratio", "whirl", "kappa"});
+  Table table(
+      {"mode", "frequency [rpm]", "[Hz]", "log decrement", "damping ratio", "whirl", "kappa"});
   int number = 0;
   for (const Mode& m : modes.oscillatory) {
     table.row({fmt::format("{}", ++number), fmt::format("{:.1f}", m.frequency() / rpm),
-               fmt::format("{:.3f}", m.frequency() / rpm / 60.0), fmt::format("{:.4f}", m.log_decrement()),
-               fmt::format("{:.5f}", m.damping_ratio()), std::string(name_of(m.whirl)),
-               fmt::format("{:+.3f}", m.kappa)});
+               fmt::format("{:.3f}", m.frequency() / rpm / 60.0), fixed(m.log_decrement(), 4),
+               fixed(m.damping_ratio(), 5), std::string(name_of(m.whirl)), fixed(m.kappa, 3)});
   }
   std::string text = table.text();
   if (!modes.overdamped.empty()) {
@@ -82,10 +91,12 @@ void write_modes(ResultWriter& file, const Modes& modes, const DofMap& dofs) {
   file.dataset("/modes/frequency", frequency, {"rad/s", "damped natural frequency", per_mode});
   file.dataset("/modes/damping_ratio", damping, {"", "damping ratio", per_mode});
   file.dataset("/modes/log_decrement", decrement, {"", "logarithmic decrement", per_mode});
-  file.dataset("/modes/kappa", kappa, {"", "signed axis ratio where the mode moves most", per_mode});
+  file.dataset("/modes/kappa", kappa,
+               {"", "signed axis ratio where the mode moves most", per_mode});
   file.dataset("/modes/whirl", whirl, {"", "sense of whirl", per_mode});
   file.dataset("/modes/shape", shapes,
-               {"m, rad", "complex shape: x, y, theta_x, theta_y of every node, then of every body",
+               {"m, rad",
+                "complex shape: x, y, theta_x, theta_y of every node, then of every body",
                 {"", "/modes/number"}});
 }
 
@@ -110,7 +121,8 @@ void write_points(ResultWriter& file, const Model& model, const Assembler& assem
 
 std::string point_label(const NamedPoint& point) {
   if (point.node() == 0) return point.name;
-  return point.name.empty() ? fmt::format("{}", point.node()) : fmt::format("{} {}", point.node(), point.name);
+  return point.name.empty() ? fmt::format("{}", point.node())
+                            : fmt::format("{} {}", point.node(), point.name);
 }
 
 void commit(const Invocation& call, ResultWriter* file, Report& report) {

@@ -30,6 +30,9 @@ void write_modes(ResultWriter& file, const Modes& modes, const DofMap& dofs);
 /// Group /points of a result file: nodes and bodies with their positions and names.
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);
 
+/// A number with so many digits behind the point, zero without a sign.
+std::string fixed(double value, int digits);
+
 /// "7 seal", "stator".
 std::string point_label(const NamedPoint& point);
 

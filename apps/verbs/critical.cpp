@@ -17,7 +17,8 @@ Report run_critical(const Invocation& call) {
   CriticalOptions options;
   options.count = static_cast<int>(call.integer("modes", options.count));
   options.order = call.number("order", "", options.order);
-  if (!(options.order > 0.0)) throw ModelError({"--order " + call.text("order")}, "", "expected a number above zero");
+  if (!(options.order > 0.0))
+    throw ModelError({"--order " + call.text("order")}, "", "expected a number above zero");
   const std::vector<Critical> criticals = critical_speeds(assembler, options);
 
   Report report{.record = begin_record(call, model)};
@@ -36,7 +37,9 @@ Report run_critical(const Invocation& call) {
                std::string(name_of(c.whirl)), excitation});
   }
   report.record.set("criticals", list);
-  report.text = "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" + table.text();
+  report.text =
+      "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" +
+      table.text();
   if (const auto file = call.result_file(model)) {
     std::vector<double> speed, damped;
     std::vector<std::string> whirl;

@@ -15,10 +15,19 @@ namespace {
 
 Record record_of(const IdentifiedPeak& peak, double Omega) {
   Record r;
-  r.set("frequency_rpm", peak.frequency / rpm).set("amplitude_m", peak.amplitude).set("mac", peak.mac);
-  r.set("mode", peak.mac.empty() ? Record(nullptr) : Record(peak.mode + 1)).set("shift", peak.shift);
+  r.set("frequency_rpm", peak.frequency / rpm)
+      .set("amplitude_m", peak.amplitude)
+      .set("mac", peak.mac);
+  r.set("mode", peak.mac.empty() ? Record(nullptr) : Record(peak.mode + 1))
+      .set("shift", peak.shift);
   r.set("frequency_rotating_rpm", (peak.frequency - Omega) / rpm);
   return r;
+}
+
+/// A frequency [rad/s] in rpm with its sign; next to nothing is +0.0.
+std::string signed_rpm(double frequency) {
+  const std::string text = fmt::format("{:+.1f}", frequency / rpm);
+  return text == "-0.0" ? "+0.0" : text;
 }
 
 /// Table peaks x modes; the best mode of a peak is marked.
@@ -26,16 +35,20 @@ std::string mac_table(const Identification& id, double Omega) {
   std::vector<std::string> head{"peak [rpm]", "from the rotor", "radius"};
   for (std::size_t i = 0; i < id.modes.size(); ++i) {
     const Mode& m = id.modes[i];
-    const char sense = m.whirl == Whirl::forward ? 'F' : m.whirl == Whirl::backward ? 'B' : m.whirl == Whirl::mixed ? 'M' : 'P';
+    const char sense = m.whirl == Whirl::forward    ? 'F'
+                       : m.whirl == Whirl::backward ? 'B'
+                       : m.whirl == Whirl::mixed    ? 'M'
+                                                    : 'P';
     head.push_back(fmt::format("{}{} {:.0f}", i + 1, sense, m.frequency() / rpm));
   }
   head.push_back("best");
   head.push_back("shift");
   Table table(head);
   for (const IdentifiedPeak& p : id.peaks) {
-    std::vector<std::string> cells{fmt::format("{:+.1f}", p.frequency / rpm),
-                                   fmt::format("{:+.1f}", (p.frequency - Omega) / rpm), format_length(p.amplitude)};
-    for (const double value : p.mac) cells.push_back(value < 0.005 ? "·" : fmt::format("{:.2f}", value));
+    std::vector<std::string> cells{signed_rpm(p.frequency), signed_rpm(p.frequency - Omega),
+                                   format_length(p.amplitude)};
+    for (const double value : p.mac)
+      cells.push_back(value < 0.005 ? "·" : fmt::format("{:.2f}", value));
     const bool forced = std::abs(p.frequency - Omega) < 1.5 * id.bin;
     cells.push_back(p.mac.empty() ? "-" : fmt::format("mode {}", p.mode + 1));
     cells.push_back(forced ? "forced (1X)" : fmt::format("{:+.1f} %", 100.0 * p.shift));
@@ -58,9 +71,14 @@ Report run_identify(const Invocation& call) {
 
   Report report{.record = begin_record(call, model), .status = status_of(run)};
   add_run(report.record, run);
-  report.text = "Identification" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" + run_text(run, model);
+  report.text = "Identification" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
+                run_text(run, model);
   if (file) write_run(*file, run, model);
-  if (run.has_motion()) {
+  if (!run.has_motion()) {
+    report.record.set("peaks", Record::array())
+        .set("modes", Record::array())
+        .set("resonance", nullptr);
+  } else {
     const Identification id = identify(model, run.scene, run.simulation.recording, options);
     Record peaks = Record::array();
     for (const IdentifiedPeak& p : id.peaks) peaks.add(record_of(p, model.speed));
@@ -70,22 +88,29 @@ Report run_identify(const Invocation& call) {
     add_modes(report.record, modes);
     if (id.resonance) {
       Record r;
-      r.set("ratio", Record(Record::Array{id.resonance->p, id.resonance->q})).set("error", id.resonance->error);
-      r.set("frequencies_rpm", std::vector<double>{id.resonance->high / rpm, id.resonance->low / rpm});
+      r.set("ratio", Record(Record::Array{id.resonance->p, id.resonance->q}))
+          .set("error", id.resonance->error);
+      r.set("frequencies_rpm",
+            std::vector<double>{id.resonance->high / rpm, id.resonance->low / rpm});
       report.record.set("resonance", r);
     } else {
       report.record.set("resonance", nullptr);
     }
-    report.text += fmt::format("\nMAC of deflection shapes (rows) against complex modes at {:.6g} rpm{} (columns: number, whirl, rpm)\n\n{}",
-                               model.speed / rpm, options.stiffened ? " with contacts closed" : "", mac_table(id, model.speed));
+    report.text += fmt::format(
+        "\nMAC of deflection shapes (rows) against complex modes at {:.6g} rpm{} (columns: number, "
+        "whirl, rpm)\n\n{}",
+        model.speed / rpm, options.stiffened ? " with contacts closed" : "",
+        mac_table(id, model.speed));
     if (id.resonance) {
-      report.text += fmt::format("\n  seen from the rotor {:.1f} : {:.1f} rpm = {}:{} within {:.2g} %\n",
-                                 id.resonance->high / rpm, id.resonance->low / rpm, id.resonance->p, id.resonance->q,
-                                 100.0 * id.resonance->error);
+      report.text +=
+          fmt::format("\n  seen from the rotor {:.1f} : {:.1f} rpm = {}:{} within {:.2g} %\n",
+                      id.resonance->high / rpm, id.resonance->low / rpm, id.resonance->p,
+                      id.resonance->q, 100.0 * id.resonance->error);
     }
     if (file) {
       write_modes(*file, modes, run.scene.system.dofs);
-      const auto np = static_cast<Eigen::Index>(id.peaks.size()), nm = static_cast<Eigen::Index>(id.modes.size());
+      const auto np = static_cast<Eigen::Index>(id.peaks.size()),
+                 nm = static_cast<Eigen::Index>(id.modes.size());
       Mat mac(np, nm);
       Vec frequency(np), amplitude(np);
       for (Eigen::Index i = 0; i < np; ++i) {
@@ -96,8 +121,10 @@ Report run_identify(const Invocation& call) {
       }
       if (np > 0) {
         file->dataset("/mac/frequency", frequency, {"rad/s", "signed frequency of the peak", {""}});
-        file->dataset("/mac/amplitude", amplitude, {"m", "largest radius at the peak", {"/mac/frequency"}});
-        file->dataset("/mac/mac", mac, {"", "modal assurance criterion", {"/mac/frequency", "/modes/number"}});
+        file->dataset("/mac/amplitude", amplitude,
+                      {"m", "largest radius at the peak", {"/mac/frequency"}});
+        file->dataset("/mac/mac", mac,
+                      {"", "modal assurance criterion", {"/mac/frequency", "/modes/number"}});
       }
     }
   }

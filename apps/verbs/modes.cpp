@@ -14,7 +14,8 @@ Report run_modes(const Invocation& call) {
 
   Report report{.record = begin_record(call, model)};
   add_modes(report.record, modes);
-  report.text = fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, modes_table(modes));
+  report.text =
+      fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, modes_table(modes));
   if (const auto file = call.result_file(model)) {
     file->attribute("/", "speed", model.speed);
     write_points(*file, model, assembler);

@@ -13,7 +13,8 @@ Report run_simulate(const Invocation& call) {
   Report report{.record = begin_record(call, model), .status = status_of(run)};
   add_run(report.record, run);
   add_stations(report.record, run);
-  report.text = "Simulation" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" + run_text(run, model);
+  report.text = "Simulation" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
+                run_text(run, model);
   if (file) write_run(*file, run, model);
   commit(call, file.get(), report);
   return report;

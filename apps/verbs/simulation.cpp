@@ -1,6 +1,7 @@
 #include "apps/verbs/simulation.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +26,34 @@ Mat motion(const Run& run, const Point& point) {
   return xy;
 }
 
+/// A motion that grew beyond all bounds has no spectrum.
+bool is_finite(const Peak& peak) {
+  return std::isfinite(peak.frequency) && std::isfinite(peak.amplitude);
+}
+
+std::string force_text(double force) {
+  return std::abs(force) < 1e9 ? fmt::format("{:.1f}", force) : fmt::format("{:.4g}", force);
+}
+
+/// Whether the recording fits this machine's memory; a wrong number of zeros is said at once.
+void require_memory(const SimulationOptions& options, int coordinates, std::size_t contacts) {
+  const double numbers = static_cast<double>(coordinates) + 2.0 * static_cast<double>(contacts);
+  const double needed = 8.0 * numbers * options.samples * static_cast<double>(options.revolutions);
+  const double there =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (needed < there) return;
+  throw ModelError(
+      {fmt::format("--revolutions {}", options.revolutions)}, "",
+      fmt::format(
+          "with {} samples each these take {:.0f} GB, this machine has {:.0f} GB; record fewer, "
+          "--discard takes no memory",
+          options.samples, 1e-9 * needed, 1e-9 * there));
+}
+
 Record peaks_record(const std::vector<Peak>& peaks) {
   Record list = Record::array();
   for (const Peak& p : peaks) {
+    if (!is_finite(p)) continue;
     Record r;
     r.set("frequency_rpm", p.frequency / rpm).set("amplitude_m", p.amplitude);
     list.add(r);
@@ -38,16 +64,34 @@ Record peaks_record(const std::vector<Peak>& peaks) {
 std::string peaks_text(const std::vector<Peak>& peaks) {
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, peaks.size()); ++i) {
-    text += fmt::format("{}{:+.1f} ({})", i > 0 ? ", " : "", peaks[i].frequency / rpm,
+    if (!is_finite(peaks[i])) continue;
+    text += fmt::format("{}{:+.1f} ({})", text.empty() ? "" : ", ", peaks[i].frequency / rpm,
                         format_length(peaks[i].amplitude));
   }
   return text.empty() ? "-" : text;
 }
 
-/// The end of an earlier result, as start.from = "file" asks for.
-FullState read_end(const std::string& path) {
+/// The end of an earlier result, as start.from = "file" asks for; a stopped one ends within a
+/// revolution.
+struct EarlierEnd {
+  FullState state;
+  double phase = 0.0;  ///< [rad]
+};
+
+EarlierEnd read_end(const std::string& path) {
   const ResultReader file(path);
-  return {file.vector("/trajectory/end_displacement"), file.vector("/trajectory/end_velocity")};
+  if (!file.has("/trajectory/end_displacement")) {
+    throw ModelError({path}, "", "holds no motion to start from; simulate and identify write one");
+  }
+  EarlierEnd end{
+      {file.vector("/trajectory/end_displacement"), file.vector("/trajectory/end_velocity")},
+      file.number_attribute("/trajectory", "end_phase")};
+  if (!end.state.displacement.allFinite() || !end.state.velocity.allFinite()) {
+    throw ModelError(
+        {path}, "",
+        "its motion failed and ends in no finite numbers: there is nothing to start from");
+  }
+  return end;
 }
 
 }  // namespace
@@ -60,15 +104,17 @@ const std::vector<OptionSpec>& integration_options() {
       {"method", "M", "integrator: dop853 (the default), cvode-adams, cvode-bdf"},
       {"tolerance", "T", "of a step, displacements by the clearance (1e-10)"},
       {"from", "FILE.h5", "start where a result ended"},
-      {"stations", "NAME,...", "what is recorded and shown: names, node numbers, all (contacts, disks, bearings)"}};
+      {"stations", "NAME,...",
+       "what is recorded and shown: names, node numbers, all (contacts, disks, bearings)"}};
   return options;
 }
 
 Run run_simulation(const Invocation& call, const Model& original) {
   Model model = original;
   if (!model.has_speed) {
-    throw ModelError({}, "operation.speed", "missing, expected a speed (rad/s): write [operation] speed = "
-                                            "\"3000 rpm\", or use --speed 3000rpm");
+    throw ModelError({}, "operation.speed",
+                     "missing, expected a speed (rad/s): write [operation] speed = "
+                     "\"3000 rpm\", or use --speed 3000rpm");
   }
   SimulationOptions options;
   options.revolutions = call.integer("revolutions", options.revolutions);
@@ -76,21 +122,34 @@ Run run_simulation(const Invocation& call, const Model& original) {
   options.samples = static_cast<int>(call.integer("samples", options.samples, 4));
   options.integration.tolerance = call.number("tolerance", "", options.integration.tolerance);
   if (!(options.integration.tolerance >= 1e-15 && options.integration.tolerance <= 1e-2)) {
-    throw ModelError({"--tolerance " + call.text("tolerance")}, "", "expected a number from 1e-15 to 1e-2");
+    throw ModelError({"--tolerance " + call.text("tolerance")}, "",
+                     "expected a number from 1e-15 to 1e-2");
   }
   const std::string method = call.text("method", "dop853");
+  const std::vector<std::string_view> methods = method_names();
+  if (method != "cvode" && std::find(methods.begin(), methods.end(), method) == methods.end()) {
+    throw ModelError({"--method " + method}, "",
+                     fmt::format("unknown method, expected one of {}", fmt::join(methods, ", ")));
+  }
   options.method = method_named(method);
 
-  std::optional<FullState> end;
+  std::optional<EarlierEnd> end;
   if (call.has("from")) {
     model.start.from = StartFrom::file;
     model.start.file = call.given.at("from");
+    model.start.whirl.clear();  // it goes on as it was
   }
   if (model.start.from == StartFrom::file) end = read_end(model.start.file);
 
   Scene scene = make_scene(model);
+  require_memory(options, scene.contacts.coordinates(), model.contacts.size());
   std::vector<NamedPoint> stations = select_points(model, scene.assembler, call.text("stations"));
-  const MotionState start = start_state(model, scene, end ? &*end : nullptr);
+  MotionState start = start_state(model, scene, end ? &end->state : nullptr);
+  if (end && end->phase > 0.0) {
+    // samples begin with a revolution: what is left of this one is not recorded
+    start.phase = end->phase;
+    options.discard = std::max(1L, options.discard);
+  }
   const long total = options.discard + options.revolutions;
   Progress progress("simulating", total, call.shows_progress);
   is_interrupted();  // from now on Ctrl-C stops between revolutions
@@ -99,14 +158,21 @@ Run run_simulation(const Invocation& call, const Model& original) {
     return !is_interrupted();
   };
   Simulation simulation = simulate(scene, start, options);
-  return {std::move(scene), std::move(simulation), std::move(stations), method};
+  Run run{std::move(scene), std::move(simulation), std::move(stations), method, nullptr};
+  if (run.has_motion()) {
+    run.spectra = std::make_shared<const ResponseSpectra>(run.scene, run.simulation.recording);
+  }
+  return run;
 }
 
 int status_of(const Run& run) {
   switch (run.simulation.integration.outcome) {
-    case Outcome::reached_end: return 0;
-    case Outcome::stopped_by_observer: return 130;
-    default: return 3;
+    case Outcome::reached_end:
+      return 0;
+    case Outcome::stopped_by_observer:
+      return 130;
+    default:
+      return 3;
   }
 }
 
@@ -140,14 +206,15 @@ void add_run(Record& record, const Run& run) {
 void add_stations(Record& record, const Run& run) {
   Record list = Record::array();
   if (run.has_motion()) {
-    const ResponseSpectra spectra(run.scene, run.simulation.recording);
+    const ResponseSpectra& spectra = *run.spectra;
     for (const NamedPoint& p : run.stations) {
       const Mat xy = motion(run, p.point);
       const PointPeaks peaks = point_peaks(spectra, p.point, run.scene.system.Omega);
       Record r;
       r.set("node", p.node() > 0 ? Record(p.node()) : Record(nullptr)).set("name", p.name);
       r.set("max_radius_m", xy.rowwise().norm().maxCoeff());
-      r.set("peaks", peaks_record(peaks.stationary)).set("peaks_rotating", peaks_record(peaks.rotating));
+      r.set("peaks", peaks_record(peaks.stationary))
+          .set("peaks_rotating", peaks_record(peaks.rotating));
       list.add(r);
     }
   }
@@ -162,37 +229,51 @@ std::string run_text(const Run& run, const Model& model) {
   if (run.scene.reduced.size() == run.scene.system.size()) {
     text += fmt::format("  {} freedoms, not reduced\n", run.scene.system.size());
   } else {
-    text += fmt::format("  {} of {} freedoms; up to {:.0f} rpm eigenvalues are {:.2g} % off, contact receptances {:.2g} %\n",
-                        run.scene.reduced.size(), run.scene.system.size(), e.band / rpm,
-                        100.0 * e.eigenvalue(), 100.0 * e.receptance);
+    text += fmt::format(
+        "  {} of {} freedoms; up to {:.0f} rpm eigenvalues are {:.2g} % off, contact receptances "
+        "{:.2g} %\n",
+        run.scene.reduced.size(), run.scene.system.size(), e.band / rpm, 100.0 * e.eigenvalue(),
+        100.0 * e.receptance);
     if (!e.within_tolerance) {
-      const auto worst = std::max_element(e.pairs.begin(), e.pairs.end(),
-                                          [](const auto& a, const auto& b) { return a.error() < b.error(); });
-      text += fmt::format("  warning: that is more than reduction.tolerance = {:g}", model.reduction.tolerance);
+      const auto worst =
+          std::max_element(e.pairs.begin(), e.pairs.end(),
+                           [](const auto& a, const auto& b) { return a.error() < b.error(); });
+      text += fmt::format("  warning: that is more than reduction.tolerance = {:g}",
+                          model.reduction.tolerance);
       if (worst != e.pairs.end()) {
-        text += fmt::format(" ({:.1f} rpm comes out as {:.1f} rpm)", worst->full.imag() / rpm, worst->reduced.imag() / rpm);
+        text += fmt::format(" ({:.1f} rpm comes out as {:.1f} rpm)", worst->full.imag() / rpm,
+                            worst->reduced.imag() / rpm);
       }
       text += "\n";
     }
   }
-  text += fmt::format("  {} revolutions recorded at {:.6g} rpm; {} steps, {} events, {:.2f} s with {}\n",
-                      recording.revolutions, model.speed / rpm, s.integration.cost.steps,
-                      s.integration.cost.events, s.wall, run.method);
-  if (!s.integration.diagnosis.empty()) text += fmt::format("  failed: {}\n", s.integration.diagnosis);
+  text += fmt::format(
+      "  {} revolution{} recorded at {:.6g} rpm; {} steps, {} events, {:.2f} s with {}\n",
+      recording.revolutions, recording.revolutions == 1 ? "" : "s", model.speed / rpm,
+      s.integration.cost.steps, s.integration.cost.events, s.wall, run.method);
+  if (s.integration.outcome == Outcome::stopped_by_observer) {
+    text +=
+        "  stopped before the end; a result file keeps the motion until there, --from goes on with "
+        "it\n";
+  }
+  if (!s.integration.diagnosis.empty())
+    text += fmt::format("  failed: {}\n", s.integration.diagnosis);
   if (!run.has_motion()) return text;
 
   if (!recording.contacts.empty()) {
-    Table table({"contact", "regime", "duty", "impacts/rev", "largest normal [N]", "tangential [N]", "mean slip [m/s]"});
+    Table table({"contact", "regime", "duty", "impacts/rev", "largest normal [N]", "tangential [N]",
+                 "mean slip [m/s]"});
     for (const ContactMeasure& c : recording.contacts) {
       table.row({c.name, std::string(name_of(c.regime())), fmt::format("{:.4f}", c.duty),
                  fmt::format("{:.3f}", c.impacts / static_cast<double>(recording.revolutions)),
-                 fmt::format("{:.1f}", c.max_normal), fmt::format("{:.1f}", c.max_tangential),
+                 force_text(c.max_normal), force_text(c.max_tangential),
                  fmt::format("{:.4g}", c.mean_slip)});
     }
     text += "\n" + table.text();
   }
-  Table table({"station", "largest radius", "strongest frequencies [rpm] (radius)", "seen from the rotor [rpm]"});
-  const ResponseSpectra spectra(run.scene, recording);
+  Table table({"station", "largest radius", "strongest frequencies [rpm] (radius)",
+               "seen from the rotor [rpm]"});
+  const ResponseSpectra& spectra = *run.spectra;
   for (const NamedPoint& p : run.stations) {
     const PointPeaks peaks = point_peaks(spectra, p.point, run.scene.system.Omega);
     table.row({point_label(p), format_length(motion(run, p.point).rowwise().norm().maxCoeff()),
@@ -207,8 +288,11 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
   write_points(file, model, run.scene.assembler);
   const FullState end = full_state(run.scene, run.simulation.end);
   const std::string all = ": x, y, theta_x, theta_y of every node, then of every body";
-  file.dataset("/trajectory/end_displacement", end.displacement, {"m, rad", "displacement at the end" + all, {""}});
-  file.dataset("/trajectory/end_velocity", end.velocity, {"m/s, rad/s", "velocity at the end" + all, {""}});
+  file.dataset("/trajectory/end_displacement", end.displacement,
+               {"m, rad", "displacement at the end" + all, {""}});
+  file.dataset("/trajectory/end_velocity", end.velocity,
+               {"m/s, rad/s", "velocity at the end" + all, {""}});
+  file.attribute("/trajectory", "end_phase", run.simulation.end.phase);
   file.attribute("/trajectory", "samples_per_revolution", r.samples);
   file.attribute("/trajectory", "revolutions", static_cast<double>(r.revolutions));
   file.attribute("/trajectory", "period", r.period);
@@ -220,7 +304,8 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
   const auto n = r.eta.cols();
   Vec time(n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    time(j) = r.period * (static_cast<double>(r.first_revolution) + static_cast<double>(j) / r.samples);
+    time(j) =
+        r.period * (static_cast<double>(r.first_revolution) + static_cast<double>(j) / r.samples);
   }
   std::vector<std::string> names;
   Mat x(static_cast<Eigen::Index>(run.stations.size()), n), y(x.rows(), n);
@@ -237,8 +322,11 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
     file.dataset("/trajectory/x", x, {"m", "displacement x", axes});
     file.dataset("/trajectory/y", y, {"m", "displacement y", axes});
   }
-  file.dataset("/trajectory/coordinates", r.eta, {"", "reduced coordinates: displacement = basis * coordinates", {"", "/trajectory/time"}});
-  file.dataset("/trajectory/basis", run.scene.displacement_map(), {"m, rad", "displacement of the reduced coordinates" + all, {"", ""}});
+  file.dataset(
+      "/trajectory/coordinates", r.eta,
+      {"", "reduced coordinates: displacement = basis * coordinates", {"", "/trajectory/time"}});
+  file.dataset("/trajectory/basis", run.scene.displacement_map(),
+               {"m, rad", "displacement of the reduced coordinates" + all, {"", ""}});
 
   if (!r.contacts.empty()) {
     std::vector<std::string> contacts, regimes;
@@ -264,15 +352,17 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
     file.dataset("/contacts/mean_slip", slip, {"m/s", "mean slip velocity in touch", per});
     const std::vector<std::string> axes{"/contacts/name", "/trajectory/time"};
     file.dataset("/trajectory/normal_force", r.normal, {"N", "normal force", axes});
-    file.dataset("/trajectory/friction_force", r.friction, {"N", "friction force along the tangent", axes});
+    file.dataset("/trajectory/friction_force", r.friction,
+                 {"N", "friction force along the tangent", axes});
   }
 
   // spectra in ascending frequency, backward to the left
-  const ResponseSpectra spectra(run.scene, r);
+  const ResponseSpectra& spectra = *run.spectra;
   const auto bins = spectra.size(), half = bins / 2;
   Vec frequency(bins);
   Mat amplitude(x.rows(), bins);
-  for (Eigen::Index k = 0; k < bins; ++k) frequency(k) = static_cast<double>(k - half) * spectra.bin();
+  for (Eigen::Index k = 0; k < bins; ++k)
+    frequency(k) = static_cast<double>(k - half) * spectra.bin();
   for (std::size_t i = 0; i < run.stations.size(); ++i) {
     const Spectrum s = spectra.at(run.stations[i].point);
     for (Eigen::Index k = 0; k < bins; ++k) {
@@ -282,7 +372,9 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
   if (names.empty()) return;
   file.dataset("/spectra/frequency", frequency, {"rad/s", "signed frequency, forward > 0", {""}});
   file.dataset("/spectra/amplitude", amplitude,
-               {"m", "radius of the circle at a signed frequency (Hann window)", {"/trajectory/station", "/spectra/frequency"}});
+               {"m",
+                "radius of the circle at a signed frequency (Hann window)",
+                {"/trajectory/station", "/spectra/frequency"}});
 }
 
 }  // namespace whirl

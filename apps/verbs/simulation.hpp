@@ -1,6 +1,7 @@
 #pragma once
 /// What `simulate` and `identify` share: options, the run itself, its tables and its result group.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct Run {
   Simulation simulation;
   std::vector<NamedPoint> stations;
   std::string method;
+  std::shared_ptr<const ResponseSpectra> spectra;  ///< null without a motion
   bool has_motion() const { return simulation.recording.revolutions > 0; }
 };
 

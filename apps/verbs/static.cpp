@@ -26,25 +26,32 @@ Report run_static(const Invocation& call) {
     station.set("node", p.node() > 0 ? Record(p.node()) : Record(nullptr)).set("name", p.name);
     station.set("x_m", x).set("y_m", y);
     stations.add(station);
-    const std::string z = p.node() > 0 ? fmt::format("{:.1f}", 1e3 * assembler.mesh().z[static_cast<std::size_t>(p.point.index)]) : "";
-    table.row({point_label(p), z, fmt::format("{:.3f}", 1e6 * x), fmt::format("{:.3f}", 1e6 * y)});
+    const std::string z =
+        p.node() > 0
+            ? fmt::format("{:.1f}",
+                          1e3 * assembler.mesh().z[static_cast<std::size_t>(p.point.index)])
+            : "";
+    table.row({point_label(p), z, fixed(1e6 * x, 3), fixed(1e6 * y, 3)});
   }
   Table loads({"bearing", "load x [N]", "load y [N]"});
   for (const BearingLoad& load : at_rest.bearings) {
     Record bearing;
     bearing.set("name", load.name).set("fx_n", load.force(0)).set("fy_n", load.force(1));
     bearings.add(bearing);
-    loads.row({load.name, fmt::format("{:.4f}", load.force(0)), fmt::format("{:.4f}", load.force(1))});
+    loads.row({load.name, fixed(load.force(0), 4), fixed(load.force(1), 4)});
   }
   report.record.set("stations", stations).set("bearings", bearings);
   report.text = "Static equilibrium under gravity\n";
-  if (model.structure.gravity == 0.0) report.text += "(the model has no gravity: add gravity = \"9.81 m/s^2\")\n";
+  if (model.structure.gravity == 0.0)
+    report.text += "(the model has no gravity: add gravity = \"9.81 m/s^2\")\n";
   report.text += "\n" + table.text() + "\n" + loads.text() +
                  "\n  A load is the force of the rotor on its bearing; y points up.\n";
   if (const auto file = call.result_file(model)) {
     write_points(*file, model, assembler);
     file->dataset("/static/displacement", at_rest.displacement,
-                  {"m, rad", "static displacement: x, y, theta_x, theta_y of every node, then of every body", {""}});
+                  {"m, rad",
+                   "static displacement: x, y, theta_x, theta_y of every node, then of every body",
+                   {""}});
     std::vector<std::string> names;
     Mat forces(static_cast<Eigen::Index>(at_rest.bearings.size()), 2);
     for (std::size_t i = 0; i < at_rest.bearings.size(); ++i) {
@@ -53,7 +60,8 @@ Report run_static(const Invocation& call) {
     }
     if (!names.empty()) {
       file->dataset("/static/bearing", names, {"", "bearing", {""}});
-      file->dataset("/static/bearing_load", forces, {"N", "force of the rotor on the bearing (x, y)", {"/static/bearing", ""}});
+      file->dataset("/static/bearing_load", forces,
+                    {"N", "force of the rotor on the bearing (x, y)", {"/static/bearing", ""}});
     }
     commit(call, file.get(), report);
   }

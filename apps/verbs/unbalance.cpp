@@ -40,7 +40,8 @@ Report run_unbalance(const Invocation& call) {
     }
     const NamedPoint& station = stations[static_cast<std::size_t>(p)];
     Record r;
-    r.set("node", station.node() > 0 ? Record(station.node()) : Record(nullptr)).set("name", station.name);
+    r.set("node", station.node() > 0 ? Record(station.node()) : Record(nullptr))
+        .set("name", station.name);
     r.set("major_m", Vec(major.row(p).transpose())).set("minor_m", Vec(minor.row(p).transpose()));
     r.set("x_m", x).set("y_m", y);
     entries.add(r);
@@ -51,8 +52,11 @@ Report run_unbalance(const Invocation& call) {
                fmt::format("{:.3f}", 1e6 * major(p, ns - 1))});
   }
   report.record.set("stations", entries);
-  report.text = fmt::format("Unbalance response, {} speeds from {:.6g} to {:.6g} rpm (major semi-axes)\n\n{}",
-                            speeds.size(), in_rpm.front(), in_rpm.back(), table.text());
+  const std::string range = speeds.size() == 1
+                                ? fmt::format("at {:.6g} rpm", in_rpm[0])
+                                : fmt::format("{} speeds from {:.6g} to {:.6g} rpm", speeds.size(),
+                                              in_rpm.front(), in_rpm.back());
+  report.text = fmt::format("Unbalance response, {} (major semi-axes)\n\n{}", range, table.text());
   if (model.structure.unbalances.empty()) report.text += "\n  The model has no unbalance.\n";
   if (const auto file = call.result_file(model)) {
     std::vector<std::string> names;

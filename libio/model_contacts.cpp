@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "libio/model_builder.hpp"
+#include "libio/nearest.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// Reads the law of the given name into the contact; false if there is none.
+template <std::size_t... I>
+bool read_law(const std::string& name, TableReader& table, AnyContactLaw<>& to,
+              std::index_sequence<I...>) {
+  bool found = false;
+  const auto try_one = [&](auto law) {
+    if (decltype(law)::name != name) return;
+    found = true;
+    table.read(law);
+    to = law;
+  };
+  (try_one(std::variant_alternative_t<I, AnyContactLaw<>>{}), ...);
+  return found;
+}
+
+template <std::size_t... I>
+std::vector<std::string> law_names(std::index_sequence<I...>) {
+  return {std::string(std::variant_alternative_t<I, AnyContactLaw<>>::name)...};
+}
+/// Keys of all laws, so that a wrong name of the law is one mistake and not many.
+template <std::size_t... I>
+void accept_all_laws(TableReader& table, std::index_sequence<I...>) {
+  const auto accept = [&](const auto&... field) { (table.node(field.name), ...); };
+  (std::apply(accept, std::variant_alternative_t<I, AnyContactLaw<>>::fields()), ...);
+}
+constexpr auto laws = std::make_index_sequence<std::variant_size_v<AnyContactLaw<>>>{};
+
+}  // namespace
+
+void ModelBuilder::read_contacts() {
+  for_each("contact", [&](TableReader& table, std::size_t i) {
+    Contact contact;
+    contact.where = table.where();
+    contact.name = table.string("name").value_or(fmt::format("contact {}", i + 1));
+    const auto at = station(table);
+    if (at) contact.at = *at;
+    if (const auto against = table.string("against")) {
+      if (const auto s = named_station(*against, table, "against")) contact.against = *s;
+      if (at && at->kind == Station::Kind::body && at->body == *against) {
+        table.problem("against", "the body would touch itself");
+      }
+    }
+    table.read(contact);
+    table.read(contact.friction);
+    const std::string law = table.string("law").value_or("radial");
+    if (!read_law(law, table, contact.law, laws)) {
+      table.unknown_choice("law", law, law_names(laws));
+      accept_all_laws(table, laws);
+    }
+    if (const ConfigNode* offset = table.node("offset")) {
+      if (offset->kind != ConfigNode::Kind::array || offset->items.size() != 2) {
+        table.problem("offset", fmt::format("found {}, expected [x, y]", offset->as_written()));
+      } else {
+        for (const int k : {0, 1}) {
+          const auto v = table.quantity(offset->items[static_cast<std::size_t>(k)],
+                                        table.path("offset"), "m", Range::any);
+          if (v) contact.offset(k) = *v;
+        }
+      }
+    }
+    if (!table.has("radius")) {
+      missing_radii_.push_back({model_.contacts.size(), table.where(), table.path("radius")});
+    }
+    if (at) model_.structure.stations.push_back(*at);
+    model_.contacts.push_back(contact);
+  });
+}
+
+}  // namespace whirl

@@ -1,0 +1,244 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "libfe/elements/disk.hpp"
+#include "libio/model_builder.hpp"
+#include "libio/units.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double same_modulus = 1e-3;  ///< relative distance of moduli that are given twice
+
+}  // namespace
+
+void ModelBuilder::read_materials() {
+  const ConfigNode* all = root_.find("material");
+  if (!all) return;
+  if (all->kind != ConfigNode::Kind::table) {
+    problems_.push_back(
+        {all->where, "material", "expected tables with names: write [material.steel]"});
+    return;
+  }
+  for (const auto& [name, node] : all->entries) {
+    TableReader table(&node, "material." + name, problems_);
+    Material m{.name = name};
+    table.read(m);
+    const bool has_G = table.has("shear_modulus"), has_nu = table.has("poisson_ratio");
+    if (!has_G && !has_nu) {
+      table.missing("shear_modulus", "a shear modulus (Pa), or poisson_ratio", {"poisson_ratio"});
+    } else if (has_G && has_nu) {
+      const double G = m.E / (2.0 * (1.0 + m.nu));
+      if (std::abs(G - m.G) > same_modulus * m.G) {
+        table.problem("poisson_ratio",
+                      "does not fit youngs_modulus and shear_modulus, "
+                      "nu = E / (2 G) - 1; give one of the two");
+      }
+    } else if (has_nu) {
+      m.G = m.E / (2.0 * (1.0 + m.nu));
+    } else if (m.G > 0.0) {
+      m.nu = m.E / (2.0 * m.G) - 1.0;
+    }
+    if ((has_G || has_nu) && m.E > 0.0 && (m.nu <= -1.0 || m.nu > 0.5)) {
+      table.problem(has_nu ? "poisson_ratio" : "shear_modulus",
+                    fmt::format("Poisson's ratio is {:.4g}, expected -1 to 0.5", m.nu));
+    }
+    table.finish();
+    materials_[name] = m;
+  }
+}
+
+std::optional<Material> ModelBuilder::material(TableReader& table) {
+  const auto name = table.string("material", true);
+  if (!name) return std::nullopt;
+  const auto found = materials_.find(*name);
+  if (found != materials_.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [key, value] : materials_) known.push_back(key);
+  if (known.empty()) {
+    table.problem("material", fmt::format("there is no [material.{}]", *name));
+  } else {
+    table.unknown_choice("material", *name, known);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::pair<double, double>> ModelBuilder::diameters(TableReader& table,
+                                                                 std::string_view key,
+                                                                 bool is_required) {
+  const Range range = is_required ? Range::positive : Range::nonnegative;
+  const ConfigNode* node = table.node(key);
+  if (!node || node->kind != ConfigNode::Kind::array) {
+    const auto both = table.quantity(key, "m", range, is_required);
+    if (!both) return std::nullopt;
+    return std::pair(*both, *both);
+  }
+  if (node->items.size() != 2) {
+    table.problem(
+        key, fmt::format("found {} values, expected one, or [left, right]", node->items.size()));
+    return std::nullopt;
+  }
+  const auto left = table.quantity(node->items[0], table.path(key), "m", range);
+  const auto right = table.quantity(node->items[1], table.path(key), "m", range);
+  if (!left || !right) return std::nullopt;
+  return std::pair(*left, *right);
+}
+
+void ModelBuilder::read_shaft() {
+  for_each("shaft", [&](TableReader& table, std::size_t) {
+    table.string("name");
+    Segment segment;
+    segment.where = table.where();
+    if (const auto m = material(table)) segment.material = *m;
+    table.read(segment);
+    const auto outer = diameters(table, "outer_diameter", true);
+    const auto inner = diameters(table, "inner_diameter", false);
+    if (outer) {
+      segment.left.outer = outer->first;
+      segment.right.outer = outer->second;
+    }
+    if (inner) {
+      segment.left.inner = inner->first;
+      segment.right.inner = inner->second;
+    }
+    for (const auto& [in, out] : {std::pair(segment.left.inner, segment.left.outer),
+                                  std::pair(segment.right.inner, segment.right.outer)}) {
+      if (!outer || !inner || in < out) continue;
+      table.problem("inner_diameter",
+                    fmt::format("found {:g} mm, expected less than the outer diameter "
+                                "of {:g} mm",
+                                1e3 * in, 1e3 * out));
+      break;
+    }
+    const ConfigNode* shear = table.node("shear_coefficient");
+    if (shear && shear->kind == ConfigNode::Kind::string) {
+      if (const auto formula = table.choice<ShearFormula>("shear_coefficient"))
+        segment.shear.formula = *formula;
+    } else if (shear) {
+      segment.shear.formula = ShearFormula::given;
+      if (const auto value = table.quantity("shear_coefficient", "", Range::positive))
+        segment.shear.value = *value;
+    }
+    constexpr int most_elements = 100'000;
+    if (segment.elements > most_elements) {
+      table.problem("elements",
+                    fmt::format("found {}, expected up to {}", segment.elements, most_elements));
+      segment.elements = 1;
+    }
+    if (segment.internal_functions > 4) {
+      table.problem("internal_functions", "expected 0 to 4");
+    }
+    model_.structure.shaft.push_back(segment);
+  });
+}
+
+std::optional<Unbalance> ModelBuilder::unbalance(TableReader& table, const Station& at,
+                                                 std::optional<double> mass) {
+  const auto offset = table.quantity("offset", "m", Range::nonnegative);
+  const auto moment = table.quantity("moment", "kg.m", Range::nonnegative);
+  const auto phase = table.quantity("phase", "rad", Range::any);
+  Unbalance u{.at = at, .phase = phase.value_or(0.0)};
+  const char* expected = "one of moment (kg.m) and offset (m, of a disk or body with a mass)";
+  if (!table.has("offset") && !table.has("moment")) {
+    table.missing("moment", expected, {"offset"});
+    return std::nullopt;
+  }
+  if (table.has("offset") && table.has("moment")) {
+    table.problem("offset", fmt::format("found both, expected {}", expected));
+    return std::nullopt;
+  }
+  if (moment) u.moment = *moment;
+  if (offset && !mass) {
+    table.problem("offset", "an offset needs a mass: give moment (kg.m) instead");
+    return std::nullopt;
+  }
+  if (offset) u.moment = *offset * *mass;
+  return u;
+}
+
+void ModelBuilder::read_disks() {
+  for_each("disk", [&](TableReader& table, std::size_t i) {
+    Disk disk{.name = table.string("name").value_or(fmt::format("disk {}", i + 1))};
+    const auto at = station(table);
+    if (at && at->kind == Station::Kind::body)
+      table.problem("body", "a disk sits on the shaft; give the body its mass");
+    if (at) disk.at = *at;
+    table.read(disk);
+    const bool has_mass = table.has("mass"), has_material = table.has("material");
+    if (disk.outer_diameter > 0.0 && disk.inner_diameter >= disk.outer_diameter) {
+      table.problem("inner_diameter",
+                    fmt::format("found {:g} mm, expected less than the outer diameter of "
+                                "{:g} mm",
+                                1e3 * disk.inner_diameter, 1e3 * disk.outer_diameter));
+    }
+    if (has_mass == has_material) {
+      table.node("material");
+      table.problem(
+          has_mass ? "mass" : "material",
+          "expected a disk by its shape (material, outer_diameter, inner_diameter, width) or "
+          "by its mass (mass, diametral_inertia, polar_inertia), one of the two");
+    } else if (has_material) {
+      for (const char* key : {"outer_diameter", "width"}) {
+        if (!table.has(key))
+          table.missing(key, "a length (m), since the disk is given by its shape");
+      }
+      for (const char* key : {"diametral_inertia", "polar_inertia"}) {
+        if (table.has(key))
+          table.problem(key, "follows from the shape; give mass instead of material to set it");
+      }
+      if (const auto m = material(table)) set_inertia_from_shape(disk, m->rho);
+    }
+    if (const ConfigNode* inner = table.node("unbalance")) {
+      TableReader reader(inner, table.path("unbalance"), problems_);
+      if (const auto u = unbalance(reader, disk.at, disk.m))
+        model_.structure.unbalances.push_back(*u);
+      reader.finish();
+    }
+    model_.structure.disks.push_back(disk);
+  });
+}
+
+void ModelBuilder::read_bodies() {
+  for_each("body", [&](TableReader& table, std::size_t) {
+    Body body;
+    body.where = table.where();
+    if (const auto name = table.string("name", true)) body.name = *name;
+    if (table.has("name") && body.name.empty())
+      table.problem("name", "a body needs a name that is not empty");
+    if (body.name == "ground")
+      table.problem("name", "\"ground\" is what does not move; choose another name");
+    table.read(body);
+    if (!body.tilts) {
+      for (const char* key : {"diametral_inertia", "polar_inertia"}) {
+        if (table.has(key))
+          table.problem(key, "only a body with tilts = true has moments of inertia");
+      }
+    }
+    model_.structure.bodies.push_back(body);
+  });
+}
+
+void ModelBuilder::read_unbalances() {
+  for_each("unbalance", [&](TableReader& table, std::size_t) {
+    table.string("name");
+    const auto at = station(table);
+    std::optional<double> mass;
+    if (at && at->kind == Station::Kind::body) {
+      for (const Body& body : model_.structure.bodies) {
+        if (body.name != at->body) continue;
+        mass = body.m;
+        if (!body.spins)
+          table.problem("body",
+                        "this body does not spin and has no unbalance; give it spins = true");
+      }
+    }
+    const auto u = unbalance(table, at.value_or(Station{}), mass);
+    if (at && u) model_.structure.unbalances.push_back(*u);
+  });
+}
+
+}  // namespace whirl

@@ -1,0 +1,228 @@
+// Calls that cannot be: exit status 2, what is wrong on standard error, and nothing written.
+
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace {
+
+class BadCall : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("rotor.toml", jeffcott);
+  }
+
+  /// Runs a wrong call with places for results; what it says.
+  std::string problem(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.end(), {"--out", "x.h5", "--json", "x.json"});
+    return problem_of_line(arguments);
+  }
+  std::string problem_of_line(const std::vector<std::string>& arguments) const {
+    const auto before = files();
+    const Outcome outcome = whirl(arguments);
+    EXPECT_EQ(outcome.status, 2) << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(files(), before);
+    return outcome.err;
+  }
+};
+
+TEST_F(BadCall, VerbsThatDoNotExist) {
+  EXPECT_EQ(problem_of_line({"chek", "rotor.toml"}),
+            "whirl: there is no verb \"chek\"; did you mean \"check\"?\n");
+  EXPECT_EQ(problem_of_line({"rerunn", "x.h5"}),
+            "whirl: there is no verb \"rerunn\"; did you mean \"rerun\"?\n");
+  EXPECT_EQ(problem_of_line({"--verison"}),
+            "whirl: there is no option \"--verison\"; did you mean \"--version\"?\n");
+  EXPECT_TRUE(has(problem_of_line({"dance"}), "known are check, static, modes, "));
+}
+
+TEST_F(BadCall, OptionsThatDoNotExist) {
+  EXPECT_EQ(problem({"modes", "rotor.toml", "--spead", "3rpm"}),
+            "whirl modes: there is no option \"--spead\"; did you mean \"--speed\"?\n"
+            "(whirl modes --help shows its options)\n");
+  EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--mode=3"}), "did you mean \"--modes\"?"));
+  EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--revolutions", "3"}),
+                  "there is no option \"--revolutions\""));
+  EXPECT_TRUE(has(problem({"simulate", "rotor.toml", "--revs", "3"}), "no option \"--revs\""));
+}
+
+TEST_F(BadCall, MissingAndSurplusWords) {
+  EXPECT_TRUE(has(problem_of_line({"modes"}), "MODEL is required"));
+  EXPECT_TRUE(has(problem({"modes", "rotor.toml", "two.toml"}), "cannot place \"two.toml\""));
+  EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--json"}), "--json"));
+  EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--modes"}), "--modes"));
+}
+
+TEST_F(BadCall, ValuesOfOptions) {
+  EXPECT_EQ(problem({"modes", "rotor.toml", "--modes", "x"}),
+            "--modes x: expected a whole number of 1 or more\n");
+  EXPECT_EQ(problem({"modes", "rotor.toml", "--modes", "0"}),
+            "--modes 0: expected a whole number of 1 or more\n");
+  EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--modes", "2.5"}), "--modes 2.5: expected"));
+  EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--threads", "0"}), "--threads 0: expected"));
+  EXPECT_EQ(
+      problem({"modes", "rotor.toml", "--speed", "3furlong"}),
+      "--speed 3furlong: unknown unit \"furlong\" in \"3furlong\", expected a speed (rad/s)\n");
+  EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--speed", "-3rpm"}), "of zero or more"));
+  EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--speed", "3 mm"}), "expected a speed (rad/s)"));
+  EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--speed", ""}), "is not a number"));
+  EXPECT_TRUE(has(problem({"critical", "rotor.toml", "--order", "0"}), "above zero"));
+  const std::vector<std::string> simulate{"simulate", "rotor.toml", "--speed", "100"};
+  const auto with = [&](const std::string& option, const std::string& value) {
+    std::vector<std::string> words = simulate;
+    words.insert(words.end(), {option, value});
+    return problem(words);
+  };
+  EXPECT_EQ(with("--method", "rk5"),
+            "--method rk5: unknown method, expected one of dop853, cvode-adams, cvode-bdf\n");
+  EXPECT_EQ(with("--tolerance", "5"), "--tolerance 5: expected a number from 1e-15 to 1e-2\n");
+  EXPECT_TRUE(has(with("--revolutions", "0"), "whole number of 1 or more"));
+  EXPECT_TRUE(has(with("--discard", "-1"), "whole number of 0 or more"));
+  EXPECT_TRUE(has(with("--samples", "2"), "whole number of 4 or more"));
+  EXPECT_TRUE(has(with("--revolutions", "1000000000"), "record fewer"));
+  EXPECT_TRUE(has(with("--stations", "seal"), "there is no station \"seal\"; there are "));
+  EXPECT_TRUE(has(with("--from", "nothing.h5"), "nothing.h5: there is no such file"));
+}
+
+TEST_F(BadCall, Ranges) {
+  const auto range = [&](const std::string& speeds) {
+    return problem({"campbell", "rotor.toml", "--speeds", speeds});
+  };
+  EXPECT_TRUE(has(range("abc"), "expected first:last or first:last:step, such as 0:8000:50rpm"));
+  EXPECT_TRUE(has(range("10:5:1rpm"), "the last value is below the first"));
+  EXPECT_TRUE(has(range("0:100:0rpm"), "the step must be positive"));
+  EXPECT_TRUE(has(range("0:100:10mm"), "expected a speed (rad/s)"));
+  EXPECT_TRUE(has(range("-100:100:10rpm"), "expected speeds of zero or more"));
+}
+
+TEST_F(BadCall, WhatIsSetCountsAsIfItStoodInTheFile) {
+  const auto set = [&](const std::string& value) {
+    return problem({"modes", "rotor.toml", "--set", value});
+  };
+  EXPECT_EQ(set("bearing.shaft.stifness=3"),
+            "--set bearing.shaft.stifness=3: bearing.shaft.stifness: unknown key, did you mean "
+            "\"stiffness\"?\n");
+  EXPECT_EQ(set("bearing.shaft.stiffness=-3"),
+            "--set bearing.shaft.stiffness=-3: bearing.shaft.stiffness: found -3, expected a "
+            "stiffness (N/m) of zero or more\n");
+  EXPECT_TRUE(has(set("bearing.shft.stiffness=3"), "did you mean \"shaft\"?"));
+  EXPECT_TRUE(has(set("bering.shaft.stiffness=3"), "did you mean \"bearing\"?"));
+  EXPECT_TRUE(has(set("title"), "expected PATH=VALUE"));
+}
+
+TEST_F(BadCall, AWrongModelShowsItsLines) {
+  write("bad.toml",
+        "format = 1\n"
+        "[[body]]\n"
+        "name = \"Läufer\"\tmass = 1\n");
+  EXPECT_EQ(problem({"check", "bad.toml"}),
+            "bad.toml:3:17: not TOML: key-value pair: expected a comment or whitespace, saw 'm'\n"
+            "    3 | name = \"Läufer\" mass = 1\n"
+            "      |                 ^\n");
+  write("bad.toml",
+        "format = 1\n"
+        "[[contact]]\n"
+        "name = \"seal\"\n"
+        "node = 1\n"
+        "clearance = 1\n"
+        "stiffness = \"4 MN/mm^2\"\n"
+        "frictoin = 0.1\n");
+  EXPECT_EQ(
+      problem({"check", "bad.toml"}),
+      "bad.toml:4:8: contact.seal.node: the model has no shaft and no nodes: name a body "
+      "instead\n"
+      "    4 | node = 1\n"
+      "      |        ^\n"
+      "bad.toml:6:13: contact.seal.stiffness: found \"4 MN/mm^2\", expected a stiffness (N/m)\n"
+      "    6 | stiffness = \"4 MN/mm^2\"\n"
+      "      |             ^\n"
+      "bad.toml:7:1: contact.seal.frictoin: unknown key, did you mean \"friction\"?\n"
+      "    7 | frictoin = 0.1\n"
+      "      | ^\n");
+}
+
+TEST_F(BadCall, ALongLineIsShownInPart) {
+  write("bad.toml", "format = 1\ntitle = \"" + std::string(1'000'000, 'x') + "\" junk\n");
+  const std::string problem_text = problem({"check", "bad.toml"});
+  EXPECT_LT(problem_text.size(), 500u);
+  EXPECT_TRUE(has(problem_text, "xxx\" junk"));
+}
+
+TEST_F(BadCall, FilesThatAreNotThereOrNotModels) {
+  EXPECT_EQ(problem({"check", "nothing.toml"}),
+            "nothing.toml: cannot read the file: No such file or directory\n");
+  EXPECT_TRUE(has(problem({"check", "."}), "this is a directory"));
+  write("empty.toml", "");
+  EXPECT_TRUE(has(problem({"check", "empty.toml"}), "the file is empty"));
+  EXPECT_TRUE(has(problem({"check", WHIRL_PROGRAM}), "this is not a text file"));
+  EXPECT_TRUE(has(problem_of_line({"rerun", "rotor.toml"}), "not an HDF5 file"));
+  EXPECT_TRUE(has(problem_of_line({"rerun", "nothing.h5"}), "there is no such file"));
+  EXPECT_TRUE(has(problem_of_line({"export", "nothing.h5"}), "there is no such file"));
+  EXPECT_TRUE(has(problem_of_line({"export", "rotor.toml", "--format", "stl"}), "expected vtk"));
+}
+
+TEST_F(BadCall, PlacesThatCannotBeWrittenAreSaidBeforeTheWork) {
+  const Outcome json = whirl({"modes", "rotor.toml", "--json", "nowhere/x.json"});
+  EXPECT_EQ(json.status, 2);
+  EXPECT_EQ(json.out, "");
+  EXPECT_TRUE(has(json.err, "cannot write nowhere/x.json: there is no directory nowhere"));
+  const Outcome out = whirl({"simulate", "rotor.toml", "--speed", "100", "--out", "nowhere/x.h5"});
+  EXPECT_EQ(out.status, 2);
+  EXPECT_TRUE(has(out.err, "cannot write nowhere/x.h5: there is no directory nowhere"));
+}
+
+TEST_F(BadCall, AnEarlierResultStaysAsItIs) {
+  ASSERT_EQ(whirl({"modes", "rotor.toml", "--out", "x.h5", "--quiet"}).status, 0);
+  const std::string before = content(folder / "x.h5");
+  EXPECT_EQ(whirl({"modes", "rotor.toml", "--out", "x.h5", "--set", "body.rotor.mass=-1"}).status,
+            2);
+  EXPECT_EQ(content(folder / "x.h5"), before);
+}
+
+TEST_F(BadCall, ASimulationNeedsASpeed) {
+  for (const char* verb : {"simulate", "identify"}) {
+    const std::string text = problem({verb, "rotor.toml"});
+    EXPECT_TRUE(has(text, "operation.speed: missing, expected a speed (rad/s)")) << text;
+    EXPECT_TRUE(has(text, "--speed 3000rpm")) << text;
+  }
+}
+
+TEST_F(BadCall, AFreeRotorHasModesButNoSagAndNoCriticalSpeeds) {
+  write("free.toml", R"(format = 1
+gravity = 9.81
+[material.steel]
+density = 7800
+youngs_modulus = "211 GPa"
+poisson_ratio = 0.3
+[[shaft]]
+material = "steel"
+length = 1
+outer_diameter = "50 mm"
+)");
+  EXPECT_EQ(
+      problem({"static", "free.toml"}),
+      "free.toml: the static sag needs supports, but the rotor or a body is free to move: add a "
+      "[[bearing]] or a [[link]] that holds it\n");
+  EXPECT_TRUE(has(problem({"critical", "free.toml"}), "critical speeds need supports"));
+  const json modes = result({"modes", "free.toml"});
+  EXPECT_EQ(modes["rigid_body"].size(), 4u);
+  EXPECT_GE(modes["modes"].size(), 4u);
+}
+
+TEST_F(BadCall, AStartNeedsAMotionThatFits) {
+  ASSERT_EQ(whirl({"modes", "rotor.toml", "--out", "modes.h5", "--quiet"}).status, 0);
+  EXPECT_TRUE(has(problem({"simulate", "rotor.toml", "--speed", "100", "--from", "modes.h5"}),
+                  "modes.h5: holds no motion to start from"));
+  ASSERT_EQ(whirl({"simulate", "rotor.toml", "--speed", "100", "--revolutions", "2", "--out",
+                   "run.h5", "--quiet"})
+                .status,
+            0);
+  EXPECT_TRUE(has(problem({"simulate", "rotor.toml", "--speed", "100", "--from", "run.h5", "--set",
+                           "body.rotor.tilts=true", "--set", "body.rotor.diametral_inertia=1",
+                           "--set", "bearing.shaft.tilt_stiffness=1"}),
+                  "the result has 2 freedoms, the model 4: they do not fit"));
+}
+
+}  // namespace
+}  // namespace whirl::test

@@ -1,0 +1,315 @@
+// simulate and identify: JSON keys, closed forms, going on, failing, being stopped.
+
+#include <cmath>
+#include <csignal>
+#include <thread>
+
+#include "libio/hdf5.hpp"
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Simulation : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("rotor.toml", jeffcott);
+    write("rub.toml", rubbing);
+  }
+};
+
+// Free of contact at resonance: r = e / (2 zeta) = 5 mm around the sag m g / k = 0.981 mm, which
+// turns backward seen from the rotor; the unbalance response rests there.
+TEST_F(Simulation, OfAFreeRotorEndsInItsUnbalanceResponse) {
+  const json r = result({"simulate", "rotor.toml", "--speed", "100", "--discard", "2000",
+                         "--revolutions", "64", "--samples", "32"});
+  EXPECT_EQ(r["revolutions"], 64);
+  EXPECT_EQ(r["contacts"], json::array());
+  ASSERT_EQ(r["stations"].size(), 1u);
+  const json& s = r["stations"][0];
+  EXPECT_TRUE(s["node"].is_null());
+  EXPECT_EQ(s["name"], "rotor");
+  EXPECT_NEAR(s["max_radius_m"], 5.981e-3, 1e-8);
+  ASSERT_GE(s["peaks"].size(), 1u);
+  EXPECT_NEAR(s["peaks"][0]["frequency_rpm"], 100.0 / rpm, 1e-3);
+  EXPECT_NEAR(s["peaks"][0]["amplitude_m"], 5e-3, 1e-7);
+  ASSERT_GE(s["peaks_rotating"].size(), 1u);
+  EXPECT_NEAR(s["peaks_rotating"][0]["frequency_rpm"], -100.0 / rpm, 1e-3);
+  EXPECT_NEAR(s["peaks_rotating"][0]["amplitude_m"], 0.981e-3, 1e-7);
+  const json& cost = r["cost"];
+  for (const char* key : {"steps", "evaluations", "events"}) {
+    EXPECT_TRUE(cost[key].is_number_integer()) << key;
+  }
+  EXPECT_GT(cost["steps"], 0);
+  EXPECT_GT(cost["evaluations"], cost["steps"]);
+  EXPECT_EQ(cost["events"], 0);
+  EXPECT_TRUE(cost["wall_s"].is_number());
+}
+
+// Full annular rub: |k r + k_c (r - s) - m Omega^2 r + i c Omega r| = m e Omega^2
+TEST_F(Simulation, OfAFullRub) {
+  const double m = 2.0, k = 2e4, c = 200.0, e = 1e-3, s = 0.5e-3, kc = 2e4, Omega = 100.0;
+  double low = s, high = 10.0 * e;
+  while (high - low > 1e-15) {
+    const double r = 0.5 * (low + high);
+    const double stiff = (k - m * Omega * Omega) * r + kc * (r - s), loss = c * Omega * r;
+    (std::hypot(stiff, loss) > m * e * Omega * Omega ? high : low) = r;
+  }
+  const json r = result({"simulate", "rub.toml", "--revolutions", "16", "--discard", "50"});
+  ASSERT_EQ(r["contacts"].size(), 1u);
+  const json& contact = r["contacts"][0];
+  EXPECT_EQ(contact["name"], "ring");
+  EXPECT_EQ(contact["regime"], "permanent");
+  EXPECT_NEAR(contact["duty"], 1.0, 1e-12);
+  EXPECT_EQ(contact["impacts_per_rev"], 0.0);
+  EXPECT_NEAR(contact["max_normal_n"], kc * (low - s), 1e-6 * kc * s);
+  EXPECT_EQ(contact["max_tangential_n"], 0.0);
+  EXPECT_NEAR(r["stations"][0]["max_radius_m"], low, 1e-6 * low);
+}
+
+TEST_F(Simulation, RegimesOfAContact) {
+  const auto contact = [&](const std::vector<std::string>& sets) {
+    std::vector<std::string> words{"simulate", "rub.toml",  "--revolutions",
+                                   "16",       "--discard", "50"};
+    for (const std::string& set : sets) words.insert(words.end(), {"--set", set});
+    return result(words)["contacts"][0];
+  };
+  const json none = contact({"contact.ring.clearance=5 mm"});
+  EXPECT_EQ(none["regime"], "none");
+  EXPECT_EQ(none["duty"], 0.0);
+  EXPECT_EQ(none["max_normal_n"], 0.0);
+  const json some = contact({"contact.ring.offset=[\"0.8 mm\", 0]"});
+  EXPECT_EQ(some["regime"], "intermittent");
+  EXPECT_NEAR(some["impacts_per_rev"], 1.0, 0.1);
+  const json rough = contact({"contact.ring.friction=0.2", "contact.ring.radius=20 mm"});
+  EXPECT_NEAR(rough["max_tangential_n"], 0.2 * rough["max_normal_n"].get<double>(), 1e-6);
+}
+
+TEST_F(Simulation, MethodsAgree) {
+  const auto radius = [&](const std::string& method) {
+    return result({"simulate", "rub.toml", "--revolutions", "4", "--discard", "50", "--method",
+                   method})["stations"][0]["max_radius_m"]
+        .get<double>();
+  };
+  EXPECT_NEAR(radius("cvode-adams"), radius("dop853"), 1e-8);
+  EXPECT_NEAR(radius("cvode-bdf"), radius("dop853"), 1e-7);
+}
+
+TEST_F(Simulation, RecordsWhatIsAskedFor) {
+  const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  const json r = result({"simulate", model, "--revolutions", "8", "--discard", "0", "--samples",
+                         "16", "--stations", "ring,2", "--out", "run.h5"});
+  ASSERT_EQ(r["stations"].size(), 2u);
+  EXPECT_EQ(r["stations"][0]["node"], 7);
+  EXPECT_EQ(r["stations"][1]["node"], 2);
+  EXPECT_EQ(r["stations"][1]["name"], "");
+  const ResultReader file(folder / "run.h5");
+  EXPECT_EQ(file.shape("/trajectory/x"), (std::vector<Eigen::Index>{2, 128}));
+  const Vec time = file.vector("/trajectory/time");
+  EXPECT_EQ(time(0), 0.0);
+  EXPECT_NEAR(time(16), 60.0 / 4430.0, 1e-15);
+  // left out: contacts, disks and bearings
+  EXPECT_EQ(result({"simulate", model, "--revolutions", "2", "--discard", "0"})["stations"].size(),
+            5u);
+}
+
+// The rotor bounces in 3:1 resonance at 4430 rpm: 2052.8 and 6158.4 rpm, seen from the rotor.
+TEST_F(Simulation, Identify) {
+  const json r = result({"identify", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--modes", "6"});
+  ASSERT_EQ(r["modes"].size(), 6u);
+  EXPECT_EQ(r["modes"][0]["number"], 1);
+  ASSERT_GE(r["peaks"].size(), 2u);
+  for (const json& peak : r["peaks"]) {
+    EXPECT_TRUE(peak["frequency_rpm"].is_number());
+    EXPECT_GT(peak["amplitude_m"], 0.0);
+    ASSERT_EQ(peak["mac"].size(), 6u);
+    const std::vector<double> mac = peak["mac"];
+    for (const double value : mac) {
+      EXPECT_GE(value, 0.0);
+      EXPECT_LE(value, 1.0 + 1e-12);
+    }
+    const auto best = std::max_element(mac.begin(), mac.end()) - mac.begin();
+    EXPECT_EQ(peak["mode"], best + 1);
+  }
+  EXPECT_NEAR(r["peaks"][0]["frequency_rpm"], -1728.4, 0.1);
+  EXPECT_EQ(r["peaks"][0]["mode"], 1);
+  EXPECT_EQ(r["peaks"][1]["mode"], 2);
+  EXPECT_EQ(r["resonance"]["ratio"], json::array({3, 1}));
+  EXPECT_LT(r["resonance"]["error"], 1e-4);
+  EXPECT_EQ(r["contacts"][0]["regime"], "intermittent");
+}
+
+TEST_F(Simulation, IdentifyOfALinearMotionHasNoResonance) {
+  const json r = result({"identify", "rub.toml", "--set", "contact.ring.clearance=1"});
+  EXPECT_TRUE(r["resonance"].is_null());
+  EXPECT_TRUE(r["peaks"].is_array());
+}
+
+// ---- going on ----
+
+/// Largest difference of the ends of two motions, relative to the size of the first.
+double distance(const std::filesystem::path& a, const std::filesystem::path& b) {
+  const ResultReader first(a), second(b);
+  double worst = 0.0;
+  for (const char* part : {"/trajectory/end_displacement", "/trajectory/end_velocity"}) {
+    const Vec x = first.vector(part), y = second.vector(part);
+    worst = std::max(worst, (x - y).norm() / x.norm());
+  }
+  return worst;
+}
+
+TEST_F(Simulation, AMotionGoesOnWhereItEnded) {
+  constexpr double tolerance = 1e-6;  // steps fall otherwise, and impacts amplify that
+  const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  const auto run = [&](int revolutions, const std::string& from, const std::string& out) {
+    std::vector<std::string> words{
+        "simulate", model, "--discard", "0", "--revolutions", std::to_string(revolutions),
+        "--out",    out,   "--quiet"};
+    if (!from.empty()) words.insert(words.end(), {"--from", from});
+    EXPECT_EQ(whirl(words).status, 0);
+  };
+  run(20, "", "whole.h5");
+  run(8, "", "first.h5");
+  run(12, "first.h5", "second.h5");
+  EXPECT_LT(distance(folder / "whole.h5", folder / "second.h5"), tolerance);
+  EXPECT_GT(distance(folder / "whole.h5", folder / "first.h5"), 0.01);
+  // the first sample of the second part is the end of the first
+  const ResultReader first(folder / "first.h5"), second(folder / "second.h5");
+  const Vec there =
+      second.matrix("/trajectory/basis") * second.matrix("/trajectory/coordinates").col(0);
+  const Vec end = first.vector("/trajectory/end_displacement");
+  EXPECT_LT((there - end).norm(), 1e-12 * end.norm());
+  // [start] from = "file" does the same
+  EXPECT_EQ(whirl({"simulate", model, "--discard", "0", "--revolutions", "12", "--out", "third.h5",
+                   "--quiet", "--set", "start={from=\"file\", file=\"first.h5\"}"})
+                .status,
+            0);
+  EXPECT_EQ(distance(folder / "second.h5", folder / "third.h5"), 0.0);
+}
+
+// ---- failing ----
+
+// Friction that always pushes forward feeds the whirl without bound:
+//   mu k_c (r - s) > c omega r
+constexpr const char* unstable = R"(format = 1
+[operation]
+speed = 50
+[[body]]
+name = "rotor"
+mass = 1
+spins = true
+[[bearing]]
+body = "rotor"
+stiffness = 1e4
+[[unbalance]]
+body = "rotor"
+moment = 1e-3
+[[contact]]
+name = "ring"
+body = "rotor"
+clearance = "0.1 mm"
+stiffness = 1e5
+friction = 2.0
+slip = "forward"
+)";
+
+TEST_F(Simulation, AMotionWithoutBoundFailsAndLeavesWhatWasComputed) {
+  write("unstable.toml", unstable);
+  for (const char* verb : {"simulate", "identify"}) {
+    SCOPED_TRACE(verb);
+    const Outcome outcome = whirl({verb, "unstable.toml", "--discard", "0", "--revolutions", "2000",
+                                   "--out", "x.h5", "--json", "x.json"});
+    EXPECT_EQ(outcome.status, 3);
+    EXPECT_TRUE(has(outcome.out, "failed: ")) << outcome.out;
+    EXPECT_TRUE(has(outcome.out, "ring"));
+    for (std::istringstream lines(outcome.out); lines;) {
+      std::string line;
+      std::getline(lines, line);
+      EXPECT_LT(line.size(), 400u) << line;
+    }
+    const json r = json::parse(content(folder / "x.json"));
+    EXPECT_GT(r["revolutions"], 0);
+    EXPECT_LT(r["revolutions"], 2000);
+    EXPECT_TRUE(r["failure"].is_string());
+    const ResultReader file(folder / "x.h5");
+    EXPECT_EQ(file.number_attribute("/trajectory", "revolutions"), r["revolutions"].get<double>());
+    EXPECT_EQ(file.string_attribute("/trajectory", "failure"), r["failure"].get<std::string>());
+  }
+  const Outcome again =
+      whirl({"simulate", "unstable.toml", "--from", "x.h5", "--out", "y.h5", "--quiet"});
+  EXPECT_EQ(again.status, 2);
+  EXPECT_TRUE(has(again.err, "there is nothing to start from")) << again.err;
+}
+
+// ---- Ctrl-C ----
+
+class Interrupt : public Simulation {
+ protected:
+  /// Starts a long run, waits until it is under way, and stops it; its duration after that [s].
+  Outcome stopped(const std::vector<std::string>& words, double& seconds) const {
+    const pid_t child = start(WHIRL_PROGRAM, words);
+    for (int i = 0; i < 600; ++i) {  // its result file is begun before the first step
+      std::this_thread::sleep_for(50ms);
+      bool has_begun = false;
+      for (const std::string& name : files()) has_begun = has_begun || has(name, ".h5.tmp.");
+      if (has_begun) break;
+    }
+    std::this_thread::sleep_for(1s);
+    const auto begin = std::chrono::steady_clock::now();
+    ::kill(child, SIGINT);
+    const Outcome outcome = wait(child);
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return outcome;
+  }
+};
+
+TEST_F(Interrupt, SavesWhatWasComputed) {
+  constexpr double patience = 10.0;  // [s], on a busy machine; alone some 0.3 s
+  double seconds = 0.0;
+  const Outcome outcome =
+      stopped({"simulate", "rub.toml", "--discard", "0", "--revolutions", "1000000", "--samples",
+               "4", "--out", "run.h5", "--json", "run.json"},
+              seconds);
+  EXPECT_EQ(outcome.status, 130);
+  EXPECT_LT(seconds, patience);
+  EXPECT_TRUE(has(outcome.out, "stopped before the end")) << outcome.out;
+  EXPECT_EQ(outcome.err, "");
+  const json r = json::parse(content(folder / "run.json"));
+  const long revolutions = r["revolutions"];
+  EXPECT_GT(revolutions, 0);
+  EXPECT_LT(revolutions, 1'000'000);
+  EXPECT_EQ(files(), (std::vector<std::string>{"rotor.toml", "rub.toml", "run.h5", "run.json"}));
+  {
+    const ResultReader file(folder / "run.h5");
+    EXPECT_EQ(file.shape("/trajectory/time"), (std::vector<Eigen::Index>{4 * revolutions}));
+    EXPECT_EQ(file.shape("/trajectory/x"), (std::vector<Eigen::Index>{1, 4 * revolutions}));
+  }
+
+  // It goes on without a jump: the steady circle stays one, also if it ended within a revolution.
+  const json on = result({"simulate", "rub.toml", "--from", "run.h5", "--discard", "0",
+                          "--revolutions", "4", "--out", "on.h5"});
+  EXPECT_EQ(on["revolutions"], 4);
+  const ResultReader file(folder / "on.h5");
+  const Mat x = file.matrix("/trajectory/x"), y = file.matrix("/trajectory/y");
+  const Vec radius = (x.array().square() + y.array().square()).sqrt().row(0).transpose();
+  EXPECT_LT(radius.maxCoeff() - radius.minCoeff(), 1e-7 * radius.maxCoeff());
+}
+
+TEST_F(Interrupt, BeforeTheFirstRecordedRevolution) {
+  double seconds = 0.0;
+  const Outcome outcome = stopped({"identify", "rub.toml", "--discard", "900000000",
+                                   "--revolutions", "4", "--out", "run.h5", "--json", "-"},
+                                  seconds);
+  EXPECT_EQ(outcome.status, 130);
+  const json r = outcome.tree();
+  EXPECT_EQ(r["revolutions"], 0);
+  EXPECT_EQ(r["peaks"], json::array());
+  const ResultReader file(folder / "run.h5");
+  EXPECT_EQ(file.vector("/trajectory/end_displacement").size(), 2);
+}
+
+}  // namespace
+}  // namespace whirl::test

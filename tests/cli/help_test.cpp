@@ -1,0 +1,109 @@
+// What the program says about itself.
+
+#include <regex>
+
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace {
+
+std::vector<std::string> all_verbs() {
+  std::vector<std::string> verbs = model_verbs;
+  verbs.push_back("export");
+  return verbs;
+}
+
+using Help = Program;
+
+TEST_F(Help, OverviewNamesEveryVerbWithAnExample) {
+  const Outcome help = whirl({"--help"});
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(help.err, "");
+  for (const std::string& verb : all_verbs()) {
+    EXPECT_TRUE(std::regex_search(help.out, std::regex("\n  " + verb + " +[a-z]"))) << verb;
+    EXPECT_TRUE(has(help.out, "whirl " + verb + " ")) << verb;
+  }
+  EXPECT_TRUE(has(help.out, "whirl rerun "));
+  for (const char* option : {"--set", "--speed", "--out", "--json", "--threads", "--quiet"}) {
+    EXPECT_TRUE(has(help.out, option)) << option;
+  }
+  EXPECT_EQ(whirl({}).out, help.out);
+  EXPECT_EQ(whirl({"-h"}).out, help.out);
+  EXPECT_EQ(whirl({"help"}).out, help.out);
+  for (const char* name : {"docs/command-line.md", "docs/model-file.md"}) {
+    EXPECT_TRUE(has(help.out, name));
+    EXPECT_TRUE(std::filesystem::exists(std::string(WHIRL_SOURCE_DIR "/") + name)) << name;
+  }
+}
+
+TEST_F(Help, Version) {
+  const Outcome version = whirl({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_TRUE(std::regex_match(version.out, std::regex("whirl [0-9]+\\.[0-9]+\\.[0-9]+\n")))
+      << version.out;
+}
+
+TEST_F(Help, EveryVerbExplainsItsOptions) {
+  for (const std::string& verb : all_verbs()) {
+    SCOPED_TRACE(verb);
+    const Outcome help = whirl({verb, "--help"});
+    EXPECT_EQ(help.status, 0);
+    EXPECT_EQ(help.err, "");
+    EXPECT_TRUE(has(help.out, "Example: whirl " + verb));
+    for (const char* option :
+         {"--set PATH=VALUE", "--speed S", "--out", "--json FILE", "--threads N", "--quiet"}) {
+      EXPECT_TRUE(has(help.out, option)) << option;
+    }
+    EXPECT_EQ(whirl({"help", verb}).out, help.out);
+  }
+  for (const char* option : {"--revolutions N", "--discard N", "--samples N", "--method M",
+                             "--tolerance T", "--from FILE.h5", "--stations NAME,..."}) {
+    EXPECT_TRUE(has(whirl({"simulate", "--help"}).out, option)) << option;
+    EXPECT_TRUE(has(whirl({"identify", "--help"}).out, option)) << option;
+  }
+  for (const char* verb : {"modes", "campbell", "identify"}) {
+    EXPECT_TRUE(has(whirl({verb, "--help"}).out, "--modes N")) << verb;
+  }
+  EXPECT_TRUE(has(whirl({"rerun", "--help"}).out, "Usage: whirl rerun RESULT.h5"));
+}
+
+/// Options "--name" of a help text.
+std::vector<std::string> options_in(const std::string& help) {
+  std::vector<std::string> names;
+  const std::regex option("\n +(?:-h,)?(--[a-z-]+)");
+  for (std::sregex_iterator it(help.begin(), help.end(), option), end; it != end; ++it) {
+    names.push_back((*it)[1]);
+  }
+  return names;
+}
+
+TEST_F(Help, TheManualNamesEveryVerbAndOption) {
+  const std::string manual = content(WHIRL_SOURCE_DIR "/docs/command-line.md");
+  for (const std::string& verb : all_verbs()) {
+    EXPECT_TRUE(has(manual, "`" + verb + "`")) << verb;
+    const auto options = options_in(whirl({verb, "--help"}).out);
+    EXPECT_GE(options.size(), 7u);
+    for (const std::string& option : options) {
+      EXPECT_TRUE(has(manual, "`" + option)) << verb << " " << option;
+    }
+  }
+}
+
+TEST_F(Help, EveryExampleRuns) {
+  std::filesystem::create_symlink(WHIRL_SOURCE_DIR "/models", folder / "models");
+  for (const std::string& verb : all_verbs()) {
+    const std::string help = whirl({verb, "--help"}).out;
+    const auto from = help.find("Example: whirl ") + std::string("Example: whirl ").size();
+    std::istringstream line(help.substr(from, help.find('\n', from) - from));
+    std::vector<std::string> words;
+    for (std::string word; line >> word;) words.push_back(word);
+    SCOPED_TRACE(testing::PrintToString(words));
+    const Outcome outcome = whirl(words);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_NE(outcome.out, "");
+  }
+}
+
+}  // namespace
+}  // namespace whirl::test

@@ -1,0 +1,321 @@
+// check, static, modes, campbell, critical, unbalance: JSON keys, and values in closed form.
+
+#include <cmath>
+#include <complex>
+
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace {
+
+constexpr double m = 2.0, k = 2e4, c = 4.0, e = 1e-4, g = 9.81;  // of `jeffcott`
+constexpr double omega = 100.0, zeta = 0.01;
+constexpr double rounding = 1e-9;  // relative, of solvers on two freedoms
+
+class Linear : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("rotor.toml", jeffcott);
+  }
+};
+
+TEST_F(Linear, EveryVerbSaysModelVersionAndSpeed) {
+  for (const std::string& verb : model_verbs) {
+    SCOPED_TRACE(verb);
+    const json r = result({verb, "rotor.toml", "--speed", "300rpm"});
+    EXPECT_EQ(r["model"], "rotor.toml");
+    EXPECT_TRUE(r["version"].is_string());
+    EXPECT_DOUBLE_EQ(r["speed_rpm"].get<double>(), 300.0);
+  }
+}
+
+// Cylinder of 600 mm x 20 mm and a disk of 5 kg, 0.06 kg.m^2 at 150 mm:
+//   m_s = rho pi d^2 L / 4,  Ip = m_s d^2 / 8 + 0.06
+TEST_F(Linear, Check) {
+  write("shaft.toml", R"(format = 1
+[material.steel]
+density = 7800
+youngs_modulus = "211 GPa"
+poisson_ratio = 0.3
+[[shaft]]
+material = "steel"
+length = "600 mm"
+outer_diameter = "20 mm"
+elements = 12
+[[disk]]
+node = 4
+mass = 5
+diametral_inertia = 0.03
+polar_inertia = 0.06
+[[bearing]]
+node = 1
+rigid = true
+[[bearing]]
+node = 13
+stiffness = 1e6
+[[contact]]
+node = 7
+clearance = 1e-3
+stiffness = 1e6
+)");
+  const double shaft = 7800.0 * pi * 0.02 * 0.02 / 4.0 * 0.6;
+  json r = result({"check", "shaft.toml"});
+  EXPECT_NEAR(r["mass_kg"], shaft + 5.0, 1e-12);
+  EXPECT_NEAR(r["length_m"], 0.6, 1e-15);
+  EXPECT_EQ(r["nodes"], 13);
+  EXPECT_EQ(r["dofs"], 50);  // two are pinned
+  EXPECT_EQ(r["condensed_dofs"], 0);
+  EXPECT_EQ(r["contacts"], 1);
+  EXPECT_NEAR(r["center_of_mass_m"], (shaft * 0.3 + 5.0 * 0.15) / (shaft + 5.0), 1e-12);
+  EXPECT_NEAR(r["polar_inertia_kg_m2"], shaft * 0.02 * 0.02 / 8.0 + 0.06, 1e-12);
+
+  // without mass only the disk's freedoms are left
+  r = result({"check", "shaft.toml", "--set", "material.steel.density=0"});
+  EXPECT_NEAR(r["mass_kg"], 5.0, 1e-12);
+  EXPECT_EQ(r["dofs"], 50);
+  EXPECT_EQ(r["condensed_dofs"], 46);
+
+  const std::string text = whirl({"check", "shaft.toml"}).out;
+  EXPECT_TRUE(has(text, "disk 1 (150 mm)")) << text;
+  EXPECT_TRUE(has(text, "The model is in order."));
+
+  r = result({"check", "rotor.toml"});
+  EXPECT_EQ(r["mass_kg"], m);
+  EXPECT_EQ(r["nodes"], 0);
+  EXPECT_TRUE(r["center_of_mass_m"].is_null());
+}
+
+// y = -m g / k; the bearing carries the weight
+TEST_F(Linear, StaticOfAMassOnASpring) {
+  const json r = result({"static", "rotor.toml"});
+  ASSERT_EQ(r["stations"].size(), 1u);
+  const json& s = r["stations"][0];
+  EXPECT_TRUE(s["node"].is_null());
+  EXPECT_EQ(s["name"], "rotor");
+  EXPECT_NEAR(s["x_m"], 0.0, 1e-18);
+  EXPECT_NEAR(s["y_m"], -m * g / k, rounding * m * g / k);
+  ASSERT_EQ(r["bearings"].size(), 1u);
+  EXPECT_EQ(r["bearings"][0]["name"], "shaft");
+  EXPECT_NEAR(r["bearings"][0]["fx_n"], 0.0, 1e-12);
+  EXPECT_NEAR(r["bearings"][0]["fy_n"], -m * g, rounding * m * g);
+}
+
+// Mass at the middle of a massless slender shaft on pins: y = -m g L^3 / (48 E I)
+TEST_F(Linear, StaticOfADiskOnAShaft) {
+  write("shaft.toml", R"(format = 1
+gravity = "9.81 m/s^2"
+[material.wire]
+density = 0
+youngs_modulus = "200 GPa"
+poisson_ratio = 0.3
+[[shaft]]
+material = "wire"
+length = 1
+outer_diameter = "20 mm"
+theory = "euler-bernoulli"
+[[disk]]
+name = "wheel"
+at = "500 mm"
+mass = 10
+diametral_inertia = 0.1
+[[bearing]]
+name = "left"
+at = 0
+rigid = true
+[[bearing]]
+name = "right"
+at = 1
+rigid = true
+)");
+  const double I = pi / 64.0 * std::pow(0.02, 4), sag = 10.0 * g / (48.0 * 200e9 * I);
+  const json r = result({"static", "shaft.toml"});
+  bool found = false;
+  for (const json& s : r["stations"]) {
+    EXPECT_TRUE(s["node"].is_number_integer());
+    if (s["name"] != "wheel") continue;
+    found = true;
+    EXPECT_NEAR(s["y_m"], -sag, rounding * sag);
+  }
+  EXPECT_TRUE(found);
+  for (const json& b : r["bearings"]) EXPECT_NEAR(b["fy_n"], -5.0 * g, 1e-7);
+}
+
+// lambda = -zeta omega +- i omega sqrt(1 - zeta^2)
+TEST_F(Linear, Modes) {
+  const json r = result({"modes", "rotor.toml", "--modes", "2"});
+  ASSERT_EQ(r["modes"].size(), 2u);
+  const double frequency = omega * std::sqrt(1.0 - zeta * zeta);
+  int number = 0;
+  for (const json& mode : r["modes"]) {
+    EXPECT_EQ(mode["number"], ++number);
+    EXPECT_NEAR(mode["frequency_rpm"], frequency / rpm, rounding * frequency / rpm);
+    EXPECT_NEAR(mode["damping_ratio"], zeta, rounding);
+    EXPECT_NEAR(mode["log_decrement"], 2.0 * pi * zeta / std::sqrt(1.0 - zeta * zeta), rounding);
+    EXPECT_NEAR(mode["eigenvalue"][0], -zeta * omega, rounding * omega);
+    EXPECT_NEAR(mode["eigenvalue"][1], frequency, rounding * omega);
+    EXPECT_EQ(mode["whirl"], "planar");
+    EXPECT_TRUE(mode["kappa"].is_number());
+  }
+  EXPECT_TRUE(r["real_roots"].is_array());
+}
+
+// c = 4 sqrt(k m): lambda = -omega (2 +- sqrt(3)), both real, in x and in y
+TEST_F(Linear, ModesThatDoNotOscillateAreRealRoots) {
+  const json r = result({"modes", "rotor.toml", "--set", "bearing.shaft.damping=800"});
+  EXPECT_EQ(r["modes"].size(), 0u);
+  std::vector<double> roots = r["real_roots"];
+  ASSERT_EQ(roots.size(), 4u);
+  std::sort(roots.begin(), roots.end());
+  EXPECT_NEAR(roots[0], -omega * (2.0 + std::sqrt(3.0)), 1e-6);
+  EXPECT_NEAR(roots[3], -omega * (2.0 - std::sqrt(3.0)), 1e-6);
+}
+
+TEST_F(Linear, ModesAscendAndNameTheirWhirl) {
+  const json r = result({"modes", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml"});
+  ASSERT_EQ(r["modes"].size(), 8u);
+  double last = 0.0;
+  for (const json& mode : r["modes"]) {
+    EXPECT_GT(mode["frequency_rpm"].get<double>(), last);
+    last = mode["frequency_rpm"];
+    const double kappa = mode["kappa"];
+    EXPECT_EQ(mode["whirl"], kappa > 0.0 ? "forward" : "backward");
+  }
+}
+
+TEST_F(Linear, Campbell) {
+  const json r = result({"campbell", "rotor.toml", "--speeds", "0:1500:100rpm", "--modes", "2"});
+  ASSERT_EQ(r["speeds_rpm"].size(), 16u);
+  EXPECT_NEAR(r["speeds_rpm"][15], 1500.0, 1e-9);
+  ASSERT_EQ(r["branches"].size(), 2u);
+  const double frequency = omega * std::sqrt(1.0 - zeta * zeta) / rpm;
+  int number = 0;
+  for (const json& branch : r["branches"]) {
+    EXPECT_EQ(branch["number"], ++number);
+    EXPECT_TRUE(branch["whirl"].is_string());
+    ASSERT_EQ(branch["frequency_rpm"].size(), 16u);
+    ASSERT_EQ(branch["log_decrement"].size(), 16u);
+    for (const double value : branch["frequency_rpm"]) EXPECT_NEAR(value, frequency, 1e-6);
+  }
+  ASSERT_EQ(r["criticals_rpm"].size(), 2u);
+  for (const double value : r["criticals_rpm"]) EXPECT_NEAR(value, frequency, 1e-5);
+}
+
+// order Omega = omega
+TEST_F(Linear, Critical) {
+  for (const double order : {1.0, 2.0, 0.5}) {
+    const json r = result({"critical", "rotor.toml", "--order", std::to_string(order)});
+    ASSERT_EQ(r["criticals"].size(), 2u);
+    for (const json& critical : r["criticals"]) {
+      EXPECT_NEAR(critical["speed_rpm"], omega / order / rpm, 1e-6);
+      EXPECT_TRUE(critical["whirl"].is_string());
+    }
+  }
+  EXPECT_EQ(result({"critical", "rotor.toml"})["criticals"][0]["excitation"], "1x");
+  EXPECT_EQ(result({"critical", "rotor.toml", "--order", "2"})["criticals"][0]["excitation"], "2x");
+}
+
+// x = e Omega^2 / (omega^2 - Omega^2 + 2 i zeta omega Omega),  y = -i x
+TEST_F(Linear, Unbalance) {
+  const json r = result({"unbalance", "rotor.toml", "--speeds", "0:200:20"});
+  ASSERT_EQ(r["speeds_rpm"].size(), 11u);
+  ASSERT_EQ(r["stations"].size(), 1u);
+  const json& s = r["stations"][0];
+  EXPECT_EQ(s["name"], "rotor");
+  EXPECT_TRUE(s["node"].is_null());
+  for (std::size_t i = 0; i < 11; ++i) {
+    const double Omega = 20.0 * static_cast<double>(i);
+    EXPECT_NEAR(r["speeds_rpm"][i], Omega / rpm, 1e-9);
+    const std::complex<double> stiffness(omega * omega - Omega * Omega, 2.0 * zeta * omega * Omega);
+    const std::complex<double> x = e * Omega * Omega / stiffness;
+    const double small = rounding * std::abs(x);
+    EXPECT_NEAR(s["major_m"][i], std::abs(x), small);
+    EXPECT_NEAR(s["minor_m"][i], std::abs(x), small);
+    EXPECT_NEAR(s["x_m"][i][0], x.real(), small);
+    EXPECT_NEAR(s["x_m"][i][1], x.imag(), small);
+    EXPECT_NEAR(s["y_m"][i][0], x.imag(), small);
+    EXPECT_NEAR(s["y_m"][i][1], -x.real(), small);
+  }
+}
+
+TEST_F(Linear, UnbalanceAtChosenStations) {
+  const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  const auto names = [&](const std::string& list) {
+    const json r = result({"unbalance", model, "--speeds", "0:100:100", "--stations", list});
+    std::vector<std::string> all;
+    for (const json& s : r["stations"]) all.push_back(s["name"]);
+    return all;
+  };
+  EXPECT_EQ(names("ring,2"), (std::vector<std::string>{"ring", ""}));
+  EXPECT_EQ(names("all").size(), 13u);
+}
+
+// ---- options that all verbs have ----
+
+TEST_F(Linear, SpeedIsShortForSettingIt) {
+  const json set = result({"modes", "rotor.toml", "--set", "operation.speed=138.4 rad/s"});
+  EXPECT_EQ(result({"modes", "rotor.toml", "--speed", "138.4 rad/s"}), set);
+  EXPECT_EQ(result({"modes", "rotor.toml", "--speed=138.4"}), set);
+  EXPECT_DOUBLE_EQ(set["speed_rpm"].get<double>(), 138.4 / rpm);
+}
+
+TEST_F(Linear, SettingsAddUpAndTheLastOneHolds) {
+  const json r = result({"check", "rotor.toml", "--set", "body.rotor.mass=3 kg", "--set",
+                         "operation.speed=1rpm", "--set", "body.1.mass=5 kg"});
+  EXPECT_EQ(r["mass_kg"], 5.0);
+  EXPECT_DOUBLE_EQ(r["speed_rpm"].get<double>(), 1.0);
+}
+
+TEST_F(Linear, FormsOfSpeeds) {
+  const auto speeds = [&](const std::string& range) {
+    return result({"unbalance", "rotor.toml", "--speeds", range})["speeds_rpm"]
+        .get<std::vector<double>>();
+  };
+  const auto near = [](const std::vector<double>& found, const std::vector<double>& expected) {
+    if (found.size() != expected.size()) return false;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (std::abs(found[i] - expected[i]) > 1e-9) return false;
+    }
+    return true;
+  };
+  const std::vector<double> steps{0.0, 50.0, 100.0};
+  EXPECT_TRUE(near(speeds("0:100:50rpm"), steps));
+  EXPECT_TRUE(near(speeds("0rpm:100rpm:50rpm"), steps));
+  EXPECT_TRUE(near(speeds("0 : 100 : 50 rpm"), steps));
+  EXPECT_TRUE(near(speeds("0:110:50rpm"), steps));  // the last one is not met
+  EXPECT_TRUE(near(speeds("60:180:60rpm"), {60.0, 120.0, 180.0}));
+  EXPECT_TRUE(near(speeds("1:3:1Hz"), {60.0, 120.0, 180.0}));
+  EXPECT_TRUE(near(speeds("0:2:1"), {0.0, 1.0 / rpm, 2.0 / rpm}));
+  EXPECT_EQ(speeds("0:100rpm").size(), 101u);
+  EXPECT_EQ(speeds("70:70:1rpm").size(), 1u);
+}
+
+TEST_F(Linear, JsonToStandardOutputIsAllThatIsPrinted) {
+  for (const std::string& verb : model_verbs) {
+    SCOPED_TRACE(verb);
+    const Outcome outcome = whirl({verb, "rotor.toml", "--speed", "100", "--json", "-"});
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_TRUE(json::accept(outcome.out)) << outcome.out;
+    EXPECT_EQ(outcome.err, "");
+  }
+}
+
+TEST_F(Linear, JsonToAFileLeavesTheTextAndQuietLeavesNothing) {
+  for (const std::string& verb : model_verbs) {
+    SCOPED_TRACE(verb);
+    const Outcome text = whirl({verb, "rotor.toml", "--speed", "100", "--json", "r.json"});
+    EXPECT_EQ(text.status, 0);
+    EXPECT_NE(text.out, "");
+    const json from_file = json::parse(content(folder / "r.json"));
+    EXPECT_EQ(from_file["model"], "rotor.toml");
+    const Outcome quiet =
+        whirl({verb, "rotor.toml", "--speed", "100", "--quiet", "--threads", "1", "--out", "r.h5"});
+    EXPECT_EQ(quiet.status, 0);
+    EXPECT_EQ(quiet.out, "");
+    EXPECT_EQ(quiet.err, "");
+    EXPECT_TRUE(std::filesystem::remove(folder / "r.h5"));
+  }
+}
+
+}  // namespace
+}  // namespace whirl::test
