@@ -1,5 +1,6 @@
 #pragma once
-/// The list of integrators. A member has a `name` and `integrate` (see methods/dop853.hpp).
+/// The list of integrators, the default first. A member has a `name` and `integrate` (see
+/// methods/dop853.hpp).
 
 #include <string_view>
 #include <variant>
@@ -7,10 +8,11 @@
 
 #include "libdyn/methods/cvode.hpp"
 #include "libdyn/methods/dop853.hpp"
+#include "libdyn/methods/taylor.hpp"
 
 namespace whirl {
 
-using AnyMethod = std::variant<Dop853, CvodeAdams, CvodeBdf>;
+using AnyMethod = std::variant<Taylor, Dop853, CvodeAdams, CvodeBdf>;
 
 /// Names of all methods, in the order of the list.
 std::vector<std::string_view> method_names();

@@ -13,7 +13,7 @@ struct SimulationOptions {
   long revolutions = 512;  ///< recorded
   long discard = 500;      ///< before, not recorded
   int samples = 64;        ///< per revolution, at equal phases from 0
-  AnyMethod method = Dop853{};
+  AnyMethod method;
   IntegrationOptions integration;
   /// Called once per revolution with those done; returns false to stop. May be empty.
   std::function<bool(long)> progress;

@@ -101,7 +101,7 @@ const std::vector<OptionSpec>& integration_options() {
       {"revolutions", "N", "revolutions that are recorded (512)"},
       {"discard", "N", "revolutions before them, for the transient (500)"},
       {"samples", "N", "samples per revolution (64)"},
-      {"method", "M", "integrator: dop853 (the default), cvode-adams, cvode-bdf"},
+      {"method", "M", "integrator: taylor (the default), dop853, cvode-adams, cvode-bdf"},
       {"tolerance", "T", "of a step, displacements by the clearance (1e-10)"},
       {"from", "FILE.h5", "start where a result ended"},
       {"stations", "NAME,...",
@@ -125,7 +125,7 @@ Run run_simulation(const Invocation& call, const Model& original) {
     throw ModelError({"--tolerance " + call.text("tolerance")}, "",
                      "expected a number from 1e-15 to 1e-2");
   }
-  const std::string method = call.text("method", "dop853");
+  const std::string method = call.text("method", "taylor");
   const std::vector<std::string_view> methods = method_names();
   if (method != "cvode" && std::find(methods.begin(), methods.end(), method) == methods.end()) {
     throw ModelError({"--method " + method}, "",

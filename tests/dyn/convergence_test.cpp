@@ -1,5 +1,5 @@
-// Order of DOP853: of a step, of its dense output, and of motions over events, all measured with
-// fixed steps.
+// Orders of the methods: of a step, of its dense output, and of motions over events, all measured
+// with fixed steps.
 
 #include <gtest/gtest.h>
 
@@ -35,11 +35,11 @@ struct Oscillator {
 struct Errors {
   double inside = 0.0, end = 0.0, later = 0.0;
 };
-Errors errors(const Oscillator& o, const Scene& scene, double steps) {
+Errors errors(const Oscillator& o, const Scene& scene, const AnyMethod& method, double steps) {
   Errors e;
   MotionState state = o.start();
   Vec y(4);
-  test::run(scene, state, 1, {.fixed_step = scene.contacts.period() / steps},
+  test::run(scene, state, 1, {.fixed_step = scene.contacts.period() / steps, .method = method},
             [&](const Step& step) {
               for (double s = 0.05; s < 0.99; s += 0.05) {
                 step.at(s, y.data());
@@ -50,7 +50,7 @@ Errors errors(const Oscillator& o, const Scene& scene, double steps) {
               return false;
             });
   state = o.start();
-  test::run(scene, state, 4, {.fixed_step = scene.contacts.period() / steps});
+  test::run(scene, state, 4, {.fixed_step = scene.contacts.period() / steps, .method = method});
   e.later = o.error(state.y, 0.0);
   return e;
 }
@@ -64,7 +64,7 @@ TEST(Dop853, HasItsOrdersForASmoothMotion) {
   const std::vector<double> steps{10.0, 12.0, 14.0, 16.0, 20.0};
   std::vector<double> inside, end, later;
   for (const double n : steps) {
-    const Errors e = errors(o, scene, n);
+    const Errors e = errors(o, scene, Dop853{}, n);
     inside.push_back(e.inside);
     end.push_back(e.end);
     later.push_back(e.later);
@@ -75,7 +75,8 @@ TEST(Dop853, HasItsOrdersForASmoothMotion) {
 }
 
 /// Order after some revolutions of steady motion, against controlled steps of the smallest error.
-double order_over_events(const RotorStator& p, long revolutions, const std::vector<double>& steps) {
+double order_over_events(const AnyMethod& method, const RotorStator& p, long revolutions,
+                         const std::vector<double>& steps) {
   const Scene scene = p.scene();
   MotionState start = test::start_of(p.model(), scene);
   test::run(scene, start, 400);
@@ -84,8 +85,8 @@ double order_over_events(const RotorStator& p, long revolutions, const std::vect
   std::vector<double> error;
   for (const double n : steps) {
     MotionState state = start;
-    const Integration result =
-        test::run(scene, state, revolutions, {.fixed_step = scene.contacts.period() / n});
+    const Integration result = test::run(
+        scene, state, revolutions, {.fixed_step = scene.contacts.period() / n, .method = method});
     EXPECT_EQ(result.cost.events, events) << n;
     error.push_back(test::distance(scene.contacts, state.y, reference.y));
     EXPECT_GT(error.back(), 1e-13) << n;  // else rounding is measured
@@ -95,13 +96,14 @@ double order_over_events(const RotorStator& p, long revolutions, const std::vect
 
 // Four events a revolution in two long contacts: the nominal order, 8.1 to 8.2 measured.
 TEST(Dop853, KeepsItsOrderOverEvents) {
-  EXPECT_NEAR(order_over_events(test::P2, 5, {60.0, 80.0, 100.0, 120.0, 140.0, 160.0}), 8.1, 0.2);
+  EXPECT_NEAR(order_over_events(Dop853{}, test::P2, 5, {60.0, 80.0, 100.0, 120.0, 140.0, 160.0}),
+              8.1, 0.2);
 }
 
 // No event. The steps begin where the fastest motion (w_c = 1600 rad/s) has w_c h = 1 and end
 // before rounding.
 TEST(Dop853, KeepsItsOrderInPermanentContact) {
-  EXPECT_NEAR(order_over_events(test::P3, 1, {68.0, 80.0, 96.0, 112.0, 136.0}), 8.1, 0.2);
+  EXPECT_NEAR(order_over_events(Dop853{}, test::P3, 1, {68.0, 80.0, 96.0, 112.0, 136.0}), 8.1, 0.2);
 }
 
 // Ten events a revolution, in contacts as short as two to eight of these steps. There w_c h is 1.4
@@ -109,9 +111,41 @@ TEST(Dop853, KeepsItsOrderInPermanentContact) {
 // counts when rounding begins: 9.0 to 9.3 measured. A flaw at events would show as an order of 1
 // to 3.
 TEST(Dop853, KeepsAtLeastItsOrderOverFiveImpactsARevolution) {
-  const double order = order_over_events(test::P1, 2, {80.0, 112.0, 160.0, 224.0, 320.0});
+  const double order = order_over_events(Dop853{}, test::P1, 2, {80.0, 112.0, 160.0, 224.0, 320.0});
   EXPECT_GT(order, 7.9);
   EXPECT_LT(order, 9.6);
+}
+
+// A series of order N moves displacements with N + 2 terms and velocities with N + 1: order N + 1.
+// Events are found on the same polynomials and cost no order.
+TEST(Taylor, HasItsOrderForASmoothMotion) {
+  const Oscillator o;
+  const Scene scene = o.rotor.scene();
+  const auto order = [&](int N, const std::vector<double>& steps) {
+    std::vector<double> later;
+    for (const double n : steps) later.push_back(errors(o, scene, Taylor{.order = N}, n).later);
+    return order_of(steps, later);
+  };
+  EXPECT_NEAR(order(8, {10.0, 12.0, 14.0, 16.0}), 9.0, 0.2);
+  EXPECT_NEAR(order(12, {6.0, 7.0, 8.0, 9.0}), 13.0, 0.2);
+  EXPECT_NEAR(order(16, {3.5, 4.0, 4.5}), 17.0, 0.5);  // between coarse steps and rounding
+}
+TEST(Taylor, KeepsItsOrderInPermanentContact) {
+  const std::vector<double> steps{40.0, 50.0, 60.0, 70.0, 80.0};
+  for (const int N : {4, 6}) {  // higher orders reach rounding at once
+    EXPECT_NEAR(order_over_events(Taylor{.order = N}, test::P3, 1, steps), N + 1.0, 0.1) << N;
+  }
+}
+// Between steps longer than the shortest contacts and rounding; P1 has ten events a revolution.
+TEST(Taylor, KeepsItsOrderOverEvents) {
+  constexpr double honest = 0.5;
+  EXPECT_NEAR(order_over_events(Taylor{.order = 5}, test::P2, 5, {100, 125, 150, 175, 200}), 6.0,
+              honest);
+  EXPECT_NEAR(order_over_events(Taylor{.order = 8}, test::P2, 5, {100, 120, 140, 160}), 9.0,
+              honest);
+  EXPECT_NEAR(order_over_events(Taylor{.order = 10}, test::P2, 5, {60, 70, 80, 90}), 11.0, honest);
+  EXPECT_NEAR(order_over_events(Taylor{.order = 10}, test::P1, 2, {160, 180, 200, 220, 240}), 11.0,
+              honest);
 }
 
 // Every touch and every release of P1 happens on the circle r = clearance: a step ends there with
@@ -120,13 +154,13 @@ TEST(Dop853, EndsStepsOnTheSurface) {
   constexpr double roundings = 1e-14;
   const Scene scene = test::P1.scene();
   MotionState state = test::start_of(test::P1.model(), scene);
-  test::run(scene, state, 50);
+  test::run(scene, state, 50, {.method = Dop853{}});
   const ReducedContact& contact = scene.contacts.contacts()[0];
   Vec y(8);
   double r = 0.0;  // at the end of the step before
   ContactStates before;
   int events = 0;
-  test::run(scene, state, 20, {}, [&](const Step& step) {
+  test::run(scene, state, 20, {.method = Dop853{}}, [&](const Step& step) {
     if (!before.empty() && step.contacts != before) {
       EXPECT_LT(std::abs(r - contact.clearance), roundings * contact.clearance);
       ++events;

@@ -110,7 +110,7 @@ inline MotionState start_of(const Model& model, const Scene& scene) {
 struct RunOptions {
   double tolerance = 1e-10;
   double fixed_step = 0.0;  ///< [s]; 0: the step is controlled
-  AnyMethod method = Dop853{};
+  AnyMethod method;
 };
 
 /// Moves a state on by whole revolutions.

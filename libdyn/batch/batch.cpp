@@ -1,0 +1,73 @@
+#include "libdyn/batch/batch.hpp"
+
+#include <memory>
+
+// instruction sets: what every processor has, AVX2, AVX-512
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libdyn/batch/batch.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "libdyn/batch/engine_events-inl.h"
+#include "libdyn/batch/engine_series-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+template <class P>
+void run_with(const Pattern& pattern, const BatchOptions& options, std::span<Trajectory> all,
+              const Observer* observer) {
+  const auto engine = std::make_unique<Engine<P>>(pattern, options);
+  engine->run(all, observer);
+}
+
+void run_many(const Pattern& pattern, const BatchOptions& options, std::span<Trajectory> all) {
+  run_with<Pack<8, 2>>(pattern, options, all, nullptr);
+}
+
+void run_one(const Pattern& pattern, const BatchOptions& options, Trajectory& one,
+             const Observer* observer) {
+  run_with<Pack<1, 1>>(pattern, options, {&one, 1}, observer);
+}
+
+const char* name_of_target() {
+  return hwy::TargetName(HWY_TARGET);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whirl {
+HWY_EXPORT(run_many);
+HWY_EXPORT(run_one);
+HWY_EXPORT(name_of_target);
+
+int order_for(double tolerance) {
+  if (tolerance >= 1e-7) return 8;
+  if (tolerance >= 1e-11) return 12;
+  return tolerance >= 1e-14 ? 16 : 20;
+}
+
+void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& options) {
+  std::vector<const ContactSystem*> systems;
+  for (const Trajectory& t : trajectories) systems.push_back(t.system);
+  const Pattern pattern = Pattern::of(systems);
+  HWY_DYNAMIC_DISPATCH(run_many)(pattern, options, trajectories);
+}
+
+void integrate_single(Trajectory& trajectory, const BatchOptions& options,
+                      const Observer& observer) {
+  const ContactSystem* system = trajectory.system;
+  const Pattern pattern = Pattern::of({&system, 1});
+  HWY_DYNAMIC_DISPATCH(run_one)(pattern, options, trajectory, observer ? &observer : nullptr);
+}
+
+const char* instruction_set() {
+  return HWY_DYNAMIC_DISPATCH(name_of_target)();
+}
+}  // namespace whirl
+#endif

@@ -1,0 +1,60 @@
+#pragma once
+/// The engine: event-exact Taylor integration of many trajectories at once.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libdyn/contact_measures.hpp"
+#include "libdyn/trajectory.hpp"
+
+namespace whirl {
+
+/// One trajectory: its equations, where it is, how far it shall go, and what became of it.
+struct Trajectory {
+  const ContactSystem* system = nullptr;
+  MotionState state;     ///< in and out; at a failure where it was
+  long revolutions = 0;  ///< counted from state.revolution; the end is at phase 0
+
+  Outcome outcome = Outcome::reached_end;
+  std::string diagnosis;  ///< of a failure
+  Cost cost;
+  std::vector<double> sections;          ///< states at the ends of revolutions, if asked for
+  std::vector<ContactMeasure> contacts;  ///< of all revolutions, if asked for (times, not shares)
+  Vec exponents;                         ///< Lyapunov exponents, descending, if asked for [1/s]
+  Mat tangent;                           ///< derivative of the end by the start, if asked for
+};
+
+/// What is wanted beside the end of a trajectory; what is not wanted costs nothing.
+struct BatchOptions {
+  double tolerance = 1e-10;  ///< of a step, displacements by the length scale
+  double fixed_step = 0.0;   ///< [s]; not 0: no error control, steps of this size between events
+  int order = 0;             ///< of the series, 8 to 20; 0: by the tolerance
+  int threads = 0;           ///< 0: one per processor
+  bool sections = false;
+  bool measures = false;
+  bool exponents = false;
+  bool tangent = false;
+};
+
+/// Integrates trajectories whose systems have the same shape (coordinates, contacts, laws).
+///
+/// Lanes of SIMD registers are trajectories with their own parameters, phase, step and events,
+/// refilled as they finish; threads take chunks that are laid down beforehand. A trajectory's
+/// numbers depend neither on its neighbors nor on lanes or threads: they are those that it has
+/// alone, bit by bit.
+///
+/// @throws NumericalError  if the systems differ in shape
+void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& options);
+
+/// Order of the series for a tolerance: 8 from 1e-7, 12 from 1e-11, 16 from 1e-14, else 20.
+int order_for(double tolerance);
+
+/// Integrates one trajectory in one lane; the observer, if any, sees every step.
+void integrate_single(Trajectory& trajectory, const BatchOptions& options,
+                      const Observer& observer = {});
+
+/// Name of the instruction set that the engine runs on, such as "AVX3".
+const char* instruction_set();
+
+}  // namespace whirl

@@ -1,0 +1,322 @@
+// One contact in all lanes: parameters, state, series of its displacement and forces.
+
+#if defined(WHIRL_CONTACT_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_CONTACT_LANES_INL_H
+#undef WHIRL_CONTACT_LANES_INL_H
+#else
+#define WHIRL_CONTACT_LANES_INL_H
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+#include "libcontact/laws.hpp"
+#include "libdyn/batch/pattern.hpp"
+#include "libdyn/batch/series-inl.h"
+#include "libdyn/contact_system.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// Calls f with the alternative that a variant holds; inlined, unlike std::visit.
+template <size_t I = 0, class Variant, class F>
+HWY_ATTR inline decltype(auto) with_alternative(Variant& v, F&& f) {
+  if constexpr (I + 1 == std::variant_size_v<std::remove_cvref_t<Variant>>) {
+    return f(*std::get_if<I>(&v));
+  } else {
+    if (v.index() == I) return f(*std::get_if<I>(&v));
+    return with_alternative<I + 1>(v, f);
+  }
+}
+
+/// A law over packs, with the series that its normal force needs.
+template <class P, class Law>
+struct LawWork {
+  using Force = decltype(std::declval<Law>().normal(Leaf<P, 0>(), Leaf<P, 1>()));
+  Force force;
+
+  explicit LawWork(const Law& law) : force(law.normal(Leaf<P, 0>(), Leaf<P, 1>())) {}
+  /// Coefficient k of the normal force from those of depth and rate; call for k = 0, 1, 2, ...
+  HWY_ATTR inline P normal(int k, const P& depth, const P& rate) {
+    return force.at(k, depth, rate);
+  }
+};
+
+template <class P, class List>
+struct WorkOf;
+template <class P, class... Laws>
+struct WorkOf<P, std::variant<Laws...>> {
+  using type = std::variant<LawWork<P, Laws>...>;
+};
+template <class P>
+using AnyLawWork = typename WorkOf<P, AnyContactLaw<P>>::type;
+
+/// Copies the parameters of a law into a lane, field by field.
+template <size_t I = 0, class P>
+HWY_ATTR void set_law(AnyContactLaw<P>& to, const AnyContactLaw<>& from, int l) {
+  if constexpr (I < std::variant_size_v<AnyContactLaw<>>) {
+    if (from.index() != I) return set_law<I + 1>(to, from, l);
+    if (to.index() != I) to.template emplace<I>();
+    auto& lanes = std::get<I>(to);
+    const auto& single = std::get<I>(from);
+    using Lanes = std::remove_cvref_t<decltype(lanes)>;
+    using Single = std::remove_cvref_t<decltype(single)>;
+    std::apply(
+        [&](const auto&... of_lanes) HWY_ATTR {
+          std::apply(
+              [&](const auto&... of_single) HWY_ATTR {
+                (set_lane(lanes.*of_lanes.member, l, single.*of_single.member), ...);
+              },
+              Single::fields());
+        },
+        Lanes::fields());
+  }
+}
+
+/// Sets or clears a lane's bit.
+inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
+  bits_of = yes ? bits_of | bit : bits_of & ~bit;
+}
+
+/// The force of a contact is -(q d + tau rot d): q = N / r, tau = T / r, rot d = (-d_y, d_x).
+template <class P>
+struct ContactLanes {
+  const Pattern::ContactRows& rows;
+
+  // parameters
+  P clearance{1.0}, clearance2{1.0}, offset_x{0.0}, offset_y{0.0};
+  P mu{0.0}, rim{0.0}, inverse_width{1.0};  // friction, Omega R, 1 / width of a smoothed sign
+  P force_scale{1.0}, slip_scale{1.0};
+  AnyContactLaw<P> law;
+  std::vector<P> ux, uy;  // per of_x, of_y
+  std::vector<P> bx, by;  // per pushed_by_x, pushed_by_y
+  uint64_t continuous = 0, exact = 0, smooth = 0;
+
+  // state, a bit per lane
+  uint64_t touching = 0, receding = 0, sticking = 0;
+  P sign{1.0};  // of the slip
+  uint64_t surface_distance = 0, surface_force = 0, surface_slip = 0;
+
+  // this step
+  bool is_evaluated = false;             // whether any lane needs the force
+  bool has_tau = false;                  // whether tau is more than a constant share of q
+  bool is_ahead = false;                 // whether the force needs geometry one coefficient ahead
+  typename P::Mask evaluated, in_touch;  // lanes that need the force, lanes that feel it
+  P inverse_r{1.0}, share{0.0};
+  P dx[most_terms], dy[most_terms], s[most_terms], r[most_terms];
+  P N[most_terms], q[most_terms], tau[most_terms];
+  P slip[most_terms], sine[most_terms],
+      cosine2[most_terms];           // smooth friction: u, tanh u, 1 - tanh^2 u
+  P ax[most_terms], ay[most_terms];  // relative acceleration, for sticking
+
+  // measures
+  P duty{0.0}, stuck{0.0}, max_normal{0.0}, max_friction{0.0};
+
+  explicit ContactLanes(const Pattern::ContactRows& of)
+      : rows(of),
+        ux(of.of_x.size(), P(0.0)),
+        uy(of.of_y.size(), P(0.0)),
+        bx(of.pushed_by_x.size(), P(0.0)),
+        by(of.pushed_by_y.size(), P(0.0)) {}
+
+  HWY_ATTR void load(const ReducedContact& from, const ContactState& state, int l, double turn) {
+    const uint64_t bit = uint64_t{1} << l;
+    const Friction& f = from.friction;
+    set_lane(clearance, l, from.clearance);
+    set_lane(clearance2, l, from.clearance * from.clearance);
+    set_lane(offset_x, l, from.offset(0));
+    set_lane(offset_y, l, from.offset(1));
+    set_lane(mu, l, f.mu);
+    set_lane(rim, l, from.rim_speed);
+    set_lane(inverse_width, l, f.tolerance > 0.0 ? 1.0 / f.tolerance : 1.0);
+    set_lane(force_scale, l, normal_force(from.law, from.clearance, 0.0));
+    set_lane(slip_scale, l,
+             std::max(std::abs(from.rim_speed), from.clearance * turn) * from.clearance);
+    set_law(law, from.law, l);
+    for (size_t i = 0; i < ux.size(); ++i) set_lane(ux[i], l, from.U(0, rows.of_x[i]));
+    for (size_t i = 0; i < uy.size(); ++i) set_lane(uy[i], l, from.U(1, rows.of_y[i]));
+    for (size_t i = 0; i < bx.size(); ++i) set_lane(bx[i], l, from.B(rows.pushed_by_x[i], 0));
+    for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, from.B(rows.pushed_by_y[i], 1));
+    put(continuous, bit, is_continuous(from.law));
+    put(exact, bit, f.is_exact());
+    put(smooth, bit, f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
+    set_state(state, l);
+    put(surface_distance, bit, false);
+    put(surface_force, bit, false);
+    put(surface_slip, bit, false);
+    for (P* sum : {&duty, &stuck, &max_normal, &max_friction}) set_lane(*sum, l, 0.0);
+  }
+
+  HWY_ATTR void set_state(const ContactState& state, int l) {
+    const uint64_t bit = uint64_t{1} << l;
+    put(touching, bit, state.in_touch());
+    put(receding, bit, state.touch == Touch::receding);
+    put(sticking, bit, state.touch == Touch::sticking);
+    set_lane(sign, l, state.sign);
+  }
+
+  HWY_ATTR ContactState state(int l) const {
+    const uint64_t bit = uint64_t{1} << l;
+    if (sticking & bit) return {Touch::sticking, 1.0};
+    if (touching & bit) return {Touch::sliding, lane(sign, l)};
+    return {receding & bit ? Touch::receding : Touch::apart, 1.0};
+  }
+
+  /// Prepares for a step of the lanes that are active.
+  HWY_ATTR void begin(uint64_t active) {
+    const uint64_t needed = (touching | receding) & active;
+    is_evaluated = needed != 0;
+    has_tau = ((sticking | (smooth & touching)) & active) != 0;
+    is_ahead = is_evaluated && (has_tau || rows.has_rate);
+    evaluated = mask_of<P>(needed);
+    in_touch = mask_of<P>(touching);
+    share = mu * sign;
+  }
+
+  /// Coefficient k of the displacement: rows times coordinates.
+  HWY_ATTR inline void displacement(const P* x, P& to_x, P& to_y) const {
+    to_x = ux[0] * x[rows.of_x[0]];
+    to_y = uy[0] * x[rows.of_y[0]];
+    for (size_t i = 1; i < ux.size(); ++i) to_x = fma(ux[i], x[rows.of_x[i]], to_x);
+    for (size_t i = 1; i < uy.size(); ++i) to_y = fma(uy[i], x[rows.of_y[i]], to_y);
+  }
+
+  /// Coefficient 0 of displacement, distance squared, distance.
+  HWY_ATTR inline void first_geometry(const P* x) {
+    P x0, y0;
+    displacement(x, x0, y0);
+    dx[0] = x0 = x0 - offset_x;
+    dy[0] = y0 = y0 - offset_y;
+    const P s0 = fma(x0, x0, y0 * y0);
+    s[0] = s0;
+    if (!is_evaluated) return;
+    const P r0 = sqrt(select(evaluated, s0, clearance2));  // harmless where there is no touch
+    r[0] = r0;
+    inverse_r = P(1.0) / r0;
+  }
+
+  /// Coefficient k > 0 of the same; the newest terms come last, which shortens the chain.
+  HWY_ATTR inline void geometry(const P* x, int k) {
+    P xk, yk;
+    displacement(x, xk, yk);
+    dx[k] = xk;
+    dy[k] = yk;
+    P a(0.0), b(0.0), rr(0.0);
+    const int half = (k - 1) / 2;
+    if (is_evaluated) {
+      for (int i = 1; i <= half; ++i) {
+        a = fma(dx[i], dx[k - i], a);
+        b = fma(dy[i], dy[k - i], b);
+        rr = fma(r[i], r[k - i], rr);
+      }
+    } else {
+      for (int i = 1; i <= half; ++i) {
+        a = fma(dx[i], dx[k - i], a);
+        b = fma(dy[i], dy[k - i], b);
+      }
+    }
+    P sk = a + b;
+    sk = sk + sk;
+    if (k % 2 == 0) sk = fma(dx[k / 2], dx[k / 2], fma(dy[k / 2], dy[k / 2], sk));
+    const P newest = fma(dx[0], xk, dy[0] * yk);
+    sk = sk + (newest + newest);
+    s[k] = sk;
+    if (!is_evaluated) return;
+    rr = rr + rr;
+    if (k % 2 == 0) rr = fma(r[k / 2], r[k / 2], rr);
+    r[k] = (sk - rr) * (P(0.5) * inverse_r);
+  }
+
+  /// Rate of the distance, coefficient k; for laws that know it, geometry is one coefficient ahead.
+  HWY_ATTR inline P rate(int k) const { return rows.has_rate ? P(k + 1.0) * r[k + 1] : P(0.0); }
+
+  /// Coefficient k of the force on the rotor, sign reversed; without the share of tau_k while
+  /// sticking.
+  HWY_ATTR inline void force(AnyLawWork<P>& work, int k, P& fx, P& fy) {
+    const P depth = k == 0 ? r[0] - clearance : r[k];
+    const P rate_k = rate(k);
+    const P Nk =
+        with_alternative(work, [&](auto& l) HWY_ATTR { return l.normal(k, depth, rate_k); });
+    N[k] = Nk;
+    P rq(0.0), px(0.0), py(0.0);
+    for (int i = 1; i < k; ++i) {
+      rq = fma(r[k - i], q[i], rq);
+      px = fma(dx[k - i], q[i], px);
+      py = fma(dy[k - i], q[i], py);
+    }
+    if (k > 0) {
+      rq = fma(r[k], q[0], rq);
+      px = fma(q[0], dx[k], px);
+      py = fma(q[0], dy[k], py);
+    }
+    const P qk = select(in_touch, (Nk - rq) * inverse_r, P(0.0));
+    q[k] = qk;
+    px = fma(qk, dx[0], px);
+    py = fma(qk, dy[0], py);
+    if (!has_tau) {
+      fx = fnma(share, py, px);
+      fy = fma(share, px, py);
+      return;
+    }
+    tau[k] = friction(k);
+    for (int i = 0; i <= k; ++i) {
+      px = fnma(tau[i], dy[k - i], px);
+      py = fma(tau[i], dx[k - i], py);
+    }
+    fx = px;
+    fy = py;
+  }
+
+  /// tau_k of sliding lanes, exact or smooth; zero for sticking ones, which are solved for later.
+  HWY_ATTR P friction(int k) {
+    P sliding = share * q[k];
+    if (smooth != 0) {
+      // slip velocity rim + (d x d') / r, over the width; d'_i = (i + 1) d_{i+1}
+      P cross(0.0);
+      for (int i = 0; i <= k; ++i) {
+        const P factor(k - i + 1.0);
+        cross = fma(dx[i], factor * dy[k - i + 1], cross);
+        cross = fnma(dy[i], factor * dx[k - i + 1], cross);
+      }
+      for (int i = 1; i <= k; ++i) cross = fnma(r[i], turn_rate[k - i], cross);
+      turn_rate[k] = cross * inverse_r;
+      slip[k] = (k == 0 ? rim + turn_rate[0] : turn_rate[k]) * inverse_width;
+      // y = tanh u:  y' = (1 - y^2) u'
+      P y(0.0), z(0.0);
+      if (k == 0) {
+        y = tanh(slip[0]);
+      } else {
+        for (int i = 1; i <= k; ++i) y = fma(P(i * (1.0 / k)) * slip[i], cosine2[k - i], y);
+      }
+      sine[k] = y;
+      for (int i = 0; i <= k; ++i) z = fnma(sine[i], sine[k - i], z);
+      cosine2[k] = k == 0 ? P(1.0) + z : z;
+      P t(0.0);
+      for (int i = 0; i <= k; ++i) t = fma(q[i], sine[k - i], t);
+      sliding = select(mask_of<P>(smooth), mu * t, sliding);
+    }
+    return select(mask_of<P>(sticking), P(0.0), sliding);
+  }
+  P turn_rate[most_terms];  // (d x d') / r
+
+  /// Adds -force to the accelerations of the coordinates.
+  HWY_ATTR inline void push(P* acceleration, const P& fx, const P& fy) const {
+    for (size_t i = 0; i < bx.size(); ++i) {
+      P& a = acceleration[rows.pushed_by_x[i]];
+      a = fnma(bx[i], fx, a);
+    }
+    for (size_t i = 0; i < by.size(); ++i) {
+      P& a = acceleration[rows.pushed_by_y[i]];
+      a = fnma(by[i], fy, a);
+    }
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard

@@ -1,0 +1,401 @@
+// The Taylor engine: trajectories in lanes.
+
+#if defined(WHIRL_ENGINE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_ENGINE_INL_H
+#undef WHIRL_ENGINE_INL_H
+#else
+#define WHIRL_ENGINE_INL_H
+#endif
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "libdyn/batch/batch.hpp"
+#include "libdyn/batch/contact_lanes-inl.h"
+#include "libdyn/batch/events-inl.h"
+#include "libdyn/batch/pattern.hpp"
+#include "libdyn/events.hpp"
+#include "libdyn/methods/diagnosis.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// 1 / k for the orders of a series.
+inline double inverse_of(int k) {
+  static constexpr auto table = [] {
+    std::array<double, most_terms> t{};
+    for (int i = 1; i < most_terms; ++i) t[static_cast<size_t>(i)] = 1.0 / i;
+    return t;
+  }();
+  return table[static_cast<size_t>(k)];
+}
+
+/// Displacement beyond which a motion is given up, in length scales.
+constexpr double boundless = 1e30;
+
+template <class P>
+class Engine {
+ public:
+  using Mask = typename P::Mask;
+
+  Engine(const Pattern& pattern, const BatchOptions& options)
+      : pattern_(pattern),
+        options_(options),
+        N(options.order > 0 ? options.order : order_for(options.tolerance)),
+        n_(pattern.n),
+        lanes_(P::lanes()) {
+    const auto n = static_cast<size_t>(n_);
+    terms_.assign(2 * n * static_cast<size_t>(N + 3), P(0.0));
+    for (std::vector<P>* v : {&f0_, &fc_, &fs_, &K_diagonal_, &D_diagonal_}) v->assign(n, P(0.0));
+    scale_.assign(n, P(1.0));
+    y_.assign(2 * n, P(0.0));
+    A_.assign(static_cast<size_t>(pattern.off_diagonals), P(0.0));
+    contacts_.reserve(pattern.contacts.size());
+    for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
+    falls_.resize(contacts_.size());
+    trajectory_.assign(static_cast<size_t>(lanes_), nullptr);
+    book_.resize(static_cast<size_t>(lanes_));
+  }
+
+  /// Integrates trajectories, each in a lane of its own, refilled in order.
+  HWY_ATTR void run(std::span<Trajectory> all, const Observer* observer) {
+    size_t next = 0;
+    for (int l = 0; l < lanes_; ++l) {
+      if (next < all.size()) load(l, all[next++]);
+    }
+    while (active_ != 0) {
+      if (finished_ == 0) step(observer);
+      for (uint64_t rest = finished_; rest != 0; rest &= rest - 1) {
+        const int l = __builtin_ctzll(rest);
+        unload(l);
+        finished_ &= ~(uint64_t{1} << l);
+        if (next < all.size()) load(l, all[next++]);
+      }
+    }
+  }
+
+ private:
+  /// What is kept per lane in plain numbers.
+  struct Book {
+    long last = 0;  ///< revolution at which it is done
+    long revolution = 0;
+    long first_step = 0;  ///< of the engine, when it was loaded
+    long no_steps = 0;    ///< of the engine, in which no time passed here
+    int instant_events = 0;
+    long events = 0;
+    std::vector<double> impacts;
+    std::unique_ptr<EventWatcher> watcher;  ///< for events that are rare
+  };
+
+  /// Lanes in which an event ended the step, by kind.
+  struct Falls {
+    uint64_t distance = 0, force = 0, slip = 0, stick = 0;
+    uint64_t any() const { return distance | force | slip | stick; }
+    void remove(uint64_t lanes) {
+      for (uint64_t* f : {&distance, &force, &slip, &stick}) *f &= ~lanes;
+    }
+  };
+
+  HWY_ATTR void load(int l, Trajectory& t);
+  HWY_ATTR void unload(int l);
+  HWY_ATTR void fail(int l, Outcome outcome, const char* what);
+
+  HWY_ATTR void step(const Observer* observer);
+  HWY_ATTR P step_length();
+  HWY_ATTR void advance(const P& h);
+  HWY_ATTR void measure(const P& h);
+  HWY_ATTR bool tell(const Observer& observer, double h);
+
+  // engine_series-inl.h
+  __attribute__((flatten)) HWY_ATTR void series();
+  HWY_ATTR inline void linear(int k, const P& sine, const P& cosine, const P& inverse);
+  HWY_ATTR void stick(int k, const P& inverse);
+
+  // engine_events-inl.h
+  HWY_ATTR uint64_t find_events(P& h);
+  HWY_ATTR void watch_force(size_t i, P& h);
+  HWY_ATTR void watch_slip(size_t i, P& h);
+  HWY_ATTR void watch_stick(size_t i, P& h);
+  HWY_ATTR void note(size_t i, uint64_t Falls::*kind, const Mask& fell);
+  HWY_ATTR void apply_events(uint64_t instant);
+  HWY_ATTR void apply_rare_event(int l, size_t i);
+
+  /// Coefficient k of all displacements, then of all velocities.
+  HWY_ATTR inline P* term(int k) {
+    return terms_.data() + static_cast<size_t>(2 * k) * static_cast<size_t>(n_);
+  }
+
+  const Pattern& pattern_;
+  BatchOptions options_;
+  int N, n_, lanes_;  // order of the series, coordinates, lanes
+
+  // equations
+  std::vector<P> K_diagonal_, D_diagonal_, A_, f0_, fc_, fs_, scale_;
+  std::vector<ContactLanes<P>> contacts_;
+  std::vector<AnyLawWork<P>> laws_;
+  P rate_{1.0}, period_{1.0};
+
+  // motion
+  std::vector<P> y_;
+  P time_{0.0};  // since the start of the revolution
+  long steps_ = 0;
+  uint64_t active_ = 0, finished_ = 0;
+  std::vector<Trajectory*> trajectory_;
+  std::vector<Book> book_;
+
+  // this step
+  Mask finite_, bounded_;  // lanes whose series is one of numbers, whose motion is of sane size
+  std::vector<P> terms_, influence_, work_;
+  std::vector<Falls> falls_;
+};
+
+template <class P>
+HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
+  const ContactSystem& s = *t.system;
+  const uint64_t bit = uint64_t{1} << l;
+  trajectory_[static_cast<size_t>(l)] = &t;
+  Book& book = book_[static_cast<size_t>(l)];
+  book = {};
+  book.first_step = steps_;
+  book.revolution = t.state.revolution;
+  book.last = t.state.revolution + t.revolutions;
+  book.impacts.assign(contacts_.size(), 0.0);
+  if (t.state.contacts.size() != contacts_.size()) {
+    t.state.contacts = s.classify(t.state.phase, t.state.y.data());
+  }
+  for (int i = 0; i < n_; ++i) {
+    const auto ui = static_cast<size_t>(i);
+    set_lane(K_diagonal_[ui], l, s.K()(i, i));
+    set_lane(D_diagonal_[ui], l, s.D()(i, i));
+    set_lane(f0_[ui], l, s.constant_load()(i));
+    set_lane(fc_[ui], l, s.cosine_load()(i));
+    set_lane(fs_[ui], l, s.sine_load()(i));
+    set_lane(scale_[ui], l, 1.0 / s.state_scale()(i));
+  }
+  for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
+    for (size_t e = 0; e < row.source.size(); ++e) {
+      const int j = row.source[e];
+      set_lane(A_[static_cast<size_t>(row.begin) + e], l,
+               j < n_ ? s.K()(row.i, j) : s.D()(row.i, j - n_));
+    }
+  }
+  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
+  set_lane(rate_, l, s.phase_rate());
+  set_lane(period_, l, s.period());
+  set_lane(time_, l, t.state.phase / s.phase_rate());
+  for (size_t c = 0; c < contacts_.size(); ++c) {
+    contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
+  }
+  active_ |= bit;
+  if (t.revolutions <= 0) finished_ |= bit;
+}
+
+template <class P>
+HWY_ATTR void Engine<P>::unload(int l) {
+  Trajectory& t = *trajectory_[static_cast<size_t>(l)];
+  const Book& book = book_[static_cast<size_t>(l)];
+  for (int i = 0; i < 2 * n_; ++i) t.state.y(i) = lane(y_[static_cast<size_t>(i)], l);
+  t.state.revolution = book.revolution;
+  t.state.phase = lane(time_, l) * t.system->phase_rate();
+  for (size_t c = 0; c < contacts_.size(); ++c) t.state.contacts[c] = contacts_[c].state(l);
+  const long steps = steps_ - book.first_step;
+  t.cost.steps += steps - book.no_steps;
+  t.cost.evaluations += steps * (N + 1);  // one for each coefficient
+  t.cost.events += book.events;
+  if (options_.measures) {
+    t.contacts.resize(contacts_.size());
+    for (size_t c = 0; c < contacts_.size(); ++c) {
+      const ContactLanes<P>& from = contacts_[c];
+      ContactMeasure& m = t.contacts[c];
+      m.name = t.system->contacts()[c].name;
+      m.duty += lane(from.duty, l);
+      m.sticking += lane(from.stuck, l);
+      m.impacts += book.impacts[c];
+      m.max_normal = std::max(m.max_normal, lane(from.max_normal, l));
+      m.max_tangential = std::max(m.max_tangential, lane(from.max_friction, l));
+    }
+  }
+  active_ &= ~(uint64_t{1} << l);
+  trajectory_[static_cast<size_t>(l)] = nullptr;
+}
+
+/// Ends a trajectory that cannot go on; its state is the last good one.
+template <class P>
+HWY_ATTR void Engine<P>::fail(int l, Outcome outcome, const char* what) {
+  Trajectory& t = *trajectory_[static_cast<size_t>(l)];
+  MotionState state = t.state;
+  for (int i = 0; i < 2 * n_; ++i) state.y(i) = lane(y_[static_cast<size_t>(i)], l);
+  state.revolution = book_[static_cast<size_t>(l)].revolution;
+  state.phase = lane(time_, l) * t.system->phase_rate();
+  for (size_t c = 0; c < contacts_.size(); ++c) state.contacts[c] = contacts_[c].state(l);
+  t.outcome = outcome;
+  t.diagnosis = diagnosis(*t.system, state, what);
+  finished_ |= uint64_t{1} << l;
+}
+
+/// Step at which the last two terms are as large as the tolerance allows.
+template <class P>
+HWY_ATTR P Engine<P>::step_length() {
+  P last(1e-280), before(1e-280), sum(0.0);
+  const P* a = term(N + 2);
+  const P* b = term(N + 1);
+  for (int i = 0; i < n_; ++i) {
+    const P in_a = abs(a[i]) * scale_[static_cast<size_t>(i)];
+    const P in_b = abs(b[i]) * scale_[static_cast<size_t>(i)];
+    last = max(last, in_a);
+    before = max(before, in_b);
+    sum = sum + in_a + in_b;  // unlike a maximum, it never loses what is no number
+  }
+  finite_ = less(sum, P(1e300));
+  P size(0.0);
+  for (int i = 0; i < n_; ++i)
+    size = max(size, abs(y_[static_cast<size_t>(i)]) * scale_[static_cast<size_t>(i)]);
+  bounded_ = less(size, P(boundless));
+  const P e(std::log2(options_.tolerance));
+  const P h1 = (e - rough_log2(last)) * P(1.0 / (N + 2));
+  const P h2 = (e - rough_log2(before)) * P(1.0 / (N + 1));
+  return P(0.95) * rough_exp2(min(min(h1, h2), P(900.0)));
+}
+
+/// Moves the state of all active lanes by h.
+template <class P>
+HWY_ATTR void Engine<P>::advance(const P& h) {
+  const Mask active = mask_of<P>(active_);
+  const P* top = term(N + 1);
+  for (int i = 0; i < n_; i += 2) {  // two coordinates at once: four chains
+    const int j = std::min(i + 1, n_ - 1);
+    P xi = fma(term(N + 2)[i], h, top[i]), xj = fma(term(N + 2)[j], h, top[j]);
+    P vi = top[n_ + i], vj = top[n_ + j];
+    for (int k = N; k >= 0; --k) {
+      const P* now = term(k);
+      xi = fma(xi, h, now[i]);
+      xj = fma(xj, h, now[j]);
+      vi = fma(vi, h, now[n_ + i]);
+      vj = fma(vj, h, now[n_ + j]);
+    }
+    const auto ui = static_cast<size_t>(i), uj = static_cast<size_t>(j),
+               un = static_cast<size_t>(n_);
+    y_[uj] = select(active, xj, y_[uj]);
+    y_[un + uj] = select(active, vj, y_[un + uj]);
+    y_[ui] = select(active, xi, y_[ui]);
+    y_[un + ui] = select(active, vi, y_[un + ui]);
+  }
+}
+
+template <class P>
+HWY_ATTR void Engine<P>::step(const Observer* observer) {
+  constexpr double too_small = 1e-14;  // of a revolution
+  series();
+  P h = step_length();
+  if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
+  const P left = max(period_ - time_, P(0.0));
+  const Mask reaches = less_equal(left * P(1.0 - 1e-13), h);
+  const Mask moves = either(reaches, less(period_ * P(too_small), h));
+  const uint64_t good = bits(h, both(both(finite_, bounded_), moves));
+  uint64_t ends = active_ & bits(h, reaches);
+  h = select(reaches, left, h);
+  const uint64_t bad = active_ & ~good;
+  if (bad != 0) {
+    const uint64_t numbers = bits(h, finite_), bounded = bits(h, bounded_);
+    for (uint64_t rest = bad; rest != 0; rest &= rest - 1) {
+      const int l = __builtin_ctzll(rest);
+      if ((numbers >> l & 1) == 0) {
+        fail(l, Outcome::not_finite, "the state is not finite");
+      } else {
+        fail(l, Outcome::step_too_small,
+             (bounded >> l & 1) != 0 ? "the step underflowed" : "the motion grows without bound");
+      }
+    }
+    return;  // the others begin this step again
+  }
+  h = select(mask_of<P>(active_), h, P(0.0));
+  const uint64_t fell = find_events(h);
+  ends &= ~fell;
+  if (options_.measures) measure(h);
+  const uint64_t instant = bits(h, less_equal(h, period_ * P(too_small))) & active_;
+  for (uint64_t rest = instant; rest != 0; rest &= rest - 1) {
+    ++book_[static_cast<size_t>(__builtin_ctzll(rest))].no_steps;
+  }
+  bool goes_on = true;
+  if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
+  advance(h);
+  time_ = time_ + h;
+  time_ = select(mask_of<P>(ends), P(0.0), time_);
+  ++steps_;
+  for (ContactLanes<P>& c : contacts_) c.surface_distance = c.surface_force = c.surface_slip = 0;
+  if (fell != 0) apply_events(instant);
+
+  for (uint64_t rest = ends; rest != 0; rest &= rest - 1) {
+    const int l = __builtin_ctzll(rest);
+    Book& book = book_[static_cast<size_t>(l)];
+    ++book.revolution;
+    if (options_.sections) {
+      std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
+      for (const P& y : y_) sections.push_back(lane(y, l));
+    }
+    if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
+  }
+  if (!goes_on) {
+    trajectory_[0]->outcome = Outcome::stopped_by_observer;
+    finished_ |= 1;
+  }
+}
+
+/// Time in touch and sticking; largest forces, by samples of the series.
+template <class P>
+HWY_ATTR void Engine<P>::measure(const P& h) {
+  constexpr int samples = 8;
+  for (ContactLanes<P>& c : contacts_) {
+    const uint64_t touching = c.touching & active_;
+    if (touching == 0) continue;
+    const Mask in_touch = mask_of<P>(touching);
+    c.duty = c.duty + select(in_touch, h, P(0.0));
+    c.stuck = c.stuck + select(mask_of<P>(c.sticking & active_), h, P(0.0));
+    for (int j = 1; j <= samples; ++j) {
+      const P t = h * P(static_cast<double>(j) / samples);
+      P normal = c.N[N], unused;
+      for (int k = N - 1; k >= 0; --k) normal = fma(normal, t, c.N[k]);
+      P friction = c.mu * normal;
+      if (c.has_tau) {
+        P tau, r;
+        horner(c.tau, N, t, tau, unused);
+        horner(c.r, N, t, r, unused);
+        friction = abs(tau * r);
+      }
+      c.max_normal = select(in_touch, max(c.max_normal, normal), c.max_normal);
+      c.max_friction = select(in_touch, max(c.max_friction, friction), c.max_friction);
+    }
+  }
+}
+
+/// Shows the step of lane 0, as polynomials in s = t / h; false: stop.
+template <class P>
+HWY_ATTR bool Engine<P>::tell(const Observer& observer, double h) {
+  const Trajectory& t = *trajectory_[0];
+  Step step;
+  step.revolution = book_[0].revolution;
+  step.phase = lane(time_, 0) * t.system->phase_rate();
+  step.h = h;
+  step.turn = h * t.system->phase_rate();
+  step.q.resize(n_, N + 3);
+  step.v.resize(n_, N + 2);
+  double power = 1.0;
+  for (int k = 0; k <= N + 2; ++k, power *= h) {
+    for (int i = 0; i < n_; ++i) {
+      step.q(i, k) = lane(term(k)[i], 0) * power;
+      if (k <= N + 1) step.v(i, k) = lane(term(k)[n_ + i], 0) * power;
+    }
+  }
+  for (const ContactLanes<P>& c : contacts_) step.contacts.push_back(c.state(0));
+  return observer(step);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard

@@ -1,0 +1,197 @@
+// Events of the engine: where they happen in a step, and what changes there.
+
+#if defined(WHIRL_ENGINE_EVENTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_ENGINE_EVENTS_INL_H
+#undef WHIRL_ENGINE_EVENTS_INL_H
+#else
+#define WHIRL_ENGINE_EVENTS_INL_H
+#endif
+
+#include "libdyn/batch/engine-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// Notes events that are earlier than what was found before in their lanes.
+template <class P>
+HWY_ATTR void Engine<P>::note(size_t i, uint64_t Falls::*kind, const Mask& fell) {
+  const uint64_t lanes = bits(time_, fell) & active_;
+  if (lanes == 0) return;
+  for (Falls& f : falls_) f.remove(lanes);
+  falls_[i].*kind |= lanes;
+}
+
+/// Shortens h to the first event in every lane; returns the lanes with one.
+template <class P>
+HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
+  std::fill(falls_.begin(), falls_.end(), Falls{});
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    ContactLanes<P>& c = contacts_[i];
+    // the distance: apart to touch; in touch to apart where the force vanishes with the depth;
+    // beyond the circle without force to apart
+    const P s0 = c.s[0];
+    c.s[0] = s0 - c.clearance2;
+    const uint64_t watched = active_ & (~c.touching | c.continuous);
+    const P sign = select(mask_of<P>(c.touching | c.receding), P(1.0), P(-1.0));
+    note(i, &Falls::distance,
+         first_fall(c.s, N + 2, sign, c.clearance2, h, mask_of<P>(watched),
+                    mask_of<P>(c.surface_distance)));
+    c.s[0] = s0;
+    if (!c.is_evaluated) continue;
+    if (((c.touching | c.receding) & active_ & ~c.continuous) != 0) watch_force(i, h);
+    if ((c.touching & active_ & c.exact & ~c.sticking) != 0) watch_slip(i, h);
+    if ((c.sticking & active_) != 0) watch_stick(i, h);
+  }
+  uint64_t fell = 0;
+  for (const Falls& f : falls_) fell |= f.any();
+  return fell;
+}
+
+/// A damped law lets go where its force vanishes, and grips again where it would push.
+template <class P>
+HWY_ATTR void Engine<P>::watch_force(size_t i, P& h) {
+  ContactLanes<P>& c = contacts_[i];
+  const uint64_t watched = (c.touching | c.receding) & active_ & ~c.continuous;
+  const P sign = select(mask_of<P>(c.touching), P(1.0), P(-1.0));
+  note(
+      i, &Falls::force,
+      first_fall(c.N, N, sign, c.force_scale, h, mask_of<P>(watched), mask_of<P>(c.surface_force)));
+}
+
+/// Slip that comes to rest. A bound tells most steps that it cannot:  |d x d'| <= max |d| max |d'|.
+template <class P>
+HWY_ATTR void Engine<P>::watch_slip(size_t i, P& h) {
+  ContactLanes<P>& c = contacts_[i];
+  const uint64_t sliding = c.touching & active_ & c.exact & ~c.sticking;
+  P distance(0.0), speed(0.0);
+  for (int k = N + 1; k >= 1; --k) {
+    const P size = abs(c.dx[k]) + abs(c.dy[k]);
+    distance = fma(distance, h, size);
+    speed = fma(speed, h, P(static_cast<double>(k)) * size);
+  }
+  distance = fma(distance, h, abs(c.dx[0]) + abs(c.dy[0]));
+  const Mask certain = less(distance * speed, abs(c.rim) * c.clearance);
+  const uint64_t asked = sliding & (~bits(h, certain) | c.surface_slip);
+  if (asked == 0) return;
+  // sign * (Omega R r + d x d'), which has the sign of the slip times the sense it had
+  P* g = c.slip;
+  for (int k = 0; k <= N; ++k) {
+    P cross = c.rim * c.r[k];
+    for (int j = 0; j <= k; ++j) {
+      const P factor(k - j + 1.0);
+      cross = fma(c.dx[j], factor * c.dy[k - j + 1], cross);
+      cross = fnma(c.dy[j], factor * c.dx[k - j + 1], cross);
+    }
+    g[k] = cross;
+  }
+  note(i, &Falls::slip,
+       first_fall(g, N, c.sign, c.slip_scale, h, mask_of<P>(asked), mask_of<P>(c.surface_slip)));
+}
+
+/// Sticking ends where the friction it needs is more than mu N:  (mu q)^2 - tau^2 falls below zero.
+template <class P>
+HWY_ATTR void Engine<P>::watch_stick(size_t i, P& h) {
+  ContactLanes<P>& c = contacts_[i];
+  P* g = c.slip;
+  const P mu2 = c.mu * c.mu;
+  for (int k = 0; k <= N; ++k) {
+    P qq(0.0), tt(0.0);
+    for (int j = 0; j <= k; ++j) {
+      qq = fma(c.q[j], c.q[k - j], qq);
+      tt = fma(c.tau[j], c.tau[k - j], tt);
+    }
+    g[k] = fma(mu2, qq, -tt);
+  }
+  const P scale = c.force_scale / c.clearance;
+  note(i, &Falls::stick,
+       first_fall(g, N, P(1.0), scale * scale, h, mask_of<P>(c.sticking & active_), mask_of<P>(0)));
+}
+
+template <class P>
+HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
+  constexpr int most_instant_events = 50;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    ContactLanes<P>& c = contacts_[i];
+    const Falls& f = falls_[i];
+    // touching and parting of continuous laws, in all lanes at once
+    uint64_t common = f.distance & c.continuous;
+    if (common != 0) {
+      const uint64_t enters = common & ~c.touching;
+      if ((enters & c.exact) != 0) {  // the slip that it begins with
+        P x, y, u, v;
+        c.displacement(y_.data(), x, y);
+        c.displacement(y_.data() + n_, u, v);
+        x = x - c.offset_x;
+        y = y - c.offset_y;
+        const P slip = fma(c.rim, c.clearance, fma(x, v, -(y * u)));
+        c.sign = select(mask_of<P>(enters & c.exact), select(less(slip, P(0.0)), P(-1.0), P(1.0)),
+                        c.sign);
+        const uint64_t at_rest =
+            enters & c.exact & bits(slip, less_equal(abs(slip), c.slip_scale * P(1e-12)));
+        common &= ~at_rest;
+      }
+      if ((enters & ~c.exact) != 0) c.sign = select(mask_of<P>(enters & ~c.exact), P(1.0), c.sign);
+      c.touching ^= common;
+      c.sticking &= c.touching;
+      c.surface_distance |= common;
+    }
+    for (uint64_t rest = f.any(); rest != 0; rest &= rest - 1) {
+      const int l = __builtin_ctzll(rest);
+      const uint64_t bit = rest & (~rest + 1);
+      Book& book = book_[static_cast<size_t>(l)];
+      ++book.events;
+      const bool was_touching = ((c.touching ^ (common & bit)) & bit) != 0;
+      if (!(common & bit)) apply_rare_event(l, i);
+      if (!was_touching && (c.touching & bit)) book.impacts[i] += 1.0;
+      book.instant_events = instant & bit ? book.instant_events + 1 : 0;
+      if (book.instant_events > most_instant_events) {
+        fail(l, Outcome::step_too_small, "events follow without time passing");
+      }
+    }
+  }
+}
+
+/// Events that need a decision (sticking, damped laws), one lane at a time, by the common rules.
+template <class P>
+HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
+  const uint64_t bit = uint64_t{1} << l;
+  const Trajectory& t = *trajectory_[static_cast<size_t>(l)];
+  Book& book = book_[static_cast<size_t>(l)];
+  if (!book.watcher) book.watcher = std::make_unique<EventWatcher>(*t.system);
+  Vec y(2 * n_);
+  for (int j = 0; j < 2 * n_; ++j) y(j) = lane(y_[static_cast<size_t>(j)], l);
+  ContactStates states;
+  for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
+
+  const Falls& f = falls_[i];
+  EventKind kind = EventKind::touch;
+  if (f.distance & bit) {
+    kind = states[i].touch == Touch::receding ? EventKind::part
+           : states[i].in_touch()             ? EventKind::release
+                                              : EventKind::touch;
+  } else if (f.force & bit) {
+    kind = states[i].in_touch() ? EventKind::release : EventKind::retouch;
+  } else {
+    kind = f.slip & bit ? EventKind::slip_stop : EventKind::stick_limit;
+  }
+  const int index = static_cast<int>(i);
+  book.watcher->apply({0.0, index, kind}, lane(rate_ * time_, l), y.data(), states);
+  t.system->remove_slip(y.data(), states);
+  for (int j = 0; j < 2 * n_; ++j) set_lane(y_[static_cast<size_t>(j)], l, y(j));
+  ContactLanes<P>& c = contacts_[i];
+  c.set_state(states[i], l);
+  const auto starts = [&](EventKind k) { return book.watcher->on_surface(index, k); };
+  put(c.surface_distance, bit,
+      starts(EventKind::touch) || starts(EventKind::part) ||
+          (starts(EventKind::release) && (c.continuous & bit)));
+  put(c.surface_force, bit,
+      starts(EventKind::retouch) || (starts(EventKind::release) && !(c.continuous & bit)));
+  put(c.surface_slip, bit, starts(EventKind::slip_stop));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard

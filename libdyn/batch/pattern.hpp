@@ -1,0 +1,38 @@
+#pragma once
+/// The structure that all systems of a batch share: which coefficients are not zero anywhere.
+
+#include <span>
+#include <vector>
+
+#include "libdyn/contact_system.hpp"
+
+namespace whirl {
+
+/// Where the nonzero coefficients of the equations of motion are.
+struct Pattern {
+  /// Coefficients of [K D] beside the diagonals of both, of one row.
+  struct OffDiagonal {
+    int i = 0;
+    int begin = 0;            ///< of this row among all of them
+    std::vector<int> source;  ///< columns of [K D]
+  };
+  struct ContactRows {
+    std::vector<int> of_x, of_y;                ///< coordinates that move the contact in x, in y
+    std::vector<int> pushed_by_x, pushed_by_y;  ///< coordinates that its force accelerates
+    bool has_rate = false;                      ///< the law depends on the rate of the depth
+    bool has_friction = false;
+    bool has_exact_friction = false;   ///< slip that switches and sticks
+    bool has_smooth_friction = false;  ///< tanh of the slip
+    std::size_t law = 0;               ///< index in AnyContactLaw
+  };
+
+  int n = 0;
+  std::vector<OffDiagonal> off_diagonal;  ///< rows that have any
+  int off_diagonals = 0;                  ///< coefficients in all of them
+  std::vector<ContactRows> contacts;
+
+  /// @throws NumericalError  if the systems differ in coordinates, contacts or kinds of laws
+  static Pattern of(std::span<const ContactSystem* const> systems);
+};
+
+}  // namespace whirl

@@ -1,0 +1,19 @@
+#include "libdyn/methods/taylor.hpp"
+
+#include <utility>
+
+#include "libdyn/batch/batch.hpp"
+
+namespace whirl {
+
+Integration Taylor::integrate(const ContactSystem& system, MotionState& state, long revolutions,
+                              const IntegrationOptions& options, const Observer& observer) const {
+  Trajectory trajectory{.system = &system, .state = std::move(state), .revolutions = revolutions};
+  integrate_single(
+      trajectory,
+      {.tolerance = options.tolerance, .fixed_step = options.fixed_step, .order = order}, observer);
+  state = std::move(trajectory.state);
+  return {trajectory.outcome, trajectory.cost, std::move(trajectory.diagnosis)};
+}
+
+}  // namespace whirl

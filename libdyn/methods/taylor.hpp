@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string_view>
+
+#include "libdyn/trajectory.hpp"
+
+namespace whirl {
+
+/// Taylor series of order 8 to 20 with exact events; one trajectory of the batch engine.
+///
+/// The order follows from the tolerance, the step from the last two terms; events are found on the
+/// polynomial of the step itself, so no step is made again.
+///
+/// @source [JorbaZou2005] for order and step; docs/methods.md, "Taylor series" for contacts
+struct Taylor {
+  static constexpr std::string_view name = "taylor";
+
+  int order = 0;  ///< 8 to 20; 0: by the tolerance
+
+  /// See Dop853::integrate.
+  Integration integrate(const ContactSystem& system, MotionState& state, long revolutions,
+                        const IntegrationOptions& options, const Observer& observer) const;
+};
+
+}  // namespace whirl
