@@ -1,6 +1,8 @@
 #include "libdyn/batch/batch.hpp"
 
+#include <algorithm>
 #include <memory>
+#include <thread>
 
 // instruction sets: what every processor has, AVX2, AVX-512
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
@@ -11,6 +13,7 @@
 
 #include "libdyn/batch/engine_events-inl.h"
 #include "libdyn/batch/engine_series-inl.h"
+#include "libdyn/batch/engine_tangents-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {
@@ -24,7 +27,11 @@ void run_with(const Pattern& pattern, const BatchOptions& options, std::span<Tra
 }
 
 void run_many(const Pattern& pattern, const BatchOptions& options, std::span<Trajectory> all) {
-  run_with<Pack<8, 2>>(pattern, options, all, nullptr);
+  if (options.exponents || options.tangent) {  // two packs of tangents do not fit the caches
+    run_with<Pack<8, 1>>(pattern, options, all, nullptr);
+  } else {
+    run_with<Pack<8, 2>>(pattern, options, all, nullptr);
+  }
 }
 
 void run_one(const Pattern& pattern, const BatchOptions& options, Trajectory& one,
@@ -56,7 +63,18 @@ void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& opt
   std::vector<const ContactSystem*> systems;
   for (const Trajectory& t : trajectories) systems.push_back(t.system);
   const Pattern pattern = Pattern::of(systems);
-  HWY_DYNAMIC_DISPATCH(run_many)(pattern, options, trajectories);
+  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
+  const std::size_t wanted =
+      options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors;
+  const std::size_t chunks = std::clamp<std::size_t>(trajectories.size(), 1, wanted);
+  const auto run_chunk = [&](std::size_t chunk) {
+    const std::size_t begin = chunk * trajectories.size() / chunks;
+    const std::size_t end = (chunk + 1) * trajectories.size() / chunks;
+    HWY_DYNAMIC_DISPATCH(run_many)(pattern, options, trajectories.subspan(begin, end - begin));
+  };
+  std::vector<std::jthread> threads;
+  for (std::size_t chunk = 1; chunk < chunks; ++chunk) threads.emplace_back(run_chunk, chunk);
+  run_chunk(0);
 }
 
 void integrate_single(Trajectory& trajectory, const BatchOptions& options,

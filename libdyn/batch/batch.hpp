@@ -23,6 +23,9 @@ struct Trajectory {
   std::vector<ContactMeasure> contacts;  ///< of all revolutions, if asked for (times, not shares)
   Vec exponents;                         ///< Lyapunov exponents, descending, if asked for [1/s]
   Mat tangent;                           ///< derivative of the end by the start, if asked for
+  /// Mean divergence of the flow, with exponents or tangent [1/s]: the sum of all exponents, and
+  /// over the time the logarithm of the tangent's determinant. Not with sticking, which has none.
+  double divergence = 0.0;
 };
 
 /// What is wanted beside the end of a trajectory; what is not wanted costs nothing.
@@ -33,8 +36,8 @@ struct BatchOptions {
   int threads = 0;           ///< 0: one per processor
   bool sections = false;
   bool measures = false;
-  bool exponents = false;
-  bool tangent = false;
+  bool exponents = false;  ///< all 2 n of them; their tangents start as the unit vectors
+  bool tangent = false;    ///< instead of the exponents
 };
 
 /// Integrates trajectories whose systems have the same shape (coordinates, contacts, laws).

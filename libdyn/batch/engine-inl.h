@@ -14,11 +14,12 @@
 #include <vector>
 
 #include "libdyn/batch/batch.hpp"
-#include "libdyn/batch/contact_lanes-inl.h"
 #include "libdyn/batch/events-inl.h"
 #include "libdyn/batch/pattern.hpp"
+#include "libdyn/batch/tangents-inl.h"
 #include "libdyn/events.hpp"
 #include "libdyn/methods/diagnosis.hpp"
+#include "libdyn/saltation.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {
@@ -59,6 +60,10 @@ class Engine {
     falls_.resize(contacts_.size());
     trajectory_.assign(static_cast<size_t>(lanes_), nullptr);
     book_.resize(static_cast<size_t>(lanes_));
+    if (options.exponents || options.tangent) {
+      tangents_ = std::make_unique<Tangents<P>>();
+      prepare_tangents();
+    }
   }
 
   /// Integrates trajectories, each in a lane of its own, refilled in order.
@@ -83,6 +88,7 @@ class Engine {
   struct Book {
     long last = 0;  ///< revolution at which it is done
     long revolution = 0;
+    long first_revolution = 0;
     long first_step = 0;  ///< of the engine, when it was loaded
     long no_steps = 0;    ///< of the engine, in which no time passed here
     int instant_events = 0;
@@ -114,6 +120,7 @@ class Engine {
   __attribute__((flatten)) HWY_ATTR void series();
   HWY_ATTR inline void linear(int k, const P& sine, const P& cosine, const P& inverse);
   HWY_ATTR void stick(int k, const P& inverse);
+  HWY_ATTR void solve_influence();
 
   // engine_events-inl.h
   HWY_ATTR uint64_t find_events(P& h);
@@ -123,6 +130,20 @@ class Engine {
   HWY_ATTR void note(size_t i, uint64_t Falls::*kind, const Mask& fell);
   HWY_ATTR void apply_events(uint64_t instant);
   HWY_ATTR void apply_rare_event(int l, size_t i);
+
+  // engine_tangents-inl.h
+  HWY_ATTR void prepare_tangents();
+  HWY_ATTR void load_tangents(int l, const ContactSystem& s);
+  HWY_ATTR void unload_tangents(int l, double time, Trajectory& to);
+  HWY_ATTR P limit_for_tangents(const P& h);
+  HWY_ATTR void move_tangents(const P& h);
+  HWY_ATTR void jump_tangents(int l, const Saltation& s);
+  HWY_ATTR uint64_t due_lanes(uint64_t ends) const;
+  HWY_ATTR void orthonormalize(uint64_t due);
+  HWY_ATTR P contact_divergence(size_t i, const P& h);
+  HWY_ATTR void column_series(const P* start, bool any_sticks);
+  HWY_ATTR inline void linear_column(const P* now, P* next, const P& inverse);
+  HWY_ATTR void stick_column(int k, P* next, const P& inverse);
 
   /// Coefficient k of all displacements, then of all velocities.
   HWY_ATTR inline P* term(int k) {
@@ -151,6 +172,7 @@ class Engine {
   Mask finite_, bounded_;  // lanes whose series is one of numbers, whose motion is of sane size
   std::vector<P> terms_, influence_, work_;
   std::vector<Falls> falls_;
+  std::unique_ptr<Tangents<P>> tangents_;
 };
 
 template <class P>
@@ -161,7 +183,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   Book& book = book_[static_cast<size_t>(l)];
   book = {};
   book.first_step = steps_;
-  book.revolution = t.state.revolution;
+  book.revolution = book.first_revolution = t.state.revolution;
   book.last = t.state.revolution + t.revolutions;
   book.impacts.assign(contacts_.size(), 0.0);
   if (t.state.contacts.size() != contacts_.size()) {
@@ -190,6 +212,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   for (size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
   }
+  if (tangents_) load_tangents(l, s);
   active_ |= bit;
   if (t.revolutions <= 0) finished_ |= bit;
 }
@@ -218,6 +241,10 @@ HWY_ATTR void Engine<P>::unload(int l) {
       m.max_normal = std::max(m.max_normal, lane(from.max_normal, l));
       m.max_tangential = std::max(m.max_tangential, lane(from.max_friction, l));
     }
+  }
+  if (tangents_) {
+    const double revolutions = static_cast<double>(book.revolution - book.first_revolution);
+    unload_tangents(l, revolutions * t.system->period(), t);
   }
   active_ &= ~(uint64_t{1} << l);
   trajectory_[static_cast<size_t>(l)] = nullptr;
@@ -291,6 +318,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   constexpr double too_small = 1e-14;  // of a revolution
   series();
   P h = step_length();
+  if (tangents_) h = limit_for_tangents(h);
   if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
   const P left = max(period_ - time_, P(0.0));
   const Mask reaches = less_equal(left * P(1.0 - 1e-13), h);
@@ -322,6 +350,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   }
   bool goes_on = true;
   if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
+  if (tangents_) move_tangents(h);
   advance(h);
   time_ = time_ + h;
   time_ = select(mask_of<P>(ends), P(0.0), time_);
@@ -339,35 +368,49 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     }
     if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
   }
+  if (options_.exponents) orthonormalize(due_lanes(ends));
   if (!goes_on) {
     trajectory_[0]->outcome = Outcome::stopped_by_observer;
     finished_ |= 1;
   }
 }
 
-/// Time in touch and sticking; largest forces, by samples of the series.
+/// Largest value of a parabola through three equidistant values, if its top lies between them.
+template <class P>
+HWY_ATTR inline P top(const P& a, const P& b, const P& c) {
+  const P bend = b + b - a - c, slope = P(0.5) * (c - a);
+  const typename P::Mask inside = both(less(P(0.0), bend), less_equal(abs(slope), bend));
+  const P at_top = fma(P(0.5) * slope, slope / select(inside, bend, P(1.0)), b);
+  return select(inside, at_top, max(b, max(a, c)));
+}
+
+/// Time in touch and sticking; largest forces, by parabolas through samples of the series.
 template <class P>
 HWY_ATTR void Engine<P>::measure(const P& h) {
-  constexpr int samples = 8;
+  constexpr int intervals = 8;
   for (ContactLanes<P>& c : contacts_) {
     const uint64_t touching = c.touching & active_;
     if (touching == 0) continue;
     const Mask in_touch = mask_of<P>(touching);
     c.duty = c.duty + select(in_touch, h, P(0.0));
     c.stuck = c.stuck + select(mask_of<P>(c.sticking & active_), h, P(0.0));
-    for (int j = 1; j <= samples; ++j) {
-      const P t = h * P(static_cast<double>(j) / samples);
-      P normal = c.N[N], unused;
-      for (int k = N - 1; k >= 0; --k) normal = fma(normal, t, c.N[k]);
-      P friction = c.mu * normal;
+    P normal[intervals + 1], friction[intervals + 1], unused;
+    for (int j = 0; j <= intervals; ++j) {
+      const P t = h * P(static_cast<double>(j) / intervals);
+      horner(c.N, N, t, normal[j], unused);
+      friction[j] = c.mu * normal[j];
       if (c.has_tau) {
         P tau, r;
         horner(c.tau, N, t, tau, unused);
         horner(c.r, N, t, r, unused);
-        friction = abs(tau * r);
+        friction[j] = abs(tau * r);
       }
-      c.max_normal = select(in_touch, max(c.max_normal, normal), c.max_normal);
-      c.max_friction = select(in_touch, max(c.max_friction, friction), c.max_friction);
+    }
+    for (int j = 1; j < intervals; ++j) {
+      const P largest = top(normal[j - 1], normal[j], normal[j + 1]);
+      const P strongest = top(friction[j - 1], friction[j], friction[j + 1]);
+      c.max_normal = select(in_touch, max(c.max_normal, largest), c.max_normal);
+      c.max_friction = select(in_touch, max(c.max_friction, strongest), c.max_friction);
     }
   }
 }

@@ -176,7 +176,15 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
     kind = f.slip & bit ? EventKind::slip_stop : EventKind::stick_limit;
   }
   const int index = static_cast<int>(i);
-  book.watcher->apply({0.0, index, kind}, lane(rate_ * time_, l), y.data(), states);
+  const Event event{0.0, index, kind};
+  const double phase = lane(rate_ * time_, l);
+  const ContactStates before = states;
+  book.watcher->apply(event, phase, y.data(), states);
+  if (tangents_) {
+    if (const auto jump = saltation(*t.system, event, phase, y, before, states)) {
+      jump_tangents(l, *jump);
+    }
+  }
   t.system->remove_slip(y.data(), states);
   for (int j = 0; j < 2 * n_; ++j) set_lane(y_[static_cast<size_t>(j)], l, y(j));
   ContactLanes<P>& c = contacts_[i];

@@ -86,6 +86,19 @@ HWY_ATTR void Engine<P>::series() {
   }
 }
 
+/// Solves influence_ x = work_ with its triangular factors; x in work_.
+template <class P>
+HWY_ATTR void Engine<P>::solve_influence() {
+  const size_t m = contacts_.size();
+  for (size_t i = 1; i < m; ++i) {
+    for (size_t j = 0; j < i; ++j) work_[i] = fnma(influence_[i * m + j], work_[j], work_[i]);
+  }
+  for (size_t i = m; i-- > 0;) {
+    for (size_t j = i + 1; j < m; ++j) work_[i] = fnma(influence_[i * m + j], work_[j], work_[i]);
+    work_[i] = work_[i] / influence_[i * m + i];
+  }
+}
+
 /// tau_k of sticking contacts, from a slip velocity that stays zero.
 ///
 ///   Omega R + (d x d') / r = 0   =>   d x d'' = -Omega R r'
@@ -130,13 +143,7 @@ HWY_ATTR void Engine<P>::stick(int k, const P& inverse) {
     sum = fma(c.rim, whole * c.r[k + 1], sum);
     work_[i] = select(mask_of<P>(c.sticking), sum, P(0.0));
   }
-  for (size_t i = 1; i < m; ++i) {
-    for (size_t j = 0; j < i; ++j) work_[i] = fnma(influence_[i * m + j], work_[j], work_[i]);
-  }
-  for (size_t i = m; i-- > 0;) {
-    for (size_t j = i + 1; j < m; ++j) work_[i] = fnma(influence_[i * m + j], work_[j], work_[i]);
-    work_[i] = work_[i] / influence_[i * m + i];
-  }
+  solve_influence();
   for (size_t i = 0; i < m; ++i) {
     ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;

@@ -192,6 +192,14 @@ HWY_ATTR inline Pack<L, B> tanh(const Pack<L, B>& x) {
   return r;
 }
 
+template <size_t L, int B>
+HWY_ATTR inline Pack<L, B> log(const Pack<L, B>& x) {
+  Pack<L, B> r;
+  typename Pack<L, B>::D d;
+  for (int b = 0; b < B; ++b) r.v[b] = hn::Log(d, x.v[b]);
+  return r;
+}
+
 /// Binary logarithm to 1e-3, of positive normal numbers: for step sizes.
 template <size_t L, int B>
 HWY_ATTR inline Pack<L, B> rough_log2(const Pack<L, B>& x) {

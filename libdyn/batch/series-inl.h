@@ -166,6 +166,115 @@ HWY_ATTR inline auto sqrt(const A& a) {
   return SquareRoot<A>(a);
 }
 
+// ---- derivatives of expressions by one of their leaves ------------------------------------------
+
+/// The derivative that is zero everywhere.
+template <class P>
+struct Zero : SeriesTag {
+  using Number = P;
+  HWY_ATTR inline P at(int, const P&, const P&) { return P(0.0); }
+};
+template <class A>
+constexpr bool is_zero = false;
+template <class P>
+constexpr bool is_zero<Zero<P>> = true;
+
+template <Series A, Series B>
+HWY_ATTR inline auto sum_of(const A& a, const B& b) {
+  if constexpr (is_zero<A>) {
+    return b;
+  } else if constexpr (is_zero<B>) {
+    return a;
+  } else {
+    return a + b;
+  }
+}
+template <Series A, Series B>
+HWY_ATTR inline auto product_of(const A& a, const B& b) {
+  if constexpr (is_zero<A>) {
+    return a;
+  } else if constexpr (is_zero<B>) {
+    return b;
+  } else {
+    return a * b;
+  }
+}
+
+/// Derivative by leaf I.
+template <int I, class P, int J>
+HWY_ATTR inline auto derivative(const Leaf<P, J>&) {
+  if constexpr (I == J) {
+    return Constant<P>(P(1.0));
+  } else {
+    return Zero<P>();
+  }
+}
+template <int I, class P>
+HWY_ATTR inline auto derivative(const Constant<P>&) {
+  return Zero<P>();
+}
+template <int I, class A>
+HWY_ATTR inline auto derivative(const Scaled<A>& e) {
+  const auto of_a = derivative<I>(e.a);
+  if constexpr (is_zero<std::remove_cvref_t<decltype(of_a)>>) {
+    return of_a;
+  } else {
+    return of_a * e.factor;
+  }
+}
+template <int I, class A, class B>
+HWY_ATTR inline auto derivative(const Sum<A, B>& e) {
+  return sum_of(derivative<I>(e.a), derivative<I>(e.b));
+}
+template <int I, class A, class B>
+HWY_ATTR inline auto derivative(const Product<A, B>& e) {
+  return sum_of(product_of(derivative<I>(e.a), e.b), product_of(e.a, derivative<I>(e.b)));
+}
+template <int I, class A, class B>
+HWY_ATTR inline auto derivative(const Quotient<A, B>& e) {  // (a' - (a / b) b') / b
+  const auto by_b = product_of(-e, derivative<I>(e.b));
+  const auto above = sum_of(derivative<I>(e.a), by_b);
+  if constexpr (is_zero<std::remove_cvref_t<decltype(above)>>) {
+    return above;
+  } else {
+    return above / e.b;
+  }
+}
+template <int I, class A>
+HWY_ATTR inline auto derivative(const SquareRoot<A>& e) {
+  const auto of_a = derivative<I>(e.a);
+  if constexpr (is_zero<std::remove_cvref_t<decltype(of_a)>>) {
+    return of_a;
+  } else {
+    return of_a / (2.0 * e);
+  }
+}
+
+// ---- whole series -------------------------------------------------------------------------------
+
+/// Coefficient k of a b.
+template <class P>
+HWY_ATTR inline P product_term(const P* a, const P* b, int k) {
+  P sum = a[0] * b[k];
+  for (int i = 1; i <= k; ++i) sum = fma(a[i], b[k - i], sum);
+  return sum;
+}
+/// Coefficients 0 to N of a b.
+template <class P>
+HWY_ATTR void multiply(const P* a, const P* b, P* to, int N) {
+  for (int k = 0; k <= N; ++k) to[k] = product_term(a, b, k);
+}
+/// Coefficients 0 to N of a / b in the lanes of `where`, zero elsewhere.
+template <class P>
+HWY_ATTR void divide(const P* a, const P* b, P* to, int N, const typename P::Mask& where) {
+  const P inverse = P(1.0) / select(where, b[0], P(1.0));
+  for (int k = 0; k <= N; ++k) {
+    P sum = a[k];
+    for (int i = 1; i <= k; ++i) sum = fnma(b[i], to[k - i], sum);
+    to[k] = select(where, sum * inverse, P(0.0));
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace whirl
 HWY_AFTER_NAMESPACE();

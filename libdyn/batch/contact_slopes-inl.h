@@ -1,0 +1,181 @@
+// Derivatives of a contact's force by displacement and velocity, as series along the motion.
+
+#if defined(WHIRL_CONTACT_SLOPES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_CONTACT_SLOPES_INL_H
+#undef WHIRL_CONTACT_SLOPES_INL_H
+#else
+#define WHIRL_CONTACT_SLOPES_INL_H
+#endif
+
+#include "libdyn/batch/contact_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// A 2 x 2 matrix of series.
+template <class P>
+struct SeriesMatrix {
+  P xx[most_terms], xy[most_terms], yx[most_terms], yy[most_terms];
+
+  /// Adds (ax, ay) (bx, by)^T.
+  HWY_ATTR void add(const P* ax, const P* ay, const P* bx, const P* by, int N) {
+    for (int k = 0; k <= N; ++k) {
+      xx[k] = xx[k] + product_term(ax, bx, k);
+      xy[k] = xy[k] + product_term(ax, by, k);
+      yx[k] = yx[k] + product_term(ay, bx, k);
+      yy[k] = yy[k] + product_term(ay, by, k);
+    }
+  }
+  /// Largest entry of coefficient k.
+  HWY_ATTR P size(int k) const {
+    return max(max(abs(xx[k]), abs(xy[k])), max(abs(yx[k]), abs(yy[k])));
+  }
+  HWY_ATTR void clear(int N) {
+    for (int k = 0; k <= N; ++k) xx[k] = xy[k] = yx[k] = yy[k] = P(0.0);
+  }
+};
+
+/// J and H in  d(force) = J d(displacement) + H d(velocity)  of  force = q d + tau rot d.
+///
+///   J = q 1 + alpha d d^T + beta d d'^T,   H = beta d d^T,
+///   beta = N_v / s,   alpha = (N_d - q) / s - beta r' / r,   s = r^2,
+///
+/// with N_d, N_v the derivatives of the law by depth and rate; friction adds tau's part. The forced
+/// change of tau while sticking is not in them (Engine::stick_column).
+template <class P>
+struct ContactSlopes {
+  SeriesMatrix<P> J, H;
+  P normal_by_depth[most_terms], normal_by_rate[most_terms];
+  bool has_H = false;
+
+  HWY_ATTR void find(const ContactLanes<P>& c, int N) {
+    derivatives_of_law(c, N);
+    const auto& in_touch = c.in_touch;
+    has_H = c.rows.has_rate || c.rows.has_smooth_friction;
+    P alpha[most_terms], beta[most_terms], work[most_terms], ex[most_terms], ey[most_terms];
+    for (int k = 0; k <= N; ++k) work[k] = normal_by_depth[k] - c.q[k];
+    divide(work, c.s, alpha, N, in_touch);
+    J.clear(N);
+    if (has_H) H.clear(N);
+    if (c.rows.has_rate) {
+      P rate[most_terms], ratio[most_terms], vx[most_terms], vy[most_terms];
+      divide(normal_by_rate, c.s, beta, N, in_touch);
+      for (int k = 0; k <= N; ++k) rate[k] = c.rate(k);
+      divide(rate, c.r, ratio, N, in_touch);
+      for (int k = 0; k <= N; ++k) alpha[k] = alpha[k] - product_term(beta, ratio, k);
+      multiply(beta, c.dx, ex, N);
+      multiply(beta, c.dy, ey, N);
+      velocity(c, vx, vy, N);
+      J.add(ex, ey, vx, vy, N);
+      H.add(ex, ey, c.dx, c.dy, N);
+    }
+    multiply(alpha, c.dx, ex, N);
+    multiply(alpha, c.dy, ey, N);
+    J.add(ex, ey, c.dx, c.dy, N);
+    for (int k = 0; k <= N; ++k) {
+      J.xx[k] = J.xx[k] + c.q[k];
+      J.yy[k] = J.yy[k] + c.q[k];
+    }
+    if (c.rows.has_friction) add_friction(c, N);
+  }
+
+ private:
+  HWY_ATTR void derivatives_of_law(const ContactLanes<P>& c, int N) {
+    with_alternative(c.law, [&](const auto& law) HWY_ATTR {
+      const auto force = law.normal(Leaf<P, 0>(), Leaf<P, 1>());
+      auto by_depth = derivative<0>(force);
+      auto by_rate = derivative<1>(force);
+      for (int k = 0; k <= N; ++k) {
+        const P depth = k == 0 ? c.r[0] - c.clearance : c.r[k];
+        normal_by_depth[k] = by_depth.at(k, depth, c.rate(k));
+        normal_by_rate[k] = by_rate.at(k, depth, c.rate(k));
+      }
+    });
+  }
+
+  static HWY_ATTR void velocity(const ContactLanes<P>& c, P* vx, P* vy, int N) {
+    for (int k = 0; k <= N; ++k) {
+      vx[k] = P(k + 1.0) * c.dx[k + 1];
+      vy[k] = P(k + 1.0) * c.dy[k + 1];
+    }
+  }
+
+  /// tau = phi q:  tau rot d changes by phi rot (J d(d) + H d(d')) and by q d(phi) rot d.
+  HWY_ATTR void add_friction(const ContactLanes<P>& c, int N) {
+    const auto sticks = mask_of<P>(c.sticking);
+    const P share = select(sticks, P(0.0), c.share);
+    if (c.smooth == 0) {
+      turn_by(J, share, N);
+      if (has_H) turn_by(H, share, N);
+    } else {
+      const auto smooth = mask_of<P>(c.smooth & c.touching);
+      P phi[most_terms];
+      for (int k = 0; k <= N; ++k) {
+        phi[k] = select(smooth, c.mu * c.sine[k], k == 0 ? share : P(0.0));
+      }
+      turn_by(J, phi, N);
+      turn_by(H, phi, N);
+      add_slip(c, smooth, N);
+    }
+    if (c.sticking == 0) return;
+    for (int k = 0; k <= N; ++k) {
+      const P tau = select(sticks, c.tau[k], P(0.0));
+      J.xy[k] = J.xy[k] - tau;
+      J.yx[k] = J.yx[k] + tau;
+    }
+  }
+
+  /// m += share rot m, that is rows (x, y) += share (-y, x).
+  static HWY_ATTR void turn_by(SeriesMatrix<P>& m, const P& share, int N) {
+    for (int k = 0; k <= N; ++k) {
+      const P xx = m.xx[k], xy = m.xy[k];
+      m.xx[k] = fnma(share, m.yx[k], xx);
+      m.xy[k] = fnma(share, m.yy[k], xy);
+      m.yx[k] = fma(share, xx, m.yx[k]);
+      m.yy[k] = fma(share, xy, m.yy[k]);
+    }
+  }
+  static HWY_ATTR void turn_by(SeriesMatrix<P>& m, const P* share, int N) {
+    for (int k = N; k >= 0; --k) {  // downward: coefficient k needs those below as they were
+      const P xx = product_term(share, m.yx, k), xy = product_term(share, m.yy, k);
+      const P yx = product_term(share, m.xx, k), yy = product_term(share, m.xy, k);
+      m.xx[k] = m.xx[k] - xx;
+      m.xy[k] = m.xy[k] - xy;
+      m.yx[k] = m.yx[k] + yx;
+      m.yy[k] = m.yy[k] + yy;
+    }
+  }
+
+  /// The part of the slip in smoothed friction, phi = mu tanh u, u = (Omega R + (d x d') / r) / w:
+  ///
+  ///   q d(phi) = chi ((d(d) x d' + d x d(d')) / r - (d x d') / r^3 d . d(d)),  chi = mu q (1 -
+  ///   tanh^2 u) / w
+  HWY_ATTR void add_slip(const ContactLanes<P>& c, const typename P::Mask& smooth, int N) {
+    P chi[most_terms], a[most_terms], b[most_terms], px[most_terms], py[most_terms];
+    P vx[most_terms], vy[most_terms], back[most_terms];
+    const P factor = c.mu * c.inverse_width;
+    for (int k = 0; k <= N; ++k) {
+      chi[k] = select(smooth, factor * product_term(c.q, c.cosine2, k), P(0.0));
+      back[k] = -c.dy[k];
+    }
+    multiply(chi, c.turn_rate, a, N);
+    divide(a, c.s, b, N, smooth);  // chi (d x d') / r^3
+    divide(chi, c.r, a, N, smooth);
+    velocity(c, vx, vy, N);
+    for (int k = 0; k <= N; ++k) {
+      px[k] = product_term(a, vy, k) - product_term(b, c.dx, k);
+      py[k] = -product_term(a, vx, k) - product_term(b, c.dy, k);
+    }
+    J.add(back, c.dx, px, py, N);
+    multiply(a, back, px, N);
+    multiply(a, c.dx, py, N);
+    H.add(back, c.dx, px, py, N);
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard

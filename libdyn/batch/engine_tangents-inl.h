@@ -1,0 +1,330 @@
+// Tangents of the engine: columns of the linearized flow, carried by series of their own.
+
+#if defined(WHIRL_ENGINE_TANGENTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_ENGINE_TANGENTS_INL_H
+#undef WHIRL_ENGINE_TANGENTS_INL_H
+#else
+#define WHIRL_ENGINE_TANGENTS_INL_H
+#endif
+
+#include <algorithm>
+#include <functional>
+
+#include "libdyn/batch/engine-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+template <class P>
+HWY_ATTR void Engine<P>::prepare_tangents() {
+  const size_t size = 2 * static_cast<size_t>(n_);
+  auto& t = *tangents_;
+  t.columns.assign(size * size, P(0.0));
+  t.log_sums.assign(size, P(0.0));
+  t.weights.assign(size, P(1.0));
+  t.slopes.resize(contacts_.size());
+  t.contacts.resize(contacts_.size());
+  t.gain.assign(contacts_.size(), P(0.0));
+  t.terms.assign(terms_.size(), P(0.0));
+  // the term that is left out, (w h)^(N+3) / (N+3)!, is as large as the tolerance
+  t.reach = std::exp((std::log(options_.tolerance) + std::lgamma(N + 4.0)) / (N + 3.0));
+}
+
+template <class P>
+HWY_ATTR void Engine<P>::load_tangents(int l, const ContactSystem& s) {
+  auto& t = *tangents_;
+  const int size = 2 * n_;
+  Vec scale(size);
+  scale << s.state_scale();
+  for (int c = 0; c < size; ++c) {
+    const auto uc = static_cast<size_t>(c);
+    set_lane(t.log_sums[uc], l, 0.0);
+    set_lane(t.weights[uc], l, 1.0 / (scale(c) * scale(c)));
+    for (int i = 0; i < size; ++i) {
+      const double unit = options_.exponents ? scale(i) : 1.0;
+      set_lane(t.columns[uc * static_cast<size_t>(size) + static_cast<size_t>(i)], l,
+               i == c ? unit : 0.0);
+    }
+  }
+  const double rate = fastest_rate(s);
+  set_lane(t.fastest2, l, rate * rate);
+  set_lane(t.trace, l, -s.D().trace());
+  set_lane(t.divergence, l, 0.0);
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ReducedContact& c = s.contacts()[i];
+    set_lane(t.gain[i], l, (c.U * c.B).norm());
+  }
+}
+
+/// Limits the step where tangents move faster than the motion itself.
+template <class P>
+HWY_ATTR P Engine<P>::limit_for_tangents(const P& h) {
+  auto& t = *tangents_;
+  P square = t.fastest2;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactLanes<P>& c = contacts_[i];
+    if ((c.touching & active_) == 0) continue;
+    t.slopes[i].find(c, N);
+    const SeriesMatrix<P>&J = t.slopes[i].J, &H = t.slopes[i].H;
+    const P stiffness = J.size(0) + J.size(1) * h;
+    const P damping = t.slopes[i].has_H ? t.gain[i] * H.size(0) : P(0.0);
+    const P both_rates = fma(damping, damping, t.gain[i] * stiffness);
+    square = square + select(c.in_touch, both_rates, P(0.0));
+  }
+  return min(h, P(t.reach) / sqrt(max(square, P(1e-200))));
+}
+
+/// Coefficients k + 1 of a column without contacts.
+template <class P>
+HWY_ATTR inline void Engine<P>::linear_column(const P* now, P* next, const P& inverse) {
+  for (int i = 0; i < n_; ++i) {
+    const auto ui = static_cast<size_t>(i);
+    const P rate = now[n_ + i];
+    const P sum = fma(K_diagonal_[ui], now[i], D_diagonal_[ui] * rate);
+    next[i] = rate * inverse;
+    next[n_ + i] = -(sum * inverse);
+  }
+  for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
+    P sum(0.0);
+    const P* a = A_.data() + row.begin;
+    for (const int source : row.source) sum = fma(*a++, now[source], sum);
+    next[n_ + row.i] = fnma(sum, inverse, next[n_ + row.i]);
+  }
+}
+
+/// Moves all columns over the step h of the motion.
+template <class P>
+HWY_ATTR void Engine<P>::move_tangents(const P& h) {
+  auto& t = *tangents_;
+  const Mask active = mask_of<P>(active_);
+  bool any_sticks = false;
+  t.divergence = t.divergence + select(active, t.trace * h, P(0.0));
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactLanes<P>& c = contacts_[i];
+    any_sticks = any_sticks || (c.sticking & active_) != 0;
+    if ((c.touching & active_) != 0 && t.slopes[i].has_H) {
+      t.divergence =
+          t.divergence + select(both(active, c.in_touch), contact_divergence(i, h), P(0.0));
+    }
+  }
+  const size_t size = 2 * static_cast<size_t>(n_);
+  for (size_t c = 0; c < size; ++c) {
+    P* y = t.columns.data() + c * size;
+    column_series(y, any_sticks);
+    for (size_t i = 0; i < size; ++i) {
+      const bool is_rate = i >= static_cast<size_t>(n_);
+      int k = is_rate ? N + 1 : N + 2;
+      P value = t.terms[static_cast<size_t>(k) * size + i];
+      while (--k >= 0) value = fma(value, h, t.terms[static_cast<size_t>(k) * size + i]);
+      y[i] = select(active, value, y[i]);
+    }
+  }
+}
+
+/// Integral of -trace(H U B) over the step.
+template <class P>
+HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
+  const ContactLanes<P>& c = contacts_[i];
+  const SeriesMatrix<P>& H = tangents_->slopes[i].H;
+  P xx(0.0), xy(0.0), yx(0.0), yy(0.0);  // of U B
+  work_.assign(static_cast<size_t>(n_), P(0.0));
+  c.push(work_.data(), P(-1.0), P(0.0));
+  c.displacement(work_.data(), xx, yx);
+  work_.assign(static_cast<size_t>(n_), P(0.0));
+  c.push(work_.data(), P(0.0), P(-1.0));
+  c.displacement(work_.data(), xy, yy);
+  P integral(0.0);
+  for (int k = N; k >= 0; --k) {
+    const P trace = fma(H.xx[k], xx, fma(H.xy[k], yx, fma(H.yx[k], xy, H.yy[k] * yy)));
+    integral = fma(integral, h, trace * P(inverse_of(k + 1)));
+  }
+  return -(integral * h);
+}
+
+/// Series of one column from its start.
+template <class P>
+HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
+  auto& t = *tangents_;
+  const size_t size = 2 * static_cast<size_t>(n_);
+  std::copy(start, start + size, t.terms.data());
+  for (int k = 0; k <= N; ++k) {
+    const P inverse(inverse_of(k + 1));
+    const P* now = t.terms.data() + static_cast<size_t>(k) * size;
+    P* next = t.terms.data() + static_cast<size_t>(k + 1) * size;
+    linear_column(now, next, inverse);
+    for (size_t i = 0; i < contacts_.size(); ++i) {
+      const ContactLanes<P>& c = contacts_[i];
+      if ((c.touching & active_) == 0) continue;
+      const ContactSlopes<P>& slopes = t.slopes[i];
+      auto& u = t.contacts[i];
+      c.displacement(now, u.dx[k], u.dy[k]);
+      P ax(0.0), ay(0.0), bx(0.0), by(0.0);
+      for (int j = 0; j <= k; ++j) {
+        const P x = u.dx[k - j], y = u.dy[k - j];
+        ax = fma(slopes.J.xx[j], x, ax);
+        bx = fma(slopes.J.xy[j], y, bx);
+        ay = fma(slopes.J.yx[j], x, ay);
+        by = fma(slopes.J.yy[j], y, by);
+      }
+      if (slopes.has_H) {
+        c.displacement(now + n_, u.vx[k], u.vy[k]);
+        for (int j = 0; j <= k; ++j) {
+          const P x = u.vx[k - j], y = u.vy[k - j];
+          ax = fma(slopes.H.xx[j], x, ax);
+          bx = fma(slopes.H.xy[j], y, bx);
+          ay = fma(slopes.H.yx[j], x, ay);
+          by = fma(slopes.H.yy[j], y, by);
+        }
+      }
+      c.push(next + n_, (ax + bx) * inverse, (ay + by) * inverse);
+    }
+    if (any_sticks) stick_column(k, next, inverse);
+  }
+  const P* top = t.terms.data() + static_cast<size_t>(N + 1) * size + n_;
+  P* last = t.terms.data() + static_cast<size_t>(N + 2) * size;
+  for (int i = 0; i < n_; ++i) last[i] = top[i] * P(1.0 / (N + 2.0));
+}
+
+/// Change of the friction of sticking contacts, so that a column stays without slip:
+///
+///   d(d) x d'' + d x d(d'') + Omega R d(r)' = 0
+template <class P>
+HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
+  auto& t = *tangents_;
+  const size_t m = contacts_.size();
+  P* acceleration = next + n_;
+  const P whole(k + 1.0);
+  P ax, ay;
+  work_.assign(m, P(0.0));
+  for (size_t i = 0; i < m; ++i) {
+    const ContactLanes<P>& c = contacts_[i];
+    if ((c.sticking & active_) == 0) continue;
+    auto& u = t.contacts[i];
+    const Mask sticks = mask_of<P>(c.sticking);
+    P fx(0.0), fy(0.0);  // of the changes of tau found so far
+    for (int j = 0; j < k; ++j) {
+      fx = fnma(u.tau[j], c.dy[k - j], fx);
+      fy = fma(u.tau[j], c.dx[k - j], fy);
+    }
+    c.push(acceleration, fx * inverse, fy * inverse);
+    c.displacement(next, u.dx[k + 1], u.dy[k + 1]);
+    if (k == 0) u.r[0] = fma(c.dx[0], u.dx[0], c.dy[0] * u.dy[0]) / c.r[0];
+    P along(0.0);
+    for (int j = 0; j <= k + 1; ++j) {
+      along = fma(c.dx[j], u.dx[k + 1 - j], fma(c.dy[j], u.dy[k + 1 - j], along));
+    }
+    for (int j = 1; j <= k + 1; ++j) along = fnma(c.r[j], u.r[k + 1 - j], along);
+    u.r[k + 1] = select(sticks, along / c.r[0], P(0.0));
+  }
+  for (size_t i = 0; i < m; ++i) {
+    const ContactLanes<P>& c = contacts_[i];
+    if ((c.sticking & active_) == 0) continue;
+    auto& u = t.contacts[i];
+    c.displacement(acceleration, ax, ay);
+    P sum = fma(c.dx[0], whole * ay, -(c.dy[0] * (whole * ax)));
+    for (int j = 1; j <= k; ++j) sum = fma(c.dx[j], u.ay[k - j], fnma(c.dy[j], u.ax[k - j], sum));
+    for (int j = 0; j <= k; ++j) sum = fma(u.dx[j], c.ay[k - j], fnma(u.dy[j], c.ax[k - j], sum));
+    sum = fma(c.rim, whole * u.r[k + 1], sum);
+    work_[i] = select(mask_of<P>(c.sticking), sum, P(0.0));
+  }
+  solve_influence();
+  for (size_t i = 0; i < m; ++i) {
+    const ContactLanes<P>& c = contacts_[i];
+    if ((c.sticking & active_) == 0) continue;
+    const P tau = work_[i];
+    t.contacts[i].tau[k] = tau;
+    c.push(acceleration, -(tau * c.dy[0]) * inverse, tau * c.dx[0] * inverse);
+  }
+  for (size_t i = 0; i < m; ++i) {
+    const ContactLanes<P>& c = contacts_[i];
+    if ((c.sticking & active_) == 0) continue;
+    c.displacement(acceleration, ax, ay);
+    t.contacts[i].ax[k] = whole * ax;
+    t.contacts[i].ay[k] = whole * ay;
+  }
+}
+
+/// Lanes whose columns are to be made orthonormal: at ends of revolutions and every so many of
+/// their own steps, so that it does not depend on the neighbors.
+template <class P>
+HWY_ATTR uint64_t Engine<P>::due_lanes(uint64_t ends) const {
+  constexpr long interval = 32;  // steps
+  uint64_t due = ends;
+  for (uint64_t rest = active_; rest != 0; rest &= rest - 1) {
+    const int l = __builtin_ctzll(rest);
+    if ((steps_ - book_[static_cast<size_t>(l)].first_step) % interval == 0)
+      due |= uint64_t{1} << l;
+  }
+  return due;
+}
+
+/// Makes the columns orthonormal by modified Gram-Schmidt and adds up their growth, in lanes that
+/// are due.
+template <class P>
+HWY_ATTR void Engine<P>::orthonormalize(uint64_t due) {
+  if (due == 0) return;
+  auto& t = *tangents_;
+  const Mask where = mask_of<P>(due);
+  const size_t size = 2 * static_cast<size_t>(n_);
+  work_.resize(std::max(work_.size(), size));
+  for (size_t c = 0; c < size; ++c) {
+    P* a = t.columns.data() + c * size;
+    P square(0.0);
+    for (size_t i = 0; i < size; ++i) square = fma(t.weights[i] * a[i], a[i], square);
+    square = max(square, P(1e-300));  // a column that sticking has made zero
+    const P inverse = P(1.0) / sqrt(square);
+    t.log_sums[c] = t.log_sums[c] + select(where, P(0.5) * log(square), P(0.0));
+    for (size_t i = 0; i < size; ++i) {
+      a[i] = select(where, a[i] * inverse, a[i]);
+      work_[i] = t.weights[i] * a[i];
+    }
+    for (size_t other = c + 1; other < size; ++other) {
+      P* b = t.columns.data() + other * size;
+      P dot(0.0);
+      for (size_t i = 0; i < size; ++i) dot = fma(work_[i], b[i], dot);
+      dot = select(where, dot, P(0.0));
+      for (size_t i = 0; i < size; ++i) b[i] = fnma(dot, a[i], b[i]);
+    }
+  }
+}
+
+/// Lets the columns of a lane jump with the acceleration at an event.
+template <class P>
+HWY_ATTR void Engine<P>::jump_tangents(int l, const Saltation& s) {
+  auto& t = *tangents_;
+  const int size = 2 * n_;
+  for (int c = 0; c < size; ++c) {
+    P* column = t.columns.data() + static_cast<size_t>(c) * static_cast<size_t>(size);
+    double along = 0.0;
+    for (int i = 0; i < size; ++i) along += s.gradient(i) * lane(column[i], l);
+    for (int i = n_; i < size; ++i) set_lane(column[i], l, lane(column[i], l) + s.jump(i) * along);
+  }
+  set_lane(t.divergence, l, lane(t.divergence, l) + s.log_determinant());
+}
+
+template <class P>
+HWY_ATTR void Engine<P>::unload_tangents(int l, double time, Trajectory& to) {
+  auto& t = *tangents_;
+  const int size = 2 * n_;
+  if (options_.tangent) {
+    to.tangent.resize(size, size);
+    for (int c = 0; c < size; ++c) {
+      for (int i = 0; i < size; ++i)
+        to.tangent(i, c) = lane(t.columns[static_cast<size_t>(c * size + i)], l);
+    }
+  } else {
+    orthonormalize(uint64_t{1} << l);
+    to.exponents.resize(size);
+    for (int c = 0; c < size; ++c)
+      to.exponents(c) = lane(t.log_sums[static_cast<size_t>(c)], l) / time;
+    std::sort(to.exponents.begin(), to.exponents.end(), std::greater<>());
+  }
+  to.divergence = lane(t.divergence, l) / time;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard

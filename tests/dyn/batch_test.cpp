@@ -1,0 +1,159 @@
+// A batch of trajectories: each is what it would be alone, bit by bit.
+
+#include "libdyn/batch/batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "libfe/base/error.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace whirl {
+namespace {
+
+using test::RotorStator;
+
+/// Trajectories of rotors with random speeds, contacts and friction: free, bouncing, rubbing,
+/// rolling (the soft corner with much friction), some with damped contacts.
+struct Sample {
+  std::vector<std::unique_ptr<Scene>> scenes;
+  std::vector<Trajectory> trajectories;
+
+  explicit Sample(int size, bool is_damped = false) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit;
+    for (int i = 0; i < size; ++i) {
+      RotorStator p{.Omega = 120.0 + 50.0 * unit(random), .mu = 0.3 * unit(random)};
+      p.kC = 2e6 * std::pow(100.0, unit(random));
+      if (is_damped) p.cC = 1e3 * unit(random);
+      scenes.push_back(std::make_unique<Scene>(p.scene()));
+      Trajectory t{.system = &scenes.back()->contacts};
+      t.state = test::start_of(p.model(), *scenes.back());
+      t.revolutions = 20 + static_cast<long>(20.0 * unit(random));
+      trajectories.push_back(t);
+    }
+  }
+};
+
+bool is_same(const Trajectory& a, const Trajectory& b) {
+  return a.state.y == b.state.y && a.state.revolution == b.state.revolution &&
+         a.state.phase == b.state.phase && a.state.contacts == b.state.contacts &&
+         a.outcome == b.outcome && a.cost.steps == b.cost.steps && a.cost.events == b.cost.events &&
+         a.sections == b.sections && a.exponents == b.exponents && a.tangent == b.tangent;
+}
+
+void expect_same_as_alone(const Sample& sample, const BatchOptions& options) {
+  std::vector<Trajectory> batch = sample.trajectories;
+  integrate_batch(batch, options);
+  int events = 0;
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    Trajectory alone = sample.trajectories[i];
+    integrate_single(alone, options);
+    EXPECT_EQ(alone.outcome, Outcome::reached_end) << alone.diagnosis;
+    EXPECT_TRUE(is_same(batch[i], alone)) << i;
+    events += static_cast<int>(alone.cost.events);
+  }
+  EXPECT_GT(events, 1000);
+}
+
+TEST(Batch, GivesEachTrajectoryWhatItIsAlone) {
+  expect_same_as_alone(Sample(40), {.sections = true});
+}
+TEST(Batch, GivesEachTrajectoryWhatItIsAloneWithDampedContacts) {
+  expect_same_as_alone(Sample(24, true), {.tolerance = 1e-8});
+}
+TEST(Batch, GivesEachTrajectoryItsExponents) {
+  expect_same_as_alone(Sample(20), {.tolerance = 1e-8, .exponents = true});
+}
+
+TEST(Batch, DoesNotDependOnTheOrderOfTrajectoriesNorOnThreads) {
+  const Sample sample(50);
+  std::vector<Trajectory> forward = sample.trajectories;
+  integrate_batch(forward, {.threads = 1, .sections = true});
+  std::vector<std::size_t> order(forward.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin(), order.end(), std::mt19937(5));
+  for (const int threads : {1, 2, 3, 7}) {
+    std::vector<Trajectory> shuffled;
+    for (const std::size_t i : order) shuffled.push_back(sample.trajectories[i]);
+    integrate_batch(shuffled, {.threads = threads, .sections = true});
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      EXPECT_TRUE(is_same(shuffled[i], forward[order[i]])) << threads << " " << i;
+    }
+  }
+}
+
+// Two methods that share nothing but the equations of motion.
+TEST(Batch, AgreesWithDop853) {
+  const Sample sample(12);
+  std::vector<Trajectory> batch = sample.trajectories;
+  integrate_batch(batch, {.tolerance = 1e-13});
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    MotionState state = sample.trajectories[i].state;
+    const Integration result =
+        test::run(*sample.scenes[i], state, sample.trajectories[i].revolutions,
+                  {.tolerance = 1e-13, .method = Dop853{}});
+    EXPECT_EQ(result.cost.events, batch[i].cost.events) << i;
+    EXPECT_LT(test::distance(*batch[i].system, batch[i].state.y, state.y), 1e-9) << i;
+  }
+}
+
+TEST(Batch, MeasuresContactsAsTheMeterDoes) {
+  constexpr double sampling = 1e-4;  // of a maximum, by parabolas through points of other steps
+  Sample sample(8);
+  for (Trajectory& t : sample.trajectories) t.revolutions = 10;
+  std::vector<Trajectory> batch = sample.trajectories;
+  integrate_batch(batch, {.measures = true});
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const ContactSystem& system = *batch[i].system;
+    ContactMeter meter(system);
+    MotionState state = sample.trajectories[i].state;
+    test::run(*sample.scenes[i], state, 10, {}, [&](const Step& step) {
+      meter.add(step);
+      return true;
+    });
+    const ContactMeasure expected = meter.measures()[0];
+    const ContactMeasure& m = batch[i].contacts[0];
+    EXPECT_NEAR(m.duty / (10.0 * system.period()), expected.duty, 1e-12);
+    EXPECT_NEAR(m.sticking / (10.0 * system.period()), expected.sticking, 1e-12);
+    EXPECT_EQ(m.impacts, expected.impacts);
+    EXPECT_NEAR(m.max_normal, expected.max_normal, sampling * expected.max_normal);
+    EXPECT_NEAR(m.max_tangential, expected.max_tangential, sampling * expected.max_tangential);
+  }
+}
+
+TEST(Batch, EndsOneTrajectoryWithoutTheOthers) {
+  const Sample sample(12);
+  std::vector<Trajectory> batch = sample.trajectories;
+  batch[3].state.y(2) = std::numeric_limits<double>::quiet_NaN();
+  batch[7].state.y(6) = std::numeric_limits<double>::infinity();
+  integrate_batch(batch, {});
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    const bool is_bad = i == 3 || i == 7;
+    EXPECT_EQ(batch[i].outcome, is_bad ? Outcome::not_finite : Outcome::reached_end) << i;
+    EXPECT_EQ(batch[i].diagnosis.empty(), !is_bad);
+    if (is_bad) continue;
+    Trajectory alone = sample.trajectories[i];
+    integrate_single(alone, {});
+    EXPECT_TRUE(is_same(batch[i], alone)) << i;
+  }
+}
+
+TEST(Batch, RefusesSystemsOfDifferentShape) {
+  const Scene one = test::P1.scene(), other = test::MassInRing{}.scene();
+  std::vector<Trajectory> batch(2);
+  batch[0].system = &one.contacts;
+  batch[1].system = &other.contacts;
+  EXPECT_THROW(integrate_batch(batch, {}), NumericalError);
+}
+
+TEST(Batch, OfNothingIsNothing) {
+  integrate_batch({}, {});
+}
+
+}  // namespace
+}  // namespace whirl
