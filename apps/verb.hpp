@@ -71,8 +71,7 @@ const std::vector<Verb>& verbs();
 /// Set by Ctrl-C; long work looks at it and stops with what it has.
 bool is_interrupted();
 
-/// A line on standard error that is rewritten while something long goes on; silent if not a
-/// terminal.
+/// A line on standard error that is rewritten while something long goes on; only on a terminal.
 class Progress {
  public:
   Progress(std::string what, long total, bool shows);

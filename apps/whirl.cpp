@@ -110,8 +110,7 @@ int unknown_verb(const std::string& word) {
   return wrong_input;
 }
 
-/// What is wrong with words that CLI11 could not place: an option that does not exist, or a second
-/// file.
+/// What is wrong with words that CLI11 could not place: an unknown option, or a second file.
 std::string misplaced(const CLI::App& app, const std::vector<std::string>& words,
                       const CLI::ParseError& error) {
   std::vector<std::string> known;

@@ -11,8 +11,7 @@ namespace whirl {
 /// Shaft with its diameters, disks, spinning bodies, stators of all contacts.
 ///
 /// Bodies have no place along the shaft: each is put where a contact, bearing or link joins it to
-/// the shaft. Sizes that the model does not tell (disks by mass, bodies) are drawn as plausible
-/// ones.
+/// the shaft. Sizes that the model does not tell (disks by mass, bodies) are plausible ones.
 VtkScene vtk_scene(const Model& model, const Assembler& assembler);
 
 /// One cycle of a mode, q = Re(shape e^(i phase)): damping is left out.

@@ -1,5 +1,4 @@
-// Order of DOP853: of a step, of its dense output, and of motions over events, all measured with
-// fixed steps.
+// Order of DOP853: of a step, its dense output, and motions over events, measured by fixed steps.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,4 @@
-// Quantities with units: every good spelling against its SI value, every bad one against its
-// message.
+// Quantities with units: every good spelling against its SI value, every bad one its message.
 
 #include "libio/units.hpp"
 
