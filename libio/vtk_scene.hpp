@@ -15,7 +15,9 @@ namespace whirl {
 VtkScene vtk_scene(const Model& model, const Assembler& assembler);
 
 /// One cycle of a mode, q = Re(shape e^(i phase)): damping is left out.
-std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, std::size_t contacts,
+///
+/// A mode has no amplitude of its own: it gets the one that fits the scene, drawn to scale.
+std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, const VtkScene& scene,
                                       int frames);
 
 /// A moment of a motion.
