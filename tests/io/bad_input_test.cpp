@@ -220,7 +220,7 @@ TEST(BadInput, WrongTypes) {
       {"[ { mode = 1, amplitude = \"2 mm\" } ]", "[5]", "58:10", "start.whirl.1",
        "found 5, expected a table"},
       {"outer_diameter = \"20 mm\"", "outer_diameter = [1, 2, 3]", "11:18",
-       "shaft.1.outer_diameter", "found 3 values, expected one, or [left, right]"},
+       "shaft.1.outer_diameter", "found a list of 3, expected one value, or [left, right]"},
   });
 }
 
