@@ -3,11 +3,13 @@
 #include <charconv>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
+#include "libio/replace_file.hpp"
 #include "libio/units.hpp"
 #include "libio/value_range.hpp"
 
@@ -40,6 +42,24 @@ std::string shell_line(const std::vector<std::string>& words) {
     line += (line.empty() ? "" : " ") + (is_plain ? word : quoted + "'");
   }
   return line;
+}
+
+namespace fs = std::filesystem;
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(a), ignored) ==
+             fs::weakly_canonical(fs::absolute(b), ignored) ||
+         fs::equivalent(a, b, ignored);
+}
+
+/// Whether a file is there that has something in it and is not HDF5.
+bool holds_something_else(const fs::path& place) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(place, ignored)) return false;
+  char begin[4] = {};
+  std::ifstream(place, std::ios::binary).read(begin, sizeof begin);
+  return begin[0] != '\0' && std::string_view(begin, sizeof begin) != "\x89HDF";
 }
 
 }  // namespace
@@ -85,6 +105,21 @@ std::vector<double> Invocation::speeds(const Model& model) const {
 Model Invocation::model() const {
   if (model_text.empty()) return read_model(file, sets);
   return parse_model(model_text, file, sets, std::filesystem::path(file).parent_path());
+}
+
+void Invocation::require_free_places(const std::string& json) const {
+  const auto refuse = [](const std::string& place, std::string_view reason) {
+    throw FileError(fmt::format("cannot write {}: {}", place, reason));
+  };
+  const std::string out = text("out");
+  if (!out.empty() && holds_something_else(out)) {
+    refuse(out, "this file is no result of whirl and would be lost; take another name");
+  }
+  if (json.empty() || json == "-") return;
+  if (is_same_file(json, file)) refuse(json, "it is the input of this command");
+  if (has("from") && is_same_file(json, text("from"))) refuse(json, "--from reads it");
+  if (!out.empty() && is_same_file(json, out)) refuse(json, "--out and --json name the same file");
+  FileReplacement{json};  // a directory that is not there is said before the work
 }
 
 std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const {

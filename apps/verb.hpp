@@ -44,6 +44,11 @@ class Invocation {
 
   Model model() const;
 
+  /// Checks that results take the place of nothing but results.
+  /// @param json  value of --json
+  /// @throws FileError  naming what would be lost: the model, another file, the other result
+  void require_free_places(const std::string& json) const;
+
   /// The file of --out with the facts of this call in it, or nothing.
   std::unique_ptr<ResultWriter> result_file(const Model& model) const;
 };
@@ -71,8 +76,7 @@ const std::vector<Verb>& verbs();
 /// Set by Ctrl-C; long work looks at it and stops with what it has.
 bool is_interrupted();
 
-/// A line on standard error that is rewritten while something long goes on; silent if not a
-/// terminal.
+/// A line on standard error that is rewritten while something long goes on; only on a terminal.
 class Progress {
  public:
   Progress(std::string what, long total, bool shows);

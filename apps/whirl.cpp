@@ -110,8 +110,7 @@ int unknown_verb(const std::string& word) {
   return wrong_input;
 }
 
-/// What is wrong with words that CLI11 could not place: an option that does not exist, or a second
-/// file.
+/// What is wrong with words that CLI11 could not place: an unknown option, or a second file.
 std::string misplaced(const CLI::App& app, const std::vector<std::string>& words,
                       const CLI::ParseError& error) {
   std::vector<std::string> known;
@@ -142,6 +141,13 @@ void write_json(const Report& report, const std::string& to) {
   }
 }
 
+/// A status, unless what was printed did not arrive, on a full disk for instance.
+int after_printing(int status) {
+  if (std::fflush(stdout) == 0) return status;
+  fmt::print(stderr, "whirl: cannot write to standard output\n");
+  return wrong_input;
+}
+
 int run(const std::vector<std::string>& words, const std::string& model_text) {
   CLI::App app("whirl");
   app.set_help_flag();
@@ -167,6 +173,7 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   app.add_option(
          std::string(verb->takes), call.file,
          verb->takes == "MODEL" ? "model file (TOML)" : "result file (HDF5) or model file (TOML)")
+      ->type_name("")
       ->required();
   app.add_option("--set", sets, "set a value of the model by its path; may be given several times")
       ->type_name("PATH=VALUE")
@@ -190,7 +197,7 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   app.add_option("--json", json, "write the result as JSON; - is standard output")
       ->type_name("FILE")
       ->take_last();
-  app.add_option("--threads", values["threads"], "processors to use; left out: all")
+  app.add_option("--threads", values["threads"], "processors to use at most; left out: all")
       ->type_name("N")
       ->take_last();
   app.add_flag("--quiet", quiet, "print nothing but errors");
@@ -214,15 +221,18 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   if (app.count("--speed") > 0) sets.push_back("operation.speed=" + speed);
   call.sets = sets;
   call.shows_progress = !quiet;
+  if (call.file.empty()) {
+    fmt::print(stderr, "whirl {}: the name of the file is empty\n", word);
+    return wrong_input;
+  }
 
   try {
     call.integer("threads", 1);
-    if (!json.empty() && json != "-")
-      FileReplacement{json};  // a wrong place is said before the work
+    call.require_free_places(json);
     const Report report = verb->run(call);
     if (json != "-" && !quiet) fmt::print("{}", report.text);
     if (!json.empty()) write_json(report, json);
-    return report.status;
+    return after_printing(report.status);
   } catch (const ModelError& error) {
     print_problems(error, call, app.count("--speed") > 0 ? &speed : nullptr);
     return wrong_input;

@@ -5,8 +5,8 @@
 ///
 ///   static constexpr std::string_view name;      the word in the model file
 ///   static constexpr auto fields();              its keys (libfe/base/field.hpp)
-///   auto normal(d, d_rate) const;                normal force [N] at depth d [m] and its rate
-///   [m/s] bool is_continuous() const;                  normal(0, d_rate) = 0 for every rate
+///   auto normal(d, d_rate) const;                normal force [N] at depth d [m], its rate [m/s]
+///   bool is_continuous() const;                  normal(0, d_rate) = 0 for every rate
 ///
 /// `normal` is the smooth force of the law while in touch, and its smooth continuation a little
 /// beyond (trial steps of integrators end there). It does not branch, allocate or remember:

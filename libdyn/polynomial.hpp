@@ -32,9 +32,8 @@ struct Polynomial {
 /// moves by the positive root of the right side. No root can be jumped over, not even a double one,
 /// and at a simple root the steps converge quadratically.
 ///
-/// @param on_surface  g(0) is zero by definition (an event just happened there): its rounded value
-/// is
-///                    taken off, and only a fall right at the start or a later one counts
+/// @param on_surface  g(0) is zero by definition (an event just happened there): its rounded
+///                    value is taken off, and only a fall right at the start or a later one counts
 /// @source ../docs/methods.md, "Events"
 inline std::optional<double> first_fall(Polynomial g, bool on_surface) {
   constexpr double zero = 1e-15;      // of g, which is made dimensionless by its owner

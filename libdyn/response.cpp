@@ -7,8 +7,7 @@ namespace whirl {
 
 ResponseSpectra::ResponseSpectra(const Scene& scene, const Recording& recording)
     : map_(scene.displacement_map()), dofs_(scene.reduced.dofs) {
-  // whole revolutions, so that harmonics of the spin fall on bins; small factors, so that it is
-  // fast
+  // whole revolutions: harmonics of the spin fall on bins; small factors: it is fast
   revolutions_ = smooth_length(recording.revolutions);
   const auto n = revolutions_ * recording.samples;
   const auto coordinates = recording.eta.rows();

@@ -64,6 +64,8 @@ std::vector<NamedPoint> select_points(const Model& model, const Assembler& assem
   const std::vector<Label> known = labels(model, assembler);
   std::istringstream parts(list);
   for (std::string part; std::getline(parts, part, ',');) {
+    part.erase(0, part.find_first_not_of(' '));
+    part.erase(part.find_last_not_of(' ') + 1);
     int node = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), node);
     const bool is_number = error == std::errc{} && end == part.data() + part.size();
@@ -82,9 +84,12 @@ std::vector<NamedPoint> select_points(const Model& model, const Assembler& assem
     std::vector<std::string> names;
     for (const Label& l : known) names.push_back(l.name);
     for (const Body& b : model.structure.bodies) names.push_back(b.name);
-    throw ModelError({"--stations " + list}, "",
-                     fmt::format("there is no station \"{}\"; there are {} and nodes 1 to {}", part,
-                                 fmt::join(names, ", "), assembler.mesh().nodes()));
+    if (const int nodes = assembler.mesh().nodes(); nodes > 0) {
+      names.push_back(fmt::format("nodes 1 to {}", nodes));
+    }
+    throw ModelError(
+        {"--stations " + list}, "",
+        fmt::format("there is no station \"{}\"; there are {}", part, fmt::join(names, ", ")));
   }
   return chosen;
 }

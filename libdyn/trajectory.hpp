@@ -1,6 +1,5 @@
 #pragma once
-/// What all integrators share: the state of a motion, one step of it with dense output, options,
-/// outcomes.
+/// What all integrators share: the state of a motion, a step with dense output, options, outcomes.
 
 #include <functional>
 #include <string>

@@ -46,8 +46,7 @@ class Assembler {
   /// The same with every freedom that supports leave; M is singular where there is no inertia.
   System uncondensed(double Omega) const;
 
-  /// Weight of everything, a full vector of forces and moments [N, N.m]; exact for internal
-  /// functions too.
+  /// Weight of everything, a full vector of forces and moments [N, N.m], internal ones included.
   Vec gravity_load() const;
 
   /// Complex amplitude of the unbalance force over Omega^2, a full vector [kg.m]:

@@ -55,8 +55,7 @@ Critical self_consistent(const Assembler& assembler, const CriticalOptions& opti
   return start;
 }
 
-/// Solves Im lambda(Omega) = order * Omega from an undamped critical speed; NaN if the mode is
-/// lost.
+/// Solves Im lambda(Omega) = order * Omega from an undamped critical speed; NaN: the mode is lost.
 double damped_speed(const ModeFinder& finder, const Critical& undamped,
                     const CriticalOptions& options) {
   CVec shape = undamped.shape;

@@ -1,6 +1,5 @@
 #pragma once
-/// Nodes of the shaft: where they are, which segments lie between them, which station is which
-/// node.
+/// Nodes of the shaft: where they are, what lies between them, which station is which node.
 
 #include <vector>
 

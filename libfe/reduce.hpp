@@ -55,8 +55,7 @@ struct ReducedSystem {
 
 /// How far a reduced system is from the full one.
 struct ReductionError {
-  /// An eigenvalue of the full system in the band, and the nearest one of the reduced system
-  /// [rad/s].
+  /// An eigenvalue of the full system in the band and the nearest one of the reduced one [rad/s].
   struct Pair {
     Complex full, reduced;
     double error() const { return std::abs(reduced - full) / std::abs(full); }

@@ -106,7 +106,7 @@ TableBearing parse_bearing_table(const std::string& text, const std::string& fil
       continue;
     }
     if (parts.size() != columns.size()) {
-      report("", fmt::format("found {} values, expected {} as in the first line", parts.size(),
+      report("", fmt::format("found {} columns, expected {} as in the first line", parts.size(),
                              columns.size()));
       continue;
     }

@@ -32,8 +32,8 @@ struct ConfigNode {
 
 /// Parses TOML.
 /// @param file  name for messages
-/// @throws ModelError  with the place of a syntax error, for an empty text and for one that is no
-/// text
+/// @throws ModelError  with the place of a syntax error, for an empty text and for one that is
+///                     no text
 ConfigNode parse_toml(std::string_view text, const std::string& file);
 
 /// Sets a value by its path, as the command line does: "contact.seal.friction=0.1".

@@ -48,8 +48,7 @@ class ModelBuilder {
   bool read_coefficients(TableReader& table, BearingCoefficients& to);
   std::optional<Mat2> matrix(TableReader& table, std::string_view key, std::string_view unit);
 
-  /// Calls f(reader, number from 0) for every element of an array of tables, by name where it has
-  /// one.
+  /// Calls f(reader, number from 0) for every element of an array of tables, by name if it has one.
   template <class F>
   void for_each(const char* array, F f);
 

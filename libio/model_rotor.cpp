@@ -78,8 +78,8 @@ std::optional<std::pair<double, double>> ModelBuilder::diameters(TableReader& ta
     return std::pair(*both, *both);
   }
   if (node->items.size() != 2) {
-    table.problem(
-        key, fmt::format("found {} values, expected one, or [left, right]", node->items.size()));
+    table.problem(key, fmt::format("found a list of {}, expected one value, or [left, right]",
+                                   node->items.size()));
     return std::nullopt;
   }
   const auto left = table.quantity(node->items[0], table.path(key), "m", range);

@@ -53,9 +53,9 @@ void TableReader::missing(std::string_view key, std::string_view expected,
 void TableReader::unknown_choice(std::string_view key, const std::string& found,
                                  const std::vector<std::string>& known) {
   const auto near = nearest(found, known);
-  problem(key,
-          fmt::format("found {}, expected one of {}{}", in_quotes(found), fmt::join(known, ", "),
-                      near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
+  problem(key, fmt::format("found {}, expected {}{}{}", in_quotes(found),
+                           known.size() > 1 ? "one of " : "", fmt::join(known, ", "),
+                           near ? fmt::format("; did you mean \"{}\"?", *near) : ""));
 }
 
 bool TableReader::in_range(const ConfigNode& value, const std::string& at, double number,

@@ -19,9 +19,8 @@ class FileError : public std::runtime_error {
 class FileReplacement {
  public:
   /// @param place  a file, which need not exist yet, in a directory that does
-  /// @throws FileError  if there is no such directory, or if the place is taken by something else
-  /// than
-  ///                    a file, such as /dev/null
+  /// @throws FileError  if there is no such directory, or if the place is taken by something that
+  ///                    is not a file, such as /dev/null
   explicit FileReplacement(const std::filesystem::path& place);
   /// Removes what was written, unless it was committed.
   ~FileReplacement();

@@ -218,6 +218,10 @@ Parsed<Product> parse_unit(std::string_view rest, std::string_view whole) {
     }
     std::size_t size = 0;
     while (size < rest.size() && is_letter(rest[size])) ++size;
+    if (size == 0 && !rest.empty() && rest.front() == ',') {
+      return Result::failed(
+          fmt::format("found a comma in {}, decimals follow a point", in_quotes(whole)));
+    }
     if (size == 0 || factors == most_factors) {
       return Result::failed(fmt::format("cannot read the unit in {}", in_quotes(whole)));
     }

@@ -56,8 +56,8 @@ Parsed<Quantity> parse_quantity(std::string_view text);
 ///
 ///   parse_as("3650 rpm", "rad/s") = 382.2,   parse_as("4 MN/mm^2", "N/m"): problem
 ///
-/// Angle counts, with one exception: N.m/rad and N.m stand for each other, and so do N.m.s/rad and
-/// N.m.s.
+/// Angle counts, with one exception: N.m/rad and N.m stand for each other, and so do N.m.s/rad
+/// and N.m.s.
 ///
 /// @param si_unit  as in dimension_of
 /// @return         value [si_unit], or a problem such as
@@ -65,8 +65,7 @@ Parsed<Quantity> parse_quantity(std::string_view text);
 /// @throws std::invalid_argument  if si_unit is none
 Parsed<double> parse_as(std::string_view text, std::string_view si_unit);
 
-/// Dimension of an SI unit as field tables write it: "N/m^1.5", "rad/s", "1/s", "" for a plain
-/// number.
+/// Dimension of an SI unit as field tables write it: "N/m^1.5", "rad/s", "1/s"; "": a plain number.
 /// @throws std::invalid_argument  if it is not a unit, or not one without a factor (mm, rpm)
 Dimension dimension_of(std::string_view si_unit);
 

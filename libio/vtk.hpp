@@ -70,7 +70,7 @@ struct VtkFrame {
 struct VtkOptions {
   double deflection_scale = 0.0;  ///< drawn per true displacement; 0: vtk_deflection_scale()
   double force_scale = 0.0;       ///< [m/N]; 0: the largest force as long as 15 % of the scene
-  int facets = 24;                ///< points around, >= 3
+  int facets = 48;                ///< points around, >= 3
   int sections = 4;               ///< parts that a piece of the shaft is drawn in, >= 1
 };
 
@@ -100,8 +100,12 @@ std::vector<std::filesystem::path> write_vtk_series(const std::filesystem::path&
                                                     const std::vector<VtkFrame>& frames,
                                                     const VtkOptions& options = {});
 
-/// The scale at which the largest displacement of all frames is drawn as 12 % of the scene's size,
-/// and at least 1. The size is the distance of the outermost points or the largest diameter.
+/// The scale at which the largest displacement of all frames is drawn as 12 % of the scene's size, or
+/// the largest tilt as 0.35 rad if that is less: disks that tilt more would look stretched. The size
+/// is the distance of the outermost points or the largest diameter. 1 where nothing moves.
+double vtk_fitting_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames);
+
+/// The fitting scale, and at least 1: a motion is never drawn smaller than it is.
 double vtk_deflection_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames);
 
 }  // namespace whirl

@@ -90,7 +90,7 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
   return scene;
 }
 
-std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, std::size_t contacts,
+std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, const VtkScene& scene,
                                       int frames) {
   const CVec full = dofs.T * mode.shape;
   std::vector<VtkFrame> result;
@@ -106,9 +106,11 @@ std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, std:
       }
       ++row;
     }
-    frame.forces.resize(contacts);
+    frame.forces.resize(scene.contacts.size());
     result.push_back(std::move(frame));
   }
+  const double amplitude = vtk_fitting_scale(scene, result);
+  for (VtkFrame& frame : result) frame.motion *= amplitude;
   return result;
 }
 

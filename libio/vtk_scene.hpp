@@ -11,12 +11,13 @@ namespace whirl {
 /// Shaft with its diameters, disks, spinning bodies, stators of all contacts.
 ///
 /// Bodies have no place along the shaft: each is put where a contact, bearing or link joins it to
-/// the shaft. Sizes that the model does not tell (disks by mass, bodies) are drawn as plausible
-/// ones.
+/// the shaft. Sizes that the model does not tell (disks by mass, bodies) are plausible ones.
 VtkScene vtk_scene(const Model& model, const Assembler& assembler);
 
 /// One cycle of a mode, q = Re(shape e^(i phase)): damping is left out.
-std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, std::size_t contacts,
+///
+/// A mode has no amplitude of its own: it gets the one that fits the scene, drawn to scale.
+std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, const VtkScene& scene,
                                       int frames);
 
 /// A moment of a motion.

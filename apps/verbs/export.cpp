@@ -97,8 +97,7 @@ Report run_export(const Invocation& call) {
     int number = 0;
     for (const Mode& mode : modes.oscillatory) {
       ++number;
-      write(fmt::format("_mode{}", number),
-            vtk_mode_frames(mode, system.dofs, model.contacts.size(), mode_frames),
+      write(fmt::format("_mode{}", number), vtk_mode_frames(mode, system.dofs, scene, mode_frames),
             fmt::format("mode {} at {:.1f} rpm, {}", number, mode.frequency() / rpm,
                         name_of(mode.whirl)));
     }

@@ -71,8 +71,7 @@ std::string peaks_text(const std::vector<Peak>& peaks) {
   return text.empty() ? "-" : text;
 }
 
-/// The end of an earlier result, as start.from = "file" asks for; a stopped one ends within a
-/// revolution.
+/// The end of an earlier result, as start.from = "file" asks for; a stopped one ends within a turn.
 struct EarlierEnd {
   FullState state;
   double phase = 0.0;  ///< [rad]

@@ -4,8 +4,7 @@
 
 namespace whirl {
 
-/// Gauss-Legendre points on [0, 1], with weights and the matrix that integrates from 0 to each
-/// point.
+/// Gauss-Legendre points on [0, 1], with weights and the matrix that integrates from 0 to each.
 ///
 ///   integral_0^1 f      = w . f(x),           exact for polynomials up to degree 2 n - 1
 ///   integral_0^{x_i} f  = (S f(x))_i,         exact for polynomials up to degree n - 1

@@ -4,8 +4,7 @@
 
 namespace whirl {
 
-/// The four matrices on one common pattern, so that assembly at a frequency is one pass over
-/// values.
+/// The four matrices on one common pattern: assembly at a frequency is one pass over values.
 struct DynamicStiffness::State {
   CSparse A;
   Vec M, C, G, K;  // values of each matrix at the entries of A

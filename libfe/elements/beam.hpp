@@ -41,8 +41,7 @@ struct Beam {
 ///
 /// @throws NumericalError  if internal_functions is out of range
 /// @source [NelsonMcVaugh1976], [Nelson1980], [Przemieniecki1968] ch. 11 for the functions;
-///         [ZorziNelson1977] for the rotating damping; [ZorziNelson1980], [Greenhill1883] for
-///         torque
+///         [ZorziNelson1977] for rotating damping; [ZorziNelson1980], [Greenhill1883] for torque
 ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam);
 
 }  // namespace whirl

@@ -49,8 +49,7 @@ inline std::string reason() {
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take_first, &text);
   if (text.empty()) return "HDF5 gives no reason";
-  // of a long list of details only what the system says: "... error message = 'File too large',
-  // ..."
+  // of a long list of details only what the system says: "... error message = 'File too large' ..."
   constexpr std::string_view key = "error message = '";
   const std::size_t start = text.find(key);
   if (start == std::string::npos) return text;
@@ -97,8 +96,8 @@ inline Handle complex_type() {
   return type;
 }
 
-/// Files are private to their writer and never change under a reader: no locks, which some network
-/// file systems refuse.
+/// Files are private to their writer and never change under a reader: no locks are needed, which
+/// some network file systems refuse.
 inline Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);

@@ -169,15 +169,24 @@ double force_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames) {
 
 }  // namespace vtk
 
-double vtk_deflection_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames) {
-  double largest = 0.0;
+double vtk_fitting_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames) {
+  constexpr double drawn_share = 0.12;  // of the scene's size
+  constexpr double drawn_tilt = 0.35;   // [rad], of which a disk looks 6 % too large
+  double inverse = 0.0;
   for (const VtkFrame& frame : frames) {
     for (Eigen::Index i = 0; i < frame.motion.rows(); ++i) {
-      const double r = frame.motion.row(i).head<2>().norm();
-      if (std::isfinite(r)) largest = std::max(largest, r);
+      const double r = frame.motion.row(i).head<2>().norm() / (drawn_share * vtk::size_of(scene));
+      const double tilt = frame.motion.row(i).tail<2>().norm() / drawn_tilt;
+      for (const double demand : {r, tilt}) {
+        if (std::isfinite(demand)) inverse = std::max(inverse, demand);
+      }
     }
   }
-  return largest > 0.0 ? std::max(1.0, 0.12 * vtk::size_of(scene) / largest) : 1.0;
+  return inverse > 0.0 ? 1.0 / inverse : 1.0;
+}
+
+double vtk_deflection_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames) {
+  return std::max(1.0, vtk_fitting_scale(scene, frames));
 }
 
 }  // namespace whirl

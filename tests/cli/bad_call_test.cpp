@@ -49,6 +49,7 @@ TEST_F(BadCall, OptionsThatDoNotExist) {
 
 TEST_F(BadCall, MissingAndSurplusWords) {
   EXPECT_TRUE(has(problem_of_line({"modes"}), "MODEL is required"));
+  EXPECT_EQ(problem({"modes", ""}), "whirl modes: the name of the file is empty\n");
   EXPECT_TRUE(has(problem({"modes", "rotor.toml", "two.toml"}), "cannot place \"two.toml\""));
   EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--json"}), "--json"));
   EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--modes"}), "--modes"));
@@ -83,6 +84,7 @@ TEST_F(BadCall, ValuesOfOptions) {
   EXPECT_TRUE(has(with("--samples", "2"), "whole number of 4 or more"));
   EXPECT_TRUE(has(with("--revolutions", "1000000000"), "record fewer"));
   EXPECT_TRUE(has(with("--stations", "seal"), "there is no station \"seal\"; there are "));
+  EXPECT_TRUE(has(with("--stations", "shaft, seal"), "there is no station \"seal\""));
   EXPECT_TRUE(has(with("--from", "nothing.h5"), "nothing.h5: there is no such file"));
 }
 
@@ -171,6 +173,33 @@ TEST_F(BadCall, PlacesThatCannotBeWrittenAreSaidBeforeTheWork) {
   const Outcome out = whirl({"simulate", "rotor.toml", "--speed", "100", "--out", "nowhere/x.h5"});
   EXPECT_EQ(out.status, 2);
   EXPECT_TRUE(has(out.err, "cannot write nowhere/x.h5: there is no directory nowhere"));
+}
+
+// A slip of the pen must not cost the model: results take the place of results only.
+TEST_F(BadCall, ResultsReplaceNothingButResults) {
+  write("table.csv", "speed, kxx, kyy\n0, 1, 1\n");
+  EXPECT_EQ(
+      problem_of_line({"modes", "rotor.toml", "--out", "rotor.toml"}),
+      "whirl: cannot write rotor.toml: this file is no result of whirl and would be lost; take "
+      "another name\n");
+  EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--out", "table.csv"}), "would be lost"));
+  for (const char* name : {"rotor.toml", "./rotor.toml"}) {
+    EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--json", name}),
+                    "it is the input of this command"));
+  }
+  EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--out", "x.h5", "--json", "./x.h5"}),
+                  "--out and --json name the same file"));
+  EXPECT_EQ(content(folder / "rotor.toml"), jeffcott);
+  EXPECT_EQ(content(folder / "table.csv"), "speed, kxx, kyy\n0, 1, 1\n");
+}
+
+// Standard output on a full disk.
+TEST_F(BadCall, WhatCannotBePrintedIsAnError) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
+  const std::string line = std::string(WHIRL_PROGRAM) + " modes rotor.toml --json - > /dev/full";
+  const Outcome outcome = wait(start("sh", {"-c", line}));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "whirl: cannot write to standard output\n");
 }
 
 TEST_F(BadCall, AnEarlierResultStaysAsItIs) {

@@ -1,5 +1,8 @@
 // Result files: what they hold, for other programs too; running them again; pictures of them.
 
+#include <signal.h>
+
+#include <random>
 #include <regex>
 
 #include "libio/hdf5.hpp"
@@ -131,6 +134,40 @@ TEST_F(Results, AgreeWithTheJson) {
   for (Eigen::Index i = 0; i < frequency.size(); ++i) {
     EXPECT_NEAR(frequency(i) / rpm, r["modes"][i]["frequency_rpm"], 1e-9);
   }
+}
+
+// kill -9 at 20 random moments of a run, the last ones after its end: the file of the place is the
+// old one, byte by byte, or the new one with all that a run writes.
+TEST_F(Results, AreWholeWheneverTheProgramIsKilled) {
+  const auto line = [](int speed) {
+    return std::vector<std::string>{"simulate",      "rub.toml", "--speed",   std::to_string(speed),
+                                    "--discard",     "50",       "--samples", "64",
+                                    "--revolutions", "300",      "--quiet",   "--out",
+                                    "run.h5"};
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(whirl(line(100)).status, 0);
+  const std::chrono::duration<double> whole = std::chrono::steady_clock::now() - begin;
+  const std::filesystem::path place = folder / "run.h5";
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> moment(0.0, 1.2e6 * whole.count());  // [us]
+  int killed = 0, replaced = 0;
+  for (int i = 0; i < 20; ++i) {
+    const std::string before = content(place);
+    const pid_t child = start(WHIRL_PROGRAM, line(101 + i));
+    usleep(static_cast<useconds_t>(moment(random)));
+    kill(child, SIGKILL);
+    if (wait(child).status == 128 + SIGKILL) ++killed;
+    if (content(place) == before) continue;
+    ++replaced;
+    const ResultReader file(place);
+    EXPECT_DOUBLE_EQ(file.number_attribute("/", "speed"), 101.0 + i);
+    EXPECT_EQ(file.matrix("/trajectory/x").cols(), 300 * 64);
+    EXPECT_EQ(file.matrix("/spectra/amplitude").rows(), 1);
+    EXPECT_TRUE(file.matrix("/trajectory/coordinates").allFinite());
+  }
+  EXPECT_GT(killed, 0);
+  EXPECT_GT(replaced, 0);
 }
 
 // ---- again ----

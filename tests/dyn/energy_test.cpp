@@ -1,5 +1,5 @@
-// Energy: kept without damping and friction, given to friction and drive otherwise; damped contacts
-// never pull.
+// Energy: kept without damping and friction, otherwise given to friction and drive; damped
+// contacts never pull.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// What must not change the motion: the direction of the axes, the sense of time, the time since the
-// start.
+// What must not change the motion: the direction of the axes, the sense of time, the time since
+// the start.
 
 #include <gtest/gtest.h>
 

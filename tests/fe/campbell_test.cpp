@@ -28,8 +28,8 @@ std::vector<double> speeds_to(double last, int steps) {
   return speeds;
 }
 
-/// Disk amid a massless shaft between pins, held by springs kx, ky as well: bounce and tilt are
-/// uncoupled,
+/// Disk amid a massless shaft between pins, held by springs kx, ky as well; bounce and tilt apart:
+///
 ///   w^2 = (48 E I / L^3 + kx) / m, likewise y;   Id w^2 -+ Ip Omega w - 12 E I / L = 0
 struct Decoupled {
   double m = 6.0, Id = 0.06, Ip = 0.11, L = 0.8, d = 0.03, kx = 4e4, ky = 9e4;

@@ -220,7 +220,7 @@ TEST(BadInput, WrongTypes) {
       {"[ { mode = 1, amplitude = \"2 mm\" } ]", "[5]", "58:10", "start.whirl.1",
        "found 5, expected a table"},
       {"outer_diameter = \"20 mm\"", "outer_diameter = [1, 2, 3]", "11:18",
-       "shaft.1.outer_diameter", "found 3 values, expected one, or [left, right]"},
+       "shaft.1.outer_diameter", "found a list of 3, expected one value, or [left, right]"},
   });
 }
 
@@ -331,11 +331,10 @@ TEST(BadInput, WordsThatAreNotOnes) {
 TEST(BadInput, NamesThatStandForNothing) {
   expect_each({
       {"material = \"steel\"\nlength", "material = \"stel\"\nlength", "9:12", "shaft.1.material",
-       "found \"stel\", expected one of steel; did you mean \"steel\"?"},
+       "found \"stel\", expected steel; did you mean \"steel\"?"},
       {"body = \"stator\"", "body = \"statr\"", "34:8", "bearing.mount.body",
-       "expected one of stator; did you mean \"stator\"?"},
-      {"body = \"stator\"", "body = \"ground\"", "34:8", "bearing.mount.body",
-       "expected one of stator"},
+       "expected stator; did you mean \"stator\"?"},
+      {"body = \"stator\"", "body = \"ground\"", "34:8", "bearing.mount.body", "expected stator"},
       {"against = \"stator\"", "against = \"sttor\"", "47:11", "contact.seal.against",
        "expected one of ground, stator; did you mean \"stator\"?"},
       {"to = \"ground\"", "to = \"gruond\"", "39:6", "link.strut.to", "did you mean \"ground\"?"},
@@ -370,10 +369,10 @@ TEST(BadInput, Stations) {
        "found a body and a place on the shaft, expected one of them"},
       {"at = \"150 mm\"", "body = \"stator\"", "15:8", "disk.wheel.body",
        "a disk sits on the shaft"},
-      {"at = \"150 mm\"", "body = \"ground\"", "15:8", "disk.wheel.body", "expected one of stator"},
+      {"at = \"150 mm\"", "body = \"ground\"", "15:8", "disk.wheel.body", "expected stator"},
       {"node = 3", "body = \"stator\"", "42:8", "unbalance.1.body",
        "this body does not spin and has no unbalance; give it spins = true"},
-      {"node = 3", "body = \"ground\"", "42:8", "unbalance.1.body", "expected one of stator"},
+      {"node = 3", "body = \"ground\"", "42:8", "unbalance.1.body", "expected stator"},
       {"to = \"ground\"", "to = { at = 5 }", "39:13", "link.strut.to.at",
        "5000 mm is off the shaft"},
       {"to = \"ground\"", "to = { nod = 5 }", "39:8", "link.strut.to.nod",

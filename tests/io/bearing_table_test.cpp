@@ -75,7 +75,7 @@ TEST(BearingTable, CommentsBlanksQuotesAndSemicolonsAreFine) {
 TEST(BearingTable, ProblemsNameTheirLines) {
   EXPECT_EQ(problems("speed,kxx\n1,2\n# comment\n3,4 N.s/m\n5\n5,x\n"),
             "bearing.csv:4:1: kxx: found \"4 N.s/m\", expected a stiffness (N/m)\n"
-            "bearing.csv:5:1: found 1 values, expected 2 as in the first line\n"
+            "bearing.csv:5:1: found 1 columns, expected 2 as in the first line\n"
             "bearing.csv:6:1: kxx: \"x\" is not a number, expected a stiffness (N/m)\n");
 }
 

@@ -1,5 +1,4 @@
-// Quantities with units: every good spelling against its SI value, every bad one against its
-// message.
+// Quantities with units: every good spelling against its SI value, every bad one its message.
 
 #include "libio/units.hpp"
 
@@ -145,7 +144,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"3 N..m", "N.m",
             R"(cannot read the unit in "3 N..m", expected a torque or moment (N.m))"},
         Bad{"3 (m)", "m", R"_(cannot read the unit in "3 (m)", expected a length (m))_"},
-        Bad{"1,5 mm", "m", R"(cannot read the unit in "1,5 mm", expected a length (m))"},
+        Bad{"1,5 mm", "m",
+            R"(found a comma in "1,5 mm", decimals follow a point, expected a length (m))"},
         Bad{"12 000 mm", "m", R"(cannot read the unit in "12 000 mm", expected a length (m))"},
         Bad{"3 m^", "m",
             R"(the exponent of "m" in "3 m^" is not a multiple of 0.5, expected a length (m))"},

@@ -21,7 +21,9 @@
 #include <numbers>
 #include <sstream>
 
+#include "libio/model_file.hpp"
 #include "libio/replace_file.hpp"
+#include "libio/vtk_scene.hpp"
 
 namespace whirl {
 namespace {
@@ -309,14 +311,64 @@ TEST_F(VtkSeries, ChosenScaleShowsTwelvePercent) {
   EXPECT_EQ(vtk_deflection_scale({}, {}), 1.0);
 }
 
+// Displacements are drawn linearly, theta x r: a disk that tilts by 0.35 rad looks 6 % too large.
+TEST_F(VtkSeries, ChosenScaleKeepsDisksInShape) {
+  const VtkScene scene = example();
+  VtkFrame frame = at_rest(scene);
+  frame.motion.row(1) << 1e-6, 0.0, 0.0, 7e-3;
+  EXPECT_NEAR(vtk_deflection_scale(scene, {frame}), 50.0, 1e-9);
+  // what has no size of its own, such as a mode, may be drawn smaller
+  frame.motion.row(1) << 1.0, 0.0, 0.0, 0.0;
+  EXPECT_NEAR(vtk_fitting_scale(scene, {frame}), 0.12, 1e-12);
+}
+
+// A shape comes with any amplitude: a mode of unit radius on a rotor of 1 m would be a caricature.
+TEST_F(VtkSeries, ModesAreDrawnToFitTheRotor) {
+  const Model model = parse_model(R"(format = 1
+[material.steel]
+density = 7800
+youngs_modulus = "211 GPa"
+poisson_ratio = 0.3
+[[shaft]]
+material = "steel"
+length = 1
+outer_diameter = "20 mm"
+elements = 4
+[[disk]]
+node = 3
+mass = 5
+outer_diameter = "0.3 m"
+[[bearing]]
+node = 1
+rigid = true
+[[bearing]]
+node = 5
+rigid = true
+)",
+                                  "rotor.toml");
+  const Assembler assembler(model.structure);
+  const VtkScene scene = vtk_scene(model, assembler);
+  const System system = assembler.at(0.0);
+  for (const Mode& mode : complex_modes(system, 4).oscillatory) {
+    const auto frames = vtk_mode_frames(mode, system.dofs, scene, 36);
+    EXPECT_NEAR(vtk_deflection_scale(scene, frames), 1.0, 1e-12);
+    double radius = 0.0, tilt = 0.0;
+    for (const VtkFrame& frame : frames) {
+      radius = std::max(radius, frame.motion.leftCols<2>().rowwise().norm().maxCoeff());
+      tilt = std::max(tilt, frame.motion.rightCols<2>().rowwise().norm().maxCoeff());
+    }
+    EXPECT_NEAR(std::max(radius / 0.12, tilt / 0.35), 1.0, 1e-12);
+  }
+}
+
 TEST_F(VtkSeries, ARotorMayBeBodiesOnly) {
   const VtkScene scene{.z = {0.0}, .disks = {{"rotor", 0, 0.1, 0.0, 0.02}}};
   VtkFrame frame = at_rest(scene);
   frame.motion(0, 0) = 1e-3;
   const auto data = written(scene, frame);
   EXPECT_NEAR(number(data, "deflection scale"), 0.12 * 0.2 / 1e-3, 1e-9);
-  EXPECT_EQ(data->GetNumberOfPoints(), 2 * 24);
-  EXPECT_EQ(data->GetNumberOfCells(), 24 + 2);
+  EXPECT_EQ(data->GetNumberOfPoints(), 2 * 48);
+  EXPECT_EQ(data->GetNumberOfCells(), 48 + 2);
 }
 
 TEST_F(VtkSeries, CollectionListsTimesAndFiles) {
