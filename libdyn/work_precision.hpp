@@ -39,8 +39,8 @@ struct Candidate {
 Candidate candidate(const ContactSystem& system, std::string_view method);
 
 struct TimingOptions {
-  int most_runs = 9;         ///< of which the median counts
-  double most_time = 0.5;    ///< after which a run is not repeated any more [s]
+  int most_runs = 5;         ///< of which the median counts
+  double most_time = 0.1;    ///< after which a run is not repeated any more [s]
   double least_time = 1e-3;  ///< of a measurement; short runs are measured several at a time [s]
 };
 
