@@ -15,6 +15,9 @@ struct ReferenceMotion {
   double growth = 1.0;   ///< of a small deviation over these revolutions
   std::string made_by;   ///< in words
   long revolutions = 0;  ///< from the start
+
+  /// Whether the deviation became as large as the motion: growth then is a lower bound.
+  bool is_lost() const { return growth > 1e6; }
 };
 
 /// Largest error of a state: displacements by the length scale (the clearance), velocities by it

@@ -82,9 +82,12 @@ Bench run_all(const Invocation& call, const Model& model) {
 
   const auto count = static_cast<long>(options.methods.size() * options.tolerances.size());
   Progress progress("measuring", count + 1, call.shows_progress);
-  is_interrupted();  // from now on Ctrl-C stops between runs
+  // Ctrl-C stops the transient, and between runs, which an observer would slow down
   const Integration transient =
-      integrate(Dop853{}, system, start, options.discard, {.tolerance = settling}, {});
+      integrate(Dop853{}, system, start, options.discard, {.tolerance = settling},
+                [](const Step&) { return !is_interrupted(); });
+  bench.was_stopped = transient.outcome == Outcome::stopped_by_observer;
+  if (bench.was_stopped) return bench;
   if (transient.outcome != Outcome::reached_end) {
     throw NumericalError("the transient failed: " + transient.diagnosis);
   }
@@ -126,6 +129,7 @@ void add(Record& record, const Bench& bench) {
 
 std::string text_of(const Bench& bench, const Model& model) {
   const ReferenceMotion& reference = bench.reference;
+  if (bench.runs.empty()) return "  stopped before the first run\n";
   Table table({"method", "tolerance", "error", "ns/revolution", "steps/rev", "evaluations/rev"});
   std::string failures;
   for (const TimedRun& run : bench.runs) {
@@ -150,10 +154,18 @@ std::string text_of(const Bench& bench, const Model& model) {
       model.contacts.empty() ? "the size of the motion" : "the smallest clearance",
       reference.made_by, reference.error);
   if (reference.growth > sensitive) {
+    const std::string size =
+        reference.is_lost()
+            ? "until it is as large as the motion"
+            : fmt::format(
+                  "{:.2g} times, e times every {:.2g} revolutions", reference.growth,
+                  static_cast<double>(bench.options.revolutions) / std::log(reference.growth));
     text += fmt::format(
-        "  a small deviation grows {:.2g} times over these revolutions: the motion is chaotic or\n"
-        "  unstable, and so grow the errors of steps; fewer --revolutions show the method alone\n",
-        reference.growth);
+        "  over these revolutions a small deviation grows {}:\n"
+        "  the motion is chaotic or unstable, and so grow the errors of steps; fewer "
+        "--revolutions\n"
+        "  show the methods alone\n",
+        size);
   }
   if (reference.error > poor_reference) {
     text += fmt::format(

@@ -1,6 +1,9 @@
 // bench: errors and times of integrators, as table, JSON, result file and picture.
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
+#include <thread>
 
 #include "libio/hdf5.hpp"
 #include "tests/cli/program.hpp"
@@ -129,7 +132,7 @@ TEST_F(Bench, SaysThatDeviationsGrow) {
   EXPECT_GT(growth, 0.5 * expected);
   EXPECT_LT(growth, 3.0 * expected);
   const std::string text = whirl(words).out;
-  EXPECT_TRUE(has(text, "a small deviation grows")) << text;
+  EXPECT_TRUE(has(text, "a small deviation grows ") && has(text, "e times every 0.")) << text;
   EXPECT_TRUE(has(text, "the size of the motion")) << text;
 }
 
@@ -137,6 +140,16 @@ TEST_F(Bench, GoesOnWhereAResultEnded) {
   EXPECT_EQ(whirl({"simulate", "rub.toml", "--out", "run.h5", "--quiet"}).status, 0);
   const json settled = result(with(call, {"--from", "run.h5", "--discard", "0"}));
   EXPECT_LT(settled["runs"][1]["error"], 1e-8);
+}
+
+// Ctrl-C in a transient that would take days: nothing is measured, and that is said.
+TEST_F(Bench, StopsOnCtrlC) {
+  const pid_t child = start(WHIRL_PROGRAM, {"bench", "rub.toml", "--discard", "900000000"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  kill(child, SIGINT);
+  const Outcome outcome = wait(child);
+  EXPECT_EQ(outcome.status, 130);
+  EXPECT_TRUE(has(outcome.out, "stopped before the first run")) << outcome.out;
 }
 
 TEST_F(Bench, RefusesWhatItCannotMeasure) {

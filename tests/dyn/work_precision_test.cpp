@@ -39,10 +39,18 @@ TEST(WorkPrecision, ReferenceOfAStableMotionIsExactToRounding) {
   EXPECT_EQ(p.reference.made_by, "dop853 at 1e-15");
 }
 
-TEST(WorkPrecision, ChaosShowsInTheGrowthOfDeviations) {
-  const Steady p(test::P4);  // weakly chaotic
-  EXPECT_GT(p.reference.growth, 10.0);
-  EXPECT_LT(p.reference.error, 1e-10);
+// At 146 rad/s the rotor and stator move chaotically: what a reference knows after 20 revolutions
+// is lost after 100, and it says so.
+TEST(WorkPrecision, ChaosLimitsTheReference) {
+  test::RotorStator p = test::P4;
+  p.Omega = 146.0;
+  const Steady chaotic(p);
+  EXPECT_GT(chaotic.reference.growth, 100.0);
+  EXPECT_FALSE(chaotic.reference.is_lost());
+  EXPECT_LT(chaotic.reference.error, 1e-8);
+  const ReferenceMotion later = dop853_reference(chaotic.scene.contacts, chaotic.start, 100);
+  EXPECT_TRUE(later.is_lost());
+  EXPECT_GT(later.error, 1e-4);
 }
 
 // The error is that of an independent run, and it falls with the tolerance; a tighter one costs
