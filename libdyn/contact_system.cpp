@@ -183,6 +183,26 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
   }
 }
 
+void ContactSystem::acceleration(double phase, const double* y, double* a) const {
+  const int n = coordinates();
+  Eigen::Map<Vec> result(a, n);
+  const Eigen::Map<const Vec> eta(y, n), rate(y + n, n);
+  result = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
+  result.noalias() -= K_ * eta;
+  result.noalias() -= D_ * rate;
+  for (const ReducedContact& c : contacts_) {
+    const ContactForces f = kinematics(c, y, n);
+    if (f.depth <= 0.0 || f.normal <= 0.0) continue;
+    Vec2 force = f.normal * f.n;
+    if (c.friction.mu > 0.0) {
+      const double sign = f.slip >= 0.0 ? 1.0 : -1.0;
+      const double share = c.friction.is_exact() ? sign : c.friction.smooth_share(f.slip);
+      force += c.friction.mu * share * f.normal * f.t();
+    }
+    result.noalias() -= c.B * force;
+  }
+}
+
 double ContactSystem::sticking_force(double phase, const double* y, const ContactStates& states,
                                      int i) const {
   ContactStates trial = states;

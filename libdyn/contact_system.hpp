@@ -89,6 +89,10 @@ class ContactSystem {
   /// @param a  receives n accelerations
   void acceleration(double phase, const double* y, const ContactStates& states, double* a) const;
 
+  /// The same without a memory of events, as classify would have it: contacts touch where the state
+  /// lies beyond the clearance, friction takes the sign of the slip, nothing sticks.
+  void acceleration(double phase, const double* y, double* a) const;
+
   /// Normal force, slip and friction of every contact; friction of sticking ones is solved for.
   void forces(double phase, const double* y, const ContactStates& states,
               std::vector<ContactForces>& out) const;

@@ -6,13 +6,15 @@
 #include <variant>
 #include <vector>
 
+#include "libdyn/methods/arkode.hpp"
 #include "libdyn/methods/cvode.hpp"
 #include "libdyn/methods/dop853.hpp"
+#include "libdyn/methods/rk4.hpp"
 #include "libdyn/methods/taylor.hpp"
 
 namespace whirl {
 
-using AnyMethod = std::variant<Taylor, Dop853, CvodeAdams, CvodeBdf>;
+using AnyMethod = std::variant<Taylor, Dop853, CvodeAdams, CvodeBdf, Arkode, ArkodeDirk, Rk4>;
 
 /// Names of all methods, in the order of the list.
 std::vector<std::string_view> method_names();

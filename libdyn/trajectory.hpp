@@ -43,6 +43,7 @@ using Observer = std::function<bool(const Step&)>;
 struct IntegrationOptions {
   double tolerance = 1e-10;  ///< of a step, displacements by the length scale
   double fixed_step = 0.0;   ///< [s]; not 0: no error control, steps of this size between events
+                             ///< (one-step methods)
 };
 
 enum class Outcome { reached_end, stopped_by_observer, step_too_small, not_finite };

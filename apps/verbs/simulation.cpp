@@ -100,7 +100,9 @@ const std::vector<OptionSpec>& integration_options() {
       {"revolutions", "N", "revolutions that are recorded (512)"},
       {"discard", "N", "revolutions before them, for the transient (500)"},
       {"samples", "N", "samples per revolution (64)"},
-      {"method", "M", "integrator: taylor (the default), dop853, cvode-adams, cvode-bdf"},
+      {"method", "M",
+       "integrator: taylor (the default), dop853, cvode-adams, cvode-bdf, arkode, "
+       "arkode-dirk, rk4"},
       {"tolerance", "T", "of a step, displacements by the clearance (1e-10)"},
       {"from", "FILE.h5", "start where a result ended"},
       {"stations", "NAME,...",
@@ -108,45 +110,58 @@ const std::vector<OptionSpec>& integration_options() {
   return options;
 }
 
-Run run_simulation(const Invocation& call, const Model& original) {
-  Model model = original;
-  if (!model.has_speed) {
-    throw ModelError({}, "operation.speed",
-                     "missing, expected a speed (rad/s): write [operation] speed = "
-                     "\"3000 rpm\", or use --speed 3000rpm");
-  }
-  SimulationOptions options;
-  options.revolutions = call.integer("revolutions", options.revolutions);
-  options.discard = call.integer("discard", options.discard, 0);
-  options.samples = static_cast<int>(call.integer("samples", options.samples, 4));
-  options.integration.tolerance = call.number("tolerance", "", options.integration.tolerance);
-  if (!(options.integration.tolerance >= 1e-15 && options.integration.tolerance <= 1e-2)) {
-    throw ModelError({"--tolerance " + call.text("tolerance")}, "",
-                     "expected a number from 1e-15 to 1e-2");
-  }
-  const std::string method = call.text("method", "taylor");
-  const std::vector<std::string_view> methods = method_names();
-  if (method != "cvode" && std::find(methods.begin(), methods.end(), method) == methods.end()) {
-    throw ModelError({"--method " + method}, "",
-                     fmt::format("unknown method, expected one of {}", fmt::join(methods, ", ")));
-  }
-  options.method = method_named(method);
+void require_speed(const Model& model) {
+  if (model.has_speed) return;
+  throw ModelError({}, "operation.speed",
+                   "missing, expected a speed (rad/s): write [operation] speed = "
+                   "\"3000 rpm\", or use --speed 3000rpm");
+}
 
-  std::optional<EarlierEnd> end;
+MotionState starting_state(const Invocation& call, Model model, const Scene& scene) {
   if (call.has("from")) {
     model.start.from = StartFrom::file;
     model.start.file = call.given.at("from");
     model.start.whirl.clear();  // it goes on as it was
   }
-  if (model.start.from == StartFrom::file) end = read_end(model.start.file);
+  if (model.start.from != StartFrom::file) return start_state(model, scene, nullptr);
+  const EarlierEnd end = read_end(model.start.file);
+  MotionState state = start_state(model, scene, &end.state);
+  state.phase = end.phase;
+  return state;
+}
+
+void require_tolerance(double tolerance, const std::string& option) {
+  if (tolerance >= 1e-15 && tolerance <= 1e-2) return;
+  throw ModelError({option}, "", "expected a number from 1e-15 to 1e-2");
+}
+
+void require_method(const std::string& method, const std::string& option) {
+  const std::vector<std::string_view> methods = method_names();
+  if (method == "cvode" || std::find(methods.begin(), methods.end(), method) != methods.end()) {
+    return;
+  }
+  throw ModelError({option}, "",
+                   fmt::format("unknown method, expected one of {}", fmt::join(methods, ", ")));
+}
+
+Run run_simulation(const Invocation& call, const Model& model) {
+  require_speed(model);
+  SimulationOptions options;
+  options.revolutions = call.integer("revolutions", options.revolutions);
+  options.discard = call.integer("discard", options.discard, 0);
+  options.samples = static_cast<int>(call.integer("samples", options.samples, 4));
+  options.integration.tolerance = call.number("tolerance", "", options.integration.tolerance);
+  require_tolerance(options.integration.tolerance, "--tolerance " + call.text("tolerance"));
+  const std::string method = call.text("method", "taylor");
+  require_method(method, "--method " + method);
+  options.method = method_named(method);
 
   Scene scene = make_scene(model);
   require_memory(options, scene.contacts.coordinates(), model.contacts.size());
   std::vector<NamedPoint> stations = select_points(model, scene.assembler, call.text("stations"));
-  MotionState start = start_state(model, scene, end ? &end->state : nullptr);
-  if (end && end->phase > 0.0) {
+  MotionState start = starting_state(call, model, scene);
+  if (start.phase > 0.0) {
     // samples begin with a revolution: what is left of this one is not recorded
-    start.phase = end->phase;
     options.discard = std::max(1L, options.discard);
   }
   const long total = options.discard + options.revolutions;

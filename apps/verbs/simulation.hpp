@@ -1,5 +1,5 @@
 #pragma once
-/// What `simulate` and `identify` share: options, the run itself, its tables and its result group.
+/// What the verbs that integrate share: options, the run itself, its tables and its result group.
 
 #include <memory>
 #include <string>
@@ -26,6 +26,16 @@ struct Run {
   std::shared_ptr<const ResponseSpectra> spectra;  ///< null without a motion
   bool has_motion() const { return simulation.recording.revolutions > 0; }
 };
+
+/// @throws ModelError  for a model without an operating speed
+void require_speed(const Model& model);
+/// @throws ModelError  naming the option and its value, if there is no such method, or if a
+///                     tolerance is out of its range
+void require_method(const std::string& method, const std::string& option);
+void require_tolerance(double tolerance, const std::string& option);
+
+/// Where a motion begins: at the model's [start], or where the result of --from ended.
+MotionState starting_state(const Invocation& call, Model model, const Scene& scene);
 
 /// Integrates a model as an invocation says. @throws ModelError for a model without a speed
 Run run_simulation(const Invocation& call, const Model& model);

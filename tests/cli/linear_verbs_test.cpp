@@ -23,7 +23,7 @@ class Linear : public Program {
 TEST_F(Linear, EveryVerbSaysModelVersionAndSpeed) {
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
-    const json r = result({verb, "rotor.toml", "--speed", "300rpm"});
+    const json r = result(briefly({verb, "rotor.toml", "--speed", "300rpm"}));
     EXPECT_EQ(r["model"], "rotor.toml");
     EXPECT_TRUE(r["version"].is_string());
     EXPECT_DOUBLE_EQ(r["speed_rpm"].get<double>(), 300.0);
@@ -293,7 +293,7 @@ TEST_F(Linear, FormsOfSpeeds) {
 TEST_F(Linear, JsonToStandardOutputIsAllThatIsPrinted) {
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
-    const Outcome outcome = whirl({verb, "rotor.toml", "--speed", "100", "--json", "-"});
+    const Outcome outcome = whirl(briefly({verb, "rotor.toml", "--speed", "100", "--json", "-"}));
     EXPECT_EQ(outcome.status, 0);
     EXPECT_TRUE(json::accept(outcome.out)) << outcome.out;
     EXPECT_EQ(outcome.err, "");
@@ -303,13 +303,13 @@ TEST_F(Linear, JsonToStandardOutputIsAllThatIsPrinted) {
 TEST_F(Linear, JsonToAFileLeavesTheTextAndQuietLeavesNothing) {
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
-    const Outcome text = whirl({verb, "rotor.toml", "--speed", "100", "--json", "r.json"});
+    const Outcome text = whirl(briefly({verb, "rotor.toml", "--speed", "100", "--json", "r.json"}));
     EXPECT_EQ(text.status, 0);
     EXPECT_NE(text.out, "");
     const json from_file = json::parse(content(folder / "r.json"));
     EXPECT_EQ(from_file["model"], "rotor.toml");
-    const Outcome quiet =
-        whirl({verb, "rotor.toml", "--speed", "100", "--quiet", "--threads", "1", "--out", "r.h5"});
+    const Outcome quiet = whirl(briefly(
+        {verb, "rotor.toml", "--speed", "100", "--quiet", "--threads", "1", "--out", "r.h5"}));
     EXPECT_EQ(quiet.status, 0);
     EXPECT_EQ(quiet.out, "");
     EXPECT_EQ(quiet.err, "");

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "libfe/base/error.hpp"
 #include "tests/support/scenes.hpp"
@@ -193,6 +194,28 @@ TEST(ContactSystem, ClassifiesAnInstantWithoutAPast) {
             Touch::receding);  // 1e6 1e-4 - 1e3 1 < 0: it would pull
   // v_t = Omega R + v_y = 0, and little force along t: it sticks
   EXPECT_EQ(touch(1.1e-3, 0.0, -p.Omega * p.R).touch, Touch::sticking);
+}
+
+// The equations that look only at the state are those of the contacts that it is classified to:
+// apart, receding with damping, sliding either way.
+TEST(ContactSystem, AcceleratesWithoutAPastAsItClassifies) {
+  RotorStator p;
+  p.cC = 2e4;
+  const Scene scene = p.scene();
+  std::mt19937 random(7);
+  std::set<Touch> met;
+  for (const double reach : {0.9, 1.01, 1.2}) {
+    for (int i = 0; i < 30; ++i) {
+      const Vec y = random_state(random, p, reach);
+      const double phase = 0.1 * i;
+      const ContactStates states = scene.contacts.classify(phase, y.data());
+      met.insert(states[0].touch);
+      Vec a(4);
+      scene.contacts.acceleration(phase, y.data(), a.data());
+      EXPECT_EQ(a, acceleration(scene.contacts, phase, y, states));
+    }
+  }
+  EXPECT_EQ(met, (std::set{Touch::apart, Touch::receding, Touch::sliding}));
 }
 
 // What is left of the slip is taken away by an impulse of friction: it leaves m_r v_r + m_s v_s.

@@ -1,0 +1,257 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
+#include "apps/verbs/simulation.hpp"
+#include "libdyn/work_precision.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/plot.hpp"
+#include "libio/replace_file.hpp"
+#include "libio/table.hpp"
+#include "libio/units.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double settling = 1e-10;        ///< tolerance of the transient
+constexpr double sensitive = 100.0;       ///< growth of deviations that is worth a line
+constexpr double poor_reference = 1e-10;  ///< its own error
+
+struct BenchOptions {
+  std::vector<std::string> methods;
+  std::vector<double> tolerances{1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+  long revolutions = 20, discard = 500;
+};
+
+/// "1e-6", "2.5e-7"
+std::string tolerance_text(double tolerance) {
+  const int power = static_cast<int>(std::floor(std::log10(tolerance) + 1e-9));
+  return fmt::format("{:.4g}e{}", tolerance / std::pow(10.0, power), power);
+}
+
+std::vector<std::string> parts_of(const std::string& list) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= list.size();) {
+    const std::size_t to = std::min(list.find(',', from), list.size());
+    parts.push_back(list.substr(from, to - from));
+    from = to + 1;
+  }
+  return parts;
+}
+
+BenchOptions options_of(const Invocation& call) {
+  BenchOptions options;
+  options.revolutions = call.integer("revolutions", options.revolutions);
+  options.discard = call.integer("discard", options.discard, 0);
+  const auto names = method_names();
+  options.methods.assign(names.begin(), names.end());
+  if (call.has("methods")) options.methods = parts_of(call.text("methods"));
+  for (const std::string& m : options.methods) require_method(m, "--methods " + m);
+  if (call.has("tolerances")) {
+    options.tolerances.clear();
+    for (const std::string& part : parts_of(call.text("tolerances"))) {
+      const auto value = parse_as(part, "");
+      if (!value) throw ModelError({"--tolerances " + part}, "", value.problem);
+      require_tolerance(*value, "--tolerances " + part);
+      options.tolerances.push_back(*value);
+    }
+  }
+  return options;
+}
+
+struct Bench {
+  BenchOptions options;
+  ReferenceMotion reference;
+  std::vector<TimedRun> runs;  ///< tolerance by tolerance of method by method
+  bool was_stopped = false;
+};
+
+Bench run_all(const Invocation& call, const Model& model) {
+  Bench bench{.options = options_of(call)};
+  BenchOptions& options = bench.options;
+  const Scene scene = make_scene(model);
+  const ContactSystem& system = scene.contacts;
+  MotionState start = starting_state(call, model, scene);
+  if (start.phase > 0.0) options.discard = std::max(1L, options.discard);
+
+  const auto count = static_cast<long>(options.methods.size() * options.tolerances.size());
+  Progress progress("measuring", count + 1, call.shows_progress);
+  // Ctrl-C stops the transient, and between runs, which an observer would slow down
+  const Integration transient =
+      integrate(AnyMethod{}, system, start, options.discard, {.tolerance = settling},
+                [](const Step&) { return !is_interrupted(); });
+  bench.was_stopped = transient.outcome == Outcome::stopped_by_observer;
+  if (bench.was_stopped) return bench;
+  if (transient.outcome != Outcome::reached_end) {
+    throw NumericalError("the transient failed: " + transient.diagnosis);
+  }
+  bench.reference = dop853_reference(system, start, options.revolutions);
+  for (const std::string& method : options.methods) {
+    const Candidate measured = candidate(system, method);
+    for (const double tolerance : options.tolerances) {
+      progress.update(1 + static_cast<long>(bench.runs.size()));
+      bench.was_stopped = is_interrupted();
+      if (bench.was_stopped) return bench;
+      bench.runs.push_back(measure(measured, tolerance, system, start, bench.reference));
+    }
+  }
+  return bench;
+}
+
+double per_revolution(const Bench& bench, long count) {
+  return static_cast<double>(count) / static_cast<double>(bench.options.revolutions);
+}
+
+void add(Record& record, const Bench& bench) {
+  record.set("revolutions", bench.options.revolutions).set("discard", bench.options.discard);
+  Record reference;
+  reference.set("made_by", bench.reference.made_by).set("error", bench.reference.error);
+  reference.set("growth", bench.reference.growth);
+  record.set("reference", reference);
+  Record runs = Record::array();
+  for (const TimedRun& run : bench.runs) {
+    const Cost& cost = run.integration.cost;
+    Record r;
+    r.set("method", run.method).set("tolerance", run.tolerance).set("error", run.error);
+    r.set("ns_per_revolution", run.has_failed() ? Record(nullptr) : Record(1e9 * run.time));
+    r.set("steps", cost.steps).set("evaluations", cost.evaluations).set("events", cost.events);
+    if (run.has_failed()) r.set("failure", run.integration.diagnosis);
+    runs.add(r);
+  }
+  record.set("runs", runs);
+}
+
+std::string text_of(const Bench& bench, const Model& model) {
+  const ReferenceMotion& reference = bench.reference;
+  if (bench.runs.empty()) return "  stopped before the first run\n";
+  Table table({"method", "tolerance", "error", "ns/revolution", "steps/rev", "evaluations/rev"});
+  std::string failures;
+  for (const TimedRun& run : bench.runs) {
+    const Cost& cost = run.integration.cost;
+    const std::string tolerance = tolerance_text(run.tolerance);
+    if (run.has_failed()) {
+      table.row({run.method, tolerance, "-", "-", "-", "-"});
+      failures +=
+          fmt::format("  {} at {} failed: {}\n", run.method, tolerance, run.integration.diagnosis);
+      continue;
+    }
+    table.row({run.method, tolerance, fmt::format("{:.1e}", run.error),
+               fmt::format("{:.0f}", 1e9 * run.time),
+               fmt::format("{:.1f}", per_revolution(bench, cost.steps)),
+               fmt::format("{:.1f}", per_revolution(bench, cost.evaluations))});
+  }
+  std::string text = table.text() + (failures.empty() ? "" : "\n" + failures);
+  text += fmt::format(
+      "\n  error: the largest after {} revolution{}, displacements by {},\n"
+      "  velocities by that times the speed, against {}, whose own error is about {:.0e}\n",
+      bench.options.revolutions, bench.options.revolutions == 1 ? "" : "s",
+      model.contacts.empty() ? "the size of the motion" : "the smallest clearance",
+      reference.made_by, reference.error);
+  if (reference.growth > sensitive) {
+    const std::string size =
+        reference.is_lost()
+            ? "until it is as large as the motion"
+            : fmt::format(
+                  "{:.2g} times, e times every {:.2g} revolutions", reference.growth,
+                  static_cast<double>(bench.options.revolutions) / std::log(reference.growth));
+    text += fmt::format(
+        "  over these revolutions a small deviation grows {}:\n"
+        "  the motion is chaotic or unstable, and so grow the errors of steps; fewer "
+        "--revolutions\n"
+        "  show the methods alone\n",
+        size);
+  }
+  if (reference.error > poor_reference) {
+    text += fmt::format(
+        "  warning: the reference is no better than {:.0e}; errors near or below that say "
+        "nothing\n",
+        reference.error);
+  }
+  if (bench.was_stopped) text += "  stopped before the end\n";
+  return text;
+}
+
+/// Numbers over methods and tolerances.
+void write(ResultWriter& file, const Bench& bench, const Model& model) {
+  const BenchOptions& options = bench.options;
+  const auto columns = static_cast<Eigen::Index>(options.tolerances.size());
+  const auto rows = static_cast<Eigen::Index>(options.methods.size());
+  const Mat nothing = Mat::Constant(rows, columns, std::numeric_limits<double>::quiet_NaN());
+  Mat error = nothing, time = nothing, steps = nothing, evaluations = nothing;
+  for (std::size_t i = 0; i < bench.runs.size(); ++i) {
+    const TimedRun& run = bench.runs[i];
+    if (run.has_failed()) continue;
+    const auto row = static_cast<Eigen::Index>(i) / columns;
+    const auto column = static_cast<Eigen::Index>(i) % columns;
+    error(row, column) = run.error;
+    time(row, column) = run.time;
+    steps(row, column) = per_revolution(bench, run.integration.cost.steps);
+    evaluations(row, column) = per_revolution(bench, run.integration.cost.evaluations);
+  }
+  file.attribute("/", "speed", model.speed);
+  file.dataset("/bench/method", options.methods, {"", "method", {""}});
+  file.dataset("/bench/tolerance", options.tolerances, {"", "tolerance of a step", {""}});
+  const std::vector<std::string> axes{"/bench/method", "/bench/tolerance"};
+  file.dataset("/bench/error", error, {"", "largest error at the end", axes});
+  file.dataset("/bench/time", time, {"s", "processor time per revolution", axes});
+  file.dataset("/bench/steps", steps, {"", "steps per revolution", axes});
+  file.dataset("/bench/evaluations", evaluations, {"", "evaluations per revolution", axes});
+  file.attribute("/bench", "revolutions", static_cast<double>(options.revolutions));
+  file.attribute("/bench", "reference", bench.reference.made_by);
+  file.attribute("/bench", "reference_error", bench.reference.error);
+  file.attribute("/bench", "growth", bench.reference.growth);
+}
+
+LinePlot plot_of(const Bench& bench, const Model& model) {
+  LinePlot plot;
+  plot.title = model.title.empty() ? "Speed against error" : model.title;
+  const auto [least, largest] =
+      std::minmax_element(bench.options.tolerances.begin(), bench.options.tolerances.end());
+  plot.subtitle = fmt::format("{:.6g} rpm, one core, tolerances from {} to {}", model.speed / rpm,
+                              tolerance_text(*largest), tolerance_text(*least));
+  plot.x = {fmt::format("error after {} revolution{} [{}]", bench.options.revolutions,
+                        bench.options.revolutions == 1 ? "" : "s",
+                        model.contacts.empty() ? "sizes of the motion" : "clearances"),
+            Scale::logarithmic};
+  plot.y = {"time per revolution [ns]", Scale::logarithmic};
+  for (const TimedRun& run : bench.runs) {
+    if (plot.series.empty() || plot.series.back().name != run.method) {
+      plot.series.push_back({run.method, {}, {}});
+    }
+    // nearer to the reference than this nothing is known
+    plot.series.back().x.push_back(std::max(run.error, bench.reference.error));
+    plot.series.back().y.push_back(1e9 * run.time);
+  }
+  plot.marks.push_back({bench.reference.error, "error of the reference"});
+  return plot;
+}
+
+}  // namespace
+
+Report run_bench(const Invocation& call) {
+  const Model model = call.model();
+  require_speed(model);
+  const auto file = call.result_file(model);
+  if (call.has("svg")) FileReplacement{call.given.at("svg")};  // a wrong place is said at once
+  const Bench bench = run_all(call, model);
+
+  Report report{.record = begin_record(call, model), .status = bench.was_stopped ? 130 : 0};
+  add(report.record, bench);
+  report.text = "Speed against error" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
+                text_of(bench, model);
+  if (call.has("svg")) {
+    replace_file(call.given.at("svg"), svg_of(plot_of(bench, model)));
+    report.text += fmt::format("\n  picture: {}\n", call.given.at("svg"));
+  }
+  if (file) write(*file, bench, model);
+  commit(call, file.get(), report);
+  return report;
+}
+
+}  // namespace whirl

@@ -1,0 +1,101 @@
+#include "libdyn/methods/rk4.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libdyn/methods/diagnosis.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double usual_steps = 1000.0, usual_tolerance = 1e-10;  ///< per revolution
+
+double longest_step(const ContactSystem& system, const IntegrationOptions& options) {
+  if (options.fixed_step > 0.0) return options.fixed_step;
+  return system.period() / usual_steps * std::pow(options.tolerance / usual_tolerance, 0.25);
+}
+
+/// The step as polynomials: the quintic through displacements, velocities and accelerations of both
+/// ends, and its derivative. They meet the ends exactly and keep the order within.
+void dense(const Vec& y0, const Vec& dy0, const Vec& y1, const Vec& dy1, Step& step) {
+  const auto n = y0.size() / 2;
+  const double h = step.h;
+  const Vec q0 = y0.head(n), v0 = h * y0.tail(n), a0 = 0.5 * h * h * dy0.tail(n);
+  // what the first three terms leave at the end, for value, slope and half the curvature
+  const Vec a = y1.head(n) - q0 - v0 - a0, b = h * y1.tail(n) - v0 - 2.0 * a0,
+            c = 0.5 * h * h * dy1.tail(n) - a0;
+  step.q.resize(n, 6);
+  step.q << q0, v0, a0, 10.0 * a - 4.0 * b + c, -15.0 * a + 7.0 * b - 2.0 * c,
+      6.0 * a - 3.0 * b + c;
+  step.v.resize(n, 5);
+  for (int k = 1; k <= 5; ++k) step.v.col(k - 1) = (k / h) * step.q.col(k);
+}
+
+}  // namespace
+
+Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long revolutions,
+                           const IntegrationOptions& options, const Observer& observer) {
+  Integration result;
+  Cost& cost = result.cost;
+  const int n = system.coordinates();
+  const double rate = system.phase_rate(), period = system.period();
+  const double longest = longest_step(system, options);
+  const long last = state.revolution + revolutions;
+  const auto derivative = [&](double phase, const Vec& y, Vec& dy) {
+    dy.head(n) = y.tail(n);
+    system.acceleration(phase, y.data(), dy.data() + n);
+    ++cost.evaluations;
+  };
+
+  Vec& y = state.y;
+  Vec k1(2 * n), k2(2 * n), k3(2 * n), k4(2 * n), stage(2 * n), end(2 * n);
+  Step step;
+  derivative(state.phase, y, k1);
+  while (state.revolution < last) {
+    const double first = state.phase, left = period - first / rate;
+    const double count = std::max(1.0, std::ceil(left / longest * (1.0 - 1e-9)));
+    const double h = left / count, turn = h * rate;
+    for (double i = 0.0; i < count; ++i) {  // a double: counts beyond any integer fail by time
+      const double phase = first + i * turn;
+      stage = y + 0.5 * h * k1;
+      derivative(phase + 0.5 * turn, stage, k2);
+      stage = y + 0.5 * h * k2;
+      derivative(phase + 0.5 * turn, stage, k3);
+      stage = y + h * k3;
+      derivative(phase + turn, stage, k4);
+      end = y + (h / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
+      if (!end.allFinite()) {
+        state.contacts = system.classify(state.phase, y.data());
+        result.outcome = Outcome::not_finite;
+        result.diagnosis = diagnosis(system, state, "a step of RK4 gave no finite numbers");
+        return result;
+      }
+      ++cost.steps;
+      const bool ends_revolution = i + 1.0 == count;
+      step.revolution = state.revolution;
+      step.phase = phase;
+      step.h = h;
+      step.turn = turn;
+      if (observer) step.contacts = system.classify(phase, y.data());
+      derivative(phase + turn, end, k2);  // of the end, where the next step starts
+      if (observer) dense(y, k1, end, k2, step);
+      y.swap(end);
+      k1.swap(k2);
+      state.phase = phase + turn;
+      if (ends_revolution) {
+        ++state.revolution;
+        state.phase = 0.0;
+      }
+      if (observer && !observer(step)) {
+        result.outcome = Outcome::stopped_by_observer;
+        state.contacts = system.classify(state.phase, y.data());
+        return result;
+      }
+    }
+  }
+  state.contacts = system.classify(state.phase, y.data());
+  return result;
+}
+
+}  // namespace whirl

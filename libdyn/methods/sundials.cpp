@@ -1,0 +1,167 @@
+#include "libdyn/methods/sundials.hpp"
+
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libdyn/methods/diagnosis.hpp"
+
+namespace whirl::sundials {
+
+namespace {
+
+constexpr int most_instant_events = 50;
+enum Flag { stop_time = 1, root = 2 };  // of CVODE and ARKODE alike; below zero: a failure
+
+SUNContext new_context() {
+  SUNContext context = nullptr;
+  SUNContext_Create(nullptr, &context);
+  return context;
+}
+
+Eigen::Map<Vec> values(const Vector& v) {
+  return {N_VGetArrayPointer(v.get()), N_VGetLength_Serial(v.get())};
+}
+
+}  // namespace
+
+NewtonSolver::NewtonSolver(N_Vector y, SUNContext context)
+    : jacobian(SUNDenseMatrix(N_VGetLength_Serial(y), N_VGetLength_Serial(y), context)),
+      linear(SUNLinSol_Dense(y, jacobian.get(), context)) {}
+
+Motion::Motion(const ContactSystem& system, MotionState& state, double tolerance)
+    : system_(system),
+      state_(state),
+      watcher_(system),
+      context_(new_context()),
+      y_(N_VNew_Serial(system.size(), context())),
+      weight_(N_VNew_Serial(system.size(), context())),
+      work_(N_VNew_Serial(system.size(), context())) {
+  if (state.contacts.size() != system.contacts().size()) {
+    state.contacts = system.classify(state.phase, state.y.data());
+  }
+  values(y_) = state.y;
+  values(weight_) = tolerance * system.state_scale();
+}
+
+int Motion::rhs(realtype t, N_Vector y, N_Vector dy, void* motion) {
+  auto& m = *static_cast<Motion*>(motion);
+  const double* from = N_VGetArrayPointer(y);
+  double* to = N_VGetArrayPointer(dy);
+  const int n = m.system_.coordinates();
+  std::copy(from + n, from + 2 * n, to);
+  m.system_.acceleration(t * m.system_.phase_rate(), from, m.state_.contacts, to + n);
+  ++m.result_.cost.evaluations;
+  return std::all_of(to, to + 2 * n, [](double x) { return std::isfinite(x); }) ? 0 : 1;
+}
+
+int Motion::root_functions(realtype t, N_Vector y, realtype* g, void* motion) {
+  const auto& m = *static_cast<Motion*>(motion);
+  for (std::size_t i = 0; i < m.roots_.size(); ++i) {
+    g[i] = m.watcher_.value({0.0, m.roots_[i].first, m.roots_[i].second},
+                            t * m.system_.phase_rate(), N_VGetArrayPointer(y), m.state_.contacts);
+  }
+  return 0;
+}
+
+/// Lets a solver look for the ends of the contacts' present states, and stop with the revolution.
+void Motion::watch(const Solver& solver, void* memory) {
+  roots_.clear();
+  for (int i = 0; i < static_cast<int>(state_.contacts.size()); ++i) {
+    for (const EventKind kind : watcher_.kinds(i, state_.contacts[static_cast<std::size_t>(i)])) {
+      roots_.emplace_back(i, kind);
+    }
+  }
+  solver.watch(memory, static_cast<int>(roots_.size()), root_functions);
+  std::vector<int> falling(roots_.size(), -1);
+  if (!falling.empty()) solver.set_root_direction(memory, falling.data());
+  solver.set_no_inactive_root_warning(memory);
+  solver.set_stop_time(memory, system_.period());
+}
+
+void Motion::restart(const Solver& solver, void* memory, double t) {
+  solver.restart(memory, t, y());
+  watch(solver, memory);
+}
+
+/// The solver's interpolating polynomial over its last step, in s = (t - from) / h.
+void Motion::dense(const Solver& solver, void* memory, double from, double to, Step& step) {
+  const int n = system_.coordinates(), degree = solver.degree(memory);
+  step.q.resize(n, degree + 1);
+  step.v.resize(n, degree + 1);
+  double factor = 1.0;
+  for (int k = 0; k <= degree; ++k) {
+    if (k > 0) factor *= (to - from) / k;
+    solver.derivative(memory, from, k, work_.get());
+    step.q.col(k) = factor * values(work_).head(n);
+    step.v.col(k) = factor * values(work_).tail(n);
+  }
+}
+
+Integration Motion::run(const Solver& solver, void* memory, long revolutions,
+                        const Observer& observer) {
+  const double rate = system_.phase_rate(), period = system_.period();
+  const long last = state_.revolution + revolutions;
+  const Eigen::Map<Vec> now = values(y_);
+  const auto fail = [&](Outcome outcome, std::string_view what) {
+    result_.outcome = outcome;
+    result_.diagnosis = diagnosis(system_, state_, what);
+    return result_;
+  };
+  double t = start();
+  watch(solver, memory);
+  Step step;
+  int instant_events = 0;
+  while (state_.revolution < last) {
+    const double before = t;
+    const int flag = solver.step(memory, period, y(), &t);
+    if (flag < 0 || !now.allFinite()) {
+      return fail(now.allFinite() ? Outcome::step_too_small : Outcome::not_finite,
+                  fmt::format("{} failed with flag {}", solver.name, flag));
+    }
+    const bool has_moved = t > before;
+    if (has_moved) {
+      step.revolution = state_.revolution;
+      step.phase = state_.phase;
+      step.h = t - before;
+      step.turn = step.h * rate;
+      step.contacts = state_.contacts;
+      if (observer) dense(solver, memory, before, t, step);
+      ++result_.cost.steps;
+      instant_events = 0;
+    }
+    state_.y = now;
+    state_.phase = t * rate;
+    if (flag == Flag::root) {
+      std::vector<int> found(roots_.size());
+      solver.found_roots(memory, found.data());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i] == 0) continue;
+        const Event event{1.0, roots_[i].first, roots_[i].second};
+        watcher_.apply(event, state_.phase, state_.y.data(), state_.contacts);
+        ++result_.cost.events;
+      }
+      if (!has_moved && ++instant_events > most_instant_events) {
+        return fail(Outcome::step_too_small, "events follow without time passing");
+      }
+      restart(solver, memory, t);
+    }
+    if (flag == Flag::stop_time) {
+      ++state_.revolution;
+      state_.phase = 0.0;
+      t = 0.0;
+      restart(solver, memory, t);
+    }
+    if (has_moved && observer && !observer(step)) {
+      result_.outcome = Outcome::stopped_by_observer;
+      return result_;
+    }
+  }
+  return result_;
+}
+
+}  // namespace whirl::sundials

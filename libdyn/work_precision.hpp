@@ -1,0 +1,66 @@
+#pragma once
+/// Speed against error of integrators, on one motion.
+
+#include <functional>
+#include <string>
+
+#include "libdyn/methods.hpp"
+
+namespace whirl {
+
+/// What errors are measured against: where a motion really is after some revolutions.
+struct ReferenceMotion {
+  Vec end;               ///< (eta, eta')
+  double error = 0.0;    ///< its own, estimated from two independent settings; as error_between
+  double growth = 1.0;   ///< of a small deviation over these revolutions
+  std::string made_by;   ///< in words
+  long revolutions = 0;  ///< from the start
+
+  /// Whether the deviation became as large as the motion: growth then is a lower bound.
+  bool is_lost() const { return growth > 1e6; }
+};
+
+/// Largest error of a state: displacements by the length scale (the clearance), velocities by it
+/// times the rate of the phase (clearance times speed).
+double error_between(const ContactSystem& system, const Vec& a, const Vec& b);
+
+/// Reference by DOP853 at its tightest tolerance. Its own error is the difference from a run with
+/// other steps, at ten times this tolerance.
+///
+/// @throws NumericalError  if the motion cannot be integrated
+ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState& start,
+                                 long revolutions);
+
+/// Something to be measured: moves a state on by whole revolutions at a tolerance.
+struct Candidate {
+  std::string name;
+  std::function<Integration(MotionState& state, long revolutions, double tolerance)> move;
+  double motions = 1.0;  ///< that one call moves at once; they share its time
+};
+
+/// A method of the list. The system must outlive it.
+Candidate candidate(const ContactSystem& system, std::string_view method);
+
+struct TimingOptions {
+  int most_runs = 5;         ///< of which the median counts
+  double most_time = 0.1;    ///< after which a run is not repeated any more [s]
+  double least_time = 1e-3;  ///< of a measurement; short runs are measured several at a time [s]
+};
+
+/// One point of a work-precision diagram.
+struct TimedRun {
+  std::string method;
+  double tolerance = 0.0;
+  double error = 0.0;  ///< NaN if it failed
+  double time = 0.0;   ///< processor time of a revolution, median [s]
+  Integration integration;
+
+  bool has_failed() const { return integration.outcome != Outcome::reached_end; }
+};
+
+/// Measures a candidate from a state to that of the reference.
+TimedRun measure(const Candidate& candidate, double tolerance, const ContactSystem& system,
+                 const MotionState& start, const ReferenceMotion& reference,
+                 const TimingOptions& options = {});
+
+}  // namespace whirl

@@ -1,0 +1,40 @@
+#pragma once
+/// Geometry of a plot: where numbers lie along an axis, and its ticks.
+
+#include <string>
+#include <vector>
+
+namespace whirl {
+
+enum class Scale { linear, logarithmic };
+
+struct Tick {
+  double value = 0.0;
+  std::string label;  ///< "0.5", "10^{−6}"; empty for a small tick between labelled ones
+};
+
+/// A range of numbers along one direction of a plot.
+struct Axis {
+  Scale scale = Scale::linear;
+  double first = 0.0, last = 1.0;  ///< first < last; above zero if logarithmic
+
+  /// Place of a number: 0 at first, 1 at last.
+  double place(double value) const;
+  /// Ticks within the range: round numbers, or powers of ten with small ticks at 2 to 9 times them.
+  /// @param most  labelled ones
+  std::vector<Tick> ticks(int most) const;
+};
+
+/// The axis of round limits that shows all numbers; others than finite ones (and above zero, if
+/// logarithmic) do not count. Without any, 0 to 1, or 1 to 10.
+Axis axis_around(const std::vector<double>& values, Scale scale);
+
+/// Places as near as possible to those wanted, in the same order, with distances between them.
+///
+/// @param wanted    ascending
+/// @param distance  least one between neighbours
+/// @return          least squares of the shifts, before all are moved to lie from low to high
+std::vector<double> spread(const std::vector<double>& wanted, double distance, double low,
+                           double high);
+
+}  // namespace whirl

@@ -1,0 +1,191 @@
+#include "libio/svg.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace whirl {
+
+namespace {
+
+constexpr double exponent_size = 0.7, exponent_rise = 0.45;  ///< of the letters
+constexpr double letter_width = 0.6;  ///< mean one of a sans-serif font, of its size
+
+/// Text with the signs of XML replaced, and without those that XML 1.0 has no way to hold.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) >= ' ') out += c;
+    }
+  }
+  return out;
+}
+
+/// A coordinate to a hundredth of a pixel, without zeros that say nothing.
+std::string number(double value) {
+  std::string text = fmt::format("{:.2f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string stroke_attributes(const Stroke& s) {
+  std::string text = fmt::format(" stroke=\"{}\" stroke-width=\"{}\"", s.color, number(s.width));
+  if (!s.dashes.empty()) text += fmt::format(" stroke-dasharray=\"{}\"", s.dashes);
+  return text;
+}
+
+/// Parts of a text outside and inside of ^{...}, in turn.
+std::vector<std::string_view> exponents_apart(std::string_view text) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const auto from = text.find("^{");
+    const auto to = from == std::string_view::npos ? from : text.find('}', from);
+    if (to == std::string_view::npos) break;
+    parts.push_back(text.substr(0, from));
+    parts.push_back(text.substr(from + 2, to - from - 2));
+    text.remove_prefix(to + 1);
+  }
+  parts.push_back(text);
+  return parts;
+}
+
+}  // namespace
+
+Svg::Svg(double width, double height, std::string_view title)
+    : head_(fmt::format(
+          "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
+          "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, "
+          "'Liberation Sans', 'DejaVu Sans', sans-serif\">\n<title>{2}</title>\n",
+          number(width), number(height), escaped(title))) {}
+
+void Svg::rectangle(Pixel corner, double width, double height, std::string_view fill) {
+  body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
+                       number(corner.x), number(corner.y), number(width), number(height), fill);
+}
+
+void Svg::line(Pixel from, Pixel to, const Stroke& stroke) {
+  body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"{}/>\n", number(from.x),
+                       number(from.y), number(to.x), number(to.y), stroke_attributes(stroke));
+}
+
+void Svg::polyline(const std::vector<Pixel>& points, const Stroke& stroke) {
+  std::string list;
+  for (const Pixel& p : points) {
+    list += fmt::format("{}{},{}", list.empty() ? "" : " ", number(p.x), number(p.y));
+  }
+  body_ += fmt::format(
+      "<polyline points=\"{}\" fill=\"none\" stroke-linejoin=\"round\" "
+      "stroke-linecap=\"round\"{}/>\n",
+      list, stroke_attributes(stroke));
+}
+
+void Svg::marker(Marker shape, Pixel c, double size, std::string_view color) {
+  const double r = 0.5 * size;
+  if (shape == Marker::circle) {
+    body_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"/>\n", number(c.x),
+                         number(c.y), number(r), color);
+    return;
+  }
+  std::vector<Pixel> corners;  // of equal area with the circle, about
+  const double a = 0.88 * r, t = 1.25 * r;
+  switch (shape) {
+    case Marker::square:
+      corners = {{-a, -a}, {a, -a}, {a, a}, {-a, a}};
+      break;
+    case Marker::diamond:
+      corners = {{0.0, -t}, {t, 0.0}, {0.0, t}, {-t, 0.0}};
+      break;
+    case Marker::triangle:
+      corners = {{0.0, -t}, {1.1 * r, 0.75 * r}, {-1.1 * r, 0.75 * r}};
+      break;
+    case Marker::triangle_down:
+      corners = {{0.0, t}, {1.1 * r, -0.75 * r}, {-1.1 * r, -0.75 * r}};
+      break;
+    default: {
+      const double o = 1.1 * r, w = 0.4 * r;  // arms of a standing cross
+      corners = {{-w, -o}, {w, -o}, {w, -w}, {o, -w}, {o, w},   {w, w},
+                 {w, o},   {-w, o}, {-w, w}, {-o, w}, {-o, -w}, {-w, -w}};
+    }
+  }
+  std::string list;
+  for (const Pixel& p : corners) {
+    list += fmt::format("{}{},{}", list.empty() ? "" : " ", number(c.x + p.x), number(c.y + p.y));
+  }
+  body_ += fmt::format("<polygon points=\"{}\" fill=\"{}\"/>\n", list, color);
+}
+
+void Svg::text(Pixel place, std::string_view text, const TextStyle& style) {
+  constexpr const char* anchors[] = {"start", "middle", "end"};
+  body_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\" fill=\"{}\" text-anchor=\"{}\"",
+                       number(place.x), number(place.y), number(style.size), style.color,
+                       anchors[static_cast<int>(style.anchor)]);
+  if (style.rotation != 0.0) {
+    body_ += fmt::format(" transform=\"rotate({} {} {})\"", number(style.rotation), number(place.x),
+                         number(place.y));
+  }
+  if (style.is_bold) body_ += " font-weight=\"bold\"";
+  if (style.has_halo) {
+    body_ +=
+        " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" "
+        "paint-order=\"stroke\"";
+  }
+  body_ += ">";
+  const auto parts = exponents_apart(text);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i % 2 == 0) {
+      // back on the base line after an exponent
+      const std::string down =
+          i == 0 ? "" : fmt::format(" dy=\"{}\"", number(exponent_rise * style.size));
+      if (parts[i].empty()) continue;
+      body_ +=
+          i == 0 ? escaped(parts[i]) : fmt::format("<tspan{}>{}</tspan>", down, escaped(parts[i]));
+    } else {
+      body_ += fmt::format("<tspan dy=\"{}\" font-size=\"{}\">{}</tspan>",
+                           number(-exponent_rise * style.size), number(exponent_size * style.size),
+                           escaped(parts[i]));
+    }
+  }
+  body_ += "</text>\n";
+}
+
+void Svg::begin_group(std::string_view name) {
+  body_ += fmt::format("<g data-name=\"{}\">\n", escaped(name));
+}
+
+void Svg::end_group() {
+  body_ += "</g>\n";
+}
+
+std::string Svg::document() const {
+  return head_ + body_ + "</svg>\n";
+}
+
+double text_width(std::string_view text, double size) {
+  double width = 0.0;
+  const auto parts = exponents_apart(text);
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    double letters = 0.0;
+    for (const char c : parts[i]) {
+      letters += (static_cast<unsigned char>(c) & 0xC0u) != 0x80u ? 1.0 : 0.0;  // UTF-8
+    }
+    width += letters * letter_width * size * (i % 2 == 0 ? 1.0 : exponent_size);
+  }
+  return width;
+}
+
+}  // namespace whirl
