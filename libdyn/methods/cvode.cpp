@@ -97,6 +97,27 @@ std::vector<std::pair<int, EventKind>> roots_of(const EventWatcher& watcher,
   return roots;
 }
 
+/// Makes the events that are due at the very start. CVODE finds changes of sign only, and so passes
+/// over a function that is zero at the start and falls.
+void apply_events_at_start(const ContactSystem& system, EventWatcher& watcher, MotionState& state,
+                           Cost& cost) {
+  constexpr double zero = 1e-15;            // of a function, which is dimensionless
+  const double h = 1e-6 * system.period();  // ahead, to see which way the functions go
+  const int n = system.coordinates();
+  Vec a(n), ahead(2 * n);
+  system.acceleration(state.phase, state.y.data(), state.contacts, a.data());
+  ahead << state.y.head(n) + h * state.y.tail(n) + 0.5 * h * h * a, state.y.tail(n) + h * a;
+  const ContactStates before = state.contacts;
+  for (const auto& [contact, kind] : roots_of(watcher, before)) {
+    const Event event{0.0, contact, kind};
+    if (watcher.value(event, state.phase, state.y.data(), before) > zero) continue;
+    const double phase = state.phase + h * system.phase_rate();
+    if (!(watcher.value(event, phase, ahead.data(), before) < -zero)) continue;
+    watcher.apply(event, state.phase, state.y.data(), state.contacts);
+    ++cost.events;
+  }
+}
+
 Integration run(int method, const ContactSystem& system, MotionState& state, long revolutions,
                 const IntegrationOptions& options, const Observer& observer) {
   Integration result;
@@ -104,6 +125,7 @@ Integration run(int method, const ContactSystem& system, MotionState& state, lon
   if (state.contacts.size() != system.contacts().size()) {
     state.contacts = system.classify(state.phase, state.y.data());
   }
+  apply_events_at_start(system, watcher, state, result.cost);
   const int n = system.coordinates();
   const double rate = system.phase_rate(), period = system.period();
   const long last = state.revolution + revolutions;

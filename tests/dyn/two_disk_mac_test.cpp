@@ -88,9 +88,9 @@ struct Motion {
   }
 };
 
-/// What the rotor ends up doing: 500 revolutions to settle, then 512, whose spectra resolve 0.2 %
-/// of the spin.
-Motion motion_of(const TwoDiskRub& rotor) {
+/// What the rotor ends up doing: revolutions to settle, then as many recorded as resolve 0.2 % of
+/// the spin, unless a test needs less.
+Motion motion_of(const TwoDiskRub& rotor, const SimulationOptions& how = {}) {
   const Model model = rotor.model();
   const Scene scene = make_scene(model);
   const Simulation simulation = simulate(scene, test::start_of(model, scene), how);
