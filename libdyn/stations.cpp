@@ -68,13 +68,14 @@ std::vector<NamedPoint> select_points(const Model& model, const Assembler& assem
     part.erase(part.find_last_not_of(' ') + 1);
     int node = 0;
     const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), node);
-    const bool is_number = error == std::errc{} && end == part.data() + part.size();
+    const bool is_number = error == std::errc{} && end == part.data() + part.size() && node > 0;
     bool found = false;
     for (const NamedPoint& p : all) {
       const bool by_name =
-          p.name == part || std::any_of(known.begin(), known.end(), [&](const Label& l) {
-            return l.name == part && l.point == p.point;
-          });
+          !part.empty() &&
+          (p.name == part || std::any_of(known.begin(), known.end(), [&](const Label& l) {
+             return l.name == part && l.point == p.point;
+           }));
       if (!by_name && !(is_number && p.node() == node)) continue;
       choose(p);
       found = true;

@@ -7,7 +7,8 @@
 namespace whirl {
 
 /// SUNDIALS' CVODE with its own root finding: an implementation that shares nothing with the others
-/// but the equations of motion. Each event restarts it at order one.
+/// but the equations of motion. Each event restarts it at order one. Events are changes of sign
+/// over a step: a contact that begins and ends within one is missed.
 ///
 /// @source [Hindmarsh2005]
 struct CvodeAdams {

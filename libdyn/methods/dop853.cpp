@@ -239,7 +239,13 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
         stepper.start(state);
         continue;
       }
-      if (step_onto(*event, watcher, stepper, state, step, rate) > missed) {
+      const double remainder = step_onto(*event, watcher, stepper, state, step, rate);
+      if (!std::isfinite(remainder)) {
+        result.outcome = Outcome::not_finite;
+        result.diagnosis = diagnosis(system, state, "a distance overflowed");
+        return result;
+      }
+      if (remainder > missed) {
         ++cost.rejected;
         longest = 0.5 * trial;
         if (longest < too_small * period) {

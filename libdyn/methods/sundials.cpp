@@ -44,6 +44,7 @@ Motion::Motion(const ContactSystem& system, MotionState& state, double tolerance
   if (state.contacts.size() != system.contacts().size()) {
     state.contacts = system.classify(state.phase, state.y.data());
   }
+  apply_events_at_start();
   values(y_) = state.y;
   values(weight_) = tolerance * system.state_scale();
 }
@@ -68,14 +69,40 @@ int Motion::root_functions(realtype t, N_Vector y, realtype* g, void* motion) {
   return 0;
 }
 
-/// Lets a solver look for the ends of the contacts' present states, and stop with the revolution.
-void Motion::watch(const Solver& solver, void* memory) {
+/// The events that can end the contacts' present states.
+void Motion::find_roots() {
   roots_.clear();
   for (int i = 0; i < static_cast<int>(state_.contacts.size()); ++i) {
     for (const EventKind kind : watcher_.kinds(i, state_.contacts[static_cast<std::size_t>(i)])) {
       roots_.emplace_back(i, kind);
     }
   }
+}
+
+/// Makes the events that are due at the very start. The solvers find changes of sign only, and so
+/// pass over a function that is zero at the start and falls.
+void Motion::apply_events_at_start() {
+  constexpr double zero = 1e-15;             // of a function, which is dimensionless
+  const double h = 1e-6 * system_.period();  // ahead, to see which way the functions go
+  const int n = system_.coordinates();
+  Vec a(n), ahead(2 * n);
+  system_.acceleration(state_.phase, state_.y.data(), state_.contacts, a.data());
+  ahead << state_.y.head(n) + h * state_.y.tail(n) + 0.5 * h * h * a, state_.y.tail(n) + h * a;
+  const ContactStates before = state_.contacts;
+  find_roots();
+  for (const auto& [contact, kind] : roots_) {
+    const Event event{0.0, contact, kind};
+    if (watcher_.value(event, state_.phase, state_.y.data(), before) > zero) continue;
+    const double phase = state_.phase + h * system_.phase_rate();
+    if (!(watcher_.value(event, phase, ahead.data(), before) < -zero)) continue;
+    watcher_.apply(event, state_.phase, state_.y.data(), state_.contacts);
+    ++result_.cost.events;
+  }
+}
+
+/// Lets a solver look for the ends of the contacts' present states, and stop with the revolution.
+void Motion::watch(const Solver& solver, void* memory) {
+  find_roots();
   solver.watch(memory, static_cast<int>(roots_.size()), root_functions);
   std::vector<int> falling(roots_.size(), -1);
   if (!falling.empty()) solver.set_root_direction(memory, falling.data());

@@ -86,6 +86,8 @@ class Motion {
  private:
   static int root_functions(realtype t, N_Vector y, realtype* g, void* motion);
   void restart(const Solver& solver, void* memory, double t);
+  void find_roots();
+  void apply_events_at_start();
   void watch(const Solver& solver, void* memory);
   void dense(const Solver& solver, void* memory, double from, double to, Step& step);
 

@@ -8,6 +8,7 @@
 
 #include "libdyn/methods.hpp"
 #include "libdyn/scene.hpp"
+#include "libfe/elements/disk.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::test {
@@ -86,6 +87,48 @@ struct MassInRing {
                    .friction = {.mu = mu, .radius = R},
                    .law = Radial<>{.k = kC, .c = cC}}};
     return s;
+  }
+  Scene scene() const { return make_scene(model()); }
+};
+
+/// Shaft with two disks of "Nonlinear rotordynamics of a MDOF rotor-stator contact system subjected
+/// to frictional and gravitational effects": 12 elements, 52 freedoms, disks at nodes 4 and 9, out
+/// of balance at node 4, bearings at nodes 1 and 13; the contact "ring" at node 7.
+struct TwoDiskRub {
+  double speed = 4430.0 * rpm;        ///< [rad/s]
+  double k = 4e6, c = 5e3;            ///< of the bearings [N/m], [N.s/m]
+  double mu = 0.1;                    ///< friction; slip at R = 10 mm, the shaft's radius
+  int modes = 8;                      ///< of the reduction; 0: every freedom
+  std::vector<WhirlStart> start{};    ///< added to equilibrium
+  std::vector<int> contact_nodes{7};  ///< with the same ring
+  double gravity = 0.0;               ///< [m/s^2]
+
+  Model model() const {
+    Model m;
+    m.speed = speed;
+    m.has_speed = true;
+    Structure& s = m.structure;
+    s.shaft = {cylinder(0.6, 0.02, 12)};
+    s.shaft[0].material = steel(7800.0);
+    for (const int number : {4, 9}) {
+      Disk disk{.at = node(number), .outer_diameter = 0.3, .inner_diameter = 0.02, .width = 0.01};
+      set_inertia_from_shape(disk, 7800.0);
+      s.disks.push_back(disk);
+    }
+    s.unbalances = {{.at = node(4), .moment = s.disks[0].m * 0.5e-3}};
+    s.bearings = {bearing(node(1), isotropic(k, c)), bearing(node(13), isotropic(k, c))};
+    s.gravity = gravity;
+    for (const int number : contact_nodes) {
+      m.contacts.push_back({.name = "ring",
+                            .at = node(number),
+                            .clearance = 5e-3,
+                            .friction = {.mu = mu, .radius = 0.01},
+                            .law = Radial<>{.k = 4e6}});
+    }
+    m.reduction = {.method = modes > 0 ? ReductionMethod::modal : ReductionMethod::none,
+                   .modes = modes};
+    m.start.whirl = start;
+    return m;
   }
   Scene scene() const { return make_scene(model()); }
 };

@@ -1,0 +1,82 @@
+// The manual of model files: what it shows is read as it stands, and every key it names is known.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "libdyn/scene.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/model_file.hpp"
+
+namespace whirl {
+namespace {
+
+std::string manual() {
+  std::ifstream file(std::filesystem::path(WHIRL_SOURCE_DIR) / "docs/model-file.md");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Blocks of a language.
+std::vector<std::string> blocks(const std::string& text, const std::string& language) {
+  std::vector<std::string> found;
+  const std::string fence = "```";
+  for (auto at = text.find(fence + language + "\n"); at != std::string::npos;
+       at = text.find(fence + language + "\n", at)) {
+    const auto begin = at + fence.size() + language.size() + 1, end = text.find(fence, begin);
+    found.push_back(text.substr(begin, end - begin));
+    at = end + fence.size();
+  }
+  return found;
+}
+
+TEST(Manual, ShowsWholeModelsThatAreAccepted) {
+  const std::vector<std::string> models = blocks(manual(), "toml");
+  EXPECT_GE(models.size(), 4u);
+  for (const std::string& text : models) {
+    try {
+      const Model model = parse_model(text, "manual");
+      make_scene(model);
+    } catch (const ModelError& error) {
+      ADD_FAILURE() << error.what() << "\n" << text;
+    }
+  }
+}
+
+// Keys in the tables of a section "## `[[disk]]`" are known to the reader: with a nonsense value,
+// the complaint is about the value. (Keys that a family shares in one row are separated by commas.)
+TEST(Manual, NamesNoKeyThatTheReaderDoesNotKnow) {
+  const std::string text = manual();
+  const std::regex section(R"(\n## `(\[{1,2})(\w+)(\.NAME)?\]{1,2}`\n)");
+  const std::regex row(R"(\n\| (`\w+`(?:, `\w+`)*) \|)"), key(R"(`(\w+)`)");
+  int keys = 0;
+  for (std::sregex_iterator s(text.begin(), text.end(), section), end; s != end; ++s) {
+    const auto from = static_cast<std::size_t>(s->position() + s->length());
+    const std::string body = text.substr(from - 1, text.find("\n## ", from) - from + 1);
+    const std::string name = (*s)[2], suffix = (*s)[3].matched ? ".steel" : "";
+    const std::string header = (*s)[1] == "[[" ? "[[" + name + "]]" : "[" + name + suffix + "]";
+    for (std::sregex_iterator r(body.begin(), body.end(), row); r != end; ++r) {
+      const std::string list = (*r)[1];
+      for (std::sregex_iterator k(list.begin(), list.end(), key); k != end; ++k) {
+        const std::string model =
+            "format = 1\n" + header + "\n" + std::string((*k)[1]) + " = 1979-05-27\n";  // no such
+        try {
+          parse_model(model, "manual");
+          ADD_FAILURE() << "accepted:\n" << model;
+        } catch (const ModelError& error) {
+          EXPECT_EQ(std::string(error.what()).find("unknown key"), std::string::npos)
+              << error.what();
+        }
+        ++keys;
+      }
+    }
+  }
+  EXPECT_GT(keys, 60);
+}
+
+}  // namespace
+}  // namespace whirl
