@@ -114,6 +114,8 @@ class Engine {
   HWY_ATTR P step_length();
   HWY_ATTR void advance(const P& h);
   HWY_ATTR void measure(const P& h);
+  HWY_ATTR void remove_slip(int l);
+  HWY_ATTR Vec state_of(int l) const;
   HWY_ATTR bool tell(const Observer& observer, double h);
 
   // engine_series-inl.h
@@ -221,7 +223,7 @@ template <class P>
 HWY_ATTR void Engine<P>::unload(int l) {
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
   const Book& book = book_[static_cast<size_t>(l)];
-  for (int i = 0; i < 2 * n_; ++i) t.state.y(i) = lane(y_[static_cast<size_t>(i)], l);
+  t.state.y = state_of(l);
   t.state.revolution = book.revolution;
   t.state.phase = lane(time_, l) * t.system->phase_rate();
   for (size_t c = 0; c < contacts_.size(); ++c) t.state.contacts[c] = contacts_[c].state(l);
@@ -255,7 +257,7 @@ template <class P>
 HWY_ATTR void Engine<P>::fail(int l, Outcome outcome, const char* what) {
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
   MotionState state = t.state;
-  for (int i = 0; i < 2 * n_; ++i) state.y(i) = lane(y_[static_cast<size_t>(i)], l);
+  state.y = state_of(l);
   state.revolution = book_[static_cast<size_t>(l)].revolution;
   state.phase = lane(time_, l) * t.system->phase_rate();
   for (size_t c = 0; c < contacts_.size(); ++c) state.contacts[c] = contacts_[c].state(l);
@@ -362,6 +364,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     const int l = __builtin_ctzll(rest);
     Book& book = book_[static_cast<size_t>(l)];
     ++book.revolution;
+    remove_slip(l);
     if (options_.sections) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
       for (const P& y : y_) sections.push_back(lane(y, l));
@@ -373,6 +376,26 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     trajectory_[0]->outcome = Outcome::stopped_by_observer;
     finished_ |= 1;
   }
+}
+
+/// Takes off the slip that sticking contacts of a lane have gathered by rounding and truncation.
+template <class P>
+HWY_ATTR void Engine<P>::remove_slip(int l) {
+  ContactStates states;
+  for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
+  const auto sticks = [](const ContactState& c) { return c.touch == Touch::sticking; };
+  if (std::none_of(states.begin(), states.end(), sticks)) return;
+  Vec y = state_of(l);
+  trajectory_[static_cast<size_t>(l)]->system->remove_slip(y.data(), states);
+  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, y(i));
+}
+
+/// State in a lane.
+template <class P>
+HWY_ATTR Vec Engine<P>::state_of(int l) const {
+  Vec y(2 * n_);
+  for (int i = 0; i < 2 * n_; ++i) y(i) = lane(y_[static_cast<size_t>(i)], l);
+  return y;
 }
 
 /// Largest value of a parabola through three equidistant values, if its top lies between them.

@@ -159,8 +159,7 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   const Trajectory& t = *trajectory_[static_cast<size_t>(l)];
   Book& book = book_[static_cast<size_t>(l)];
   if (!book.watcher) book.watcher = std::make_unique<EventWatcher>(*t.system);
-  Vec y(2 * n_);
-  for (int j = 0; j < 2 * n_; ++j) y(j) = lane(y_[static_cast<size_t>(j)], l);
+  Vec y = state_of(l);
   ContactStates states;
   for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
 
@@ -179,6 +178,7 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   const Event event{0.0, index, kind};
   const double phase = lane(rate_ * time_, l);
   const ContactStates before = states;
+  t.system->remove_slip(y.data(), before);  // what sticking has gathered must not look like slip
   book.watcher->apply(event, phase, y.data(), states);
   if (tangents_) {
     if (const auto jump = saltation(*t.system, event, phase, y, before, states)) {

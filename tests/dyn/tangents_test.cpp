@@ -117,7 +117,7 @@ Vec floquet_exponents(const ContactSystem& system, const Mat& tangent) {
 TEST(Floquet, ExponentsOfFiveImpactsAreTheKnownOnes) {
   const Scene scene = test::P1.scene();
   MotionState state = test::start_of(test::P1.model(), scene);
-  test::run(scene, state, 2000);
+  test::run(scene, state, 400, {.tolerance = 1e-13});  // settled to rounding
   const Trajectory t = integrated(scene.contacts, state, 1, {.tolerance = 1e-13, .tangent = true});
   const Vec exponents = floquet_exponents(scene.contacts, t.tangent);
   const double known[] = {-2.944044, -2.944044, -3.473444, -3.473444,

@@ -23,7 +23,7 @@ struct Steady {
 
   explicit Steady(const test::RotorStator& p) : scene(p.scene()) {
     start = test::start_of(p.model(), scene);
-    test::run(scene, start, 400);
+    test::run(scene, start, 400, {.method = Dop853{}});
     reference = dop853_reference(scene.contacts, start, revolutions);
   }
 };
@@ -58,7 +58,7 @@ TEST(WorkPrecision, ChaosLimitsTheReference) {
 TEST(WorkPrecision, MeasuresErrorAndTimeOfMethods) {
   const Steady p(test::P1);
   MotionState end = p.start;
-  test::run(p.scene, end, revolutions, {.tolerance = 1e-6});
+  test::run(p.scene, end, revolutions, {.tolerance = 1e-6, .method = Dop853{}});
   const Candidate dop853 = candidate(p.scene.contacts, "dop853");
   const TimedRun coarse = measure(dop853, 1e-6, p.scene.contacts, p.start, p.reference, quick);
   const TimedRun fine = measure(dop853, 1e-12, p.scene.contacts, p.start, p.reference, quick);
