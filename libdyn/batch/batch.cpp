@@ -13,6 +13,7 @@
 
 #include "libdyn/batch/engine_events-inl.h"
 #include "libdyn/batch/engine_series-inl.h"
+#include "libdyn/batch/engine_step-inl.h"
 #include "libdyn/batch/engine_tangents-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,0 +1,214 @@
+// Steps of the engine: their length, moving the state, what is measured and told.
+
+#if defined(WHIRL_ENGINE_STEP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_ENGINE_STEP_INL_H
+#undef WHIRL_ENGINE_STEP_INL_H
+#else
+#define WHIRL_ENGINE_STEP_INL_H
+#endif
+
+#include "libdyn/batch/engine-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// Step at which the last two terms are as large as the tolerance allows.
+template <class P>
+HWY_ATTR P Engine<P>::step_length() {
+  P last(1e-280), before(1e-280), sum(0.0);
+  const P* a = term(N + 2);
+  const P* b = term(N + 1);
+  for (int i = 0; i < n_; ++i) {
+    const P in_a = abs(a[i]) * scale_[static_cast<size_t>(i)];
+    const P in_b = abs(b[i]) * scale_[static_cast<size_t>(i)];
+    last = max(last, in_a);
+    before = max(before, in_b);
+    sum = sum + in_a + in_b;  // unlike a maximum, it never loses what is no number
+  }
+  finite_ = less(sum, P(1e300));
+  P size(0.0);
+  for (int i = 0; i < n_; ++i)
+    size = max(size, abs(y_[static_cast<size_t>(i)]) * scale_[static_cast<size_t>(i)]);
+  bounded_ = less(size, P(boundless));
+  const P e(std::log2(options_.tolerance));
+  const P h1 = (e - rough_log2(last)) * P(1.0 / (N + 2));
+  const P h2 = (e - rough_log2(before)) * P(1.0 / (N + 1));
+  return P(0.95) * rough_exp2(min(min(h1, h2), P(900.0)));
+}
+
+/// Moves the state of all active lanes by h.
+template <class P>
+HWY_ATTR void Engine<P>::advance(const P& h) {
+  const Mask active = mask_of<P>(active_);
+  const P* top = term(N + 1);
+  for (int i = 0; i < n_; i += 2) {  // two coordinates at once: four chains
+    const int j = std::min(i + 1, n_ - 1);
+    P xi = fma(term(N + 2)[i], h, top[i]), xj = fma(term(N + 2)[j], h, top[j]);
+    P vi = top[n_ + i], vj = top[n_ + j];
+    for (int k = N; k >= 0; --k) {
+      const P* now = term(k);
+      xi = fma(xi, h, now[i]);
+      xj = fma(xj, h, now[j]);
+      vi = fma(vi, h, now[n_ + i]);
+      vj = fma(vj, h, now[n_ + j]);
+    }
+    const auto ui = static_cast<size_t>(i), uj = static_cast<size_t>(j),
+               un = static_cast<size_t>(n_);
+    y_[uj] = select(active, xj, y_[uj]);
+    y_[un + uj] = select(active, vj, y_[un + uj]);
+    y_[ui] = select(active, xi, y_[ui]);
+    y_[un + ui] = select(active, vi, y_[un + ui]);
+  }
+}
+
+template <class P>
+HWY_ATTR void Engine<P>::step(const Observer* observer) {
+  constexpr double too_small = 1e-14;  // of a revolution
+  series();
+  P h = step_length();
+  if (tangents_) h = limit_for_tangents(h);
+  if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
+  const P left = max(period_ - time_, P(0.0));
+  const Mask reaches = less_equal(left * P(1.0 - 1e-13), h);
+  const Mask moves = either(reaches, less(period_ * P(too_small), h));
+  const uint64_t good = bits(h, both(both(finite_, bounded_), moves));
+  uint64_t ends = active_ & bits(h, reaches);
+  h = select(reaches, left, h);
+  const uint64_t bad = active_ & ~good;
+  if (bad != 0) {
+    const uint64_t numbers = bits(h, finite_), bounded = bits(h, bounded_);
+    for (uint64_t rest = bad; rest != 0; rest &= rest - 1) {
+      const int l = __builtin_ctzll(rest);
+      if ((numbers >> l & 1) == 0) {
+        fail(l, Outcome::not_finite, "the state is not finite");
+      } else {
+        fail(l, Outcome::step_too_small,
+             (bounded >> l & 1) != 0 ? "the step underflowed" : "the motion grows without bound");
+      }
+    }
+    return;  // the others begin this step again
+  }
+  h = select(mask_of<P>(active_), h, P(0.0));
+  const uint64_t fell = find_events(h);
+  ends &= ~fell;
+  if (options_.measures) measure(h);
+  const uint64_t instant = bits(h, less_equal(h, period_ * P(too_small))) & active_;
+  for (uint64_t rest = instant; rest != 0; rest &= rest - 1) {
+    ++book_[static_cast<size_t>(__builtin_ctzll(rest))].no_steps;
+  }
+  bool goes_on = true;
+  if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
+  if (tangents_) move_tangents(h);
+  advance(h);
+  time_ = time_ + h;
+  time_ = select(mask_of<P>(ends), P(0.0), time_);
+  ++steps_;
+  for (ContactLanes<P>& c : contacts_) c.surface_distance = c.surface_force = c.surface_slip = 0;
+  if (fell != 0) apply_events(instant);
+
+  for (uint64_t rest = ends; rest != 0; rest &= rest - 1) {
+    const int l = __builtin_ctzll(rest);
+    Book& book = book_[static_cast<size_t>(l)];
+    ++book.revolution;
+    remove_slip(l);
+    if (options_.sections) {
+      std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
+      for (const P& y : y_) sections.push_back(lane(y, l));
+    }
+    if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
+  }
+  if (options_.exponents) orthonormalize(due_lanes(ends));
+  if (!goes_on) {
+    trajectory_[0]->outcome = Outcome::stopped_by_observer;
+    finished_ |= 1;
+  }
+}
+
+/// Takes off the slip that sticking contacts of a lane have gathered by rounding and truncation.
+template <class P>
+HWY_ATTR void Engine<P>::remove_slip(int l) {
+  ContactStates states;
+  for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
+  const auto sticks = [](const ContactState& c) { return c.touch == Touch::sticking; };
+  if (std::none_of(states.begin(), states.end(), sticks)) return;
+  Vec y = state_of(l);
+  trajectory_[static_cast<size_t>(l)]->system->remove_slip(y.data(), states);
+  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, y(i));
+}
+
+/// State in a lane.
+template <class P>
+HWY_ATTR Vec Engine<P>::state_of(int l) const {
+  Vec y(2 * n_);
+  for (int i = 0; i < 2 * n_; ++i) y(i) = lane(y_[static_cast<size_t>(i)], l);
+  return y;
+}
+
+/// Largest value of a parabola through three equidistant values, if its top lies between them.
+template <class P>
+HWY_ATTR inline P top(const P& a, const P& b, const P& c) {
+  const P bend = b + b - a - c, slope = P(0.5) * (c - a);
+  const typename P::Mask inside = both(less(P(0.0), bend), less_equal(abs(slope), bend));
+  const P at_top = fma(P(0.5) * slope, slope / select(inside, bend, P(1.0)), b);
+  return select(inside, at_top, max(b, max(a, c)));
+}
+
+/// Time in touch and sticking; largest forces, by parabolas through samples of the series.
+template <class P>
+HWY_ATTR void Engine<P>::measure(const P& h) {
+  constexpr int intervals = 8;
+  for (ContactLanes<P>& c : contacts_) {
+    const uint64_t touching = c.touching & active_;
+    if (touching == 0) continue;
+    const Mask in_touch = mask_of<P>(touching);
+    c.duty = c.duty + select(in_touch, h, P(0.0));
+    c.stuck = c.stuck + select(mask_of<P>(c.sticking & active_), h, P(0.0));
+    P normal[intervals + 1], friction[intervals + 1], unused;
+    for (int j = 0; j <= intervals; ++j) {
+      const P t = h * P(static_cast<double>(j) / intervals);
+      horner(c.N, N, t, normal[j], unused);
+      friction[j] = c.mu * normal[j];
+      if (c.has_tau) {
+        P tau, r;
+        horner(c.tau, N, t, tau, unused);
+        horner(c.r, N, t, r, unused);
+        friction[j] = abs(tau * r);
+      }
+    }
+    for (int j = 1; j < intervals; ++j) {
+      const P largest = top(normal[j - 1], normal[j], normal[j + 1]);
+      const P strongest = top(friction[j - 1], friction[j], friction[j + 1]);
+      c.max_normal = select(in_touch, max(c.max_normal, largest), c.max_normal);
+      c.max_friction = select(in_touch, max(c.max_friction, strongest), c.max_friction);
+    }
+  }
+}
+
+/// Shows the step of lane 0, as polynomials in s = t / h; false: stop.
+template <class P>
+HWY_ATTR bool Engine<P>::tell(const Observer& observer, double h) {
+  const Trajectory& t = *trajectory_[0];
+  Step step;
+  step.revolution = book_[0].revolution;
+  step.phase = lane(time_, 0) * t.system->phase_rate();
+  step.h = h;
+  step.turn = h * t.system->phase_rate();
+  step.q.resize(n_, N + 3);
+  step.v.resize(n_, N + 2);
+  double power = 1.0;
+  for (int k = 0; k <= N + 2; ++k, power *= h) {
+    for (int i = 0; i < n_; ++i) {
+      step.q(i, k) = lane(term(k)[i], 0) * power;
+      if (k <= N + 1) step.v(i, k) = lane(term(k)[n_ + i], 0) * power;
+    }
+  }
+  for (const ContactLanes<P>& c : contacts_) step.contacts.push_back(c.state(0));
+  return observer(step);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard
