@@ -55,9 +55,10 @@ class Invocation {
 
 /// What a verb found.
 struct Report {
-  Record record;     ///< for --json, without the entries that all verbs have
-  std::string text;  ///< for people
-  int status = 0;    ///< 0; 3: failed, what was computed is in the report; 130: stopped
+  Record record;        ///< for --json, without the entries that all verbs have
+  std::string text;     ///< for people
+  std::string failure;  ///< goes to standard error, --quiet or not
+  int status = 0;       ///< 0; 3: failed, what was computed is in the report; 130: stopped
 };
 
 struct Verb {

@@ -231,6 +231,7 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
     call.require_free_places(json);
     const Report report = verb->run(call);
     if (json != "-" && !quiet) fmt::print("{}", report.text);
+    if (!report.failure.empty()) fmt::print(stderr, "{}: failed: {}\n", call.file, report.failure);
     if (!json.empty()) write_json(report, json);
     return after_printing(report.status);
   } catch (const ModelError& error) {

@@ -69,7 +69,9 @@ Report run_identify(const Invocation& call) {
   options.stiffened = call.has("stiffened");
   const Run run = run_simulation(call, model);
 
-  Report report{.record = begin_record(call, model), .status = status_of(run)};
+  Report report{.record = begin_record(call, model),
+                .failure = run.simulation.integration.diagnosis,
+                .status = status_of(run)};
   add_run(report.record, run);
   report.text = "Identification" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
                 run_text(run, model);

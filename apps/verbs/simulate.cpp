@@ -10,7 +10,9 @@ Report run_simulate(const Invocation& call) {
   const auto file = call.result_file(model);
   const Run run = run_simulation(call, model);
 
-  Report report{.record = begin_record(call, model), .status = status_of(run)};
+  Report report{.record = begin_record(call, model),
+                .failure = run.simulation.integration.diagnosis,
+                .status = status_of(run)};
   add_run(report.record, run);
   add_stations(report.record, run);
   report.text = "Simulation" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +

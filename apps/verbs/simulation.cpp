@@ -270,8 +270,6 @@ std::string run_text(const Run& run, const Model& model) {
         "  stopped before the end; a result file keeps the motion until there, --from goes on with "
         "it\n";
   }
-  if (!s.integration.diagnosis.empty())
-    text += fmt::format("  failed: {}\n", s.integration.diagnosis);
   if (!run.has_motion()) return text;
 
   if (!recording.contacts.empty()) {

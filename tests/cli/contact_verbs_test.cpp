@@ -223,8 +223,8 @@ TEST_F(Simulation, AMotionWithoutBoundFailsAndLeavesWhatWasComputed) {
     const Outcome outcome = whirl({verb, "unstable.toml", "--discard", "0", "--revolutions", "2000",
                                    "--out", "x.h5", "--json", "x.json"});
     EXPECT_EQ(outcome.status, 3);
-    EXPECT_TRUE(has(outcome.out, "failed: ")) << outcome.out;
-    EXPECT_TRUE(has(outcome.out, "ring"));
+    EXPECT_TRUE(has(outcome.err, "unstable.toml: failed: ")) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "ring"));
     for (std::istringstream lines(outcome.out); lines;) {
       std::string line;
       std::getline(lines, line);
