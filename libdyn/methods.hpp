@@ -5,12 +5,13 @@
 #include <variant>
 #include <vector>
 
+#include "libdyn/methods/collocation.hpp"
 #include "libdyn/methods/cvode.hpp"
 #include "libdyn/methods/dop853.hpp"
 
 namespace whirl {
 
-using AnyMethod = std::variant<Dop853, CvodeAdams, CvodeBdf>;
+using AnyMethod = std::variant<Dop853, CvodeAdams, CvodeBdf, Collocation>;
 
 /// Names of all methods, in the order of the list.
 std::vector<std::string_view> method_names();

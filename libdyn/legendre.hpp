@@ -1,0 +1,33 @@
+#pragma once
+/// Polynomials on [0, 1] in Legendre's basis P_k(2 s - 1), and nodes to sample them.
+
+#include "libfe/base/linalg.hpp"
+
+namespace whirl {
+
+/// P_0 ... P_(terms-1) at 0 <= s <= 1.
+Vec legendre(double s, int terms);
+
+/// Nodes on [0, 1] and weights, exact to degree 2 points - 1.
+struct GaussRule {
+  Vec s, w;
+};
+/// @source [AbramowitzStegun1964], 25.4.29; nodes by Newton's method
+GaussRule gauss_rule(int points);
+
+/// Coefficients on [from, to] of a polynomial that is given by its coefficients on [0, 1].
+Mat restriction(double from, double to, int terms);
+
+/// Entry (k, j) is the coefficient of s^k in P_j(2 s - 1).
+Mat legendre_to_powers(int terms);
+
+/// Maps values at the given nodes on [0, 1] to coefficients of powers of s.
+Mat values_to_powers(const Vec& nodes);
+
+/// Chebyshev points on [0, 1], both ends included.
+Vec chebyshev_points(int points);
+
+/// Maps values at Chebyshev points to coefficients of Chebyshev polynomials T_k(2 s - 1).
+Mat chebyshev_transform(int points);
+
+}  // namespace whirl
