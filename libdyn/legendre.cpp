@@ -58,11 +58,11 @@ Mat legendre_to_powers(int terms) {
   return m;
 }
 
-Mat values_to_powers(const Vec& nodes) {
+Mat values_to_legendre(const Vec& nodes) {
   const auto n = static_cast<int>(nodes.size());
   Mat values(n, n);
   for (int i = 0; i < n; ++i) values.row(i) = legendre(nodes(i), n).transpose();
-  return legendre_to_powers(n) * values.partialPivLu().inverse();
+  return values.partialPivLu().inverse();
 }
 
 Vec chebyshev_points(int points) {
@@ -71,16 +71,6 @@ Vec chebyshev_points(int points) {
     s(i) = 0.5 * (1.0 - std::cos(std::numbers::pi * i / (points - 1)));
   }
   return s;
-}
-
-Mat chebyshev_transform(int points) {
-  Mat values(points, points);
-  for (int i = 0; i < points; ++i) {
-    for (int k = 0; k < points; ++k) {
-      values(i, k) = std::cos(std::numbers::pi * k * (points - 1 - i) / (points - 1));
-    }
-  }
-  return values.partialPivLu().inverse();
 }
 
 }  // namespace whirl

@@ -21,13 +21,11 @@ Mat restriction(double from, double to, int terms);
 /// Entry (k, j) is the coefficient of s^k in P_j(2 s - 1).
 Mat legendre_to_powers(int terms);
 
-/// Maps values at the given nodes on [0, 1] to coefficients of powers of s.
-Mat values_to_powers(const Vec& nodes);
+/// Maps values at the given nodes on [0, 1] to Legendre coefficients. Powers follow from these: in
+/// one product, rounding of values would be magnified.
+Mat values_to_legendre(const Vec& nodes);
 
 /// Chebyshev points on [0, 1], both ends included.
 Vec chebyshev_points(int points);
-
-/// Maps values at Chebyshev points to coefficients of Chebyshev polynomials T_k(2 s - 1).
-Mat chebyshev_transform(int points);
 
 }  // namespace whirl

@@ -11,7 +11,7 @@ namespace whirl {
 
 namespace {
 
-constexpr int rows = 4;  ///< d_x, d_y, w_x, w_y of a contact
+
 constexpr int most_sweeps = 25, most_newton = 12;
 constexpr double slow = 0.3;        ///< contraction from which on Newton's method is cheaper
 constexpr double rounding = 4e-15;  ///< of forces
@@ -49,10 +49,7 @@ ContactStep::ContactStep(const ContactSystem& system, double longest, double tol
     for (int k = 0; k < terms; ++k) project_(k, i) = rule.w(i) * (2 * k + 1) * p(k);
   }
   const auto places = [](const Vec& s) {
-    const auto m = static_cast<int>(s.size());
-    Mat values(m, m);
-    for (int i = 0; i < m; ++i) values.row(i) = legendre(s(i), m).transpose();
-    return Places{s, values_to_powers(s), values.partialPivLu().inverse().bottomRows(2)};
+    return Places{s, values_to_legendre(s), legendre_to_powers(static_cast<int>(s.size()))};
   };
   Vec with_ends(nodes + 2);
   with_ends << 0.0, rule.s, 1.0;
@@ -325,115 +322,6 @@ void ContactStep::estimate() {
                                   (std::isfinite(fall) ? fall : 1.0));
   }
   if (std::isnan(error_)) error_ = 0.0;
-}
-
-void ContactStep::make_paths(const MotionState& from) {
-  const bool is_touching = !touching_.empty();
-  const Places& places = is_touching ? touch_places_ : flight_places_;
-  const auto n = system_.coordinates();
-  const auto m = places.s.size();
-  Vec end;
-  if (is_touching) advance(1.0, from, end = from.y);
-  path_error_ = 0.0;
-  for (std::size_t c = 0; c < paths_.size(); ++c) {
-    const ReducedContact& contact = system_.contacts()[c];
-    Mat& values = paths_[c].values;
-    values.resize(m, rows);
-    values.row(0) << (contact.U * from.y.head(n)).transpose(),
-        (contact.U * from.y.tail(n)).transpose();
-    const bool has_force = from.contacts[c].in_touch();
-    if (!is_touching) {
-      values.bottomRows(m - 1) = free_[c];
-    } else {
-      if (has_force) {
-        values.middleRows(1, nodes) = at_[c];
-      } else {
-        Mat& at = at_[c];
-        at = free_[c];
-        Eigen::Map<Vec> flat(at.data(), at.size());
-        for (const int b : touching_) {
-          flat.noalias() +=
-              nodes_of(rung_, true).kernel[c * paths_.size() + static_cast<std::size_t>(b)] *
-              forces_of(b);
-        }
-        values.middleRows(1, nodes) = at;
-      }
-      values.row(m - 1) << (contact.U * end.head(n)).transpose(),
-          (contact.U * end.tail(n)).transpose();
-    }
-    values.col(0).array() -= contact.offset(0);
-    values.col(1).array() -= contact.offset(1);
-    paths_[c].powers.noalias() = places.to_powers * values;
-    if (!has_force) {
-      path_error_ = std::max(path_error_, (places.tail * values.leftCols(2)).cwiseAbs().maxCoeff() /
-                                              contact.clearance);
-    }
-  }
-}
-
-Polynomial ContactStep::polynomial(const EventWatcher& watcher, int contact, EventKind kind,
-                                   double limit, const ContactState& state) const {
-  const auto i = static_cast<std::size_t>(contact);
-  const ReducedContact& c = system_.contacts()[i];
-  const Path& path = paths_[i];
-  const auto m = static_cast<int>(path.values.rows());
-  Polynomial g;
-  const bool is_distance = kind == EventKind::touch || kind == EventKind::part ||
-                           (kind == EventKind::release && is_continuous(c.law));
-  if (is_distance) {
-    const double sign = kind == EventKind::touch ? -1.0 : 1.0;
-    const double factor = sign / (c.clearance * c.clearance);
-    const double* x = path.powers.col(0).data();
-    const double* y = path.powers.col(1).data();
-    g.degree = 2 * (m - 1);
-    for (int j = 0; j < m; ++j) {
-      for (int k = 0; k < m; ++k) {
-        g.c[static_cast<std::size_t>(j + k)] += factor * (x[j] * x[k] + y[j] * y[k]);
-      }
-    }
-    g.c[0] -= sign;
-  } else {
-    const Places& places = touching_.empty() ? flight_places_ : touch_places_;
-    Vec values(m);
-    for (int k = 0; k < m; ++k) {
-      const auto at = path.values.row(k);
-      ContactForces f = kinematics(c, Vec2(at(0), at(1)), Vec2(at(2), at(3)));
-      if (state.touch == Touch::sticking) {
-        for (int d = 0; d < 2; ++d) {
-          f.friction +=
-              f.t()(d) * at_places_.row(k).dot(a_.segment((2 * contact + d) * terms, terms));
-        }
-      }
-      values(k) = watcher.value({0.0, contact, kind}, f, state);
-    }
-    const Vec powers = places.to_powers * values;
-    g.degree = m - 1;
-    for (int k = 0; k < m; ++k) g.c[static_cast<std::size_t>(k)] = powers(k);
-  }
-  double scale = 1.0;
-  for (int k = 0; k <= g.degree && limit < 1.0; ++k, scale *= limit) {
-    g.c[static_cast<std::size_t>(k)] *= scale;
-  }
-  return g;
-}
-
-std::optional<Event> ContactStep::first_event(const EventWatcher& watcher, double limit,
-                                              const MotionState& from, bool& is_sure) {
-  std::optional<Event> earliest;
-  is_sure = true;
-  for (int i = 0; i < static_cast<int>(from.contacts.size()); ++i) {
-    const ContactState& state = from.contacts[static_cast<std::size_t>(i)];
-    for (const EventKind kind : watcher.kinds(i, state)) {
-      Polynomial g = polynomial(watcher, i, kind, limit, state);
-      const auto s = first_fall(g, watcher.on_surface(i, kind));
-      if (s && (!earliest || *s * limit < earliest->s)) earliest = Event{*s * limit, i, kind};
-      if (s || state.in_touch() || path_error_ < tolerance_) continue;
-      // a fall that the error of the path could hide
-      g.c[1] -= 8.0 * path_error_;
-      if (first_fall(g, watcher.on_surface(i, kind))) is_sure = false;
-    }
-  }
-  return earliest;
 }
 
 void ContactStep::advance(double fraction, const MotionState& from, Vec& y) {

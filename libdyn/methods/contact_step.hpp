@@ -33,6 +33,7 @@ class ContactStep {
   static constexpr int terms = 8;     ///< of a force polynomial
   static constexpr int nodes = 8;     ///< where forces are evaluated: Gauss points
   static constexpr int samples = 14;  ///< of free motion: Chebyshev points
+  static constexpr int rows = 4;      ///< d_x, d_y, w_x, w_y of a contact
 
   /// @param longest  step size of rung 0 [s]
   ContactStep(const ContactSystem& system, double longest, double tolerance);
@@ -80,8 +81,7 @@ class ContactStep {
   /// How values at places give polynomials.
   struct Places {
     Vec s;
-    Mat to_powers;
-    Mat tail;  ///< last two coefficients of an orthogonal basis
+    Mat to_legendre, to_powers;
   };
 
   const Nodes& nodes_of(Rung rung, bool is_touching);
@@ -119,7 +119,7 @@ class ContactStep {
   Vec extended_, a_;
   std::vector<Mat> free_, at_;  ///< per contact: nodes x 4
   std::vector<Path> paths_;
-  Mat node_forces_;
+  Mat node_forces_, path_legendre_;
   double error_ = 0.0, path_error_ = 0.0;
   long evaluations_ = 0;
 };

@@ -16,8 +16,8 @@ constexpr int finest = 30;  ///< halvings of a step
 /// Maps to coefficients, made once.
 struct Interpolation {
   Vec s = chebyshev_points(points);
-  Mat to_powers = values_to_powers(s);
-  Mat tail = chebyshev_transform(points).bottomRows(2);
+  Mat to_legendre = values_to_legendre(s);
+  Mat to_powers = legendre_to_powers(points);
 };
 const Interpolation& interpolation() {
   static const Interpolation table;
@@ -46,8 +46,9 @@ bool ContactStep::dense_piece(const MotionState& from, int level, double start, 
     if (i > 0) flow.advance(level, table.s(i) * part, load, a, touching_, z);
     values.row(i) = z.transpose();
   }
+  const Mat legendre = table.to_legendre * values;
   const double error =
-      ((table.tail * values).array().rowwise() / system_.state_scale().transpose().array())
+      (legendre.bottomRows(2).array().rowwise() / system_.state_scale().transpose().array())
           .abs()
           .maxCoeff();
   if (error > tolerance_ && level < rung_.level() + finest) {
@@ -63,7 +64,7 @@ bool ContactStep::dense_piece(const MotionState& from, int level, double start, 
     return dense_piece(from, level + 1, middle, 0.5 * width, limit, z, half, give);
   }
   const auto n = system_.coordinates();
-  const Mat powers = (table.to_powers * values).transpose();
+  const Mat powers = (table.to_powers * legendre).transpose();
   Step step;
   step.revolution = from.revolution;
   step.phase = from.phase + start * h * rate;
