@@ -1,5 +1,6 @@
 #include "libdyn/linear_flow.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "libdyn/legendre.hpp"
@@ -41,6 +42,20 @@ Mat first_order_matrix(const ContactSystem& system) {
   A.bottomLeftCorner(n, n) = -system.K();
   A.bottomRightCorner(n, n) = -system.D();
   return A;
+}
+
+double contact_frequency(const ContactSystem& system) {
+  double sum = 0.0;
+  for (const ReducedContact& c : system.contacts()) {
+    const double depth = 0.01 * c.clearance;
+    const double k = (normal_force(c.law, depth, 0.0) - normal_force(c.law, 0.0, 0.0)) / depth;
+    sum += k * Mat2(c.U * c.B).norm();
+  }
+  return std::sqrt(sum);
+}
+
+double fastest_mode(const ContactSystem& system) {
+  return first_order_matrix(system).eigenvalues().cwiseAbs().maxCoeff();
 }
 
 LinearFlow::LinearFlow(const ContactSystem& system, double longest, int terms)

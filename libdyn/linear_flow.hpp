@@ -83,4 +83,11 @@ double balanced_norm(Mat A);
 /// A of y' = A y + ..., for y = (eta, eta').
 Mat first_order_matrix(const ContactSystem& system);
 
+/// Frequency of the rotor in its contacts, w_c = (sum over contacts of k |U B|)^(1/2) [rad/s], k
+/// the stiffness of the law at a hundredth of the clearance.
+double contact_frequency(const ContactSystem& system);
+
+/// Largest |lambda| of the linear part [rad/s].
+double fastest_mode(const ContactSystem& system);
+
 }  // namespace whirl

@@ -1,6 +1,5 @@
 #include "libdyn/methods/collocation.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -277,19 +276,8 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
   return Run(system, state, options, observer).go(state.revolution + revolutions);
 }
 
-double contact_frequency(const ContactSystem& system) {
-  double sum = 0.0;
-  for (const ReducedContact& c : system.contacts()) {
-    const double depth = 0.01 * c.clearance;
-    const double k = (normal_force(c.law, depth, 0.0) - normal_force(c.law, 0.0, 0.0)) / depth;
-    sum += k * Mat2(c.U * c.B).norm();
-  }
-  return std::sqrt(sum);
-}
-
 bool prefers_collocation(const ContactSystem& system) {
-  const double fastest = first_order_matrix(system).eigenvalues().cwiseAbs().maxCoeff();
-  return fastest > 2.0 * contact_frequency(system);
+  return fastest_mode(system) > 2.0 * contact_frequency(system);
 }
 
 }  // namespace whirl

@@ -27,10 +27,6 @@ struct Collocation {
                                const IntegrationOptions& options, const Observer& observer);
 };
 
-/// Frequency of the rotor in its contacts, w_c = (sum over contacts of k |U B|)^(1/2) [rad/s], k
-/// the stiffness of the law at a hundredth of the clearance.
-double contact_frequency(const ContactSystem& system);
-
 /// Whether the fastest mode is so much faster than the contacts (|lambda| > 2 w_c) that explicit
 /// methods are limited by it, and collocation is the cheaper method.
 ///

@@ -11,10 +11,17 @@ namespace whirl {
 
 namespace {
 
-
 constexpr int most_sweeps = 25, most_newton = 12;
 constexpr double slow = 0.3;        ///< contraction from which on Newton's method is cheaper
 constexpr double rounding = 4e-15;  ///< of forces
+
+constexpr double fast = 4.0;  ///< modes by the contact frequency, from which on they are too fast
+                              ///< for the points of a step
+
+int nodes_for(const ContactSystem& system) {
+  const bool is_fast = fastest_mode(system) > fast * contact_frequency(system);
+  return is_fast ? 2 * ContactStep::terms : ContactStep::terms;
+}
 
 /// Largest value on [0, 1] of the integral of P_terms(2 s - 1): what a force that is left out does
 /// to the velocity.
@@ -33,17 +40,18 @@ ContactStep::ContactStep(const ContactSystem& system, double longest, double tol
     : system_(system),
       longest_(longest),
       tolerance_(tolerance),
+      nodes_(nodes_for(system)),
       families_(2),
       extended_(system.size() + 3),
       a_(Vec::Zero(2 * static_cast<Eigen::Index>(system.contacts().size()) * terms)),
       free_(system.contacts().size()),
-      at_(system.contacts().size(), Mat(nodes, rows)),
+      at_(system.contacts().size(), Mat(nodes_, rows)),
       paths_(system.contacts().size()),
-      node_forces_(nodes, 2) {
-  const GaussRule rule = gauss_rule(nodes);
-  project_.resize(terms, nodes);
-  at_nodes_.resize(nodes, terms);
-  for (int i = 0; i < nodes; ++i) {
+      node_forces_(nodes_, 2) {
+  const GaussRule rule = gauss_rule(nodes_);
+  project_.resize(terms, nodes_);
+  at_nodes_.resize(nodes_, terms);
+  for (int i = 0; i < nodes_; ++i) {
     const Vec p = legendre(rule.s(i), terms);
     at_nodes_.row(i) = p.transpose();
     for (int k = 0; k < terms; ++k) project_(k, i) = rule.w(i) * (2 * k + 1) * p(k);
@@ -51,12 +59,12 @@ ContactStep::ContactStep(const ContactSystem& system, double longest, double tol
   const auto places = [](const Vec& s) {
     return Places{s, values_to_legendre(s), legendre_to_powers(static_cast<int>(s.size()))};
   };
-  Vec with_ends(nodes + 2);
+  Vec with_ends(nodes_ + 2);
   with_ends << 0.0, rule.s, 1.0;
   touch_places_ = places(with_ends);
   flight_places_ = places(chebyshev_points(samples));
-  at_places_.resize(nodes + 2, terms);
-  for (int i = 0; i < nodes + 2; ++i) {
+  at_places_.resize(nodes_ + 2, terms);
+  for (int i = 0; i < nodes_ + 2; ++i) {
     at_places_.row(i) = legendre(with_ends(i), terms).transpose();
   }
 
@@ -121,7 +129,7 @@ const ContactStep::Nodes& ContactStep::nodes_of(Rung rung, bool is_touching) {
   const auto level = static_cast<std::size_t>(rung.level());
   Nodes& table = is_touching ? family->touch[level] : family->flight[level];
   if (table.free.empty()) {
-    const Vec s = is_touching ? touch_places_.s.segment(1, nodes).eval()
+    const Vec s = is_touching ? touch_places_.s.segment(1, nodes_).eval()
                               : flight_places_.s.tail(samples - 1).eval();
     fill(table, family->flow, rung.level(), s, is_touching);
   }
@@ -158,7 +166,7 @@ bool ContactStep::solve(Rung rung, const MotionState& from) {
 void ContactStep::evaluate_nodes(bool with_rates) {
   const Nodes& table = nodes_of(rung_, true);
   const auto contacts = static_cast<int>(at_.size());
-  const Eigen::Index used = (with_rates ? rows : 2) * nodes;
+  const Eigen::Index used = (with_rates ? rows : 2) * nodes_;
   for (const int c : touching_) {
     Mat& at = at_[static_cast<std::size_t>(c)];
     Eigen::Map<Vec> values(at.data(), used);
@@ -191,8 +199,9 @@ bool ContactStep::picard(const MotionState& from) {
     double change = 0.0, largest = 0.0, effect = 0.0;
     for (const int c : touching_) {
       const auto i = static_cast<std::size_t>(c);
-      for (int k = 0; k < nodes; ++k) {
-        node_forces_.row(k) = node_force(c, from.contacts[i], at_[i].data() + k, nodes).transpose();
+      for (int k = 0; k < nodes_; ++k) {
+        node_forces_.row(k) =
+            node_force(c, from.contacts[i], at_[i].data() + k, nodes_).transpose();
       }
       Eigen::Map<Mat> a(a_.data() + 2 * c * terms, terms, 2);
       Eigen::Matrix<double, terms, 2> next;
@@ -248,7 +257,7 @@ bool ContactStep::newton(const MotionState& from) {
       const auto i = static_cast<std::size_t>(c);
       const ReducedContact& contact = system_.contacts()[i];
       const Eigen::Map<const Mat> a(a_.data() + 2 * c * terms, terms, 2);
-      for (int k = 0; k < nodes; ++k) {
+      for (int k = 0; k < nodes_; ++k) {
         double dw[rows];
         for (int d = 0; d < rows; ++d) dw[d] = at_[i](k, d);
         const Vec2 force = (at_nodes_.row(k) * a).transpose();
@@ -282,7 +291,7 @@ bool ContactStep::newton(const MotionState& from) {
             const int b = touching_[static_cast<std::size_t>(q)];
             const Mat& kernel = table.kernel[static_cast<std::size_t>(c * contacts + b)];
             Eigen::RowVectorXd along = Eigen::RowVectorXd::Zero(2 * terms);
-            for (int e = 0; e < rows; ++e) along += by_motion(d, e) * kernel.row(e * nodes + k);
+            for (int e = 0; e < rows; ++e) along += by_motion(d, e) * kernel.row(e * nodes_ + k);
             J.block((2 * p + d) * terms, q * 2 * terms, terms, 2 * terms) +=
                 project_.col(k) * along;
           }

@@ -31,10 +31,13 @@ struct Rung {
 class ContactStep {
  public:
   static constexpr int terms = 8;     ///< of a force polynomial
-  static constexpr int nodes = 8;     ///< where forces are evaluated: Gauss points
   static constexpr int samples = 14;  ///< of free motion: Chebyshev points
   static constexpr int rows = 4;      ///< d_x, d_y, w_x, w_y of a contact
 
+  /// With modes much faster than the contacts, forces are evaluated at more points than they have
+  /// coefficients: their projection leaves out what a fast mode adds to a displacement, which few
+  /// points would mistake for something slow.
+  ///
   /// @param longest  step size of rung 0 [s]
   ContactStep(const ContactSystem& system, double longest, double tolerance);
 
@@ -104,6 +107,7 @@ class ContactStep {
 
   const ContactSystem& system_;
   double longest_, tolerance_;
+  int nodes_;  ///< where forces are evaluated: Gauss points
   std::vector<std::unique_ptr<Family>> families_;
   Places touch_places_, flight_places_;
   Mat project_;    ///< terms x nodes

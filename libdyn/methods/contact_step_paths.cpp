@@ -59,7 +59,7 @@ void ContactStep::make_paths(const MotionState& from) {
       values.bottomRows(m - 1) = free_[c];
     } else {
       if (has_force) {
-        values.middleRows(1, nodes) = at_[c];
+        values.middleRows(1, nodes_) = at_[c];
       } else {
         Mat& at = at_[c];
         at = free_[c];
@@ -69,7 +69,7 @@ void ContactStep::make_paths(const MotionState& from) {
               nodes_of(rung_, true).kernel[c * paths_.size() + static_cast<std::size_t>(b)] *
               forces_of(b);
         }
-        values.middleRows(1, nodes) = at;
+        values.middleRows(1, nodes_) = at;
       }
       values.row(m - 1) << (contact.U * end.head(n)).transpose(),
           (contact.U * end.tail(n)).transpose();
