@@ -115,9 +115,9 @@ TEST_P(EveryMethod, StopsWhereTheObserverSays) {
   MotionState state = test::start_of(test::P1.model(), scene);
   int steps = 0;
   const Integration result =
-      test::run(scene, state, 5, {.method = method()}, [&](const Step&) { return ++steps < 7; });
+      test::run(scene, state, 5, {.method = method()}, [&](const Step&) { return ++steps < 3; });
   EXPECT_EQ(result.outcome, Outcome::stopped_by_observer);
-  EXPECT_EQ(result.cost.steps, 7);
+  EXPECT_EQ(result.cost.steps, 3);
   EXPECT_EQ(state.revolution, 0);
   EXPECT_GT(state.phase, 0.0);
 
