@@ -1,6 +1,7 @@
 #include "libdyn/linear_flow.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <cmath>
 
 #include "libdyn/legendre.hpp"
@@ -49,7 +50,7 @@ double contact_frequency(const ContactSystem& system) {
   for (const ReducedContact& c : system.contacts()) {
     const double depth = 0.01 * c.clearance;
     const double k = (normal_force(c.law, depth, 0.0) - normal_force(c.law, 0.0, 0.0)) / depth;
-    sum += k * Mat2(c.U * c.B).norm();
+    sum += k * Eigen::JacobiSVD<Mat2>(c.U * c.B).singularValues()(0);
   }
   return std::sqrt(sum);
 }

@@ -122,9 +122,10 @@ void ContactStep::fill(Nodes& table, LinearFlow& flow, int level, const Vec& s,
 const ContactStep::Nodes& ContactStep::nodes_of(Rung rung, bool is_touching) {
   auto& family = families_[static_cast<std::size_t>(rung.family())];
   if (!family) {
-    family.reset(new Family{{system_, size({rung.family()}), terms}, {}, {}});
+    family.reset(new Family{{system_, size({rung.family()}), terms}, {}, {}, {}});
     family->touch.resize(64);
     family->flight.resize(64);
+    family->dense.resize(64);
   }
   const auto level = static_cast<std::size_t>(rung.level());
   Nodes& table = is_touching ? family->touch[level] : family->flight[level];

@@ -1,6 +1,7 @@
 #pragma once
 /// One step of the collocation method: contact forces as polynomials of time.
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -76,6 +77,7 @@ class ContactStep {
   struct Family {
     LinearFlow flow;
     std::vector<Nodes> touch, flight;
+    std::vector<Mat> dense;  ///< states at Chebyshev points from (y, load, a)
   };
   struct Path {
     Mat values;  ///< d_x, d_y, w_x, w_y at places of the step, both ends included
@@ -99,9 +101,13 @@ class ContactStep {
   void estimate();
   Polynomial polynomial(const EventWatcher& watcher, int contact, EventKind kind, double limit,
                         const ContactState& state) const;
-  bool dense_piece(const MotionState& from, int level, double start, double width, double limit,
-                   const Vec& y, const Vec& a,
-                   const std::function<bool(const Step&, const Vec&)>& give);
+  struct Part {  ///< of the step, as fractions of it
+    int level;   ///< of its own size
+    double start, width;
+  };
+  bool dense_piece(const MotionState& from, const Part& part, double limit, const Vec& y,
+                   const Vec& a, const std::function<bool(const Step&, const Vec&)>& give);
+  const Mat& dense_table(int level);
 
   auto forces_of(int contact) { return a_.segment(2 * contact * terms, 2 * terms); }
 
@@ -126,6 +132,7 @@ class ContactStep {
   Mat node_forces_, path_legendre_;
   double error_ = 0.0, path_error_ = 0.0;
   long evaluations_ = 0;
+  double longest_piece_ = std::numeric_limits<double>::infinity();  ///< of dense output [s]
 };
 
 }  // namespace whirl
