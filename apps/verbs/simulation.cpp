@@ -101,7 +101,7 @@ const std::vector<OptionSpec>& integration_options() {
       {"revolutions", "N", "revolutions that are recorded (512)"},
       {"discard", "N", "revolutions before them, for the transient (500)"},
       {"samples", "N", "samples per revolution (64)"},
-      {"method", "M", "integrator: dop853 (the default), cvode-adams, cvode-bdf"},
+      {"method", "M", "integrator: dop853 (the default), cvode-adams, cvode-bdf, collocation"},
       {"tolerance", "T", "of a step, displacements by the clearance (1e-10)"},
       {"from", "FILE.h5", "start where a result ended"},
       {"stations", "NAME,...",

@@ -269,7 +269,7 @@ Model with_chip(double w, double zeta) {
   return model;
 }
 
-/// Steps per revolution of settled motion, and its error after 3 revolutions.
+/// Steps per revolution of settled motion, and its error after one.
 struct Effort {
   double steps, error;
 };
@@ -292,8 +292,7 @@ TEST(Collocation, CostsNoMoreStepsWithFasterModes) {
   for (const auto& [w, zeta] : {std::pair{1e5, 0.01}, std::pair{1e3, 15.0}}) {
     const Effort stiff = effort(with_chip(w, zeta), tolerance);
     EXPECT_LT(stiff.steps, 1.2 * plain.steps) << w;
-    EXPECT_LT(stiff.error, 100.0 * tolerance) << w;
-    std::printf("%g %g plain %g\n", stiff.steps, stiff.error, plain.steps);
+    EXPECT_LT(stiff.error, 20.0 * tolerance) << w;
   }
 }
 
@@ -314,18 +313,23 @@ TEST(Collocation, AgreesWithDop853OnTheTwoDiskRotor) {
   EXPECT_LT(test::distance(scene.contacts, a.y, b.y), 1e-8);
 }
 
-// 104 states, the fastest at 4.5e5 rad/s.
+// 104 states, the fastest at 4.5e5 rad/s and hardly damped: forces follow all of them, which takes
+// more steps than 8 modes do, and fewer than DOP853.
 TEST(Collocation, TakesAnUnreducedModel) {
   const Model model = two_disk_rotor({.method = ReductionMethod::none});
   const Scene scene = make_scene(model);
-  EXPECT_EQ(scene.contacts.coordinates(), 52);
+  ASSERT_EQ(scene.contacts.coordinates(), 52);
   EXPECT_TRUE(prefers_collocation(scene.contacts));
-  MotionState state = test::start_of(model, scene);
-  const Integration result = test::run(scene, state, 3, {.tolerance = 1e-8, .method = collocation});
+  MotionState a = test::start_of(model, scene), b = a;
+  const Integration result = test::run(scene, a, 1, {.tolerance = 1e-8, .method = collocation});
   EXPECT_EQ(result.outcome, Outcome::reached_end) << result.diagnosis;
-  MotionState other = test::start_of(model, scene);
-  test::run(scene, other, 3, {.tolerance = 1e-9, .method = collocation});
-  std::printf("unred %g\n", test::distance(scene.contacts, state.y, other.y));
+  const Integration expected = test::run(scene, b, 1, {.tolerance = 1e-8});
+  EXPECT_EQ(result.cost.events, expected.cost.events);
+  EXPECT_LT(result.cost.steps, expected.cost.steps);
+  // displacement at the contact, in clearances: DOP853's own error at this tolerance is 1.8e-10
+  // there and 7.5e-5 in velocities of the fastest modes, collocation's 4e-10 in all of them
+  const ReducedContact& ring = scene.contacts.contacts()[0];
+  EXPECT_LT((ring.U * (a.y - b.y).head(52)).norm(), 1e-9 * ring.clearance);
 }
 
 }  // namespace

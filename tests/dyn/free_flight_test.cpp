@@ -29,9 +29,7 @@ TEST(FreeFlight, IsCertainOfWhatStaysWithinTheClearance) {
   const MassInRing p{.k = 1e4, .c = 2.0, .clearance = 1e-3};
   const Scene scene = p.scene();
   EXPECT_TRUE(is_certain(scene, apart(Vec::Zero(4))));
-  EXPECT_TRUE(is_certain(scene, test::state_of(Vec2(0.0, 0.0), Vec2(0.0, 0.0)).contacts.empty()
-                                    ? apart((Vec(4) << 9e-4, 0.0, 0.0, 0.0).finished())
-                                    : MotionState{}));
+  EXPECT_TRUE(is_certain(scene, apart((Vec(4) << 9e-4, 0.0, 0.0, 0.0).finished())));
   // 1.1 clearances on the way: v / w = 1.1e-3 m
   EXPECT_FALSE(is_certain(scene, apart((Vec(4) << 0.0, 0.0, 0.11, 0.0).finished())));
 }
@@ -67,14 +65,13 @@ TEST(FreeFlight, IsRight) {
   for (int i = 0; i < 200; ++i) {
     MotionState state = rest;
     for (Eigen::Index k = 0; k < 8; ++k) {
-      state.y(k) += 0.05 * scene.contacts.state_scale()(k) * (i % 20) * normal(random);
+      state.y(k) += 0.01 * scene.contacts.state_scale()(k) * (i % 20) * normal(random);
     }
     state.contacts = scene.contacts.classify(0.0, state.y.data());
     if (!flight.is_certain(state)) continue;
     ++certain;
     EXPECT_EQ(test::run(scene, state, 20, {.tolerance = 1e-6}).cost.events, 0) << i;
   }
-  std::printf("certain %d\n", certain);
   EXPECT_GT(certain, 20);
   EXPECT_LT(certain, 180);
 }
