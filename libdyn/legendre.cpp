@@ -32,8 +32,8 @@ GaussRule gauss_rule(int points) {
   return rule;
 }
 
-Mat restriction(double from, double to, int terms) {
-  const GaussRule rule = gauss_rule(terms);
+Mat restriction(double from, double to, const GaussRule& rule) {
+  const auto terms = static_cast<int>(rule.s.size());
   Mat r = Mat::Zero(terms, terms);
   for (int i = 0; i < terms; ++i) {
     const Vec whole = legendre(from + (to - from) * rule.s(i), terms);

@@ -16,7 +16,8 @@ struct GaussRule {
 GaussRule gauss_rule(int points);
 
 /// Coefficients on [from, to] of a polynomial that is given by its coefficients on [0, 1].
-Mat restriction(double from, double to, int terms);
+/// @param rule  with as many points as the polynomial has terms
+Mat restriction(double from, double to, const GaussRule& rule);
 
 /// Entry (k, j) is the coefficient of s^k in P_j(2 s - 1).
 Mat legendre_to_powers(int terms);

@@ -4,8 +4,6 @@
 #include <Eigen/SVD>
 #include <cmath>
 
-#include "libdyn/legendre.hpp"
-
 namespace whirl {
 
 namespace {
@@ -68,8 +66,9 @@ LinearFlow::LinearFlow(const ContactSystem& system, double longest, int terms)
       A_(first_order_matrix(system)),
       F_(Mat::Zero(2 * n_, 3)),
       B_(Mat::Zero(2 * n_, 2 * contacts_)),
-      first_half_(restriction(0.0, 0.5, terms)),
-      second_half_(restriction(0.5, 1.0, terms)),
+      rule_(gauss_rule(terms)),
+      first_half_(restriction(0.0, 0.5, rule_)),
+      second_half_(restriction(0.5, 1.0, rule_)),
       to_powers_(legendre_to_powers(terms)),
       tables_(most_levels),
       work_(2 * n_),
@@ -257,7 +256,7 @@ LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r) {
       out.y += power;
     }
     out.load = load_sum * rotation(at * h);
-    const Mat to_powers = to_powers_ * restriction(at, fraction, terms_);
+    const Mat to_powers = to_powers_ * restriction(at, fraction, rule_);
     for (int b = 0; b < 2 * contacts_; ++b) {
       out.force.middleCols(b * terms_, terms_) = force.middleCols(b * terms_, terms_) * to_powers;
     }
@@ -266,7 +265,7 @@ LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r) {
     const Table& t = table(p->level);
     out.load += out.y * t.L * rotation(p->from * h);
     const Mat force = out.y * t.G;
-    const Mat part = restriction(p->from, p->to, terms_);
+    const Mat part = restriction(p->from, p->to, rule_);
     for (int b = 0; b < 2 * contacts_; ++b) {
       out.force.middleCols(b * terms_, terms_) += force.middleCols(b * terms_, terms_) * part;
     }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libdyn/contact_system.hpp"
+#include "libdyn/legendre.hpp"
 
 namespace whirl {
 
@@ -67,6 +68,7 @@ class LinearFlow {
   double longest_, rate_, norm_;
   Mat A_, F_, B_;  ///< B: 2 n x 2 contacts
   Eigen::Matrix3d W_;
+  GaussRule rule_;
   Mat first_half_, second_half_, to_powers_;
   std::vector<Table> tables_;
   Vec work_, term_, a_, whole_;  ///< workspace of advance()
