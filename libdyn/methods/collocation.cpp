@@ -16,6 +16,7 @@ namespace {
 constexpr double too_small = 1e-14;  ///< of a revolution
 constexpr int most_instant_events = 50;
 constexpr int most_corrections = 5;     ///< of the place of an event
+constexpr double rounding = 4e-15;      ///< of an event's function
 constexpr double missed = 1e-6;         ///< an event's function there: the step was too coarse
 constexpr double coarsest_path = 1e-4;  ///< error of a path in free flight, by the clearance
 constexpr double wanted_path = 1e-6;    ///< the same, aimed at
@@ -63,7 +64,8 @@ class Run {
   bool show(double limit);
   /// Gives the last one, after the state has moved on.
   Result show_last();
-  double locate(Event& event, double limit, double h);
+  /// Moves the end of a step onto an event; what is left of the event's function.
+  double locate(Event& event, double h);
   void choose_next(Rung tried, bool touched);
 
   const ContactSystem& system_;
@@ -99,53 +101,45 @@ Integration Run::go(long last) {
   return result_;
 }
 
-double Run::locate(Event& event, double limit, double h) {
-  // Newton's method on the exact motion under the step's forces
+double Run::locate(Event& event, double h) {
+  if (event.kind == EventKind::stick_limit) {  // from the forces of the step, which are unknowns
+    step_.advance(event.s, state_, end_);
+    return 0.0;
+  }
+  // Newton's method, then secants, on the exact motion under the step's forces
   const double rate = system_.phase_rate();
   const auto value = [&](double s) {
     step_.advance(s, state_, end_);
     return watcher_.value(event, state_.phase + s * h * rate, end_.data(), state_.contacts);
   };
-  if (event.kind == EventKind::stick_limit) {  // from the forces of the step, which are an unknown
-    step_.advance(event.s, state_, end_);
-    return 0.0;
-  }
-  double s = event.s, g = value(s), best_s = s, best = std::abs(g);
-  double slope = 0.0;
-  for (int i = 0; i < most_corrections && std::abs(g) > 2e-15; ++i) {
-    if (slope == 0.0) {
-      const double ds = 1e-5 * std::max(s, 1e-3);
-      slope = (value(s + ds) - g) / ds;
-    }
+  double s = event.s, g = value(s), slope = step_.event_slope();
+  for (int i = 0; i < most_corrections && std::abs(g) > rounding; ++i) {
     const double next = s - g / slope;
-    if (!(std::abs(next - s) < 0.05) || next <= 0.0 || next > 1.1 * limit) break;
+    if (!(std::abs(next - s) < 0.05) || next <= 0.0 || next > 1.0) break;
     const double g_next = value(next);
-    if (!(std::abs(g_next) < 0.5 * std::abs(g))) break;
+    if (!(std::abs(g_next) < 0.5 * std::abs(g))) {  // as good as it gets
+      step_.advance(s, state_, end_);
+      break;
+    }
     slope = (g_next - g) / (next - s);
     s = next;
     g = g_next;
-    if (std::abs(g) < best) {
-      best = std::abs(g);
-      best_s = s;
-    }
   }
-  event.s = best_s;
-  step_.advance(best_s, state_, end_);
-  return best;
+  event.s = s;
+  return std::abs(g);
 }
 
 void Run::choose_next(Rung tried, bool touched) {
   if (is_fixed()) return;
+  const auto next = [&](double error, int order) {
+    const double factor = 0.9 * std::pow(std::max(error, 1e-10), -1.0 / order);
+    const int rungs = static_cast<int>(std::floor(2.0 * std::log2(factor)));
+    return Rung{std::max(0, tried.number - std::clamp(rungs, -2, 2))};
+  };
   if (touched) {
-    const double error = std::max(step_.error(), 1e-10);
-    const double factor = 0.9 * std::pow(error, -1.0 / ContactStep::terms);
-    touch_.number = std::max(
-        0, tried.number - std::clamp(static_cast<int>(std::floor(2.0 * std::log2(factor))), -2, 2));
+    touch_ = next(step_.error(), ContactStep::terms);
   } else {
-    const double error = std::max(step_.path_error() / wanted_path, 1e-10);
-    const double factor = 0.9 * std::pow(error, -1.0 / (ContactStep::samples - 2));
-    flight_.number = std::max(
-        0, tried.number - std::clamp(static_cast<int>(std::floor(2.0 * std::log2(factor))), -2, 2));
+    flight_ = next(step_.path_error() / wanted_path, ContactStep::samples - 2);
   }
 }
 
@@ -196,7 +190,7 @@ Run::Result Run::advance() {
     return Result::goes_on;
   }
   if (event) {
-    if (locate(*event, limit, h) > missed) return shorten(1);
+    if (locate(*event, h) > missed) return shorten(1);
     limit = event->s;
     ends_revolution = false;
     ++result_.cost.events;

@@ -221,11 +221,10 @@ bool ContactStep::picard(const MotionState& from) {
   return false;
 }
 
-void ContactStep::residual(const MotionState& from, int contact, int node, const double* dw,
+void ContactStep::residual(const MotionState& from, int contact, const double* dw,
                            const Vec2& force, Vec2& out) {
   const auto i = static_cast<std::size_t>(contact);
   const ReducedContact& c = system_.contacts()[i];
-  (void)node;
   if (from.contacts[i].touch == Touch::sliding) {
     out = force - node_force(contact, from.contacts[i], dw, 1);
     return;
@@ -263,7 +262,7 @@ bool ContactStep::newton(const MotionState& from) {
         for (int d = 0; d < rows; ++d) dw[d] = at_[i](k, d);
         const Vec2 force = (at_nodes_.row(k) * a).transpose();
         Vec2 value, other;
-        residual(from, c, k, dw, force, value);
+        residual(from, c, dw, force, value);
         for (int d = 0; d < 2; ++d) {
           r.segment((2 * p + d) * terms, terms) += value(d) * project_.col(k);
         }
@@ -273,14 +272,14 @@ bool ContactStep::newton(const MotionState& from) {
           const double step = 1e-7 * contact.clearance * (d < 2 ? 1.0 : system_.phase_rate());
           const double kept = dw[d];
           dw[d] = kept + step;
-          residual(from, c, k, dw, force, other);
+          residual(from, c, dw, force, other);
           dw[d] = kept;
           by_motion.col(d) = (other - value) / step;
         }
         Mat2 by_force;
         for (int d = 0; d < 2; ++d) {
           const double step = std::max(1.0, force.norm());
-          residual(from, c, k, dw, force + step * Vec2::Unit(d), other);
+          residual(from, c, dw, force + step * Vec2::Unit(d), other);
           by_force.col(d) = (other - value) / step;
         }
         for (int d = 0; d < 2; ++d) {

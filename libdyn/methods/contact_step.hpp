@@ -60,6 +60,9 @@ class ContactStep {
   std::optional<Event> first_event(const EventWatcher& watcher, double limit,
                                    const MotionState& from, bool& is_sure);
 
+  /// Slope of the last event's function there, per step.
+  double event_slope() const { return event_slope_; }
+
   /// The state after a fraction of the step.
   void advance(double fraction, const MotionState& from, Vec& y);
 
@@ -95,7 +98,7 @@ class ContactStep {
   Vec2 node_force(int contact, const ContactState& state, const double* node, int stride);
   bool picard(const MotionState& from);
   bool newton(const MotionState& from);
-  void residual(const MotionState& from, int contact, int node, const double* dw, const Vec2& force,
+  void residual(const MotionState& from, int contact, const double* dw, const Vec2& force,
                 Vec2& out);
   void make_paths(const MotionState& from);
   void estimate();
@@ -126,11 +129,11 @@ class ContactStep {
   Rung rung_;
   std::vector<int> touching_;
   Eigen::Vector3d load_;
-  Vec extended_, a_;
+  Vec extended_, a_, end_;
   std::vector<Mat> free_, at_;  ///< per contact: nodes x 4
   std::vector<Path> paths_;
   Mat node_forces_, path_legendre_;
-  double error_ = 0.0, path_error_ = 0.0;
+  double error_ = 0.0, path_error_ = 0.0, event_slope_ = 0.0;
   long evaluations_ = 0;
   double longest_piece_ = std::numeric_limits<double>::infinity();  ///< of dense output [s]
 };

@@ -45,8 +45,7 @@ void ContactStep::make_paths(const MotionState& from) {
   const Places& places = is_touching ? touch_places_ : flight_places_;
   const auto n = system_.coordinates();
   const auto m = places.s.size();
-  Vec end;
-  if (is_touching) advance(1.0, from, end = from.y);
+  if (is_touching) advance(1.0, from, end_);
   path_error_ = 0.0;
   for (std::size_t c = 0; c < paths_.size(); ++c) {
     const ReducedContact& contact = system_.contacts()[c];
@@ -71,8 +70,8 @@ void ContactStep::make_paths(const MotionState& from) {
         }
         values.middleRows(1, nodes_) = at;
       }
-      values.row(m - 1) << (contact.U * end.head(n)).transpose(),
-          (contact.U * end.tail(n)).transpose();
+      values.row(m - 1) << (contact.U * end_.head(n)).transpose(),
+          (contact.U * end_.tail(n)).transpose();
     }
     values.col(0).array() -= contact.offset(0);
     values.col(1).array() -= contact.offset(1);
@@ -141,7 +140,10 @@ std::optional<Event> ContactStep::first_event(const EventWatcher& watcher, doubl
     for (const EventKind kind : watcher.kinds(i, state)) {
       Polynomial g = polynomial(watcher, i, kind, limit, state);
       const auto s = first_fall_in_parts(g, watcher.on_surface(i, kind));
-      if (s && (!earliest || *s * limit < earliest->s)) earliest = Event{*s * limit, i, kind};
+      if (s && (!earliest || *s * limit < earliest->s)) {
+        earliest = Event{*s * limit, i, kind};
+        event_slope_ = g.derivative(*s) / limit;
+      }
       if (s || state.in_touch() || path_error_ < tolerance_) continue;
       // a fall that the error of the path could hide
       g.c[1] -= 8.0 * path_error_;
