@@ -1,8 +1,6 @@
 #pragma once
 /// Motion that touches nothing: whether it stays so for good, and where it is then.
 
-#include <optional>
-
 #include "libdyn/linear_flow.hpp"
 #include "libdyn/trajectory.hpp"
 

@@ -15,7 +15,7 @@ namespace whirl {
 /// as the fastest mode, asks for; without contact they are limited by nothing but the search for
 /// the next touch, and the rest of a run that can touch nothing any more is one step.
 ///
-/// Order 16 between events, 8 at the ends of steps that events cut short.
+/// Order 16 between events, 9 over events, which cut steps short.
 ///
 /// @source ../../docs/methods.md, "Collocation"
 struct Collocation {
