@@ -24,9 +24,11 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
   t.log_sums.assign(size, P(0.0));
   t.weights.assign(size, P(1.0));
   t.slopes.resize(contacts_.size());
-  t.contacts.resize(contacts_.size());
+  for (auto& track : t.tracks) {
+    track.contacts.resize(contacts_.size());
+    track.terms.assign(terms_.size(), P(0.0));
+  }
   t.gain.assign(contacts_.size(), P(0.0));
-  t.terms.assign(terms_.size(), P(0.0));
   // the term that is left out, (w h)^(N+3) / (N+3)!, is as large as the tolerance
   t.reach = std::exp((std::log(options_.tolerance) + std::lgamma(N + 4.0)) / (N + 3.0));
 }
@@ -109,16 +111,11 @@ HWY_ATTR void Engine<P>::move_tangents(const P& h) {
     }
   }
   const size_t size = 2 * static_cast<size_t>(n_);
-  for (size_t c = 0; c < size; ++c) {
+  for (size_t c = 0; c < size; c += 2) {
     P* y = t.columns.data() + c * size;
     column_series(y, any_sticks);
-    for (size_t i = 0; i < size; ++i) {
-      const bool is_rate = i >= static_cast<size_t>(n_);
-      int k = is_rate ? N + 1 : N + 2;
-      P value = t.terms[static_cast<size_t>(k) * size + i];
-      while (--k >= 0) value = fma(value, h, t.terms[static_cast<size_t>(k) * size + i]);
-      y[i] = select(active, value, y[i]);
-    }
+    evaluate(t.tracks[0].terms.data(), h, y);
+    evaluate(t.tracks[1].terms.data(), h, y + size);
   }
 }
 
@@ -142,57 +139,56 @@ HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
   return -(integral * h);
 }
 
-/// Series of one column from its start.
+/// Series of two columns from their start.
 template <class P>
 HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
+  static constexpr auto forces_of =
+      table_of_slope_forces<P>(std::make_integer_sequence<int, most_terms>());
   auto& t = *tangents_;
+  auto& [first, second] = t.tracks;
   const size_t size = 2 * static_cast<size_t>(n_);
-  std::copy(start, start + size, t.terms.data());
+  std::copy(start, start + size, first.terms.data());
+  std::copy(start + size, start + 2 * size, second.terms.data());
   for (int k = 0; k <= N; ++k) {
     const P inverse(inverse_of(k + 1));
-    const P* now = t.terms.data() + static_cast<size_t>(k) * size;
-    P* next = t.terms.data() + static_cast<size_t>(k + 1) * size;
-    linear_column(now, next, inverse);
+    const size_t now = static_cast<size_t>(k) * size, next = now + size;
+    for (auto& track : t.tracks) {
+      linear_column(track.terms.data() + now, track.terms.data() + next, inverse);
+    }
     for (size_t i = 0; i < contacts_.size(); ++i) {
       const ContactLanes<P>& c = contacts_[i];
       if ((c.touching & active_) == 0) continue;
       const ContactSlopes<P>& slopes = t.slopes[i];
-      auto& u = t.contacts[i];
-      c.displacement(now, u.dx[k], u.dy[k]);
-      P ax(0.0), ay(0.0), bx(0.0), by(0.0);
-      for (int j = 0; j <= k; ++j) {
-        const P x = u.dx[k - j], y = u.dy[k - j];
-        ax = fma(slopes.J.xx[j], x, ax);
-        bx = fma(slopes.J.xy[j], y, bx);
-        ay = fma(slopes.J.yx[j], x, ay);
-        by = fma(slopes.J.yy[j], y, by);
-      }
+      auto &u = first.contacts[i], &w = second.contacts[i];
+      c.displacement(first.terms.data() + now, u.dx[k], u.dy[k]);
+      c.displacement(second.terms.data() + now, w.dx[k], w.dy[k]);
+      P f[4] = {P(0.0), P(0.0), P(0.0), P(0.0)};
+      forces_of[static_cast<size_t>(k)](slopes.J, u.dx, u.dy, w.dx, w.dy, f);
       if (slopes.has_H) {
-        c.displacement(now + n_, u.vx[k], u.vy[k]);
-        for (int j = 0; j <= k; ++j) {
-          const P x = u.vx[k - j], y = u.vy[k - j];
-          ax = fma(slopes.H.xx[j], x, ax);
-          bx = fma(slopes.H.xy[j], y, bx);
-          ay = fma(slopes.H.yx[j], x, ay);
-          by = fma(slopes.H.yy[j], y, by);
-        }
+        c.displacement(first.terms.data() + now + n_, u.vx[k], u.vy[k]);
+        c.displacement(second.terms.data() + now + n_, w.vx[k], w.vy[k]);
+        forces_of[static_cast<size_t>(k)](slopes.H, u.vx, u.vy, w.vx, w.vy, f);
       }
-      c.push(next + n_, (ax + bx) * inverse, (ay + by) * inverse);
+      c.push(first.terms.data() + next + n_, f[0] * inverse, f[1] * inverse);
+      c.push(second.terms.data() + next + n_, f[2] * inverse, f[3] * inverse);
     }
-    if (any_sticks) stick_column(k, next, inverse);
+    if (!any_sticks) continue;
+    for (auto& track : t.tracks) stick_column(track, k, inverse);
   }
-  const P* top = t.terms.data() + static_cast<size_t>(N + 1) * size + n_;
-  P* last = t.terms.data() + static_cast<size_t>(N + 2) * size;
-  for (int i = 0; i < n_; ++i) last[i] = top[i] * P(1.0 / (N + 2.0));
+  for (auto& track : t.tracks) {
+    const P* top = track.terms.data() + static_cast<size_t>(N + 1) * size + n_;
+    P* last = track.terms.data() + static_cast<size_t>(N + 2) * size;
+    for (int i = 0; i < n_; ++i) last[i] = top[i] * P(1.0 / (N + 2.0));
+  }
 }
 
 /// Change of the friction of sticking contacts, so that a column stays without slip:
 ///
 ///   d(d) x d'' + d x d(d'') + Omega R d(r)' = 0
 template <class P>
-HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
-  auto& t = *tangents_;
+HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k, const P& inverse) {
   const size_t m = contacts_.size();
+  P* next = track.terms.data() + static_cast<size_t>(2 * (k + 1)) * static_cast<size_t>(n_);
   P* acceleration = next + n_;
   const P whole(k + 1.0);
   P ax, ay;
@@ -200,7 +196,7 @@ HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
   for (size_t i = 0; i < m; ++i) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
-    auto& u = t.contacts[i];
+    auto& u = track.contacts[i];
     const Mask sticks = mask_of<P>(c.sticking);
     P fx(0.0), fy(0.0);  // of the changes of tau found so far
     for (int j = 0; j < k; ++j) {
@@ -220,7 +216,7 @@ HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
   for (size_t i = 0; i < m; ++i) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
-    auto& u = t.contacts[i];
+    auto& u = track.contacts[i];
     c.displacement(acceleration, ax, ay);
     P sum = fma(c.dx[0], whole * ay, -(c.dy[0] * (whole * ax)));
     for (int j = 1; j <= k; ++j) sum = fma(c.dx[j], u.ay[k - j], fnma(c.dy[j], u.ax[k - j], sum));
@@ -233,15 +229,15 @@ HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
     const P tau = work_[i];
-    t.contacts[i].tau[k] = tau;
+    track.contacts[i].tau[k] = tau;
     c.push(acceleration, -(tau * c.dy[0]) * inverse, tau * c.dx[0] * inverse);
   }
   for (size_t i = 0; i < m; ++i) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
     c.displacement(acceleration, ax, ay);
-    t.contacts[i].ax[k] = whole * ax;
-    t.contacts[i].ay[k] = whole * ay;
+    track.contacts[i].ax[k] = whole * ax;
+    track.contacts[i].ay[k] = whole * ay;
   }
 }
 
