@@ -152,7 +152,7 @@ class Engine {
   HWY_ATTR void orthonormalize(uint64_t due);
   HWY_ATTR P contact_divergence(size_t i, const P& h);
   HWY_ATTR void column_series(const P* start, bool any_sticks);
-  HWY_ATTR inline void linear_column(const P* now, P* next, const P& inverse);
+  HWY_ATTR inline void accelerate_columns(int k, const P* forces);
   HWY_ATTR void stick_column(typename Tangents<P>::Track& track, int k, const P& inverse);
 
   /// Coefficient k of all displacements, then of all velocities.

@@ -16,6 +16,12 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
+/// s^2 = (q + (q^2 - 4 det^2)^(1/2)) / 2 with q = |m|^2 of Frobenius.
+inline double largest_singular_value(const Mat2& m) {
+  const double q = m.squaredNorm(), d = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
+  return std::sqrt(0.5 * (q + std::sqrt(std::max(0.0, q * q - 4.0 * d * d))));
+}
+
 template <class P>
 HWY_ATTR void Engine<P>::prepare_tangents() {
   const size_t size = 2 * static_cast<size_t>(n_);
@@ -55,7 +61,7 @@ HWY_ATTR void Engine<P>::load_tangents(int l, const ContactSystem& s) {
   set_lane(t.divergence, l, 0.0);
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const ReducedContact& c = s.contacts()[i];
-    set_lane(t.gain[i], l, (c.U * c.B).norm());
+    set_lane(t.gain[i], l, largest_singular_value(c.U * c.B));
   }
 }
 
@@ -77,21 +83,45 @@ HWY_ATTR P Engine<P>::limit_for_tangents(const P& h) {
   return min(h, P(t.reach) / sqrt(max(square, P(1e-200))));
 }
 
-/// Coefficients k + 1 of a column without contacts.
+/// Coefficients k + 1 of both columns, from their coefficients k and the forces of contacts.
 template <class P>
-HWY_ATTR inline void Engine<P>::linear_column(const P* now, P* next, const P& inverse) {
+HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces) {
+  auto& [first, second] = tangents_->tracks;
+  const size_t size = 2 * static_cast<size_t>(n_);
+  const P *a = first.terms.data() + static_cast<size_t>(k) * size,
+          *b = second.terms.data() + static_cast<size_t>(k) * size;
+  P *next_a = first.terms.data() + static_cast<size_t>(k + 1) * size,
+    *next_b = second.terms.data() + static_cast<size_t>(k + 1) * size;
+  const P inverse(inverse_of(k + 1));
   for (int i = 0; i < n_; ++i) {
     const auto ui = static_cast<size_t>(i);
-    const P rate = now[n_ + i];
-    const P sum = fma(K_diagonal_[ui], now[i], D_diagonal_[ui] * rate);
-    next[i] = rate * inverse;
-    next[n_ + i] = -(sum * inverse);
+    const P stiffness = K_diagonal_[ui], damping = D_diagonal_[ui];
+    next_a[i] = a[n_ + i] * inverse;
+    next_b[i] = b[n_ + i] * inverse;
+    next_a[n_ + i] = fma(stiffness, a[i], damping * a[n_ + i]);
+    next_b[n_ + i] = fma(stiffness, b[i], damping * b[n_ + i]);
   }
   for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
-    P sum(0.0);
-    const P* a = A_.data() + row.begin;
-    for (const int source : row.source) sum = fma(*a++, now[source], sum);
-    next[n_ + row.i] = fnma(sum, inverse, next[n_ + row.i]);
+    P sum_a(0.0), sum_b(0.0);
+    const P* entry = A_.data() + row.begin;
+    for (const int source : row.source) {
+      sum_a = fma(*entry, a[source], sum_a);
+      sum_b = fma(*entry, b[source], sum_b);
+      ++entry;
+    }
+    next_a[n_ + row.i] = next_a[n_ + row.i] + sum_a;
+    next_b[n_ + row.i] = next_b[n_ + row.i] + sum_b;
+  }
+  for (size_t c = 0; c < contacts_.size(); ++c, forces += 4) {
+    const ContactLanes<P>& contact = contacts_[c];
+    if ((contact.touching & active_) == 0) continue;
+    contact.push(next_a + n_, -forces[0], -forces[1]);
+    contact.push(next_b + n_, -forces[2], -forces[3]);
+  }
+  const P minus = -inverse;
+  for (int i = n_; i < 2 * n_; ++i) {
+    next_a[i] = next_a[i] * minus;
+    next_b[i] = next_b[i] * minus;
   }
 }
 
@@ -149,31 +179,29 @@ HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
   const size_t size = 2 * static_cast<size_t>(n_);
   std::copy(start, start + size, first.terms.data());
   std::copy(start + size, start + 2 * size, second.terms.data());
+  work_.resize(std::max(work_.size(), 4 * contacts_.size()));
   for (int k = 0; k <= N; ++k) {
-    const P inverse(inverse_of(k + 1));
-    const size_t now = static_cast<size_t>(k) * size, next = now + size;
-    for (auto& track : t.tracks) {
-      linear_column(track.terms.data() + now, track.terms.data() + next, inverse);
-    }
+    const P* now = first.terms.data() + static_cast<size_t>(k) * size;
+    const P* other = second.terms.data() + static_cast<size_t>(k) * size;
     for (size_t i = 0; i < contacts_.size(); ++i) {
       const ContactLanes<P>& c = contacts_[i];
       if ((c.touching & active_) == 0) continue;
       const ContactSlopes<P>& slopes = t.slopes[i];
       auto &u = first.contacts[i], &w = second.contacts[i];
-      c.displacement(first.terms.data() + now, u.dx[k], u.dy[k]);
-      c.displacement(second.terms.data() + now, w.dx[k], w.dy[k]);
-      P f[4] = {P(0.0), P(0.0), P(0.0), P(0.0)};
-      forces_of[static_cast<size_t>(k)](slopes.J, u.dx, u.dy, w.dx, w.dy, f);
+      c.displacement(now, u.dx[k], u.dy[k]);
+      c.displacement(other, w.dx[k], w.dy[k]);
+      P* forces = work_.data() + 4 * i;
+      std::fill(forces, forces + 4, P(0.0));
+      forces_of[static_cast<size_t>(k)](slopes.J, u.dx, u.dy, w.dx, w.dy, forces);
       if (slopes.has_H) {
-        c.displacement(first.terms.data() + now + n_, u.vx[k], u.vy[k]);
-        c.displacement(second.terms.data() + now + n_, w.vx[k], w.vy[k]);
-        forces_of[static_cast<size_t>(k)](slopes.H, u.vx, u.vy, w.vx, w.vy, f);
+        c.displacement(now + n_, u.vx[k], u.vy[k]);
+        c.displacement(other + n_, w.vx[k], w.vy[k]);
+        forces_of[static_cast<size_t>(k)](slopes.H, u.vx, u.vy, w.vx, w.vy, forces);
       }
-      c.push(first.terms.data() + next + n_, f[0] * inverse, f[1] * inverse);
-      c.push(second.terms.data() + next + n_, f[2] * inverse, f[3] * inverse);
     }
+    accelerate_columns(k, work_.data());
     if (!any_sticks) continue;
-    for (auto& track : t.tracks) stick_column(track, k, inverse);
+    for (auto& track : t.tracks) stick_column(track, k, P(inverse_of(k + 1)));
   }
   for (auto& track : t.tracks) {
     const P* top = track.terms.data() + static_cast<size_t>(N + 1) * size + n_;
