@@ -64,13 +64,13 @@ HWY_ATTR void Engine<P>::advance(const P& h) {
 
 template <class P>
 HWY_ATTR void Engine<P>::step(const Observer* observer) {
-  constexpr double too_small = 1e-14;  // of a revolution
+  constexpr Number too_small = 10.0 * P::rounding;  // of a revolution
   series();
   P h = step_length();
   if (tangents_) h = limit_for_tangents(h);
   if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
   const P left = max(period_ - time_, P(0.0));
-  const Mask reaches = less_equal(left * P(1.0 - 1e-13), h);
+  const Mask reaches = less_equal(left * P(Number(1.0) - 100.0 * P::rounding), h);
   const Mask moves = either(reaches, less(period_ * P(too_small), h));
   const uint64_t good = bits(h, both(both(finite_, bounded_), moves));
   uint64_t ends = active_ & bits(h, reaches);
@@ -128,6 +128,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
 /// Takes off the slip that sticking contacts of a lane have gathered by rounding and truncation.
 template <class P>
 HWY_ATTR void Engine<P>::remove_slip(int l) {
+  if constexpr (!P::is_double) return;  // what double computes would be worse than what is left
   ContactStates states;
   for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
   const auto sticks = [](const ContactState& c) { return c.touch == Touch::sticking; };

@@ -137,7 +137,7 @@ HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
   P integral(0.0);
   for (int k = N; k >= 0; --k) {
     const P trace = fma(H.xx[k], xx, fma(H.xy[k], yx, fma(H.yx[k], xy, H.yy[k] * yy)));
-    integral = fma(integral, h, trace * P(inverse_of(k + 1)));
+    integral = fma(integral, h, trace * P(inverse_of<P>(k + 1)));
   }
   return -(integral * h);
 }
@@ -149,7 +149,7 @@ HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
   const size_t size = 2 * static_cast<size_t>(n_);
   std::copy(start, start + size, t.terms.data());
   for (int k = 0; k <= N; ++k) {
-    const P inverse(inverse_of(k + 1));
+    const P inverse(inverse_of<P>(k + 1));
     const P* now = t.terms.data() + static_cast<size_t>(k) * size;
     P* next = t.terms.data() + static_cast<size_t>(k + 1) * size;
     linear_column(now, next, inverse);
@@ -183,7 +183,7 @@ HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
   }
   const P* top = t.terms.data() + static_cast<size_t>(N + 1) * size + n_;
   P* last = t.terms.data() + static_cast<size_t>(N + 2) * size;
-  for (int i = 0; i < n_; ++i) last[i] = top[i] * P(1.0 / (N + 2.0));
+  for (int i = 0; i < n_; ++i) last[i] = top[i] * P(Number(1.0) / Number(N + 2));
 }
 
 /// Change of the friction of sticking contacts, so that a column stays without slip:

@@ -30,8 +30,8 @@ struct Tangents {
   std::vector<P> terms;  ///< of one column, as Engine::term
   /// A contact as one column moves it: displacement, distance, acceleration, friction.
   struct Column {
-    P dx[most_terms], dy[most_terms], vx[most_terms], vy[most_terms];
-    P r[most_terms], ax[most_terms], ay[most_terms], tau[most_terms];
+    P dx[P::most_terms], dy[P::most_terms], vx[P::most_terms], vy[P::most_terms];
+    P r[P::most_terms], ax[P::most_terms], ay[P::most_terms], tau[P::most_terms];
   };
   std::vector<Column> contacts;
 };
