@@ -26,7 +26,10 @@ Eigen::Matrix<double, 2, Eigen::Dynamic> rows(const DofMap& dofs, const Point& p
 
 ContactForces kinematics(const ReducedContact& c, const double* y, int coordinates) {
   const Eigen::Map<const Vec> eta(y, coordinates), rate(y + coordinates, coordinates);
-  const Vec2 d = c.U * eta - c.offset, w = c.U * rate;
+  return kinematics(c, c.U * eta - c.offset, c.U * rate);
+}
+
+ContactForces kinematics(const ReducedContact& c, const Vec2& d, const Vec2& w) {
   ContactForces f;
   f.r = d.norm();
   f.n = f.r > 0.0 ? Vec2(d / f.r) : Vec2(1.0, 0.0);
@@ -35,6 +38,13 @@ ContactForces kinematics(const ReducedContact& c, const double* y, int coordinat
   f.slip = c.rim_speed + f.t().dot(w);
   f.normal = normal_force(c.law, f.depth, f.rate);
   return f;
+}
+
+double sliding_friction(const ReducedContact& c, const ContactState& state,
+                        const ContactForces& f) {
+  if (c.friction.mu == 0.0) return 0.0;
+  const double share = c.friction.is_exact() ? state.sign : c.friction.smooth_share(f.slip);
+  return c.friction.mu * share * f.normal;
 }
 
 ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
@@ -114,13 +124,10 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   std::vector<int> sticking;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     out[i] = kinematics(contacts_[i], y, n);
-    const Friction& friction = contacts_[i].friction;
     if (states[i].touch == Touch::sticking) {
       sticking.push_back(static_cast<int>(i));
-    } else if (states[i].touch == Touch::sliding && friction.mu > 0.0) {
-      const double share =
-          friction.is_exact() ? states[i].sign : friction.smooth_share(out[i].slip);
-      out[i].friction = friction.mu * share * out[i].normal;
+    } else if (states[i].touch == Touch::sliding) {
+      out[i].friction = sliding_friction(contacts_[i], states[i], out[i]);
     }
   }
   if (sticking.empty()) return;
@@ -174,12 +181,7 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
     if (states[i].touch != Touch::sliding) continue;
     const ReducedContact& c = contacts_[i];
     const ContactForces f = kinematics(c, y, n);
-    Vec2 force = f.normal * f.n;
-    if (c.friction.mu > 0.0) {
-      const double share = c.friction.is_exact() ? states[i].sign : c.friction.smooth_share(f.slip);
-      force += c.friction.mu * share * f.normal * f.t();
-    }
-    result.noalias() -= c.B * force;
+    result.noalias() -= c.B * (f.normal * f.n + sliding_friction(c, states[i], f) * f.t());
   }
 }
 

@@ -120,4 +120,11 @@ class ContactSystem {
 /// Kinematics and normal force of one contact; friction is left zero.
 ContactForces kinematics(const ReducedContact& contact, const double* y, int coordinates);
 
+/// The same from d = U eta - offset [m] and its rate w [m/s].
+ContactForces kinematics(const ReducedContact& contact, const Vec2& d, const Vec2& w);
+
+/// Friction T of a sliding contact [N], along t.
+double sliding_friction(const ReducedContact& contact, const ContactState& state,
+                        const ContactForces& f);
+
 }  // namespace whirl

@@ -67,8 +67,17 @@ bool EventWatcher::on_surface(int contact, EventKind kind) const {
 double EventWatcher::value(const Event& event, double phase, const double* y,
                            const ContactStates& states) const {
   const auto i = static_cast<std::size_t>(event.contact);
+  ContactForces f = kinematics(system_.contacts()[i], y, system_.coordinates());
+  if (event.kind == EventKind::stick_limit) {
+    f.friction = system_.sticking_force(phase, y, states, event.contact);
+  }
+  return value(event, f, states[i]);
+}
+
+double EventWatcher::value(const Event& event, const ContactForces& f,
+                           const ContactState& state) const {
+  const auto i = static_cast<std::size_t>(event.contact);
   const ReducedContact& c = system_.contacts()[i];
-  const ContactForces f = kinematics(c, y, system_.coordinates());
   const double beyond = (f.r * f.r) / (c.clearance * c.clearance) - 1.0;
   switch (event.kind) {
     case EventKind::touch:
@@ -80,12 +89,12 @@ double EventWatcher::value(const Event& event, double phase, const double* y,
     case EventKind::retouch:
       return -f.normal / force_scale_[i];
     case EventKind::slip_stop:
-      return states[i].sign * f.slip / speed_scale_[i];
+      return state.sign * f.slip / speed_scale_[i];
     case EventKind::stick_limit:
       break;
   }
   const double limit = c.friction.mu * f.normal / force_scale_[i];
-  const double force = system_.sticking_force(phase, y, states, event.contact) / force_scale_[i];
+  const double force = f.friction / force_scale_[i];
   return limit * limit - force * force;
 }
 

@@ -36,6 +36,9 @@ class EventWatcher {
   double value(const Event& event, double phase, const double* y,
                const ContactStates& states) const;
 
+  /// The same from the forces of its contact, with the friction that holds it if it sticks.
+  double value(const Event& event, const ContactForces& f, const ContactState& state) const;
+
   /// Changes the states of the contacts at an event.
   void apply(const Event& event, double phase, const double* y, ContactStates& states);
 

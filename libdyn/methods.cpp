@@ -23,6 +23,15 @@ void for_each_method(F f) {
 
 }  // namespace
 
+AnyMethod suitable_method(const ContactSystem& system) {
+  if (prefers_collocation(system)) return Collocation{};
+  return Taylor{};
+}
+
+std::string_view name_of_method(const AnyMethod& method) {
+  return std::visit([](const auto& m) { return m.name; }, method);
+}
+
 std::vector<std::string_view> method_names() {
   std::vector<std::string_view> names;
   for_each_method([&](auto method) { names.push_back(decltype(method)::name); });

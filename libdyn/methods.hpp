@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libdyn/methods/arkode.hpp"
+#include "libdyn/methods/collocation.hpp"
 #include "libdyn/methods/cvode.hpp"
 #include "libdyn/methods/dop853.hpp"
 #include "libdyn/methods/rk4.hpp"
@@ -14,7 +15,15 @@
 
 namespace whirl {
 
-using AnyMethod = std::variant<Taylor, Dop853, CvodeAdams, CvodeBdf, Arkode, ArkodeDirk, Rk4>;
+using AnyMethod =
+    std::variant<Taylor, Collocation, Dop853, CvodeAdams, CvodeBdf, Arkode, ArkodeDirk, Rk4>;
+
+/// The method that suits a system: collocation beside modes much faster than its contacts, whose
+/// steps do not follow them, else Taylor series.
+AnyMethod suitable_method(const ContactSystem& system);
+
+/// The name of a method.
+std::string_view name_of_method(const AnyMethod& method);
 
 /// Names of all methods, in the order of the list.
 std::vector<std::string_view> method_names();

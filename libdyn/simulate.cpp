@@ -75,8 +75,9 @@ Simulation simulate(const Scene& scene, MotionState start, const SimulationOptio
 
   Integration& total = result.integration;
   if (options.discard > 0) {
+    // without an observer, methods may jump where nothing happens
     total = integrate(options.method, system, result.end, options.discard, options.integration,
-                      goes_on);
+                      options.progress ? Observer(goes_on) : Observer());
   }
   Recording& recording = result.recording;
   recording.samples = options.samples;

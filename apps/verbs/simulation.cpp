@@ -101,8 +101,8 @@ const std::vector<OptionSpec>& integration_options() {
       {"discard", "N", "revolutions before them, for the transient (500)"},
       {"samples", "N", "samples per revolution (64)"},
       {"method", "M",
-       "integrator: taylor (the default), dop853, cvode-adams, cvode-bdf, arkode, "
-       "arkode-dirk, rk4"},
+       "integrator: taylor, collocation (left out: the better of these), dop853, cvode-adams, "
+       "cvode-bdf, arkode, arkode-dirk, rk4"},
       {"tolerance", "T", "of a step, displacements by the clearance (1e-10)"},
       {"from", "FILE.h5", "start where a result ended"},
       {"stations", "NAME,...",
@@ -152,11 +152,11 @@ Run run_simulation(const Invocation& call, const Model& model) {
   options.samples = static_cast<int>(call.integer("samples", options.samples, 4));
   options.integration.tolerance = call.number("tolerance", "", options.integration.tolerance);
   require_tolerance(options.integration.tolerance, "--tolerance " + call.text("tolerance"));
-  const std::string method = call.text("method", "taylor");
-  require_method(method, "--method " + method);
-  options.method = method_named(method);
+  const std::string method = call.text("method");
+  if (!method.empty()) require_method(method, "--method " + method);
 
   Scene scene = make_scene(model);
+  options.method = method.empty() ? suitable_method(scene.contacts) : method_named(method);
   require_memory(options, scene.contacts.coordinates(), model.contacts.size());
   std::vector<NamedPoint> stations = select_points(model, scene.assembler, call.text("stations"));
   MotionState start = starting_state(call, model, scene);
@@ -172,7 +172,8 @@ Run run_simulation(const Invocation& call, const Model& model) {
     return !is_interrupted();
   };
   Simulation simulation = simulate(scene, start, options);
-  Run run{std::move(scene), std::move(simulation), std::move(stations), method, nullptr};
+  Run run{std::move(scene), std::move(simulation), std::move(stations),
+          std::string(name_of_method(options.method)), nullptr};
   if (run.has_motion()) {
     run.spectra = std::make_shared<const ResponseSpectra>(run.scene, run.simulation.recording);
   }

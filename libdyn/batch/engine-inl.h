@@ -17,6 +17,8 @@
 #include "libdyn/batch/pattern.hpp"
 #include "libdyn/batch/tangents-inl.h"
 #include "libdyn/events.hpp"
+#include "libdyn/free_flight.hpp"
+#include "libdyn/linear_flow.hpp"
 #include "libdyn/methods/diagnosis.hpp"
 #include "libdyn/saltation.hpp"
 
@@ -84,6 +86,10 @@ class Engine {
     int instant_events = 0;
     long events = 0;
     std::vector<double> impacts;
+    long free_since = 0;       ///< revolution after the last contact
+    long events_before = 0;    ///< at the end of the revolution before
+    long certificate_due = 0;  ///< revolution at which free flight is looked into
+    std::unique_ptr<FreeFlight> free_flight;
     std::unique_ptr<EventWatcher> watcher;  ///< for events that are rare
   };
 
@@ -105,6 +111,7 @@ class Engine {
   HWY_ATTR P step_length();
   HWY_ATTR void advance(const P& h);
   HWY_ATTR void measure(const P& h);
+  HWY_ATTR void fly_on(int l);
   HWY_ATTR void remove_slip(int l);
   HWY_ATTR Vec state_of(int l) const;
   HWY_ATTR bool tell(const Observer& observer, double h);
@@ -178,6 +185,8 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   book.first_step = steps_;
   book.revolution = book.first_revolution = t.state.revolution;
   book.last = t.state.revolution + t.revolutions;
+  book.free_since = t.state.revolution;
+  book.certificate_due = t.state.revolution + 1;
   book.impacts.assign(contacts_.size(), 0.0);
   if (t.state.contacts.size() != contacts_.size()) {
     t.state.contacts = s.classify(t.state.phase, t.state.y.data());

@@ -116,6 +116,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
       for (const P& y : y_) sections.push_back(lane(y, l));
     }
+    if (P::is_double && !observer && !tangents_) fly_on(l);
     if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
   }
   if (options_.exponents) orthonormalize(due_lanes(ends));
@@ -123,6 +124,39 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     trajectory_[0]->outcome = Outcome::stopped_by_observer;
     finished_ |= 1;
   }
+}
+
+/// Ends a trajectory in closed form where no contact can ever happen again; looked into after 1, 2,
+/// 4, ... revolutions without contact.
+template <class P>
+HWY_ATTR void Engine<P>::fly_on(int l) {
+  Book& book = book_[static_cast<size_t>(l)];
+  const uint64_t bit = uint64_t{1} << l;
+  uint64_t near = 0;
+  for (const ContactLanes<P>& c : contacts_) near |= c.touching | c.receding;
+  if ((near & bit) != 0 || book.events != book.events_before) {
+    book.events_before = book.events;
+    book.free_since = book.revolution;
+    book.certificate_due = book.revolution + 1;
+    return;
+  }
+  if (book.revolution < book.certificate_due || book.revolution >= book.last) return;
+  book.certificate_due = 2 * book.revolution - book.free_since;
+  Trajectory& t = *trajectory_[static_cast<size_t>(l)];
+  if (!book.free_flight) book.free_flight = std::make_unique<FreeFlight>(*t.system);
+  MotionState state = t.state;
+  state.y = state_of(l);
+  state.revolution = book.revolution;
+  state.phase = 0.0;
+  for (size_t c = 0; c < contacts_.size(); ++c) state.contacts[c] = contacts_[c].state(l);
+  if (!book.free_flight->is_certain(state)) return;
+  while (book.revolution < book.last) {
+    const long to = options_.sections ? book.revolution + 1 : book.last;
+    book.free_flight->finish(state, to);
+    book.revolution = to;
+    if (options_.sections) t.sections.insert(t.sections.end(), state.y.begin(), state.y.end());
+  }
+  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, state.y(i));
 }
 
 /// Takes off the slip that sticking contacts of a lane have gathered by rounding and truncation.

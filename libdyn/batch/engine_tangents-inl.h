@@ -47,7 +47,7 @@ HWY_ATTR void Engine<P>::load_tangents(int l, const ContactSystem& s) {
                i == c ? unit : 0.0);
     }
   }
-  const double rate = fastest_rate(s);
+  const double rate = fastest_mode(s);
   set_lane(t.fastest2, l, rate * rate);
   set_lane(t.trace, l, -s.D().trace());
   set_lane(t.divergence, l, 0.0);

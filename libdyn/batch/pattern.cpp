@@ -1,8 +1,6 @@
 #include "libdyn/batch/pattern.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 
 #include "libfe/base/error.hpp"
 
@@ -71,18 +69,6 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     p.off_diagonal.push_back({i, begin, std::move(sources)});
   }
   return p;
-}
-
-double fastest_rate(const ContactSystem& system) {
-  const auto n = system.coordinates();
-  if (n == 0) return 0.0;
-  // velocities in units of the root of the stiffness, so that the matrix is balanced
-  const double unit = std::max(std::sqrt(system.K().cwiseAbs().maxCoeff()), 1e-30);
-  Mat A = Mat::Zero(2 * n, 2 * n);
-  A.topRightCorner(n, n) = unit * Mat::Identity(n, n);
-  A.bottomLeftCorner(n, n) = -system.K() / unit;
-  A.bottomRightCorner(n, n) = -system.D();
-  return A.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 }  // namespace whirl

@@ -35,7 +35,4 @@ struct Pattern {
   static Pattern of(std::span<const ContactSystem* const> systems);
 };
 
-/// Largest modulus of the eigenvalues of a system without contacts [rad/s].
-double fastest_rate(const ContactSystem& system);
-
 }  // namespace whirl

@@ -75,10 +75,10 @@ TEST_F(BadCall, ValuesOfOptions) {
     words.insert(words.end(), {option, value});
     return problem(words);
   };
-  EXPECT_EQ(with("--method", "rk5"),
-            "--method rk5: unknown method, expected one of taylor, dop853, cvode-adams, cvode-bdf, "
-            "arkode, "
-            "arkode-dirk, rk4\n");
+  EXPECT_EQ(
+      with("--method", "rk5"),
+      "--method rk5: unknown method, expected one of taylor, collocation, dop853, cvode-adams, "
+      "cvode-bdf, arkode, arkode-dirk, rk4\n");
   EXPECT_EQ(with("--tolerance", "5"), "--tolerance 5: expected a number from 1e-15 to 1e-2\n");
   EXPECT_TRUE(has(with("--revolutions", "0"), "whole number of 1 or more"));
   EXPECT_TRUE(has(with("--discard", "-1"), "whole number of 0 or more"));

@@ -143,6 +143,36 @@ TEST(Batch, EndsOneTrajectoryWithoutTheOthers) {
   }
 }
 
+// Where the rotor can never touch again the rest is closed form: a million revolutions in a handful
+// of steps, and the same sections as step by step.
+TEST(Batch, FliesOnInClosedFormWhereNothingCanHappen) {
+  RotorStator p{.Omega = 100.0};  // 2.1 mm of unbalance response, 5 mm of sag within 6 mm
+  p.gap = 12e-3;
+  const Scene scene = p.scene();
+  Trajectory t{.system = &scene.contacts, .state = test::start_of(p.model(), scene)};
+  t.state.y(0) += 1e-3;
+  Trajectory stepped = t;
+  t.revolutions = 100;
+  integrate_single(t, {.sections = true});
+  stepped.revolutions = 100;
+  integrate_single(stepped, {.tolerance = 1e-13, .sections = true},
+                   [](const Step&) { return true; });
+  EXPECT_LT(t.cost.steps, 100);
+  EXPECT_GT(stepped.cost.steps, 400);
+  ASSERT_EQ(t.sections.size(), stepped.sections.size());
+  for (std::size_t i = 0; i < t.sections.size(); i += 8) {
+    const Eigen::Map<const Vec> a(&t.sections[i], 8), b(&stepped.sections[i], 8);
+    EXPECT_LT(test::distance(scene.contacts, a, b), 1e-8) << i / 8;  // of the steps before
+  }
+  Trajectory far = t;
+  far.cost = {};
+  far.revolutions = 1'000'000;
+  integrate_single(far, {});
+  EXPECT_LT(far.cost.steps, 50);
+  EXPECT_EQ(far.state.revolution, 1'000'100);
+  EXPECT_LT(test::distance(scene.contacts, far.state.y, t.state.y), 1e-8);  // steady since long
+}
+
 TEST(Batch, RefusesSystemsOfDifferentShape) {
   const Scene one = test::P1.scene(), other = test::MassInRing{}.scene();
   std::vector<Trajectory> batch(2);

@@ -17,10 +17,6 @@ namespace {
 
 using test::RotorStator;
 
-std::string_view name_of_method(const AnyMethod& method) {
-  return std::visit([](const auto& m) { return m.name; }, method);
-}
-
 TEST(Methods, AreFoundByTheirNames) {
   std::set<std::string_view> names;
   for (const std::string_view name : method_names()) {

@@ -1,0 +1,156 @@
+#include "libdyn/free_flight.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+namespace whirl {
+
+namespace {
+
+constexpr int most_doublings = 64;
+constexpr double resonant = 1e-14;  ///< reciprocal condition number of a resonance
+constexpr double careful = 1.0 - 1e-9;
+
+/// y_p of y' = A y + F (1, cos, sin); nothing at a resonance or with a free rigid-body motion.
+std::optional<Mat> periodic_motion(const ContactSystem& system) {
+  const auto n = system.coordinates();
+  const double w = system.phase_rate();
+  Mat y = Mat::Zero(2 * n, 3);
+  if (!system.constant_load().isZero(0.0)) {
+    const Eigen::PartialPivLU<Mat> K(system.K());
+    if (!(K.rcond() > resonant)) return std::nullopt;
+    y.col(0).head(n) = K.solve(system.constant_load());
+  }
+  if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0)) {
+    // (K - w^2 + i w D) q = fc - i fs, eta = Re(q e^(i phase))
+    const CMat dynamic = (system.K() - w * w * Mat::Identity(n, n)).cast<Complex>() +
+                         Complex(0.0, w) * system.D().cast<Complex>();
+    const Eigen::PartialPivLU<CMat> lu(dynamic);
+    if (!(lu.rcond() > resonant)) return std::nullopt;
+    const CVec q = lu.solve(system.cosine_load().cast<Complex>() -
+                            Complex(0.0, 1.0) * system.sine_load().cast<Complex>());
+    y.col(1) << q.real(), -w * q.imag();
+    y.col(2) << -q.imag(), -w * q.real();
+  }
+  return y;
+}
+
+/// Largest distance of an ellipse center + c cos + s sin from the origin, from above.
+double largest_radius(const Vec2& center, const Vec2& c, const Vec2& s) {
+  constexpr int samples = 256;
+  constexpr double spacing = 2.0 * std::numbers::pi / samples;
+  double largest = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const Vec2 u = center + std::cos(spacing * i) * c + std::sin(spacing * i) * s;
+    largest = std::max(largest, u.norm());
+  }
+  // between samples: the distance of an arc from its chord's ends
+  return largest + (c.norm() + s.norm()) * spacing * spacing / 8.0;
+}
+
+/// Solution of A^T P + P A = -Q, or nothing if e^(A t) does not decay.
+std::optional<Mat> lyapunov(const Mat& A, const Mat& Q) {
+  // integral of e^(A^T t) Q e^(A t) over a short time by series, then P <- P + E^T P E, E <- E E
+  const double h = 0.125 / balanced_norm(A);
+  Mat E = Mat::Identity(A.rows(), A.cols()), power = E, P = h * Q, term = P;
+  for (int m = 1; m < 16; ++m) {
+    power = (h / m * (A * power)).eval();
+    E += power;
+    term = (h / (m + 1) * (A.transpose() * term + term * A)).eval();
+    P += term;
+  }
+  for (int k = 0; k < most_doublings; ++k) {
+    const Mat more = E.transpose() * P * E;
+    if (!more.allFinite()) return std::nullopt;
+    P += more;
+    if (more.diagonal().cwiseAbs().cwiseQuotient(P.diagonal()).maxCoeff() < 1e-12) return P;
+    E = (E * E).eval();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+FreeFlight::FreeFlight(const ContactSystem& system)
+    : system_(system), flow_(system, system.period(), 1) {}
+
+void FreeFlight::prepare() {
+  is_prepared_ = true;
+  const auto n = system_.coordinates();
+  const auto motion = periodic_motion(system_);
+  if (!motion) return;
+  periodic_ = *motion;
+
+  Mat Q = Mat::Zero(2 * n, 2 * n);  // weights what contacts see, and everything a little
+  Q.diagonal() = 1e-4 * system_.state_scale().cwiseAbs2().cwiseInverse();
+  for (const ReducedContact& c : system_.contacts()) {
+    Q.topLeftCorner(n, n) += c.U.transpose() * c.U / (c.clearance * c.clearance);
+  }
+  const auto P = lyapunov(first_order_matrix(system_), Q);
+  if (!P) return;
+  P_ = 0.5 * (*P + P->transpose());
+  const Eigen::LLT<Mat> cholesky(P_);
+  if (cholesky.info() != Eigen::Success) return;
+  decays_ = true;
+  for (const ReducedContact& c : system_.contacts()) {
+    Mat rows = Mat::Zero(2 * n, 2);
+    rows.topRows(n) = c.U.transpose();
+    const Mat2 spread = rows.transpose() * cholesky.solve(rows);
+    const Eigen::SelfAdjointEigenSolver<Mat2> reach(spread);
+    const double left =
+        careful * c.clearance - largest_radius(c.U * periodic_.col(0).head(n) - c.offset,
+                                               c.U * periodic_.col(1).head(n),
+                                               c.U * periodic_.col(2).head(n));
+    room_.push_back(left > 0.0 ? careful * left * left / reach.eigenvalues()(1) : -1.0);
+  }
+}
+
+bool FreeFlight::is_certain(const MotionState& state) {
+  if (system_.contacts().empty()) return true;
+  for (const ContactState& c : state.contacts) {
+    if (c.touch != Touch::apart) return false;
+  }
+  if (!is_prepared_) prepare();
+  if (!decays_) return false;
+  const Vec z = state.y - periodic_ * load_at(state.phase);
+  const double size = z.dot(P_ * z);
+  return std::all_of(room_.begin(), room_.end(), [&](double room) { return size < room; });
+}
+
+void FreeFlight::finish(MotionState& state, long last_revolution) {
+  if (!is_prepared_) prepare();
+  const double whole = 2.0 * std::numbers::pi;
+  if (state.phase > 0.0 && state.revolution < last_revolution) {
+    flow_.advance(0, 1.0 - state.phase / whole, load_at(state.phase), {}, {}, state.y);
+    state.phase = 0.0;
+    ++state.revolution;
+  }
+  if (state.revolution >= last_revolution) return;
+
+  // y <- (I + X) y + b for one revolution; about y_p there is no b
+  const bool has_center = periodic_.size() > 0;
+  const Eigen::Vector3d load = load_at(0.0);
+  Mat X = flow_.table(0).X;
+  Vec b = flow_.table(0).L * load, center = Vec::Zero(state.y.size());
+  if (has_center) {
+    center = periodic_ * load;
+    b.setZero();
+  }
+  Vec z = state.y - center;
+  for (long left = last_revolution - state.revolution;;) {
+    if (left % 2 == 1) z += (X * z + b).eval();
+    left /= 2;
+    if (left == 0) break;
+    b += (b + X * b).eval();
+    X = (2.0 * X + X * X).eval();
+  }
+  state.y = z + center;
+  state.revolution = last_revolution;
+}
+
+}  // namespace whirl

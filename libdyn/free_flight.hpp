@@ -1,0 +1,44 @@
+#pragma once
+/// Motion that touches nothing: whether it stays so for good, and where it is then.
+
+#include "libdyn/linear_flow.hpp"
+#include "libdyn/trajectory.hpp"
+
+namespace whirl {
+
+/// Free motion of a system whose contacts are all apart, in closed form.
+///
+///   y(t) = y_p(phase) + e^(A t) (y(0) - y_p(phase(0))),   y_p = X0 + Xc cos(phase) + Xs sin(phase)
+///
+/// No contact can ever happen again if for each one
+///
+///   max |U y_p - offset| + |U P^(-1) U^T|^(1/2) (z^T P z)^(1/2) < clearance,   z = y - y_p,
+///
+/// where A^T P + P A = -Q with Q > 0: z^T P z never grows, and it bounds |U z| by the inequality of
+/// Cauchy and Schwarz. No eigenvector is involved, so that defective modes are no exception. If the
+/// free motion does not decay (undamped or rigid-body modes), nothing is certain.
+///
+/// @source [Kailath1980], sec. 2.6 (Lyapunov's equation); P by doubling [Smith1968]
+class FreeFlight {
+ public:
+  explicit FreeFlight(const ContactSystem& system);
+
+  /// Whether no contact can ever happen from this state on.
+  bool is_certain(const MotionState& state);
+
+  /// Moves a state to the end of the given revolution (phase 0), in a time that does not grow with
+  /// the number of revolutions.
+  void finish(MotionState& state, long last_revolution);
+
+ private:
+  void prepare();
+
+  const ContactSystem& system_;
+  LinearFlow flow_;
+  bool is_prepared_ = false, decays_ = false;
+  Mat periodic_;              ///< y_p = periodic_ (1, cos phase, sin phase)
+  Mat P_;                     ///< of the quadratic bound
+  std::vector<double> room_;  ///< per contact: the largest z^T P z that cannot reach it
+};
+
+}  // namespace whirl

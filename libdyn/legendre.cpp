@@ -1,0 +1,76 @@
+#include "libdyn/legendre.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+namespace whirl {
+
+Vec legendre(double s, int terms) {
+  const double x = 2.0 * s - 1.0;
+  Vec p(terms);
+  for (int k = 0; k < terms; ++k) {
+    p(k) = k == 0 ? 1.0 : k == 1 ? x : ((2 * k - 1) * x * p(k - 1) - (k - 1) * p(k - 2)) / k;
+  }
+  return p;
+}
+
+GaussRule gauss_rule(int points) {
+  GaussRule rule{Vec(points), Vec(points)};
+  for (int i = 0; i < points; ++i) {
+    double x = -std::cos(std::numbers::pi * (i + 0.75) / (points + 0.5)), slope = 1.0;
+    for (int newton = 0; newton < 20; ++newton) {
+      const Vec p = legendre(0.5 * (1.0 + x), points + 1);
+      slope = points * (x * p(points) - p(points - 1)) / (x * x - 1.0);
+      const double change = p(points) / slope;
+      x -= change;
+      if (std::abs(change) < 1e-16) break;
+    }
+    rule.s(i) = 0.5 * (1.0 + x);
+    rule.w(i) = 1.0 / ((1.0 - x * x) * slope * slope);
+  }
+  return rule;
+}
+
+Mat restriction(double from, double to, const GaussRule& rule) {
+  const auto terms = static_cast<int>(rule.s.size());
+  Mat r = Mat::Zero(terms, terms);
+  for (int i = 0; i < terms; ++i) {
+    const Vec whole = legendre(from + (to - from) * rule.s(i), terms);
+    const Vec part = legendre(rule.s(i), terms);
+    for (int j = 0; j < terms; ++j) {
+      r.row(j) += rule.w(i) * (2 * j + 1) * part(j) * whole.transpose();
+    }
+  }
+  return r.triangularView<Eigen::Upper>();  // the degree does not grow
+}
+
+Mat legendre_to_powers(int terms) {
+  Mat m = Mat::Zero(terms, terms);
+  for (int j = 0; j < terms; ++j) {
+    // P_j(2 s - 1) = sum_k (-1)^(j+k) C(j, k) C(j + k, k) s^k
+    double c = j % 2 == 0 ? 1.0 : -1.0;
+    for (int k = 0; k <= j; ++k) {
+      m(k, j) = c;
+      c *= -static_cast<double>((j - k) * (j + k + 1)) / ((k + 1) * (k + 1));
+    }
+  }
+  return m;
+}
+
+Mat values_to_legendre(const Vec& nodes) {
+  const auto n = static_cast<int>(nodes.size());
+  Mat values(n, n);
+  for (int i = 0; i < n; ++i) values.row(i) = legendre(nodes(i), n).transpose();
+  return values.partialPivLu().inverse();
+}
+
+Vec chebyshev_points(int points) {
+  Vec s(points);
+  for (int i = 0; i < points; ++i) {
+    s(i) = 0.5 * (1.0 - std::cos(std::numbers::pi * i / (points - 1)));
+  }
+  return s;
+}
+
+}  // namespace whirl

@@ -1,0 +1,32 @@
+#pragma once
+/// Polynomials on [0, 1] in Legendre's basis P_k(2 s - 1), and nodes to sample them.
+
+#include "libfe/base/linalg.hpp"
+
+namespace whirl {
+
+/// P_0 ... P_(terms-1) at 0 <= s <= 1.
+Vec legendre(double s, int terms);
+
+/// Nodes on [0, 1] and weights, exact to degree 2 points - 1.
+struct GaussRule {
+  Vec s, w;
+};
+/// @source [AbramowitzStegun1964], 25.4.29; nodes by Newton's method
+GaussRule gauss_rule(int points);
+
+/// Coefficients on [from, to] of a polynomial that is given by its coefficients on [0, 1].
+/// @param rule  with as many points as the polynomial has terms
+Mat restriction(double from, double to, const GaussRule& rule);
+
+/// Entry (k, j) is the coefficient of s^k in P_j(2 s - 1).
+Mat legendre_to_powers(int terms);
+
+/// Maps values at the given nodes on [0, 1] to Legendre coefficients. Powers follow from these: in
+/// one product, rounding of values would be magnified.
+Mat values_to_legendre(const Vec& nodes);
+
+/// Chebyshev points on [0, 1], both ends included.
+Vec chebyshev_points(int points);
+
+}  // namespace whirl

@@ -1,0 +1,141 @@
+#pragma once
+/// One step of the collocation method: contact forces as polynomials of time.
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "libdyn/events.hpp"
+#include "libdyn/linear_flow.hpp"
+
+namespace whirl {
+
+/// A step size of the ladder longest, longest / 2^(1/2), longest / 2, ...: matrices are shared by
+/// all steps of one size.
+struct Rung {
+  int number = 0;  ///< from the longest
+  int family() const { return number % 2; }
+  int level() const { return number / 2; }
+};
+
+/// Solves for the contact forces of a step and watches what the contacts do meanwhile.
+///
+/// The displacement of a contact at a node is that of the exact linear motion,
+///
+///   u_i = free_i (y, 1, cos phase, sin phase) + sum_b kernel_ib a_b,
+///
+/// with a the Legendre coefficients of all forces. They are those of the forces that the laws give
+/// at the nodes: a = projection f(u), solved by Picard iteration, by Newton's method where that
+/// does not contract. A contact that sticks has in place of its friction law the condition of no
+/// slip.
+class ContactStep {
+ public:
+  static constexpr int terms = 8;     ///< of a force polynomial
+  static constexpr int samples = 14;  ///< of free motion: Chebyshev points
+  static constexpr int rows = 4;      ///< d_x, d_y, w_x, w_y of a contact
+
+  /// With modes much faster than the contacts, forces are evaluated at more points than they have
+  /// coefficients: their projection leaves out what a fast mode adds to a displacement, which few
+  /// points would mistake for something slow.
+  ///
+  /// @param longest  step size of rung 0 [s]
+  ContactStep(const ContactSystem& system, double longest, double tolerance);
+
+  double size(Rung rung) const;
+  /// The shortest rung that is not below a duration.
+  Rung rung_for(double h) const;
+
+  /// Forces of the contacts in touch over a step from a state. False if they were not found.
+  bool solve(Rung rung, const MotionState& from);
+
+  /// Error of the last solve that the step makes, over the tolerance.
+  double error() const { return error_; }
+  /// Error of the contacts' displacements between samples, by the clearance.
+  double path_error() const { return path_error_; }
+  long evaluations() const { return evaluations_; }
+
+  /// The first event before a fraction of the step, its place as a fraction of the whole step.
+  /// @param is_sure  false if the paths are too coarse to tell whether there is one
+  std::optional<Event> first_event(const EventWatcher& watcher, double limit,
+                                   const MotionState& from, bool& is_sure);
+
+  /// Slope of the last event's function there, per step.
+  double event_slope() const { return event_slope_; }
+
+  /// The state after a fraction of the step.
+  void advance(double fraction, const MotionState& from, Vec& y);
+
+  /// States at fractions of a part of the step, as polynomials (see Step), with the step's end at
+  /// `limit`; pieces as short as the fastest motion that is alive asks for.
+  /// @param give  receives pieces in order, with the state at their end; false stops
+  bool dense(const MotionState& from, double limit,
+             const std::function<bool(const Step&, const Vec&)>& give);
+
+ private:
+  struct Nodes {              ///< of one rung, made when first used
+    std::vector<Mat> free;    ///< per contact: (d_x, d_y, w_x, w_y) x nodes from (y, load)
+    std::vector<Mat> kernel;  ///< [contact * contacts + other]: the same from a of the other
+  };
+  struct Family {
+    LinearFlow flow;
+    std::vector<Nodes> touch, flight;
+    std::vector<Mat> dense;  ///< states at Chebyshev points from (y, load, a)
+  };
+  struct Path {
+    Mat values;  ///< d_x, d_y, w_x, w_y at places of the step, both ends included
+    Mat powers;  ///< the same as powers of s
+  };
+  /// How values at places give polynomials.
+  struct Places {
+    Vec s;
+    Mat to_legendre, to_powers;
+  };
+
+  const Nodes& nodes_of(Rung rung, bool is_touching);
+  void fill(Nodes& table, LinearFlow& flow, int level, const Vec& s, bool has_force) const;
+  void evaluate_nodes(bool with_rates);
+  Vec2 node_force(int contact, const ContactState& state, const double* node, int stride);
+  bool picard(const MotionState& from);
+  bool newton(const MotionState& from);
+  void residual(const MotionState& from, int contact, const double* dw, const Vec2& force,
+                Vec2& out);
+  void make_paths(const MotionState& from);
+  void estimate();
+  Polynomial polynomial(const EventWatcher& watcher, int contact, EventKind kind, double limit,
+                        const ContactState& state) const;
+  struct Part {  ///< of the step, as fractions of it
+    int level;   ///< of its own size
+    double start, width;
+  };
+  bool dense_piece(const MotionState& from, const Part& part, double limit, const Vec& y,
+                   const Vec& a, const std::function<bool(const Step&, const Vec&)>& give);
+  const Mat& dense_table(int level);
+
+  auto forces_of(int contact) { return a_.segment(2 * contact * terms, 2 * terms); }
+
+  const ContactSystem& system_;
+  double longest_, tolerance_;
+  int nodes_;  ///< where forces are evaluated: Gauss points
+  std::vector<std::unique_ptr<Family>> families_;
+  Places touch_places_, flight_places_;
+  Mat project_;    ///< terms x nodes
+  Mat at_places_;  ///< forces at the places from coefficients
+  Mat at_nodes_;   ///< the same at the nodes
+  std::vector<char> rate_matters_;
+  std::vector<double> weight_;  ///< velocity per force and time, in units of the tolerance
+
+  // of the last solve
+  Rung rung_;
+  std::vector<int> touching_;
+  Eigen::Vector3d load_;
+  Vec extended_, a_, end_;
+  std::vector<Mat> free_, at_;  ///< per contact: nodes x 4
+  std::vector<Path> paths_;
+  Mat node_forces_, path_legendre_;
+  double error_ = 0.0, path_error_ = 0.0, event_slope_ = 0.0;
+  long evaluations_ = 0;
+  double longest_piece_ = std::numeric_limits<double>::infinity();  ///< of dense output [s]
+};
+
+}  // namespace whirl

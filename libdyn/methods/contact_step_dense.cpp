@@ -1,0 +1,100 @@
+// Dense output of a collocation step.
+
+#include <algorithm>
+#include <cmath>
+
+#include "libdyn/legendre.hpp"
+#include "libdyn/methods/contact_step.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr int points = ContactStep::samples;
+constexpr int finest = 30;  ///< halvings of a step
+
+/// Maps to coefficients, made once.
+struct Interpolation {
+  Vec s = chebyshev_points(points);
+  Mat to_legendre = values_to_legendre(s);
+  Mat to_powers = legendre_to_powers(points);
+};
+const Interpolation& interpolation() {
+  static const Interpolation table;
+  return table;
+}
+
+}  // namespace
+
+const Mat& ContactStep::dense_table(int level) {
+  Family& family = *families_[static_cast<std::size_t>(rung_.family())];
+  Mat& table = family.dense[static_cast<std::size_t>(level)];
+  if (table.size() > 0) return table;
+  const Vec s = chebyshev_points(points);
+  const auto N = system_.size();
+  table.resize((points - 1) * N, N + 3 + a_.size());
+  for (int i = 1; i < points; ++i) {
+    const LinearFlow::Rows rows_at = family.flow.rows(level, s(i), Mat::Identity(N, N));
+    table.middleRows((i - 1) * N, N) << rows_at.y, rows_at.load, rows_at.force;
+  }
+  return table;
+}
+
+bool ContactStep::dense(const MotionState& from, double limit,
+                        const std::function<bool(const Step&, const Vec&)>& give) {
+  return dense_piece(from, {rung_.level(), 0.0, 1.0}, limit, from.y, a_, give);
+}
+
+bool ContactStep::dense_piece(const MotionState& from, const Part& part, double limit, const Vec& y,
+                              const Vec& a,
+                              const std::function<bool(const Step&, const Vec&)>& give) {
+  LinearFlow& flow = families_[static_cast<std::size_t>(rung_.family())]->flow;
+  const Interpolation& table = interpolation();
+  const double h = size(rung_), rate = system_.phase_rate();
+  const Eigen::Vector3d load = load_at(from.phase + part.start * h * rate);
+  const auto n = system_.coordinates();
+  bool is_short = flow.size(part.level) <= longest_piece_;
+  if (is_short) {
+    Vec all(y.size() + 3 + a.size());
+    all << y, load, a;
+    Mat values(2 * n, points);
+    values.col(0) = y;
+    Eigen::Map<Vec>(values.col(1).data(), 2 * n * (points - 1)).noalias() =
+        dense_table(part.level) * all;
+    const Mat legendre = values * table.to_legendre.transpose();
+    const double error =
+        (legendre.rightCols(2).array().colwise() / system_.state_scale().array()).abs().maxCoeff();
+    is_short = error <= tolerance_ || part.level >= rung_.level() + finest;
+    // the next step begins with pieces as long as these, or longer ones if they are too good
+    longest_piece_ = is_short ? flow.size(part.level) * (error < 1e-2 * tolerance_ ? 2.1 : 1.1)
+                              : flow.size(part.level) * 0.6;
+    if (is_short) {
+      Mat powers = legendre * table.to_powers.transpose();
+      const double share = std::min(1.0, (limit - part.start) / part.width);
+      double scale = 1.0;
+      for (int k = 0; k < points && share < 1.0; ++k, scale *= share) powers.col(k) *= scale;
+      Step step;
+      step.revolution = from.revolution;
+      step.phase = from.phase + part.start * h * rate;
+      step.h = share * part.width * h;
+      step.turn = step.h * rate;
+      step.q = powers.topRows(n);
+      step.v = powers.bottomRows(n);
+      step.contacts = from.contacts;
+      return give(step, powers.rowwise().sum());
+    }
+  }
+  const double middle = part.start + 0.5 * part.width;
+  Vec half = a, z = y;
+  flow.restrict_to_half(false, touching_, half);
+  flow.advance(part.level + 1, 1.0, load, half, touching_, z);
+  if (!dense_piece(from, {part.level + 1, part.start, 0.5 * part.width}, limit, y, half, give)) {
+    return false;
+  }
+  if (middle >= limit) return true;
+  half = a;
+  flow.restrict_to_half(true, touching_, half);
+  return dense_piece(from, {part.level + 1, middle, 0.5 * part.width}, limit, z, half, give);
+}
+
+}  // namespace whirl

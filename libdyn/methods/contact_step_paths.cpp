@@ -1,0 +1,156 @@
+// What contacts do within a collocation step, and the events in it.
+
+#include <algorithm>
+
+#include "libdyn/methods/contact_step.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr int most_halvings = 4;
+
+/// g(s) -> g((half + s) / 2).
+void restrict_to_half(Polynomial& g, bool second) {
+  double scale = 1.0;
+  for (int k = 0; k <= g.degree; ++k, scale *= 0.5) g.c[static_cast<std::size_t>(k)] *= scale;
+  if (!second) return;
+  for (int j = 0; j < g.degree; ++j) {  // Horner's scheme: Taylor coefficients at 1
+    for (int k = g.degree - 1; k >= j; --k) {
+      g.c[static_cast<std::size_t>(k)] += g.c[static_cast<std::size_t>(k + 1)];
+    }
+  }
+}
+
+/// First fall of a polynomial whose powers cancel one another on the whole of [0, 1], as those of a
+/// long step do: halves until their bounds are sharp.
+std::optional<double> first_fall_in_parts(const Polynomial& g, bool on_surface, int depth = 0) {
+  double lowest = g.c[0];
+  for (int k = 1; k <= g.degree; ++k) lowest += std::min(0.0, g.c[static_cast<std::size_t>(k)]);
+  if (lowest > 0.0) return std::nullopt;
+  if (depth == most_halvings) return first_fall(g, on_surface);
+  Polynomial half = g;
+  restrict_to_half(half, false);
+  if (const auto s = first_fall_in_parts(half, on_surface, depth + 1)) return 0.5 * *s;
+  half = g;
+  restrict_to_half(half, true);
+  if (const auto s = first_fall_in_parts(half, false, depth + 1)) return 0.5 + 0.5 * *s;
+  return std::nullopt;
+}
+
+}  // namespace
+
+void ContactStep::make_paths(const MotionState& from) {
+  const bool is_touching = !touching_.empty();
+  const Places& places = is_touching ? touch_places_ : flight_places_;
+  const auto n = system_.coordinates();
+  const auto m = places.s.size();
+  if (is_touching) advance(1.0, from, end_);
+  path_error_ = 0.0;
+  for (std::size_t c = 0; c < paths_.size(); ++c) {
+    const ReducedContact& contact = system_.contacts()[c];
+    Mat& values = paths_[c].values;
+    values.resize(m, rows);
+    values.row(0) << (contact.U * from.y.head(n)).transpose(),
+        (contact.U * from.y.tail(n)).transpose();
+    const bool has_force = from.contacts[c].in_touch();
+    if (!is_touching) {
+      values.bottomRows(m - 1) = free_[c];
+    } else {
+      if (has_force) {
+        values.middleRows(1, nodes_) = at_[c];
+      } else {
+        Mat& at = at_[c];
+        at = free_[c];
+        Eigen::Map<Vec> flat(at.data(), at.size());
+        for (const int b : touching_) {
+          flat.noalias() +=
+              nodes_of(rung_, true).kernel[c * paths_.size() + static_cast<std::size_t>(b)] *
+              forces_of(b);
+        }
+        values.middleRows(1, nodes_) = at;
+      }
+      values.row(m - 1) << (contact.U * end_.head(n)).transpose(),
+          (contact.U * end_.tail(n)).transpose();
+    }
+    values.col(0).array() -= contact.offset(0);
+    values.col(1).array() -= contact.offset(1);
+    path_legendre_.noalias() = places.to_legendre * values;
+    paths_[c].powers.noalias() = places.to_powers * path_legendre_;
+    if (!has_force) {
+      path_error_ =
+          std::max(path_error_, path_legendre_.bottomLeftCorner<2, 2>().cwiseAbs().maxCoeff() /
+                                    contact.clearance);
+    }
+  }
+}
+
+Polynomial ContactStep::polynomial(const EventWatcher& watcher, int contact, EventKind kind,
+                                   double limit, const ContactState& state) const {
+  const auto i = static_cast<std::size_t>(contact);
+  const ReducedContact& c = system_.contacts()[i];
+  const Path& path = paths_[i];
+  const auto m = static_cast<int>(path.values.rows());
+  Polynomial g;
+  const bool is_distance = kind == EventKind::touch || kind == EventKind::part ||
+                           (kind == EventKind::release && is_continuous(c.law));
+  if (is_distance) {
+    const double sign = kind == EventKind::touch ? -1.0 : 1.0;
+    const double factor = sign / (c.clearance * c.clearance);
+    const double* x = path.powers.col(0).data();
+    const double* y = path.powers.col(1).data();
+    g.degree = 2 * (m - 1);
+    for (int j = 0; j < m; ++j) {
+      for (int k = 0; k < m; ++k) {
+        g.c[static_cast<std::size_t>(j + k)] += factor * (x[j] * x[k] + y[j] * y[k]);
+      }
+    }
+    g.c[0] -= sign;
+  } else {
+    const Places& places = touching_.empty() ? flight_places_ : touch_places_;
+    Vec values(m);
+    for (int k = 0; k < m; ++k) {
+      const auto at = path.values.row(k);
+      ContactForces f = kinematics(c, Vec2(at(0), at(1)), Vec2(at(2), at(3)));
+      if (state.touch == Touch::sticking) {
+        for (int d = 0; d < 2; ++d) {
+          f.friction +=
+              f.t()(d) * at_places_.row(k).dot(a_.segment((2 * contact + d) * terms, terms));
+        }
+      }
+      values(k) = watcher.value({0.0, contact, kind}, f, state);
+    }
+    const Vec powers = places.to_powers * (places.to_legendre * values);
+    g.degree = m - 1;
+    for (int k = 0; k < m; ++k) g.c[static_cast<std::size_t>(k)] = powers(k);
+  }
+  double scale = 1.0;
+  for (int k = 0; k <= g.degree && limit < 1.0; ++k, scale *= limit) {
+    g.c[static_cast<std::size_t>(k)] *= scale;
+  }
+  return g;
+}
+
+std::optional<Event> ContactStep::first_event(const EventWatcher& watcher, double limit,
+                                              const MotionState& from, bool& is_sure) {
+  std::optional<Event> earliest;
+  is_sure = true;
+  for (int i = 0; i < static_cast<int>(from.contacts.size()); ++i) {
+    const ContactState& state = from.contacts[static_cast<std::size_t>(i)];
+    for (const EventKind kind : watcher.kinds(i, state)) {
+      Polynomial g = polynomial(watcher, i, kind, limit, state);
+      const auto s = first_fall_in_parts(g, watcher.on_surface(i, kind));
+      if (s && (!earliest || *s * limit < earliest->s)) {
+        earliest = Event{*s * limit, i, kind};
+        event_slope_ = g.derivative(*s) / limit;
+      }
+      if (s || state.in_touch() || path_error_ < tolerance_) continue;
+      // a fall that the error of the path could hide
+      g.c[1] -= 8.0 * path_error_;
+      if (first_fall_in_parts(g, watcher.on_surface(i, kind))) is_sure = false;
+    }
+  }
+  return earliest;
+}
+
+}  // namespace whirl
