@@ -23,8 +23,8 @@ struct Row {
 std::vector<Row> rows(const ContactSystem& system, const test::RotorStator& rotor) {
   const std::vector<double> usual{1e-6, 1e-8, 1e-10, 1e-12};
   std::vector<Row> all;
-  for (const std::string_view method : method_names()) {
-    all.push_back({candidate(system, method), usual});
+  for (const std::string_view name : candidate_names()) {
+    all.push_back({candidate(system, name), usual});
   }
   all.push_back({odeint_candidate(rotor), usual});
   return all;
@@ -35,7 +35,7 @@ void run(const std::string& name, const test::RotorStator& rotor) {
   const Scene scene = make_scene(model);
   MotionState start = start_state(model, scene, nullptr);
   integrate(Dop853{}, scene.contacts, start, settled, {});
-  const ReferenceMotion reference = dop853_reference(scene.contacts, start, revolutions);
+  const ReferenceMotion reference = reference_motion(scene.contacts, start, revolutions);
   Table table({"method", "tolerance", "error", "ns/revolution", "steps/rev", "evaluations/rev"});
   for (const Row& row : rows(scene.contacts, rotor)) {
     for (const double tolerance : row.tolerances) {

@@ -7,6 +7,8 @@
 #include <ctime>
 #include <limits>
 
+#include "libdyn/batch/batch.hpp"
+#include "libdyn/batch/pattern.hpp"
 #include "libfe/base/error.hpp"
 
 namespace whirl {
@@ -14,7 +16,12 @@ namespace whirl {
 namespace {
 
 constexpr double tightest = 1e-15, second_tightest = 1e-14;
-constexpr double deviation = 1e-8;  ///< of the scales: far above rounding, far below the motion
+constexpr BatchOptions quad{.tolerance = 1e-26, .order = 28};
+constexpr BatchOptions other_quad{.tolerance = 1e-23, .order = 25};
+constexpr std::string_view batch_name = "taylor-batch";
+constexpr double most_quad_work = 2e8;  ///< as quad_work; some 3 s
+constexpr int lanes = 16;               ///< motions of a batch: two registers of AVX-512
+constexpr double deviation = 1e-8;      ///< of the scales: far above rounding, far below the motion
 
 /// Time that this thread was on a processor [s].
 double processor_time() {
@@ -29,40 +36,118 @@ double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
+struct End {
+  Vec y;
+  Cost cost;
+};
+
+/// End by DOP853.
+End end_of(const ContactSystem& system, MotionState state, long revolutions, double tolerance) {
+  const Integration run =
+      Dop853::integrate(system, state, revolutions, {.tolerance = tolerance}, {});
+  if (run.outcome != Outcome::reached_end) {
+    throw NumericalError("the reference motion failed: " + run.diagnosis);
+  }
+  return {state.y, run.cost};
+}
+
+/// End of a motion that starts a small deviation off.
+End deviated_end(const ContactSystem& system, MotionState start, long revolutions) {
+  for (Eigen::Index i = 0; i < start.y.size(); ++i) {
+    start.y(i) += (i % 2 == 0 ? deviation : -deviation) * system.state_scale()(i);
+  }
+  start.contacts.clear();  // a contact that just began may not have begun there
+  return end_of(system, start, revolutions, 1e-13);
+}
+
+/// What a run in quadruple precision costs, roughly in multiplications: steps of DOP853, of which
+/// it needs a few times less, times terms of the equations times the order.
+double quad_work(const ContactSystem& system, long steps) {
+  const ContactSystem* one = &system;
+  const Pattern pattern = Pattern::of({&one, 1});
+  const auto contacts = static_cast<double>(pattern.contacts.size());
+  const double terms = pattern.off_diagonals + 4.0 * pattern.n + 8.0 * contacts * quad.order;
+  return static_cast<double>(steps) * quad.order * terms;
+}
+
+ReferenceMotion quad_reference(const ContactSystem& system, const MotionState& start,
+                               long revolutions, const End& deviated) {
+  const auto end = [&](const BatchOptions& options) {
+    Trajectory t{.system = &system, .state = start, .revolutions = revolutions};
+    integrate_quad(t, options);
+    if (t.outcome != Outcome::reached_end) {
+      throw NumericalError("the reference motion failed: " + t.diagnosis);
+    }
+    return t;
+  };
+  const Trajectory a = end(quad), b = end(other_quad);
+  ReferenceMotion reference;
+  reference.revolutions = revolutions;
+  reference.made_by = fmt::format("taylor in quadruple precision at {:g}", quad.tolerance);
+  reference.end = a.state.y;
+  reference.error = error_between(system, a.state.y - b.state.y, b.lower_digits);
+  reference.growth = error_between(system, reference.end, deviated.y) / deviation;
+  return reference;
+}
+
+ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState& start,
+                                 long revolutions, const End& deviated) {
+  ReferenceMotion reference;
+  reference.revolutions = revolutions;
+  reference.made_by = fmt::format("dop853 at {:g}", tightest);
+  reference.end = end_of(system, start, revolutions, tightest).y;
+  reference.error =
+      error_between(system, reference.end, end_of(system, start, revolutions, second_tightest).y);
+  reference.growth = error_between(system, reference.end, deviated.y) / deviation;
+  return reference;
+}
+
+Candidate taylor_batch(const ContactSystem& system) {
+  const auto move = [&system](MotionState& state, long revolutions, double tolerance) {
+    const Trajectory one{.system = &system, .state = state, .revolutions = revolutions};
+    std::vector<Trajectory> all(lanes, one);
+    integrate_batch(all, {.tolerance = tolerance, .threads = 1});
+    Trajectory& first = all.front();
+    state = std::move(first.state);
+    return Integration{first.outcome, first.cost, std::move(first.diagnosis)};
+  };
+  return {std::string(batch_name), move, lanes};
+}
+
 }  // namespace
 
 double error_between(const ContactSystem& system, const Vec& a, const Vec& b) {
   return ((a - b).array() / system.state_scale().array()).abs().maxCoeff();
 }
 
-ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState& start,
+ReferenceMotion reference_motion(const ContactSystem& system, const MotionState& start,
                                  long revolutions) {
-  const auto end = [&](MotionState state, double tolerance) {
-    const Integration run =
-        Dop853::integrate(system, state, revolutions, {.tolerance = tolerance}, {});
-    if (run.outcome != Outcome::reached_end) {
-      throw NumericalError("the reference motion failed: " + run.diagnosis);
-    }
-    return state.y;
-  };
-  ReferenceMotion reference;
-  reference.revolutions = revolutions;
-  reference.made_by = fmt::format("dop853 at {:g}", tightest);
-  reference.end = end(start, tightest);
-  reference.error = error_between(system, reference.end, end(start, second_tightest));
-  MotionState near = start;
-  for (Eigen::Index i = 0; i < near.y.size(); ++i) {
-    near.y(i) += (i % 2 == 0 ? deviation : -deviation) * system.state_scale()(i);
-  }
-  near.contacts.clear();  // a contact that just began may not have begun there
-  const double later = error_between(system, reference.end, end(near, 1e-13));
-  reference.growth = later / deviation;
-  return reference;
+  const End deviated = deviated_end(system, start, revolutions);
+  return quad_work(system, deviated.cost.steps) <= most_quad_work
+             ? quad_reference(system, start, revolutions, deviated)
+             : dop853_reference(system, start, revolutions, deviated);
 }
 
-Candidate candidate(const ContactSystem& system, std::string_view method) {
-  const AnyMethod any = method_named(method);
-  return {std::string(method), [&system, any](MotionState& state, long revolutions, double T) {
+ReferenceMotion quad_reference(const ContactSystem& system, const MotionState& start,
+                               long revolutions) {
+  return quad_reference(system, start, revolutions, deviated_end(system, start, revolutions));
+}
+
+ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState& start,
+                                 long revolutions) {
+  return dop853_reference(system, start, revolutions, deviated_end(system, start, revolutions));
+}
+
+std::vector<std::string_view> candidate_names() {
+  std::vector<std::string_view> names = method_names();
+  names.insert(std::find(names.begin(), names.end(), Taylor::name) + 1, batch_name);
+  return names;
+}
+
+Candidate candidate(const ContactSystem& system, std::string_view name) {
+  if (name == batch_name) return taylor_batch(system);
+  const AnyMethod any = method_named(name);
+  return {std::string(name), [&system, any](MotionState& state, long revolutions, double T) {
             return integrate(any, system, state, revolutions, {.tolerance = T});
           }};
 }

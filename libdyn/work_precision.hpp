@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "libdyn/methods.hpp"
 
@@ -24,10 +26,20 @@ struct ReferenceMotion {
 /// times the rate of the phase (clearance times speed).
 double error_between(const ContactSystem& system, const Vec& a, const Vec& b);
 
-/// Reference by DOP853 at its tightest tolerance. Its own error is the difference from a run with
-/// other steps, at ten times this tolerance.
+/// Reference by Taylor series in quadruple precision (integrate_quad) where that takes seconds, else
+/// by DOP853.
 ///
 /// @throws NumericalError  if the motion cannot be integrated
+ReferenceMotion reference_motion(const ContactSystem& system, const MotionState& start,
+                                 long revolutions);
+
+/// Reference in quadruple precision. Its own error is the difference from a run of another order
+/// with other steps, and the rounding of its end to double.
+ReferenceMotion quad_reference(const ContactSystem& system, const MotionState& start,
+                               long revolutions);
+
+/// Reference by DOP853 at its tightest tolerance. Its own error is the difference from a run with
+/// other steps, at ten times this tolerance.
 ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState& start,
                                  long revolutions);
 
@@ -38,8 +50,13 @@ struct Candidate {
   double motions = 1.0;  ///< that one call moves at once; they share its time
 };
 
-/// A method of the list. The system must outlive it.
-Candidate candidate(const ContactSystem& system, std::string_view method);
+/// Names of all that can be measured: the methods of the list, and `taylor-batch`, which moves 16
+/// motions from the same state at once, in one thread.
+std::vector<std::string_view> candidate_names();
+
+/// What has one of these names. The system must outlive it.
+/// @throws ModelError  for an unknown name
+Candidate candidate(const ContactSystem& system, std::string_view name);
 
 struct TimingOptions {
   int most_runs = 5;         ///< of which the median counts

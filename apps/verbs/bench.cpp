@@ -49,10 +49,10 @@ BenchOptions options_of(const Invocation& call) {
   BenchOptions options;
   options.revolutions = call.integer("revolutions", options.revolutions);
   options.discard = call.integer("discard", options.discard, 0);
-  const auto names = method_names();
+  const auto names = candidate_names();
   options.methods.assign(names.begin(), names.end());
   if (call.has("methods")) options.methods = parts_of(call.text("methods"));
-  for (const std::string& m : options.methods) require_method(m, "--methods " + m);
+  for (const std::string& m : options.methods) require_method(m, names, "--methods " + m);
   if (call.has("tolerances")) {
     options.tolerances.clear();
     for (const std::string& part : parts_of(call.text("tolerances"))) {
@@ -91,7 +91,7 @@ Bench run_all(const Invocation& call, const Model& model) {
   if (transient.outcome != Outcome::reached_end) {
     throw NumericalError("the transient failed: " + transient.diagnosis);
   }
-  bench.reference = dop853_reference(system, start, options.revolutions);
+  bench.reference = reference_motion(system, start, options.revolutions);
   for (const std::string& method : options.methods) {
     const Candidate measured = candidate(system, method);
     for (const double tolerance : options.tolerances) {

@@ -135,8 +135,8 @@ void require_tolerance(double tolerance, const std::string& option) {
   throw ModelError({option}, "", "expected a number from 1e-15 to 1e-2");
 }
 
-void require_method(const std::string& method, const std::string& option) {
-  const std::vector<std::string_view> methods = method_names();
+void require_method(const std::string& method, const std::vector<std::string_view>& methods,
+                    const std::string& option) {
   if (method == "cvode" || std::find(methods.begin(), methods.end(), method) != methods.end()) {
     return;
   }
@@ -153,7 +153,7 @@ Run run_simulation(const Invocation& call, const Model& model) {
   options.integration.tolerance = call.number("tolerance", "", options.integration.tolerance);
   require_tolerance(options.integration.tolerance, "--tolerance " + call.text("tolerance"));
   const std::string method = call.text("method");
-  if (!method.empty()) require_method(method, "--method " + method);
+  if (!method.empty()) require_method(method, method_names(), "--method " + method);
 
   Scene scene = make_scene(model);
   options.method = method.empty() ? suitable_method(scene.contacts) : method_named(method);

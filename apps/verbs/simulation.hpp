@@ -29,9 +29,10 @@ struct Run {
 
 /// @throws ModelError  for a model without an operating speed
 void require_speed(const Model& model);
-/// @throws ModelError  naming the option and its value, if there is no such method, or if a
+/// @throws ModelError  naming the option and its value, if a method is none of these, or if a
 ///                     tolerance is out of its range
-void require_method(const std::string& method, const std::string& option);
+void require_method(const std::string& method, const std::vector<std::string_view>& methods,
+                    const std::string& option);
 void require_tolerance(double tolerance, const std::string& option);
 
 /// Where a motion begins: at the model's [start], or where the result of --from ended.

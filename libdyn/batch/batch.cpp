@@ -57,7 +57,8 @@ HWY_EXPORT(name_of_target);
 int order_for(double tolerance) {
   if (tolerance >= 1e-7) return 8;
   if (tolerance >= 1e-11) return 12;
-  return tolerance >= 1e-14 ? 16 : 20;
+  if (tolerance >= 1e-14) return 16;
+  return tolerance >= 1e-17 ? 20 : 30;
 }
 
 void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& options) {

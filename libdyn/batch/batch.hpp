@@ -26,14 +26,15 @@ struct Trajectory {
   /// Mean divergence of the flow, with exponents or tangent [1/s]: the sum of all exponents, and
   /// over the time the logarithm of the tangent's determinant. Not with sticking, which has none.
   double divergence = 0.0;
+  Vec lower_digits;  ///< of integrate_quad, in and out: the state is state.y + lower_digits
 };
 
 /// What is wanted beside the end of a trajectory; what is not wanted costs nothing.
 struct BatchOptions {
   double tolerance = 1e-10;  ///< of a step, displacements by the length scale
   double fixed_step = 0.0;   ///< [s]; not 0: no error control, steps of this size between events
-  int order = 0;             ///< of the series, 8 to 20; 0: by the tolerance
-  int threads = 0;           ///< 0: one per processor
+  int order = 0;    ///< of the series, 8 to 20, of integrate_quad to 30; 0: by the tolerance
+  int threads = 0;  ///< 0: one per processor
   bool sections = false;
   bool measures = false;
   bool exponents = false;  ///< all 2 n of them; their tangents start as the unit vectors
@@ -50,12 +51,24 @@ struct BatchOptions {
 /// @throws NumericalError  if the systems differ in shape
 void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& options);
 
-/// Order of the series for a tolerance: 8 from 1e-7, 12 from 1e-11, 16 from 1e-14, else 20.
+/// Order of the series for a tolerance: 8 from 1e-7, 12 from 1e-11, 16 from 1e-14, 20 from 1e-17,
+/// and below, where only integrate_quad gets, 30.
 int order_for(double tolerance);
 
 /// Integrates one trajectory in one lane; the observer, if any, sees every step.
 void integrate_single(Trajectory& trajectory, const BatchOptions& options,
                       const Observer& observer = {});
+
+/// The same in quadruple precision (113 bits), with tolerances down to 1e-31: a reference for
+/// everything else, a thousand times slower. Meant for one trajectory, whatever the threads.
+///
+/// The coefficients of the system are taken as the doubles that they are, but a revolution is 2 pi
+/// to the last digit. Decisions at events that are rare (does it stick, which way does it slide,
+/// does it part or recede) are made in double from a state that is rounded for it; the motion itself
+/// stays in full precision. Jumps of tangents are double.
+///
+/// @param trajectory  starts from state.y + lower_digits, if these are given, and ends there
+void integrate_quad(Trajectory& trajectory, const BatchOptions& options);
 
 /// Name of the instruction set that the engine runs on, such as "AVX3".
 const char* instruction_set();

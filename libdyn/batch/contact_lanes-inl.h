@@ -122,6 +122,8 @@ constexpr auto table_of_forces(std::integer_sequence<int, K...>) {
 /// The force of a contact is -(q d + tau rot d): q = N / r, tau = T / r, rot d = (-d_y, d_x).
 template <class P>
 struct ContactLanes {
+  using Number = typename P::Number;
+
   const Pattern::ContactRows& rows;
 
   // parameters
@@ -144,11 +146,11 @@ struct ContactLanes {
   bool is_ahead = false;                 // whether the force needs geometry one coefficient ahead
   typename P::Mask evaluated, in_touch;  // lanes that need the force, lanes that feel it
   P inverse_r{1.0}, share{0.0};
-  P dx[most_terms], dy[most_terms], s[most_terms], r[most_terms];
-  P N[most_terms], q[most_terms], tau[most_terms];
-  P slip[most_terms], sine[most_terms],
-      cosine2[most_terms];           // smooth friction: u, tanh u, 1 - tanh^2 u
-  P ax[most_terms], ay[most_terms];  // relative acceleration, for sticking
+  P dx[P::most_terms], dy[P::most_terms], s[P::most_terms], r[P::most_terms];
+  P N[P::most_terms], q[P::most_terms], tau[P::most_terms];
+  P slip[P::most_terms], sine[P::most_terms],
+      cosine2[P::most_terms];              // smooth friction: u, tanh u, 1 - tanh^2 u
+  P ax[P::most_terms], ay[P::most_terms];  // relative acceleration, for sticking
 
   // measures
   P duty{0.0}, stuck{0.0}, max_normal{0.0}, max_friction{0.0};
@@ -164,12 +166,12 @@ struct ContactLanes {
     const uint64_t bit = uint64_t{1} << l;
     const Friction& f = from.friction;
     set_lane(clearance, l, from.clearance);
-    set_lane(clearance2, l, from.clearance * from.clearance);
+    set_lane(clearance2, l, Number(from.clearance) * Number(from.clearance));
     set_lane(offset_x, l, from.offset(0));
     set_lane(offset_y, l, from.offset(1));
     set_lane(mu, l, f.mu);
     set_lane(rim, l, from.rim_speed);
-    set_lane(inverse_width, l, f.tolerance > 0.0 ? 1.0 / f.tolerance : 1.0);
+    set_lane(inverse_width, l, f.tolerance > 0.0 ? Number(1.0) / Number(f.tolerance) : Number(1.0));
     set_lane(force_scale, l, normal_force(from.law, from.clearance, 0.0));
     set_lane(slip_scale, l,
              std::max(std::abs(from.rim_speed), from.clearance * turn) * from.clearance);
@@ -243,7 +245,7 @@ struct ContactLanes {
     dx[k] = xk;
     dy[k] = yk;
     static constexpr auto squares =
-        table_of_squares<P>(std::make_integer_sequence<int, most_terms>());
+        table_of_squares<P>(std::make_integer_sequence<int, P::most_terms>());
     P sums[2], rr;
     if (is_evaluated) {
       squares[static_cast<size_t>(k)](dx, dy, r, sums);
@@ -278,7 +280,7 @@ struct ContactLanes {
         with_alternative(work, [&](auto& l) HWY_ATTR { return l.normal(k, depth, rate_k); });
     N[k] = Nk;
     static constexpr auto forces =
-        table_of_forces<P>(std::make_integer_sequence<int, most_terms>());
+        table_of_forces<P>(std::make_integer_sequence<int, P::most_terms>());
     P sums[3];
     forces[static_cast<size_t>(k)](dx, dy, r, q, sums);
     P rq = sums[0], px = sums[1], py = sums[2];
@@ -324,7 +326,7 @@ struct ContactLanes {
       if (k == 0) {
         y = tanh(slip[0]);
       } else {
-        for (int i = 1; i <= k; ++i) y = fma(P(i * (1.0 / k)) * slip[i], cosine2[k - i], y);
+        for (int i = 1; i <= k; ++i) y = fma(P(i * inverse_of<P>(k)) * slip[i], cosine2[k - i], y);
       }
       sine[k] = y;
       for (int i = 0; i <= k; ++i) z = fnma(sine[i], sine[k - i], z);
@@ -335,7 +337,7 @@ struct ContactLanes {
     }
     return select(mask_of<P>(sticking), P(0.0), sliding);
   }
-  P turn_rate[most_terms];  // (d x d') / r
+  P turn_rate[P::most_terms];  // (d x d') / r
 
   /// Adds -force to the accelerations of the coordinates.
   HWY_ATTR inline void push(P* acceleration, const P& fx, const P& fy) const {

@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 /// A 2 x 2 matrix of series.
 template <class P>
 struct SeriesMatrix {
-  P xx[most_terms], xy[most_terms], yx[most_terms], yy[most_terms];
+  P xx[P::most_terms], xy[P::most_terms], yx[P::most_terms], yy[P::most_terms];
 
   /// Adds (ax, ay) (bx, by)^T.
   HWY_ATTR void add(const P* ax, const P* ay, const P* bx, const P* by, int N) {
@@ -46,20 +46,21 @@ struct SeriesMatrix {
 template <class P>
 struct ContactSlopes {
   SeriesMatrix<P> J, H;
-  P normal_by_depth[most_terms], normal_by_rate[most_terms];
+  P normal_by_depth[P::most_terms], normal_by_rate[P::most_terms];
   bool has_H = false;
 
   HWY_ATTR void find(const ContactLanes<P>& c, int N) {
     derivatives_of_law(c, N);
     const auto& in_touch = c.in_touch;
     has_H = c.rows.has_rate || c.rows.has_smooth_friction;
-    P alpha[most_terms], beta[most_terms], work[most_terms], ex[most_terms], ey[most_terms];
+    P alpha[P::most_terms], beta[P::most_terms], work[P::most_terms], ex[P::most_terms],
+        ey[P::most_terms];
     for (int k = 0; k <= N; ++k) work[k] = normal_by_depth[k] - c.q[k];
     divide(work, c.s, alpha, N, in_touch);
     J.clear(N);
     if (has_H) H.clear(N);
     if (c.rows.has_rate) {
-      P rate[most_terms], ratio[most_terms], vx[most_terms], vy[most_terms];
+      P rate[P::most_terms], ratio[P::most_terms], vx[P::most_terms], vy[P::most_terms];
       divide(normal_by_rate, c.s, beta, N, in_touch);
       for (int k = 0; k <= N; ++k) rate[k] = c.rate(k);
       divide(rate, c.r, ratio, N, in_touch);
@@ -110,7 +111,7 @@ struct ContactSlopes {
       if (has_H) turn_by(H, share, N);
     } else {
       const auto smooth = mask_of<P>(c.smooth & c.touching);
-      P phi[most_terms];
+      P phi[P::most_terms];
       for (int k = 0; k <= N; ++k) {
         phi[k] = select(smooth, c.mu * c.sine[k], k == 0 ? share : P(0.0));
       }
@@ -152,8 +153,8 @@ struct ContactSlopes {
   ///   q d(phi) = chi ((d(d) x d' + d x d(d')) / r - (d x d') / r^3 d . d(d)),  chi = mu q (1 -
   ///   tanh^2 u) / w
   HWY_ATTR void add_slip(const ContactLanes<P>& c, const typename P::Mask& smooth, int N) {
-    P chi[most_terms], a[most_terms], b[most_terms], px[most_terms], py[most_terms];
-    P vx[most_terms], vy[most_terms], back[most_terms];
+    P chi[P::most_terms], a[P::most_terms], b[P::most_terms], px[P::most_terms], py[P::most_terms];
+    P vx[P::most_terms], vy[P::most_terms], back[P::most_terms];
     const P factor = c.mu * c.inverse_width;
     for (int k = 0; k <= N; ++k) {
       chi[k] = select(smooth, factor * product_term(c.q, c.cosine2, k), P(0.0));

@@ -8,7 +8,6 @@
 #endif
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -27,16 +26,6 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// 1 / k for the orders of a series.
-inline double inverse_of(int k) {
-  static constexpr auto table = [] {
-    std::array<double, most_terms> t{};
-    for (int i = 1; i < most_terms; ++i) t[static_cast<size_t>(i)] = 1.0 / i;
-    return t;
-  }();
-  return table[static_cast<size_t>(k)];
-}
-
 /// Displacement beyond which a motion is given up, in length scales.
 constexpr double boundless = 1e30;
 
@@ -44,6 +33,7 @@ template <class P>
 class Engine {
  public:
   using Mask = typename P::Mask;
+  using Number = typename P::Number;
 
   Engine(const Pattern& pattern, const BatchOptions& options)
       : pattern_(pattern),
@@ -218,9 +208,18 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
     }
   }
   for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
-  set_lane(rate_, l, s.phase_rate());
-  set_lane(period_, l, s.period());
-  set_lane(time_, l, t.state.phase / s.phase_rate());
+  if constexpr (!P::is_double) {
+    for (int i = 0; i < t.lower_digits.size(); ++i) {
+      P& y = y_[static_cast<size_t>(i)];
+      y = y + P(t.lower_digits(i));
+    }
+  }
+  // a revolution is 2 pi to the last digit of P; without spin it is one second
+  const Number turn = Number(2.0) * P::pi;
+  const Number rate = s.Omega() != 0.0 ? Number(s.phase_rate()) : turn;
+  set_lane(rate_, l, rate);
+  set_lane(period_, l, turn / rate);
+  set_lane(time_, l, Number(t.state.phase) / rate);
   for (size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
   }
@@ -234,6 +233,12 @@ HWY_ATTR void Engine<P>::unload(int l) {
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
   const Book& book = book_[static_cast<size_t>(l)];
   t.state.y = state_of(l);
+  if constexpr (!P::is_double) {
+    t.lower_digits.resize(2 * n_);
+    for (int i = 0; i < 2 * n_; ++i) {
+      t.lower_digits(i) = lane(y_[static_cast<size_t>(i)] - P(t.state.y(i)), l);
+    }
+  }
   t.state.revolution = book.revolution;
   t.state.phase = lane(time_, l) * t.system->phase_rate();
   for (size_t c = 0; c < contacts_.size(); ++c) t.state.contacts[c] = contacts_[c].state(l);

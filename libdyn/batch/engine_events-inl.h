@@ -128,7 +128,8 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
         c.sign = select(mask_of<P>(enters & c.exact), select(less(slip, P(0.0)), P(-1.0), P(1.0)),
                         c.sign);
         const uint64_t at_rest =
-            enters & c.exact & bits(slip, less_equal(abs(slip), c.slip_scale * P(1e-12)));
+            enters & c.exact &
+            bits(slip, less_equal(abs(slip), c.slip_scale * P(1e3 * P::rounding)));
         common &= ~at_rest;
       }
       if ((enters & ~c.exact) != 0) c.sign = select(mask_of<P>(enters & ~c.exact), P(1.0), c.sign);
@@ -186,7 +187,9 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
     }
   }
   t.system->remove_slip(y.data(), states);
-  for (int j = 0; j < 2 * n_; ++j) set_lane(y_[static_cast<size_t>(j)], l, y(j));
+  if constexpr (P::is_double) {
+    for (int j = 0; j < 2 * n_; ++j) set_lane(y_[static_cast<size_t>(j)], l, y(j));
+  }
   ContactLanes<P>& c = contacts_[i];
   c.set_state(states[i], l);
   const auto starts = [&](EventKind k) { return book.watcher->on_surface(index, k); };

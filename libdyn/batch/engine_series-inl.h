@@ -54,7 +54,7 @@ HWY_ATTR void Engine<P>::series() {
   const size_t contacts = contacts_.size();
   P fx, fy;
   for (int k = 0; k <= N; ++k) {
-    const P inverse(inverse_of(k + 1));
+    const P inverse(inverse_of<P>(k + 1));
     linear(k, sine, cosine, inverse);
     P* acceleration = term(k + 1) + n_;
     if (k == 0) {
@@ -78,7 +78,8 @@ HWY_ATTR void Engine<P>::series() {
     sine = turn * cosine;
     cosine = turned;
   }
-  for (int i = 0; i < n_; ++i) term(N + 2)[i] = term(N + 1)[n_ + i] * P(1.0 / (N + 2.0));
+  for (int i = 0; i < n_; ++i)
+    term(N + 2)[i] = term(N + 1)[n_ + i] * P(Number(1.0) / Number(N + 2));
   // the distance needs two more coefficients to be as good as the state
   for (ContactLanes<P>& c : contacts_) {
     if (!c.is_ahead) c.geometry(term(N + 1), N + 1);

@@ -63,13 +63,13 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
 
 template <class P>
 HWY_ATTR void Engine<P>::step(const Observer* observer) {
-  constexpr double too_small = 1e-14;  // of a revolution
+  constexpr Number too_small = 10.0 * P::rounding;  // of a revolution
   series();
   P h = step_length();
   if (tangents_) h = limit_for_tangents(h);
   if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
   const P left = max(period_ - time_, P(0.0));
-  const Mask reaches = less_equal(left * P(1.0 - 1e-13), h);
+  const Mask reaches = less_equal(left * P(Number(1.0) - 100.0 * P::rounding), h);
   const Mask moves = either(reaches, less(period_ * P(too_small), h));
   const uint64_t good = bits(h, both(both(finite_, bounded_), moves));
   uint64_t ends = active_ & bits(h, reaches);
@@ -115,7 +115,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
       for (const P& y : y_) sections.push_back(lane(y, l));
     }
-    if (!observer && !tangents_) fly_on(l);
+    if (P::is_double && !observer && !tangents_) fly_on(l);
     if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
   }
   if (options_.exponents) orthonormalize(due_lanes(ends));
@@ -161,6 +161,7 @@ HWY_ATTR void Engine<P>::fly_on(int l) {
 /// Takes off the slip that sticking contacts of a lane have gathered by rounding and truncation.
 template <class P>
 HWY_ATTR void Engine<P>::remove_slip(int l) {
+  if constexpr (!P::is_double) return;  // what double computes would be worse than what is left
   ContactStates states;
   for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
   const auto sticks = [](const ContactState& c) { return c.touch == Touch::sticking; };

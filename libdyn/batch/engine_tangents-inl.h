@@ -92,7 +92,7 @@ HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces) {
           *b = second.terms.data() + static_cast<size_t>(k) * size;
   P *next_a = first.terms.data() + static_cast<size_t>(k + 1) * size,
     *next_b = second.terms.data() + static_cast<size_t>(k + 1) * size;
-  const P inverse(inverse_of(k + 1));
+  const P inverse = inverse_of<P>(k + 1);
   for (int i = 0; i < n_; ++i) {
     const auto ui = static_cast<size_t>(i);
     const P stiffness = K_diagonal_[ui], damping = D_diagonal_[ui];
@@ -164,7 +164,7 @@ HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
   P integral(0.0);
   for (int k = N; k >= 0; --k) {
     const P trace = fma(H.xx[k], xx, fma(H.xy[k], yx, fma(H.yx[k], xy, H.yy[k] * yy)));
-    integral = fma(integral, h, trace * P(inverse_of(k + 1)));
+    integral = fma(integral, h, trace * inverse_of<P>(k + 1));
   }
   return -(integral * h);
 }
@@ -173,7 +173,7 @@ HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
 template <class P>
 HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
   static constexpr auto forces_of =
-      table_of_slope_forces<P>(std::make_integer_sequence<int, most_terms>());
+      table_of_slope_forces<P>(std::make_integer_sequence<int, P::most_terms>());
   auto& t = *tangents_;
   auto& [first, second] = t.tracks;
   const size_t size = 2 * static_cast<size_t>(n_);
@@ -201,12 +201,12 @@ HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
     }
     accelerate_columns(k, work_.data());
     if (!any_sticks) continue;
-    for (auto& track : t.tracks) stick_column(track, k, P(inverse_of(k + 1)));
+    for (auto& track : t.tracks) stick_column(track, k, inverse_of<P>(k + 1));
   }
   for (auto& track : t.tracks) {
     const P* top = track.terms.data() + static_cast<size_t>(N + 1) * size + n_;
     P* last = track.terms.data() + static_cast<size_t>(N + 2) * size;
-    for (int i = 0; i < n_; ++i) last[i] = top[i] * P(1.0 / (N + 2.0));
+    for (int i = 0; i < n_; ++i) last[i] = top[i] * P(Number(1.0) / Number(N + 2));
   }
 }
 

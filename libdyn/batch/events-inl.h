@@ -34,7 +34,7 @@ HWY_ATTR inline P safe_advance(const P& value, const P& slope, const P& M, const
   const P root = sqrt(square);
   const P up = (slope + root) * inverse_M;
   const P down = (value + value) / max(root - slope, tiny);
-  return select(less(slope, P(0.0)), down, up) * P(1.0 - 1e-15);
+  return select(less(slope, P(0.0)), down, up) * P(typename P::Number(1.0) - P::rounding);
 }
 
 /// First fall below zero of sign * g on [0, h] in every active lane.
@@ -43,7 +43,7 @@ HWY_ATTR inline P safe_advance(const P& value, const P& slope, const P& M, const
 /// at least g + g' u - M u^2 / 2, so t moves by the positive root of that. No root can be jumped.
 ///
 /// @param g           coefficients in time; g[0] counts as zero in lanes of `surface`
-/// @param scale       what g is measured by: zero is 1e-15 of it
+/// @param scale       what g is measured by: zero is P::rounding of it
 /// @param h           in: length searched; out: shortened to the event where there is one
 /// @param active      lanes that are asked; others keep their h
 /// @param surface     lanes that start on the surface
@@ -53,7 +53,7 @@ HWY_ATTR typename P::Mask first_fall(const P* g, int degree, const P& sign, cons
                                      const typename P::Mask& active,
                                      const typename P::Mask& surface) {
   using Mask = typename P::Mask;
-  const P zero = scale * P(1e-15), tiny = scale * P(1e-200), nothing(0.0);
+  const P zero = scale * P(P::rounding), tiny = scale * P(1e-200), nothing(0.0);
   P M = P(degree * (degree - 1.0)) * abs(g[degree]);
   for (int k = degree - 1; k >= 2; --k) M = fma(M, h, P(k * (k - 1.0)) * abs(g[k]));
   M = max(M, scale * P(1e-60));
@@ -69,12 +69,13 @@ HWY_ATTR typename P::Mask first_fall(const P* g, int degree, const P& sign, cons
   P t = select(near, from_surface, safe_advance(max(value, nothing), slope, M, inverse_M, tiny));
   if (any(t, near)) {
     // on the surface the slope decides, or the bend where the slope is nothing but rounding
-    const Mask flat = both(near, less_equal(abs(slope) * h, fma(M * h, h, scale) * P(1e-12)));
+    const Mask flat =
+        both(near, less_equal(abs(slope) * h, fma(M * h, h, scale) * P(1e3 * P::rounding)));
     const Mask falls = both(without(near, flat), less(slope, nothing));
     fell = either(fell, falls);
     running = without(running, falls);
     if (any(t, flat)) {
-      const P bend = sign * g[2] * h * h, rounding = scale * P(1e-12);
+      const P bend = sign * g[2] * h * h, rounding = scale * P(1e3 * P::rounding);
       const Mask bends_down = both(flat, less(bend, -rounding));
       const Mask bends_up = both(flat, less(rounding, bend));
       P third = P(degree * (degree - 1.0) * (degree - 2.0)) * abs(g[degree]);
@@ -98,7 +99,7 @@ HWY_ATTR typename P::Mask first_fall(const P* g, int degree, const P& sign, cons
     b = b * sign;
     const P advance = safe_advance(max(a, nothing), b, M, inverse_M, tiny);
     const Mask hit = both(less_equal(a, zero), less(b, nothing));
-    Mask found = both(running, either(hit, less(advance, P(1e-15) * h)));
+    Mask found = both(running, either(hit, less(advance, P(P::rounding) * h)));
     if (step == most_steps) found = running;
     fell = either(fell, found);
     h = select(found, t, h);

@@ -11,6 +11,8 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <numbers>
+
 HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
@@ -29,6 +31,12 @@ struct alignas(8 * L) Pack {
   using Register = hn::Vec<D>;
   using MaskRegister = hn::Mask<D>;
   static constexpr int blocks = B;
+
+  using Number = double;  ///< of a lane
+  static constexpr bool is_double = true;
+  static constexpr double pi = std::numbers::pi;
+  static constexpr double rounding = 1e-15;  ///< what counts as nothing, relative
+  static constexpr int most_terms = 27;      ///< of a series: order 20 and those that come with it
 
   /// Yes or no in every lane.
   struct Mask {

@@ -9,6 +9,7 @@
 #define WHIRL_SERIES_INL_H
 #endif
 
+#include <array>
 #include <type_traits>
 
 #include "libdyn/batch/pack-inl.h"
@@ -17,8 +18,18 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// Most coefficients of a series: order 20 and the three that come with it.
-constexpr int most_terms = 27;
+/// 1 / k for the orders of a series, as exact as the numbers of a pack.
+template <class P>
+inline typename P::Number inverse_of(int k) {
+  static constexpr auto table = [] {
+    std::array<typename P::Number, P::most_terms> t{};
+    for (int i = 1; i < P::most_terms; ++i) {
+      t[static_cast<size_t>(i)] = typename P::Number(1.0) / typename P::Number(i);
+    }
+    return t;
+  }();
+  return table[static_cast<size_t>(k)];
+}
 
 /// Marks the types that series arithmetic is about.
 struct SeriesTag {};
@@ -70,7 +81,7 @@ struct Product : SeriesTag {
   using Number = typename A::Number;
   A a;
   B b;
-  Number x[most_terms], y[most_terms];
+  Number x[Number::most_terms], y[Number::most_terms];
   Product(const A& p, const B& q) : a(p), b(q) {}
   HWY_ATTR inline Number at(int k, const Number& u, const Number& v) {
     x[k] = a.at(k, u, v);
@@ -87,7 +98,7 @@ struct Quotient : SeriesTag {
   using Number = typename A::Number;
   A a;
   B b;
-  Number y[most_terms], c[most_terms];
+  Number y[Number::most_terms], c[Number::most_terms];
   Quotient(const A& p, const B& q) : a(p), b(q) {}
   HWY_ATTR inline Number at(int k, const Number& u, const Number& v) {
     y[k] = b.at(k, u, v);
@@ -102,7 +113,7 @@ template <class A>
 struct SquareRoot : SeriesTag {
   using Number = typename A::Number;
   A a;
-  Number c[most_terms];
+  Number c[Number::most_terms];
   explicit SquareRoot(const A& x) : a(x) {}
   HWY_ATTR inline Number at(int k, const Number& u, const Number& v) {
     Number sum = a.at(k, u, v);

@@ -31,8 +31,8 @@ struct Tangents {
   std::vector<P> gain;  ///< per contact, largest eigenvalue of U B [1/kg]
   /// A contact as one column moves it: displacement, distance, acceleration, friction.
   struct Column {
-    P dx[most_terms], dy[most_terms], vx[most_terms], vy[most_terms];
-    P r[most_terms], ax[most_terms], ay[most_terms], tau[most_terms];
+    P dx[P::most_terms], dy[P::most_terms], vx[P::most_terms], vy[P::most_terms];
+    P r[P::most_terms], ax[P::most_terms], ay[P::most_terms], tau[P::most_terms];
   };
   /// The series of one column; two go side by side, so that slopes are loaded once for both.
   struct Track {

@@ -1,0 +1,23 @@
+// The engine in quadruple precision. Compiled once, for what every processor has: all its templates
+// are those of QuadPack, which nothing else knows, so that they do not meet those of batch.cpp.
+
+#include <memory>
+
+#include "libdyn/batch/batch.hpp"
+#include "libdyn/batch/quad_pack.hpp"
+// after the pack that they are for
+#include "libdyn/batch/engine_events-inl.h"
+#include "libdyn/batch/engine_series-inl.h"
+#include "libdyn/batch/engine_step-inl.h"
+#include "libdyn/batch/engine_tangents-inl.h"
+
+namespace whirl {
+
+void integrate_quad(Trajectory& trajectory, const BatchOptions& options) {
+  const ContactSystem* system = trajectory.system;
+  const Pattern pattern = Pattern::of({&system, 1});
+  using Engine = HWY_NAMESPACE::Engine<HWY_NAMESPACE::QuadPack>;
+  std::make_unique<Engine>(pattern, options)->run({&trajectory, 1}, nullptr);
+}
+
+}  // namespace whirl

@@ -1,0 +1,101 @@
+// The engine on every instruction set that it is compiled for and this processor has: the same
+// motions, to the rounding of products that are fused or not.
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "libdyn/batch/batch.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace whirl {
+namespace {
+
+/// Lets the engine see only one instruction set, until the end of its life.
+struct Only {
+  explicit Only(int64_t target) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+  ~Only() {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+/// Rotors that touch, one by one more damped, more sliding and with rolling ones among them.
+struct Rotors {
+  std::vector<Scene> scenes;
+  std::vector<Trajectory> trajectories;
+
+  Rotors() {
+    constexpr int size = 20;  // more than lanes, so that some are refilled
+    scenes.reserve(size);
+    for (int i = 0; i < size; ++i) {
+      test::RotorStator p{.Omega = 130.0 + i, .kC = 20e6, .mu = 0.02 * i};
+      p.cC = i % 4 == 0 ? 1e3 : 0.0;
+      scenes.push_back(p.scene());
+      Trajectory t{.system = &scenes.back().contacts, .revolutions = 10 + i % 3};
+      t.state = test::start_of(p.model(), scenes.back());
+      trajectories.push_back(t);
+    }
+  }
+};
+
+std::vector<Trajectory> run(const Rotors& rotors, const BatchOptions& options) {
+  std::vector<Trajectory> all = rotors.trajectories;
+  integrate_batch(all, options);
+  for (const Trajectory& t : all) EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  return all;
+}
+
+TEST(InstructionSets, GiveTheSameMotions) {
+  constexpr double rounding = 1e-10;  // 1e-15 a step, grown by chaos and by impacts that graze
+  const Rotors rotors;
+  const BatchOptions options{.tolerance = 1e-13, .measures = true};
+  const std::string best = instruction_set();
+  const std::vector<Trajectory> expected = run(rotors, options);
+  std::set<std::string> seen;
+  const int64_t supported = hwy::SupportedTargets();
+  for (int64_t rest = supported; rest != 0; rest &= rest - 1) {
+    const Only only(rest & -rest);
+    if (!seen.insert(instruction_set()).second) continue;  // not compiled for it: the baseline
+    const std::vector<Trajectory> all = run(rotors, options);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Trajectory &t = all[i], &e = expected[i];
+      EXPECT_LT(test::distance(*t.system, t.state.y, e.state.y), rounding)
+          << instruction_set() << " " << i;
+      EXPECT_EQ(t.cost.events, e.cost.events) << instruction_set() << " " << i;
+      EXPECT_NEAR(t.contacts[0].max_normal, e.contacts[0].max_normal,
+                  rounding * e.contacts[0].max_normal);
+    }
+  }
+  EXPECT_TRUE(seen.contains(best));
+  const bool has_avx2 = (supported & HWY_AVX2) != 0, has_avx512 = (supported & HWY_AVX3) != 0;
+  EXPECT_EQ(seen.contains("AVX2"), has_avx2);
+  EXPECT_EQ(seen.contains("AVX3"), has_avx512);
+  EXPECT_EQ(seen.size(), 1u + has_avx2 + has_avx512);  // and what every processor has
+  EXPECT_EQ(instruction_set(), best);
+}
+
+// Tangents have their own packs and series.
+TEST(InstructionSets, GiveTheSameExponents) {
+  Rotors rotors;
+  rotors.trajectories.resize(9);
+  const BatchOptions options{.tolerance = 1e-10, .exponents = true};
+  const std::vector<Trajectory> expected = run(rotors, options);
+  for (int64_t rest = hwy::SupportedTargets(); rest != 0; rest &= rest - 1) {
+    const Only only(rest & -rest);
+    const std::vector<Trajectory> all = run(rotors, options);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      EXPECT_LT((all[i].exponents - expected[i].exponents).cwiseAbs().maxCoeff(), 1e-6)  // 1/s
+          << instruction_set() << " " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whirl
