@@ -37,9 +37,6 @@ inline double inverse_of(int k) {
   return table[static_cast<size_t>(k)];
 }
 
-/// Displacement beyond which a motion is given up, in length scales.
-constexpr double boundless = 1e30;
-
 template <class P>
 class Engine {
  public:

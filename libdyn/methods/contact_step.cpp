@@ -160,8 +160,7 @@ bool ContactStep::solve(Rung rung, const MotionState& from) {
     evaluate_nodes(true);
     estimate();
   }
-  make_paths(from);
-  return true;
+  return make_paths(from);
 }
 
 void ContactStep::evaluate_nodes(bool with_rates) {
@@ -330,7 +329,6 @@ void ContactStep::estimate() {
     error_ = std::max(error_, weight_[static_cast<std::size_t>(c)] * size(rung_) * last *
                                   (std::isfinite(fall) ? fall : 1.0));
   }
-  if (std::isnan(error_)) error_ = 0.0;
 }
 
 void ContactStep::advance(double fraction, const MotionState& from, Vec& y) {
