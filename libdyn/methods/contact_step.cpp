@@ -105,7 +105,8 @@ void ContactStep::fill(Nodes& table, LinearFlow& flow, int level, const Vec& s,
   table.free.assign(contacts, Mat(rows * m, 2 * n + 3));
   if (has_force) table.kernel.assign(contacts * contacts, Mat(rows * m, 2 * terms));
   for (Eigen::Index i = 0; i < m; ++i) {
-    const LinearFlow::Rows at = flow.rows(level, s(i), r);
+    const LinearFlow::Rows at =
+        flow.rows(level, s(i), r, has_force ? LinearFlow::Forces::all : LinearFlow::Forces::none);
     for (std::size_t c = 0; c < contacts; ++c) {
       for (int d = 0; d < rows; ++d) {
         const auto from = rows * static_cast<Eigen::Index>(c) + d, to = d * m + i;
