@@ -277,7 +277,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
 }
 
 bool prefers_collocation(const ContactSystem& system) {
-  return fastest_mode(system) > 2.0 * contact_frequency(system);
+  return fastest_mode(system) > 10.0 * contact_frequency(system);
 }
 
 }  // namespace whirl
