@@ -44,20 +44,23 @@ EventWatcher::EventWatcher(const ContactSystem& system)
   }
 }
 
-std::vector<EventKind> EventWatcher::kinds(int contact, const ContactState& state) const {
+std::span<const EventKind> EventWatcher::kinds(int contact, const ContactState& state) const {
+  using enum EventKind;
+  static constexpr EventKind of_apart[] = {touch}, of_receding[] = {retouch, part},
+                             of_sticking[] = {release, stick_limit},
+                             of_sliding[] = {release, slip_stop};
   switch (state.touch) {
     case Touch::apart:
-      return {EventKind::touch};
+      return of_apart;
     case Touch::receding:
-      return {EventKind::retouch, EventKind::part};
+      return of_receding;
     case Touch::sticking:
-      return {EventKind::release, EventKind::stick_limit};
+      return of_sticking;
     case Touch::sliding:
       break;
   }
   const auto& friction = system_.contacts()[static_cast<std::size_t>(contact)].friction;
-  if (friction.is_exact()) return {EventKind::release, EventKind::slip_stop};
-  return {EventKind::release};
+  return std::span<const EventKind>(of_sliding).first(friction.is_exact() ? 2 : 1);
 }
 
 bool EventWatcher::on_surface(int contact, EventKind kind) const {

@@ -2,6 +2,7 @@
 /// Events of contacts: where they happen within a step, and what changes there.
 
 #include <optional>
+#include <span>
 
 #include "libdyn/polynomial.hpp"
 #include "libdyn/trajectory.hpp"
@@ -46,7 +47,7 @@ class EventWatcher {
   void moved_on();
 
   /// Kinds that can end a contact's state.
-  std::vector<EventKind> kinds(int contact, const ContactState& state) const;
+  std::span<const EventKind> kinds(int contact, const ContactState& state) const;
 
   /// Whether the function of this kind is zero by definition at the start of the next step.
   bool on_surface(int contact, EventKind kind) const;

@@ -112,13 +112,14 @@ void LinearFlow::build_by_series(Table& t) const {
   Mat power = Mat::Identity(2 * n_, 2 * n_);  // (A h)^m / m!
   Mat load = Mat::Zero(2 * n_, 3);            // h^m / m! sum A^(m-1-j) F W^j
   for (int m = 0; m <= series_terms; ++m) {
+    const Mat pushed = power * B_;
     double factor = h;  // h m! k! / (k + m + 1)!
     for (int i = 1; i <= m + 1; ++i) factor /= i;
     for (int i = 1; i <= m; ++i) factor *= i;
     for (int k = 0; k < terms_; ++k) {
       if (k > 0) factor *= static_cast<double>(k) / (k + m + 1);
       for (int b = 0; b < 2 * contacts_; ++b) {
-        G.col(b * terms_ + k) -= factor * (power * B_.col(b));
+        G.col(b * terms_ + k) -= factor * pushed.col(b);
       }
     }
     load = (h / (m + 1) * (power * F_ + load * W_)).eval();
@@ -213,7 +214,7 @@ void LinearFlow::advance(int level, double fraction, const Eigen::Vector3d& load
   }
 }
 
-LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r) {
+LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r, Forces forces) {
   // the same pieces as advance(), walked from the last to the first
   struct Piece {
     int level;
@@ -234,20 +235,22 @@ LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r) {
       at += width;
     }
   }
-  Rows out{r, Mat::Zero(r.rows(), 3), Mat::Zero(r.rows(), 2 * contacts_ * terms_)};
+  const int columns = forces == Forces::all ? 2 * contacts_ : 0;
+  Rows out{r, Mat::Zero(r.rows(), 3), Mat::Zero(r.rows(), columns * terms_)};
   const double h = size(level), d = (fraction - at) * h;
   if (d > 0.0) {
     Mat power = r;  // r (A d)^m / m!
     Mat load = Mat::Zero(r.rows(), 3), load_sum = load;
-    Mat force = Mat::Zero(r.rows(), 2 * contacts_ * terms_);
+    Mat force = Mat::Zero(r.rows(), columns * terms_);
     for (int m = 0; m <= series_terms; ++m) {
+      const Mat pushed = power * B_.leftCols(columns);
       double factor = d;
       for (int i = 1; i <= m + 1; ++i) factor /= i;
       for (int i = 1; i <= m; ++i) factor *= i;
       for (int j = 0; j < terms_; ++j) {
         if (j > 0) factor *= static_cast<double>(j) / (j + m + 1);
-        for (int b = 0; b < 2 * contacts_; ++b) {
-          force.col(b * terms_ + j) -= factor * (power * B_.col(b));
+        for (int b = 0; b < columns; ++b) {
+          force.col(b * terms_ + j) -= factor * pushed.col(b);
         }
       }
       load = (d / (m + 1) * (power * F_ + load * W_)).eval();
@@ -256,18 +259,22 @@ LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r) {
       out.y += power;
     }
     out.load = load_sum * rotation(at * h);
-    const Mat to_powers = to_powers_ * restriction(at, fraction, rule_);
-    for (int b = 0; b < 2 * contacts_; ++b) {
-      out.force.middleCols(b * terms_, terms_) = force.middleCols(b * terms_, terms_) * to_powers;
+    if (columns > 0) {
+      const Mat to_powers = to_powers_ * restriction(at, fraction, rule_);
+      for (int b = 0; b < columns; ++b) {
+        out.force.middleCols(b * terms_, terms_) = force.middleCols(b * terms_, terms_) * to_powers;
+      }
     }
   }
   for (auto p = pieces.rbegin(); p != pieces.rend(); ++p) {
     const Table& t = table(p->level);
     out.load += out.y * t.L * rotation(p->from * h);
-    const Mat force = out.y * t.G;
-    const Mat part = restriction(p->from, p->to, rule_);
-    for (int b = 0; b < 2 * contacts_; ++b) {
-      out.force.middleCols(b * terms_, terms_) += force.middleCols(b * terms_, terms_) * part;
+    if (columns > 0) {
+      const Mat force = out.y * t.G;
+      const Mat part = restriction(p->from, p->to, rule_);
+      for (int b = 0; b < columns; ++b) {
+        out.force.middleCols(b * terms_, terms_) += force.middleCols(b * terms_, terms_) * part;
+      }
     }
     out.y += (out.y * t.X).eval();
   }

@@ -53,7 +53,8 @@ class LinearFlow {
   struct Rows {
     Mat y, load, force;
   };
-  Rows rows(int level, double fraction, const Mat& r);
+  enum class Forces { none, all };  ///< none: force_rows stays empty
+  Rows rows(int level, double fraction, const Mat& r, Forces forces = Forces::all);
 
   /// Coefficients of the first or second half of a step from those of the whole; in place.
   void restrict_to_half(bool second, std::span<const int> touching, Vec& a) const;

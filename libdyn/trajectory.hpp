@@ -46,6 +46,9 @@ struct IntegrationOptions {
                              ///< (one-step methods)
 };
 
+/// Displacement beyond which a motion is given up, in length scales.
+constexpr double boundless = 1e30;
+
 enum class Outcome { reached_end, stopped_by_observer, step_too_small, not_finite };
 
 struct Cost {

@@ -26,9 +26,6 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// Displacement beyond which a motion is given up, in length scales.
-constexpr double boundless = 1e30;
-
 template <class P>
 class Engine {
  public:

@@ -58,6 +58,11 @@ class Run {
     result_.diagnosis = diagnosis(system_, state_, what);
     return Result::ended;
   }
+  bool is_boundless(const Vec& y) const {
+    const auto n = system_.coordinates();
+    return !((y.head(n).array() / system_.state_scale().head(n).array()).abs().maxCoeff() <
+             boundless);
+  }
   Result advance();
   Result finish(long last);
   /// Gives the pieces of a step but the last to the observer; true if it stopped there.
@@ -165,7 +170,7 @@ Run::Result Run::advance() {
   if (!step_.solve(rung, state_)) return shorten(2);
   if (!is_fixed() && step_.error() > 1.0) {
     const double factor = 0.9 * std::pow(step_.error(), -1.0 / ContactStep::terms);
-    return shorten(std::clamp(static_cast<int>(std::ceil(-2.0 * std::log2(factor))), 1, 6));
+    return shorten(static_cast<int>(std::clamp(std::ceil(-2.0 * std::log2(factor)), 1.0, 6.0)));
   }
   const double h = step_.size(rung);
   double limit = left / h;
@@ -197,6 +202,7 @@ Run::Result Run::advance() {
   } else {
     step_.advance(limit, state_, end_);
   }
+  if (is_boundless(end_)) return fail(Outcome::step_too_small, "the motion grows without bound");
   instant_events_ = 0;
   if (observer_ && show(limit)) return Result::ended;
   state_.y = end_;
@@ -271,7 +277,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
 }
 
 bool prefers_collocation(const ContactSystem& system) {
-  return fastest_mode(system) > 2.0 * contact_frequency(system);
+  return fastest_mode(system) > 10.0 * contact_frequency(system);
 }
 
 }  // namespace whirl

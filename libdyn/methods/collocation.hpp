@@ -27,8 +27,8 @@ struct Collocation {
                                const IntegrationOptions& options, const Observer& observer);
 };
 
-/// Whether the fastest mode is so much faster than the contacts (|lambda| > 2 w_c) that explicit
-/// methods are limited by it, and collocation is the cheaper method.
+/// Whether the fastest mode is so much faster than the contacts (|lambda| > 10 w_c) that the
+/// steps of Taylor series are limited by it, and collocation is the cheaper method.
 ///
 /// @source ../../docs/methods.md, "Collocation": measured
 bool prefers_collocation(const ContactSystem& system);

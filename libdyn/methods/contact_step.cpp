@@ -105,7 +105,8 @@ void ContactStep::fill(Nodes& table, LinearFlow& flow, int level, const Vec& s,
   table.free.assign(contacts, Mat(rows * m, 2 * n + 3));
   if (has_force) table.kernel.assign(contacts * contacts, Mat(rows * m, 2 * terms));
   for (Eigen::Index i = 0; i < m; ++i) {
-    const LinearFlow::Rows at = flow.rows(level, s(i), r);
+    const LinearFlow::Rows at =
+        flow.rows(level, s(i), r, has_force ? LinearFlow::Forces::all : LinearFlow::Forces::none);
     for (std::size_t c = 0; c < contacts; ++c) {
       for (int d = 0; d < rows; ++d) {
         const auto from = rows * static_cast<Eigen::Index>(c) + d, to = d * m + i;
@@ -160,8 +161,7 @@ bool ContactStep::solve(Rung rung, const MotionState& from) {
     evaluate_nodes(true);
     estimate();
   }
-  make_paths(from);
-  return true;
+  return make_paths(from);
 }
 
 void ContactStep::evaluate_nodes(bool with_rates) {
@@ -330,7 +330,6 @@ void ContactStep::estimate() {
     error_ = std::max(error_, weight_[static_cast<std::size_t>(c)] * size(rung_) * last *
                                   (std::isfinite(fall) ? fall : 1.0));
   }
-  if (std::isnan(error_)) error_ = 0.0;
 }
 
 void ContactStep::advance(double fraction, const MotionState& from, Vec& y) {

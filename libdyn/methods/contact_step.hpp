@@ -46,7 +46,8 @@ class ContactStep {
   /// The shortest rung that is not below a duration.
   Rung rung_for(double h) const;
 
-  /// Forces of the contacts in touch over a step from a state. False if they were not found.
+  /// Forces of the contacts in touch over a step from a state. False if they were not found, or the
+  /// motion is not finite.
   bool solve(Rung rung, const MotionState& from);
 
   /// Error of the last solve that the step makes, over the tolerance.
@@ -84,7 +85,7 @@ class ContactStep {
   };
   struct Path {
     Mat values;  ///< d_x, d_y, w_x, w_y at places of the step, both ends included
-    Mat powers;  ///< the same as powers of s
+    Mat powers;  ///< of s: d_x, d_y over the clearance
   };
   /// How values at places give polynomials.
   struct Places {
@@ -100,7 +101,8 @@ class ContactStep {
   bool newton(const MotionState& from);
   void residual(const MotionState& from, int contact, const double* dw, const Vec2& force,
                 Vec2& out);
-  void make_paths(const MotionState& from);
+  /// False if a contact moves out of what numbers can hold.
+  bool make_paths(const MotionState& from);
   void estimate();
   Polynomial polynomial(const EventWatcher& watcher, int contact, EventKind kind, double limit,
                         const ContactState& state) const;

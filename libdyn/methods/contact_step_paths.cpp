@@ -40,7 +40,7 @@ std::optional<double> first_fall_in_parts(const Polynomial& g, bool on_surface, 
 
 }  // namespace
 
-void ContactStep::make_paths(const MotionState& from) {
+bool ContactStep::make_paths(const MotionState& from) {
   const bool is_touching = !touching_.empty();
   const Places& places = is_touching ? touch_places_ : flight_places_;
   const auto n = system_.coordinates();
@@ -75,14 +75,20 @@ void ContactStep::make_paths(const MotionState& from) {
     }
     values.col(0).array() -= contact.offset(0);
     values.col(1).array() -= contact.offset(1);
-    path_legendre_.noalias() = places.to_legendre * values;
-    paths_[c].powers.noalias() = places.to_powers * path_legendre_;
+    // from the start, so that rounding moves nothing that rests
+    path_legendre_.noalias() = places.to_legendre * (values.rowwise() - values.row(0));
+    if (!path_legendre_.allFinite()) return false;
+    Mat& powers = paths_[c].powers;
+    powers.noalias() = places.to_powers * path_legendre_.leftCols<2>();
+    powers.row(0) = values.row(0).head<2>();
+    powers /= contact.clearance;
     if (!has_force) {
       path_error_ =
           std::max(path_error_, path_legendre_.bottomLeftCorner<2, 2>().cwiseAbs().maxCoeff() /
                                     contact.clearance);
     }
   }
+  return true;
 }
 
 Polynomial ContactStep::polynomial(const EventWatcher& watcher, int contact, EventKind kind,
@@ -96,13 +102,12 @@ Polynomial ContactStep::polynomial(const EventWatcher& watcher, int contact, Eve
                            (kind == EventKind::release && is_continuous(c.law));
   if (is_distance) {
     const double sign = kind == EventKind::touch ? -1.0 : 1.0;
-    const double factor = sign / (c.clearance * c.clearance);
     const double* x = path.powers.col(0).data();
     const double* y = path.powers.col(1).data();
     g.degree = 2 * (m - 1);
     for (int j = 0; j < m; ++j) {
       for (int k = 0; k < m; ++k) {
-        g.c[static_cast<std::size_t>(j + k)] += factor * (x[j] * x[k] + y[j] * y[k]);
+        g.c[static_cast<std::size_t>(j + k)] += sign * (x[j] * x[k] + y[j] * y[k]);
       }
     }
     g.c[0] -= sign;
