@@ -50,8 +50,8 @@ struct Candidate {
   double motions = 1.0;  ///< that one call moves at once; they share its time
 };
 
-/// Names of all that can be measured: the methods of the list, and `taylor-batch`, which moves 16
-/// motions from the same state at once, in one thread.
+/// Names of all that can be measured: the methods of the list, and `taylor-batch` and `rk4-batch`,
+/// which move 16 motions from the same state at once, in one thread.
 std::vector<std::string_view> candidate_names();
 
 /// What has one of these names. The system must outlive it.

@@ -70,6 +70,10 @@ void integrate_single(Trajectory& trajectory, const BatchOptions& options,
 /// @param trajectory  starts from state.y + lower_digits, if these are given, and ends there
 void integrate_quad(Trajectory& trajectory, const BatchOptions& options);
 
+/// The same by the method of methods/rk4.hpp, in this thread, for comparison: lanes go in lock step,
+/// so that all take as many steps in a revolution as the one that needs most.
+void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOptions& options);
+
 /// Name of the instruction set that the engine runs on, such as "AVX3".
 const char* instruction_set();
 
