@@ -8,7 +8,9 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -79,6 +81,42 @@ HWY_ATTR void set_law(AnyContactLaw<P>& to, const AnyContactLaw<>& from, int l) 
 /// Sets or clears a lane's bit.
 inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
   bits_of = yes ? bits_of | bit : bits_of & ~bit;
+}
+
+/// Sums of products over the older coefficients of order K, in straight lines: as loops they would
+/// cost a single trajectory a tenth more, for branches that are predicted wrongly.
+template <int K, class P>
+HWY_ATTR void old_squares(const P* dx, const P* dy, const P* r, P* sums) {
+  P a(0.0), b(0.0), c(0.0);
+#pragma GCC unroll 32
+  for (int i = 1; i <= (K - 1) / 2; ++i) {
+    a = fma(dx[i], dx[K - i], a);
+    b = fma(dy[i], dy[K - i], b);
+    c = fma(r[i], r[K - i], c);
+  }
+  sums[0] = a + b;
+  sums[1] = c;
+}
+template <int K, class P>
+HWY_ATTR void old_forces(const P* dx, const P* dy, const P* r, const P* q, P* sums) {
+  P a(0.0), b(0.0), c(0.0);
+#pragma GCC unroll 32
+  for (int i = 1; i < K; ++i) {
+    a = fma(r[K - i], q[i], a);
+    b = fma(dx[K - i], q[i], b);
+    c = fma(dy[K - i], q[i], c);
+  }
+  sums[0] = a;
+  sums[1] = b;
+  sums[2] = c;
+}
+template <class P, int... K>
+constexpr auto table_of_squares(std::integer_sequence<int, K...>) {
+  return std::array{&old_squares<K, P>...};
+}
+template <class P, int... K>
+constexpr auto table_of_forces(std::integer_sequence<int, K...>) {
+  return std::array{&old_forces<K, P>...};
 }
 
 /// The force of a contact is -(q d + tau rot d): q = N / r, tau = T / r, rot d = (-d_y, d_x).
@@ -206,28 +244,26 @@ struct ContactLanes {
     displacement(x, xk, yk);
     dx[k] = xk;
     dy[k] = yk;
-    P a(0.0), b(0.0), rr(0.0);
-    const int half = (k - 1) / 2;
+    static constexpr auto squares =
+        table_of_squares<P>(std::make_integer_sequence<int, P::most_terms>());
+    P sums[2], rr;
     if (is_evaluated) {
-      for (int i = 1; i <= half; ++i) {
-        a = fma(dx[i], dx[k - i], a);
-        b = fma(dy[i], dy[k - i], b);
-        rr = fma(r[i], r[k - i], rr);
-      }
+      squares[static_cast<size_t>(k)](dx, dy, r, sums);
     } else {
-      for (int i = 1; i <= half; ++i) {
+      P a(0.0), b(0.0);
+      for (int i = 1; i <= (k - 1) / 2; ++i) {
         a = fma(dx[i], dx[k - i], a);
         b = fma(dy[i], dy[k - i], b);
       }
+      sums[0] = a + b;
     }
-    P sk = a + b;
-    sk = sk + sk;
+    P sk = sums[0] + sums[0];
     if (k % 2 == 0) sk = fma(dx[k / 2], dx[k / 2], fma(dy[k / 2], dy[k / 2], sk));
     const P newest = fma(dx[0], xk, dy[0] * yk);
     sk = sk + (newest + newest);
     s[k] = sk;
     if (!is_evaluated) return;
-    rr = rr + rr;
+    rr = sums[1] + sums[1];
     if (k % 2 == 0) rr = fma(r[k / 2], r[k / 2], rr);
     r[k] = (sk - rr) * (P(0.5) * inverse_r);
   }
@@ -243,12 +279,11 @@ struct ContactLanes {
     const P Nk =
         with_alternative(work, [&](auto& l) HWY_ATTR { return l.normal(k, depth, rate_k); });
     N[k] = Nk;
-    P rq(0.0), px(0.0), py(0.0);
-    for (int i = 1; i < k; ++i) {
-      rq = fma(r[k - i], q[i], rq);
-      px = fma(dx[k - i], q[i], px);
-      py = fma(dy[k - i], q[i], py);
-    }
+    static constexpr auto forces =
+        table_of_forces<P>(std::make_integer_sequence<int, P::most_terms>());
+    P sums[3];
+    forces[static_cast<size_t>(k)](dx, dy, r, q, sums);
+    P rq = sums[0], px = sums[1], py = sums[2];
     if (k > 0) {
       rq = fma(r[k], q[0], rq);
       px = fma(q[0], dx[k], px);

@@ -109,7 +109,7 @@ class Engine {
   // engine_step-inl.h
   HWY_ATTR void step(const Observer* observer);
   HWY_ATTR P step_length();
-  HWY_ATTR void advance(const P& h);
+  HWY_ATTR void evaluate(const P* terms, const P& h, P* y) const;
   HWY_ATTR void measure(const P& h);
   HWY_ATTR void fly_on(int l);
   HWY_ATTR void remove_slip(int l);
@@ -142,8 +142,8 @@ class Engine {
   HWY_ATTR void orthonormalize(uint64_t due);
   HWY_ATTR P contact_divergence(size_t i, const P& h);
   HWY_ATTR void column_series(const P* start, bool any_sticks);
-  HWY_ATTR inline void linear_column(const P* now, P* next, const P& inverse);
-  HWY_ATTR void stick_column(int k, P* next, const P& inverse);
+  HWY_ATTR inline void accelerate_columns(int k, const P* forces);
+  HWY_ATTR void stick_column(typename Tangents<P>::Track& track, int k, const P& inverse);
 
   /// Coefficient k of all displacements, then of all velocities.
   HWY_ATTR inline P* term(int k) {

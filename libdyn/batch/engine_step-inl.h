@@ -37,28 +37,27 @@ HWY_ATTR P Engine<P>::step_length() {
   return P(0.95) * rough_exp2(min(min(h1, h2), P(900.0)));
 }
 
-/// Moves the state of all active lanes by h.
+/// Value at h of the series of a state, in all active lanes.
 template <class P>
-HWY_ATTR void Engine<P>::advance(const P& h) {
+HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
   const Mask active = mask_of<P>(active_);
-  const P* top = term(N + 1);
+  const auto term_at = [&](int k) { return terms + 2 * k * n_; };
+  const P *top = term_at(N + 1), *last = term_at(N + 2);
   for (int i = 0; i < n_; i += 2) {  // two coordinates at once: four chains
     const int j = std::min(i + 1, n_ - 1);
-    P xi = fma(term(N + 2)[i], h, top[i]), xj = fma(term(N + 2)[j], h, top[j]);
+    P xi = fma(last[i], h, top[i]), xj = fma(last[j], h, top[j]);
     P vi = top[n_ + i], vj = top[n_ + j];
     for (int k = N; k >= 0; --k) {
-      const P* now = term(k);
+      const P* now = term_at(k);
       xi = fma(xi, h, now[i]);
       xj = fma(xj, h, now[j]);
       vi = fma(vi, h, now[n_ + i]);
       vj = fma(vj, h, now[n_ + j]);
     }
-    const auto ui = static_cast<size_t>(i), uj = static_cast<size_t>(j),
-               un = static_cast<size_t>(n_);
-    y_[uj] = select(active, xj, y_[uj]);
-    y_[un + uj] = select(active, vj, y_[un + uj]);
-    y_[ui] = select(active, xi, y_[ui]);
-    y_[un + ui] = select(active, vi, y_[un + ui]);
+    y[j] = select(active, xj, y[j]);
+    y[n_ + j] = select(active, vj, y[n_ + j]);
+    y[i] = select(active, xi, y[i]);
+    y[n_ + i] = select(active, vi, y[n_ + i]);
   }
 }
 
@@ -100,7 +99,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   bool goes_on = true;
   if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
   if (tangents_) move_tangents(h);
-  advance(h);
+  evaluate(terms_.data(), h, y_.data());
   time_ = time_ + h;
   time_ = select(mask_of<P>(ends), P(0.0), time_);
   ++steps_;

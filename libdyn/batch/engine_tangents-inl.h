@@ -16,6 +16,12 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
+/// s^2 = (q + (q^2 - 4 det^2)^(1/2)) / 2 with q = |m|^2 of Frobenius.
+inline double largest_singular_value(const Mat2& m) {
+  const double q = m.squaredNorm(), d = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
+  return std::sqrt(0.5 * (q + std::sqrt(std::max(0.0, q * q - 4.0 * d * d))));
+}
+
 template <class P>
 HWY_ATTR void Engine<P>::prepare_tangents() {
   const size_t size = 2 * static_cast<size_t>(n_);
@@ -24,9 +30,11 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
   t.log_sums.assign(size, P(0.0));
   t.weights.assign(size, P(1.0));
   t.slopes.resize(contacts_.size());
-  t.contacts.resize(contacts_.size());
+  for (auto& track : t.tracks) {
+    track.contacts.resize(contacts_.size());
+    track.terms.assign(terms_.size(), P(0.0));
+  }
   t.gain.assign(contacts_.size(), P(0.0));
-  t.terms.assign(terms_.size(), P(0.0));
   // the term that is left out, (w h)^(N+3) / (N+3)!, is as large as the tolerance
   t.reach = std::exp((std::log(options_.tolerance) + std::lgamma(N + 4.0)) / (N + 3.0));
 }
@@ -53,7 +61,7 @@ HWY_ATTR void Engine<P>::load_tangents(int l, const ContactSystem& s) {
   set_lane(t.divergence, l, 0.0);
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const ReducedContact& c = s.contacts()[i];
-    set_lane(t.gain[i], l, (c.U * c.B).norm());
+    set_lane(t.gain[i], l, largest_singular_value(c.U * c.B));
   }
 }
 
@@ -75,21 +83,45 @@ HWY_ATTR P Engine<P>::limit_for_tangents(const P& h) {
   return min(h, P(t.reach) / sqrt(max(square, P(1e-200))));
 }
 
-/// Coefficients k + 1 of a column without contacts.
+/// Coefficients k + 1 of both columns, from their coefficients k and the forces of contacts.
 template <class P>
-HWY_ATTR inline void Engine<P>::linear_column(const P* now, P* next, const P& inverse) {
+HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces) {
+  auto& [first, second] = tangents_->tracks;
+  const size_t size = 2 * static_cast<size_t>(n_);
+  const P *a = first.terms.data() + static_cast<size_t>(k) * size,
+          *b = second.terms.data() + static_cast<size_t>(k) * size;
+  P *next_a = first.terms.data() + static_cast<size_t>(k + 1) * size,
+    *next_b = second.terms.data() + static_cast<size_t>(k + 1) * size;
+  const P inverse = inverse_of<P>(k + 1);
   for (int i = 0; i < n_; ++i) {
     const auto ui = static_cast<size_t>(i);
-    const P rate = now[n_ + i];
-    const P sum = fma(K_diagonal_[ui], now[i], D_diagonal_[ui] * rate);
-    next[i] = rate * inverse;
-    next[n_ + i] = -(sum * inverse);
+    const P stiffness = K_diagonal_[ui], damping = D_diagonal_[ui];
+    next_a[i] = a[n_ + i] * inverse;
+    next_b[i] = b[n_ + i] * inverse;
+    next_a[n_ + i] = fma(stiffness, a[i], damping * a[n_ + i]);
+    next_b[n_ + i] = fma(stiffness, b[i], damping * b[n_ + i]);
   }
   for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
-    P sum(0.0);
-    const P* a = A_.data() + row.begin;
-    for (const int source : row.source) sum = fma(*a++, now[source], sum);
-    next[n_ + row.i] = fnma(sum, inverse, next[n_ + row.i]);
+    P sum_a(0.0), sum_b(0.0);
+    const P* entry = A_.data() + row.begin;
+    for (const int source : row.source) {
+      sum_a = fma(*entry, a[source], sum_a);
+      sum_b = fma(*entry, b[source], sum_b);
+      ++entry;
+    }
+    next_a[n_ + row.i] = next_a[n_ + row.i] + sum_a;
+    next_b[n_ + row.i] = next_b[n_ + row.i] + sum_b;
+  }
+  for (size_t c = 0; c < contacts_.size(); ++c, forces += 4) {
+    const ContactLanes<P>& contact = contacts_[c];
+    if ((contact.touching & active_) == 0) continue;
+    contact.push(next_a + n_, -forces[0], -forces[1]);
+    contact.push(next_b + n_, -forces[2], -forces[3]);
+  }
+  const P minus = -inverse;
+  for (int i = n_; i < 2 * n_; ++i) {
+    next_a[i] = next_a[i] * minus;
+    next_b[i] = next_b[i] * minus;
   }
 }
 
@@ -109,16 +141,11 @@ HWY_ATTR void Engine<P>::move_tangents(const P& h) {
     }
   }
   const size_t size = 2 * static_cast<size_t>(n_);
-  for (size_t c = 0; c < size; ++c) {
+  for (size_t c = 0; c < size; c += 2) {
     P* y = t.columns.data() + c * size;
     column_series(y, any_sticks);
-    for (size_t i = 0; i < size; ++i) {
-      const bool is_rate = i >= static_cast<size_t>(n_);
-      int k = is_rate ? N + 1 : N + 2;
-      P value = t.terms[static_cast<size_t>(k) * size + i];
-      while (--k >= 0) value = fma(value, h, t.terms[static_cast<size_t>(k) * size + i]);
-      y[i] = select(active, value, y[i]);
-    }
+    evaluate(t.tracks[0].terms.data(), h, y);
+    evaluate(t.tracks[1].terms.data(), h, y + size);
   }
 }
 
@@ -137,62 +164,59 @@ HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
   P integral(0.0);
   for (int k = N; k >= 0; --k) {
     const P trace = fma(H.xx[k], xx, fma(H.xy[k], yx, fma(H.yx[k], xy, H.yy[k] * yy)));
-    integral = fma(integral, h, trace * P(inverse_of<P>(k + 1)));
+    integral = fma(integral, h, trace * inverse_of<P>(k + 1));
   }
   return -(integral * h);
 }
 
-/// Series of one column from its start.
+/// Series of two columns from their start.
 template <class P>
 HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
+  static constexpr auto forces_of =
+      table_of_slope_forces<P>(std::make_integer_sequence<int, P::most_terms>());
   auto& t = *tangents_;
+  auto& [first, second] = t.tracks;
   const size_t size = 2 * static_cast<size_t>(n_);
-  std::copy(start, start + size, t.terms.data());
+  std::copy(start, start + size, first.terms.data());
+  std::copy(start + size, start + 2 * size, second.terms.data());
+  work_.resize(std::max(work_.size(), 4 * contacts_.size()));
   for (int k = 0; k <= N; ++k) {
-    const P inverse(inverse_of<P>(k + 1));
-    const P* now = t.terms.data() + static_cast<size_t>(k) * size;
-    P* next = t.terms.data() + static_cast<size_t>(k + 1) * size;
-    linear_column(now, next, inverse);
+    const P* now = first.terms.data() + static_cast<size_t>(k) * size;
+    const P* other = second.terms.data() + static_cast<size_t>(k) * size;
     for (size_t i = 0; i < contacts_.size(); ++i) {
       const ContactLanes<P>& c = contacts_[i];
       if ((c.touching & active_) == 0) continue;
       const ContactSlopes<P>& slopes = t.slopes[i];
-      auto& u = t.contacts[i];
+      auto &u = first.contacts[i], &w = second.contacts[i];
       c.displacement(now, u.dx[k], u.dy[k]);
-      P ax(0.0), ay(0.0), bx(0.0), by(0.0);
-      for (int j = 0; j <= k; ++j) {
-        const P x = u.dx[k - j], y = u.dy[k - j];
-        ax = fma(slopes.J.xx[j], x, ax);
-        bx = fma(slopes.J.xy[j], y, bx);
-        ay = fma(slopes.J.yx[j], x, ay);
-        by = fma(slopes.J.yy[j], y, by);
-      }
+      c.displacement(other, w.dx[k], w.dy[k]);
+      P* forces = work_.data() + 4 * i;
+      std::fill(forces, forces + 4, P(0.0));
+      forces_of[static_cast<size_t>(k)](slopes.J, u.dx, u.dy, w.dx, w.dy, forces);
       if (slopes.has_H) {
         c.displacement(now + n_, u.vx[k], u.vy[k]);
-        for (int j = 0; j <= k; ++j) {
-          const P x = u.vx[k - j], y = u.vy[k - j];
-          ax = fma(slopes.H.xx[j], x, ax);
-          bx = fma(slopes.H.xy[j], y, bx);
-          ay = fma(slopes.H.yx[j], x, ay);
-          by = fma(slopes.H.yy[j], y, by);
-        }
+        c.displacement(other + n_, w.vx[k], w.vy[k]);
+        forces_of[static_cast<size_t>(k)](slopes.H, u.vx, u.vy, w.vx, w.vy, forces);
       }
-      c.push(next + n_, (ax + bx) * inverse, (ay + by) * inverse);
     }
-    if (any_sticks) stick_column(k, next, inverse);
+    accelerate_columns(k, work_.data());
+    if (!any_sticks) continue;
+    for (auto& track : t.tracks) stick_column(track, k, inverse_of<P>(k + 1));
   }
-  const P* top = t.terms.data() + static_cast<size_t>(N + 1) * size + n_;
-  P* last = t.terms.data() + static_cast<size_t>(N + 2) * size;
-  for (int i = 0; i < n_; ++i) last[i] = top[i] * P(Number(1.0) / Number(N + 2));
+  for (auto& track : t.tracks) {
+    const P* top = track.terms.data() + static_cast<size_t>(N + 1) * size + n_;
+    P* last = track.terms.data() + static_cast<size_t>(N + 2) * size;
+    for (int i = 0; i < n_; ++i) last[i] = top[i] * P(Number(1.0) / Number(N + 2));
+  }
 }
 
 /// Change of the friction of sticking contacts, so that a column stays without slip:
 ///
 ///   d(d) x d'' + d x d(d'') + Omega R d(r)' = 0
 template <class P>
-HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
-  auto& t = *tangents_;
+HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k, const P& inverse) {
   const size_t m = contacts_.size();
+  P* next = track.terms.data() + static_cast<size_t>(2 * (k + 1)) * static_cast<size_t>(n_);
   P* acceleration = next + n_;
   const P whole(k + 1.0);
   P ax, ay;
@@ -200,7 +224,7 @@ HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
   for (size_t i = 0; i < m; ++i) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
-    auto& u = t.contacts[i];
+    auto& u = track.contacts[i];
     const Mask sticks = mask_of<P>(c.sticking);
     P fx(0.0), fy(0.0);  // of the changes of tau found so far
     for (int j = 0; j < k; ++j) {
@@ -220,7 +244,7 @@ HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
   for (size_t i = 0; i < m; ++i) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
-    auto& u = t.contacts[i];
+    auto& u = track.contacts[i];
     c.displacement(acceleration, ax, ay);
     P sum = fma(c.dx[0], whole * ay, -(c.dy[0] * (whole * ax)));
     for (int j = 1; j <= k; ++j) sum = fma(c.dx[j], u.ay[k - j], fnma(c.dy[j], u.ax[k - j], sum));
@@ -233,15 +257,15 @@ HWY_ATTR void Engine<P>::stick_column(int k, P* next, const P& inverse) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
     const P tau = work_[i];
-    t.contacts[i].tau[k] = tau;
+    track.contacts[i].tau[k] = tau;
     c.push(acceleration, -(tau * c.dy[0]) * inverse, tau * c.dx[0] * inverse);
   }
   for (size_t i = 0; i < m; ++i) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
     c.displacement(acceleration, ax, ay);
-    t.contacts[i].ax[k] = whole * ax;
-    t.contacts[i].ay[k] = whole * ay;
+    track.contacts[i].ax[k] = whole * ax;
+    track.contacts[i].ay[k] = whole * ay;
   }
 }
 

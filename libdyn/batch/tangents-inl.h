@@ -7,6 +7,8 @@
 #define WHIRL_TANGENTS_INL_H
 #endif
 
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "libdyn/batch/contact_slopes-inl.h"
@@ -26,15 +28,48 @@ struct Tangents {
   P divergence{0.0};        ///< its integral with contacts
   double reach = 0.0;       ///< rate times step at which a tangent is as exact as the tolerance
   std::vector<ContactSlopes<P>> slopes;
-  std::vector<P> gain;   ///< per contact, largest eigenvalue of U B [1/kg]
-  std::vector<P> terms;  ///< of one column, as Engine::term
+  std::vector<P> gain;  ///< per contact, largest eigenvalue of U B [1/kg]
   /// A contact as one column moves it: displacement, distance, acceleration, friction.
   struct Column {
     P dx[P::most_terms], dy[P::most_terms], vx[P::most_terms], vy[P::most_terms];
     P r[P::most_terms], ax[P::most_terms], ay[P::most_terms], tau[P::most_terms];
   };
-  std::vector<Column> contacts;
+  /// The series of one column; two go side by side, so that slopes are loaded once for both.
+  struct Track {
+    std::vector<P> terms;  ///< as Engine::term
+    std::vector<Column> contacts;
+  };
+  std::array<Track, 2> tracks;
 };
+
+/// Adds coefficient K of m times two displacements (or velocities), newest terms last.
+///
+/// @param u, w  x and y of the first and the second column
+/// @param sums  x and y of the first, x and y of the second
+template <int K, class P>
+HWY_ATTR void slope_forces(const SeriesMatrix<P>& m, const P* ux, const P* uy, const P* wx,
+                           const P* wy, P* sums) {
+  P a(0.0), b(0.0), c(0.0), d(0.0), e(0.0), f(0.0), g(0.0), h(0.0);
+#pragma GCC unroll 32
+  for (int j = K; j >= 0; --j) {
+    a = fma(m.xx[j], ux[K - j], a);
+    b = fma(m.xy[j], uy[K - j], b);
+    c = fma(m.yx[j], ux[K - j], c);
+    d = fma(m.yy[j], uy[K - j], d);
+    e = fma(m.xx[j], wx[K - j], e);
+    f = fma(m.xy[j], wy[K - j], f);
+    g = fma(m.yx[j], wx[K - j], g);
+    h = fma(m.yy[j], wy[K - j], h);
+  }
+  sums[0] = sums[0] + (a + b);
+  sums[1] = sums[1] + (c + d);
+  sums[2] = sums[2] + (e + f);
+  sums[3] = sums[3] + (g + h);
+}
+template <class P, int... K>
+constexpr auto table_of_slope_forces(std::integer_sequence<int, K...>) {
+  return std::array{&slope_forces<K, P>...};
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace whirl
