@@ -125,9 +125,13 @@ double error_between(const ContactSystem& system, const Vec& a, const Vec& b) {
 ReferenceMotion reference_motion(const ContactSystem& system, const MotionState& start,
                                  long revolutions) {
   const End deviated = deviated_end(system, start, revolutions);
-  return quad_work(system, deviated.cost.steps) <= most_quad_work
-             ? quad_reference(system, start, revolutions, deviated)
-             : dop853_reference(system, start, revolutions, deviated);
+  if (quad_work(system, deviated.cost.steps) <= most_quad_work) {
+    try {
+      return quad_reference(system, start, revolutions, deviated);
+    } catch (const NumericalError&) {  // a reference in double is better than none
+    }
+  }
+  return dop853_reference(system, start, revolutions, deviated);
 }
 
 ReferenceMotion quad_reference(const ContactSystem& system, const MotionState& start,

@@ -26,8 +26,8 @@ struct ReferenceMotion {
 /// times the rate of the phase (clearance times speed).
 double error_between(const ContactSystem& system, const Vec& a, const Vec& b);
 
-/// Reference by Taylor series in quadruple precision (integrate_quad) where that takes seconds, else
-/// by DOP853.
+/// Reference by Taylor series in quadruple precision (integrate_quad) where that works and takes
+/// seconds, else by DOP853.
 ///
 /// @throws NumericalError  if the motion cannot be integrated
 ReferenceMotion reference_motion(const ContactSystem& system, const MotionState& start,
