@@ -18,7 +18,7 @@ namespace {
 constexpr double tightest = 1e-15, second_tightest = 1e-14;
 constexpr BatchOptions quad{.tolerance = 1e-26, .order = 28};
 constexpr BatchOptions other_quad{.tolerance = 1e-23, .order = 25};
-constexpr std::string_view batch_name = "taylor-batch";
+constexpr std::string_view taylor_batch = "taylor-batch", rk4_batch = "rk4-batch";
 constexpr double most_quad_work = 2e8;  ///< as quad_work; some 3 s
 constexpr int lanes = 16;               ///< motions of a batch: two registers of AVX-512
 constexpr double deviation = 1e-8;      ///< of the scales: far above rounding, far below the motion
@@ -102,16 +102,18 @@ ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState&
   return reference;
 }
 
-Candidate taylor_batch(const ContactSystem& system) {
-  const auto move = [&system](MotionState& state, long revolutions, double tolerance) {
+/// Moves a whole batch from the same state; integrate(trajectories, tolerance).
+template <class F>
+Candidate batch_of(std::string_view name, const ContactSystem& system, F integrate) {
+  const auto move = [&system, integrate](MotionState& state, long revolutions, double tolerance) {
     const Trajectory one{.system = &system, .state = state, .revolutions = revolutions};
     std::vector<Trajectory> all(lanes, one);
-    integrate_batch(all, {.tolerance = tolerance, .threads = 1});
+    integrate(all, tolerance);
     Trajectory& first = all.front();
     state = std::move(first.state);
     return Integration{first.outcome, first.cost, std::move(first.diagnosis)};
   };
-  return {std::string(batch_name), move, lanes};
+  return {std::string(name), move, lanes};
 }
 
 }  // namespace
@@ -123,9 +125,13 @@ double error_between(const ContactSystem& system, const Vec& a, const Vec& b) {
 ReferenceMotion reference_motion(const ContactSystem& system, const MotionState& start,
                                  long revolutions) {
   const End deviated = deviated_end(system, start, revolutions);
-  return quad_work(system, deviated.cost.steps) <= most_quad_work
-             ? quad_reference(system, start, revolutions, deviated)
-             : dop853_reference(system, start, revolutions, deviated);
+  if (quad_work(system, deviated.cost.steps) <= most_quad_work) {
+    try {
+      return quad_reference(system, start, revolutions, deviated);
+    } catch (const NumericalError&) {  // a reference in double is better than none
+    }
+  }
+  return dop853_reference(system, start, revolutions, deviated);
 }
 
 ReferenceMotion quad_reference(const ContactSystem& system, const MotionState& start,
@@ -140,12 +146,22 @@ ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState&
 
 std::vector<std::string_view> candidate_names() {
   std::vector<std::string_view> names = method_names();
-  names.insert(std::find(names.begin(), names.end(), Taylor::name) + 1, batch_name);
+  names.insert(std::find(names.begin(), names.end(), Taylor::name) + 1, taylor_batch);
+  names.insert(std::find(names.begin(), names.end(), Rk4::name) + 1, rk4_batch);
   return names;
 }
 
 Candidate candidate(const ContactSystem& system, std::string_view name) {
-  if (name == batch_name) return taylor_batch(system);
+  if (name == taylor_batch) {
+    return batch_of(name, system, [](std::span<Trajectory> all, double T) {
+      integrate_batch(all, {.tolerance = T, .threads = 1});
+    });
+  }
+  if (name == rk4_batch) {
+    return batch_of(name, system, [](std::span<Trajectory> all, double T) {
+      integrate_batch_rk4(all, {.tolerance = T});
+    });
+  }
   const AnyMethod any = method_named(name);
   return {std::string(name), [&system, any](MotionState& state, long revolutions, double T) {
             return integrate(any, system, state, revolutions, {.tolerance = T});

@@ -26,8 +26,8 @@ struct ReferenceMotion {
 /// times the rate of the phase (clearance times speed).
 double error_between(const ContactSystem& system, const Vec& a, const Vec& b);
 
-/// Reference by Taylor series in quadruple precision (integrate_quad) where that takes seconds, else
-/// by DOP853.
+/// Reference by Taylor series in quadruple precision (integrate_quad) where that works and takes
+/// seconds, else by DOP853.
 ///
 /// @throws NumericalError  if the motion cannot be integrated
 ReferenceMotion reference_motion(const ContactSystem& system, const MotionState& start,
@@ -50,8 +50,8 @@ struct Candidate {
   double motions = 1.0;  ///< that one call moves at once; they share its time
 };
 
-/// Names of all that can be measured: the methods of the list, and `taylor-batch`, which moves 16
-/// motions from the same state at once, in one thread.
+/// Names of all that can be measured: the methods of the list, and `taylor-batch` and `rk4-batch`,
+/// which move 16 motions from the same state at once, in one thread.
 std::vector<std::string_view> candidate_names();
 
 /// What has one of these names. The system must outlive it.

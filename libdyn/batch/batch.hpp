@@ -64,11 +64,16 @@ void integrate_single(Trajectory& trajectory, const BatchOptions& options,
 ///
 /// The coefficients of the system are taken as the doubles that they are, but a revolution is 2 pi
 /// to the last digit. Decisions at events that are rare (does it stick, which way does it slide,
-/// does it part or recede) are made in double from a state that is rounded for it; the motion itself
-/// stays in full precision. Jumps of tangents are double.
+/// does it part or recede) are made in double from a state that is rounded for it, but for those
+/// that are too close for that; the motion itself stays in full precision. Jumps of tangents are
+/// double.
 ///
 /// @param trajectory  starts from state.y + lower_digits, if these are given, and ends there
 void integrate_quad(Trajectory& trajectory, const BatchOptions& options);
+
+/// The same by the method of methods/rk4.hpp, in this thread, for comparison: lanes go in lock step,
+/// so that all take as many steps in a revolution as the one that needs most.
+void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOptions& options);
 
 /// Name of the instruction set that the engine runs on, such as "AVX3".
 const char* instruction_set();

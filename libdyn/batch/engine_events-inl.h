@@ -181,6 +181,17 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   const ContactStates before = states;
   t.system->remove_slip(y.data(), before);  // what sticking has gathered must not look like slip
   book.watcher->apply(event, phase, y.data(), states);
+  if constexpr (!P::is_double) {
+    // where double cannot tell, it sticks: whether it can, the series of its friction tells at once
+    constexpr double undecided = 1e-9;
+    const ReducedContact& contact = t.system->contacts()[i];
+    const double limit = contact.friction.mu * kinematics(contact, y.data(), n_).normal;
+    if (kind == EventKind::slip_stop) {
+      const double force = t.system->sticking_force(phase, y.data(), before, index);
+      if (std::abs(std::abs(force) - limit) <= undecided * limit)
+        states[i] = {Touch::sticking, 1.0};
+    }
+  }
   if (tangents_) {
     if (const auto jump = saltation(*t.system, event, phase, y, before, states)) {
       jump_tangents(l, *jump);

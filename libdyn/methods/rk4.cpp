@@ -34,13 +34,16 @@ void dense(const Vec& y0, const Vec& dy0, const Vec& y1, const Vec& dy1, Step& s
 
 }  // namespace
 
+double Rk4::steps(const ContactSystem& system, double left, const IntegrationOptions& options) {
+  return std::max(1.0, std::ceil(left / longest_step(system, options) * (1.0 - 1e-9)));
+}
+
 Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long revolutions,
                            const IntegrationOptions& options, const Observer& observer) {
   Integration result;
   Cost& cost = result.cost;
   const int n = system.coordinates();
   const double rate = system.phase_rate(), period = system.period();
-  const double longest = longest_step(system, options);
   const long last = state.revolution + revolutions;
   const auto derivative = [&](double phase, const Vec& y, Vec& dy) {
     dy.head(n) = y.tail(n);
@@ -54,7 +57,7 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
   derivative(state.phase, y, k1);
   while (state.revolution < last) {
     const double first = state.phase, left = period - first / rate;
-    const double count = std::max(1.0, std::ceil(left / longest * (1.0 - 1e-9)));
+    const double count = steps(system, left, options);
     const double h = left / count, turn = h * rate;
     for (double i = 0.0; i < count; ++i) {  // a double: counts beyond any integer fail by time
       const double phase = first + i * turn;

@@ -100,6 +100,22 @@ TEST(Quad, IsConsistentWithSticking) {
   EXPECT_GT(a.contacts[0].sticking, 0.8 * motion.scene.contacts.period());
 }
 
+// Friction that sticks and slides anew several times in a revolution. Where sticking ends, the force
+// is at its limit: what happens there can only be told from all digits.
+TEST(Quad, IsConsistentWithStickingThatEnds) {
+  const RotorStator p{.Omega = 120.0, .kC = 3e6, .mu = 0.3, .gap = 1e-3, .R = 1e-3};
+  const Motion motion(p, 100);
+  BatchOptions measured = tight;
+  measured.measures = true;
+  const Trajectory a = motion.quad(measured, some), b = motion.quad(other, some);
+  EXPECT_LT(distance(a, b), far_below_double);
+  EXPECT_GT(a.contacts[0].sticking, 0.1 * motion.scene.contacts.period());
+  EXPECT_LT(a.contacts[0].sticking, motion.scene.contacts.period());
+  MotionState state = motion.start;
+  test::run(motion.scene, state, some, {.tolerance = 1e-15});
+  EXPECT_LT(test::distance(motion.scene.contacts, state.y, a.state.y), rounding_of_chaos);
+}
+
 // A mass on a spring of m Omega^2 swings once in a revolution: it comes back to where it
 // was, to rounding of 113 bits (2e-34) in some 500 steps. A revolution short of 2 pi by rounding of
 // double would miss by 1e-14.

@@ -1,0 +1,212 @@
+// RK4 in lanes: one motion per lane, all in lock step.
+
+#if defined(WHIRL_RK4_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_RK4_INL_H
+#undef WHIRL_RK4_INL_H
+#else
+#define WHIRL_RK4_INL_H
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "libdyn/batch/batch.hpp"
+#include "libdyn/batch/contact_lanes-inl.h"
+#include "libdyn/methods/diagnosis.hpp"
+#include "libdyn/methods/rk4.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// The classical Runge-Kutta method as methods/rk4.hpp has it: equal steps, contacts and the sign
+/// of friction as the state of each stage says.
+template <class P>
+class Rk4Lanes {
+ public:
+  using Mask = typename P::Mask;
+
+  explicit Rk4Lanes(const Pattern& pattern) : pattern_(pattern), n_(pattern.n) {
+    const auto n = static_cast<size_t>(n_);
+    for (std::vector<P>* v : {&K_, &D_, &f0_, &fc_, &fs_}) v->assign(n, P(0.0));
+    for (std::vector<P>* v : {&y_, &stage_, &k_, &sum_, &start_}) v->assign(2 * n, P(0.0));
+    A_.assign(static_cast<size_t>(pattern.off_diagonals), P(0.0));
+    contacts_.reserve(pattern.contacts.size());
+    for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
+  }
+
+  /// Integrates at most as many trajectories as there are lanes.
+  HWY_ATTR void run(std::span<Trajectory> all, const IntegrationOptions& options) {
+    const int lanes = P::lanes();
+    const auto used = static_cast<int>(all.size());
+    for (int l = 0; l < lanes; ++l) load(l, all[static_cast<size_t>(std::min(l, used - 1))]);
+    uint64_t active = 0;
+    for (int l = 0; l < used; ++l) {
+      if (all[static_cast<size_t>(l)].revolutions > 0) active |= uint64_t{1} << l;
+    }
+    for (long revolution = 1; active != 0; ++revolution) {
+      const long steps = steps_of_revolution(all, active, options);
+      start_ = y_;
+      turn(mask_of<P>(active), steps);
+      const uint64_t finite = finite_lanes();
+      for (uint64_t rest = active; rest != 0; rest &= rest - 1) {
+        const int l = __builtin_ctzll(rest);
+        const uint64_t bit = uint64_t{1} << l;
+        Trajectory& t = all[static_cast<size_t>(l)];
+        t.cost.steps += steps;
+        t.cost.evaluations += 4 * steps;
+        const bool is_good = (finite & bit) != 0;
+        if (is_good) {
+          ++t.state.revolution;
+          t.state.phase = 0.0;
+          set_lane(time_, l, 0.0);
+        }
+        if (is_good && revolution < t.revolutions) continue;
+        const std::vector<P>& y = is_good ? y_ : start_;
+        for (int i = 0; i < 2 * n_; ++i) t.state.y(i) = lane(y[static_cast<size_t>(i)], l);
+        t.state.contacts = t.system->classify(t.state.phase, t.state.y.data());
+        if (!is_good) {
+          t.outcome = Outcome::not_finite;
+          t.diagnosis = diagnosis(*t.system, t.state, "a revolution of RK4 gave no finite numbers");
+        }
+        active &= ~bit;
+      }
+    }
+  }
+
+ private:
+  HWY_ATTR void load(int l, const Trajectory& t) {
+    const ContactSystem& s = *t.system;
+    for (int i = 0; i < n_; ++i) {
+      const auto ui = static_cast<size_t>(i);
+      set_lane(K_[ui], l, s.K()(i, i));
+      set_lane(D_[ui], l, s.D()(i, i));
+      set_lane(f0_[ui], l, s.constant_load()(i));
+      set_lane(fc_[ui], l, s.cosine_load()(i));
+      set_lane(fs_[ui], l, s.sine_load()(i));
+    }
+    for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
+      for (size_t e = 0; e < row.source.size(); ++e) {
+        const int j = row.source[e];
+        set_lane(A_[static_cast<size_t>(row.begin) + e], l,
+                 j < n_ ? s.K()(row.i, j) : s.D()(row.i, j - n_));
+      }
+    }
+    for (size_t c = 0; c < contacts_.size(); ++c) {
+      contacts_[c].load(s.contacts()[c], {}, l, s.phase_rate());
+    }
+    for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
+    set_lane(rate_, l, s.phase_rate());
+    set_lane(period_, l, s.period());
+    set_lane(time_, l, t.state.phase / s.phase_rate());
+  }
+
+  /// Steps of what is left of a revolution: as many as the lane needs that needs most.
+  long steps_of_revolution(std::span<const Trajectory> all, uint64_t active,
+                           const IntegrationOptions& options) const {
+    double most = 1.0;
+    for (uint64_t rest = active; rest != 0; rest &= rest - 1) {
+      const auto l = static_cast<size_t>(__builtin_ctzll(rest));
+      const ContactSystem& s = *all[l].system;
+      const double left = s.period() - all[l].state.phase / s.phase_rate();
+      most = std::max(most, Rk4::steps(s, left, options));
+    }
+    return static_cast<long>(most);
+  }
+
+  /// Moves active lanes to the end of their revolution.
+  HWY_ATTR void turn(const Mask& active, long steps) {
+    const auto size = static_cast<size_t>(2 * n_);
+    const P h = select(active, (period_ - time_) / P(static_cast<double>(steps)), P(0.0));
+    const P half = P(0.5) * h, sixth = h * P(1.0 / 6.0);
+    P sine, cosine;
+    sin_cos(rate_ * time_, sine, cosine);
+    for (long step = 0; step < steps; ++step) {
+      const P begin = fma(P(static_cast<double>(step)), h, time_);
+      derivative(y_.data(), sine, cosine);
+      for (size_t i = 0; i < size; ++i) {
+        sum_[i] = k_[i];
+        stage_[i] = fma(half, k_[i], y_[i]);
+      }
+      sin_cos(rate_ * (begin + half), sine, cosine);
+      derivative(stage_.data(), sine, cosine);
+      for (size_t i = 0; i < size; ++i) {
+        sum_[i] = fma(P(2.0), k_[i], sum_[i]);
+        stage_[i] = fma(half, k_[i], y_[i]);
+      }
+      derivative(stage_.data(), sine, cosine);
+      for (size_t i = 0; i < size; ++i) {
+        sum_[i] = fma(P(2.0), k_[i], sum_[i]);
+        stage_[i] = fma(h, k_[i], y_[i]);
+      }
+      sin_cos(rate_ * (begin + h), sine, cosine);
+      derivative(stage_.data(), sine, cosine);
+      for (size_t i = 0; i < size; ++i) y_[i] = fma(sixth, sum_[i] + k_[i], y_[i]);
+    }
+  }
+
+  /// k = (eta', eta'') of a state.
+  HWY_ATTR void derivative(const P* y, const P& sine, const P& cosine) {
+    P* a = k_.data() + n_;
+    for (int i = 0; i < n_; ++i) {
+      const auto ui = static_cast<size_t>(i);
+      k_[ui] = y[n_ + i];
+      const P load = fma(fc_[ui], cosine, fma(fs_[ui], sine, f0_[ui]));
+      a[i] = fnma(K_[ui], y[i], fnma(D_[ui], y[n_ + i], load));
+    }
+    for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
+      const P* factor = A_.data() + row.begin;
+      for (const int source : row.source) a[row.i] = fnma(*factor++, y[source], a[row.i]);
+    }
+    for (const ContactLanes<P>& c : contacts_) push(c, y, a);
+  }
+
+  /// Adds the force of a contact where it touches and pushes.
+  HWY_ATTR void push(const ContactLanes<P>& c, const P* y, P* a) const {
+    P dx, dy, vx, vy;
+    c.displacement(y, dx, dy);
+    dx = dx - c.offset_x;
+    dy = dy - c.offset_y;
+    const P s = fma(dx, dx, dy * dy);
+    const Mask beyond = less(c.clearance2, s);
+    if (!any(s, beyond)) return;
+    c.displacement(y + n_, vx, vy);
+    const P r = sqrt(select(beyond, s, c.clearance2)), inverse_r = P(1.0) / r;
+    const P rate = fma(dx, vx, dy * vy) * inverse_r;
+    const P N = with_alternative(
+        c.law, [&](const auto& law) HWY_ATTR { return law.normal(r - c.clearance, rate); });
+    const P q = select(both(beyond, less(P(0.0), N)), N * inverse_r, P(0.0));
+    if (!c.rows.has_friction) {
+      c.push(a, q * dx, q * dy);
+      return;
+    }
+    const P slip = fma(fma(dx, vy, -(dy * vx)), inverse_r, c.rim);
+    P share = select(both(mask_of<P>(c.exact), less(slip, P(0.0))), P(-1.0), P(1.0));
+    if (c.smooth != 0) share = select(mask_of<P>(c.smooth), tanh(slip * c.inverse_width), share);
+    const P tau = c.mu * share * q;
+    c.push(a, fnma(tau, dy, q * dx), fma(tau, dx, q * dy));
+  }
+
+  /// Lanes whose state is one of numbers.
+  HWY_ATTR uint64_t finite_lanes() const {
+    P sum(0.0);
+    for (const P& y : y_) sum = sum + abs(y);
+    return bits(sum, less(sum, P(1e300)));
+  }
+
+  const Pattern& pattern_;
+  int n_;
+  std::vector<P> K_, D_, A_, f0_, fc_, fs_;  // K and D: diagonals
+  std::vector<ContactLanes<P>> contacts_;
+  P rate_{1.0}, period_{1.0};
+  std::vector<P> y_, start_;  // now, and at the start of the revolution
+  P time_{0.0};               // of the start
+  std::vector<P> stage_, k_, sum_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard

@@ -1,0 +1,43 @@
+#include <algorithm>
+
+#include "libdyn/batch/batch.hpp"
+
+// the same instruction sets as batch.cpp
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "libdyn/batch/rk4.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "libdyn/batch/rk4-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+void run_rk4(const Pattern& pattern, const IntegrationOptions& options, std::span<Trajectory> all) {
+  using P = Pack<8, 2>;
+  const auto lanes = static_cast<size_t>(P::lanes());
+  for (size_t begin = 0; begin < all.size(); begin += lanes) {
+    const size_t count = std::min(lanes, all.size() - begin);
+    Rk4Lanes<P>(pattern).run(all.subspan(begin, count), options);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace whirl {
+HWY_EXPORT(run_rk4);
+
+void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOptions& options) {
+  std::vector<const ContactSystem*> systems;
+  for (const Trajectory& t : trajectories) systems.push_back(t.system);
+  const Pattern pattern = Pattern::of(systems);
+  HWY_DYNAMIC_DISPATCH(run_rk4)(pattern, options, trajectories);
+}
+
+}  // namespace whirl
+#endif
