@@ -14,13 +14,16 @@ namespace {
 struct Color {
   const char *line, *text;
 };
-constexpr std::array<Color, 7> colors{{{"#0072b2", "#00659e"},
-                                       {"#d55e00", "#b85100"},
-                                       {"#009e73", "#007d5b"},
-                                       {"#cc79a7", "#a8507f"},
-                                       {"#e69f00", "#946600"},
-                                       {"#56b4e9", "#1c7bb0"},
-                                       {"#000000", "#000000"}}};
+constexpr std::array<Color, 10> colors{{{"#0072b2", "#00659e"},
+                                        {"#d55e00", "#b85100"},
+                                        {"#009e73", "#007d5b"},
+                                        {"#cc79a7", "#a8507f"},
+                                        {"#e69f00", "#946600"},
+                                        {"#56b4e9", "#1c7bb0"},
+                                        {"#000000", "#000000"},
+                                        {"#882255", "#882255"},
+                                        {"#999933", "#6b6b1f"},
+                                        {"#888888", "#666666"}}};
 constexpr const char *ink = "#222222", *faint = "#e4e4e4", *gray = "#707070";
 constexpr double letters = 13.0, small_letters = 12.0, title_letters = 15.0;
 constexpr double left = 76.0, bottom = 58.0;  ///< margins, room for tick labels and axis titles

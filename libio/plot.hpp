@@ -36,7 +36,7 @@ struct LinePlot {
 /// The plot as an SVG file, for light backgrounds. Each line bears its name, has its own marker,
 /// and a color that people with color-vision deficiency tell apart.
 ///
-/// @source colors: [OkabeIto2008], without the yellow, too light for lines
+/// @source colors: [OkabeIto2008], without the yellow, too light for lines; then wine, olive and gray
 std::string svg_of(const LinePlot& plot);
 
 }  // namespace whirl

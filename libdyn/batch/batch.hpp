@@ -37,8 +37,10 @@ struct BatchOptions {
   int threads = 0;  ///< 0: one per processor
   bool sections = false;
   bool measures = false;
-  bool exponents = false;  ///< all 2 n of them; their tangents start as the unit vectors
-  bool tangent = false;    ///< instead of the exponents
+  /// All 2 n Lyapunov exponents; their tangents start as the unit vectors. Sticking takes a direction
+  /// away, whose exponent, minus infinity, comes out as a number far below all others.
+  bool exponents = false;
+  bool tangent = false;  ///< instead of the exponents
 };
 
 /// Integrates trajectories whose systems have the same shape (coordinates, contacts, laws).

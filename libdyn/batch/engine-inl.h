@@ -78,6 +78,7 @@ class Engine {
     long last = 0;  ///< revolution at which it is done
     long revolution = 0;
     long first_revolution = 0;
+    double first_phase = 0.0;
     long first_step = 0;  ///< of the engine, when it was loaded
     long no_steps = 0;    ///< of the engine, in which no time passed here
     int instant_events = 0;
@@ -181,6 +182,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   book = {};
   book.first_step = steps_;
   book.revolution = book.first_revolution = t.state.revolution;
+  book.first_phase = t.state.phase;
   book.last = t.state.revolution + t.revolutions;
   book.free_since = t.state.revolution;
   book.certificate_due = t.state.revolution + 1;
@@ -257,8 +259,10 @@ HWY_ATTR void Engine<P>::unload(int l) {
     }
   }
   if (tangents_) {
-    const double revolutions = static_cast<double>(book.revolution - book.first_revolution);
-    unload_tangents(l, revolutions * t.system->period(), t);
+    const double turns = static_cast<double>(book.revolution - book.first_revolution);
+    const double start = book.first_phase / t.system->phase_rate();
+    unload_tangents(l, turns * t.system->period() + t.state.phase / t.system->phase_rate() - start,
+                    t);
   }
   active_ &= ~(uint64_t{1} << l);
   trajectory_[static_cast<size_t>(l)] = nullptr;

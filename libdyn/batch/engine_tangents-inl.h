@@ -29,6 +29,8 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
   t.columns.assign(size * size, P(0.0));
   t.log_sums.assign(size, P(0.0));
   t.weights.assign(size, P(1.0));
+  t.weighted.assign(size, P(0.0));
+  t.forces.assign(4 * contacts_.size(), P(0.0));
   t.slopes.resize(contacts_.size());
   for (auto& track : t.tracks) {
     track.contacts.resize(contacts_.size());
@@ -179,7 +181,6 @@ HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
   const size_t size = 2 * static_cast<size_t>(n_);
   std::copy(start, start + size, first.terms.data());
   std::copy(start + size, start + 2 * size, second.terms.data());
-  work_.resize(std::max(work_.size(), 4 * contacts_.size()));
   for (int k = 0; k <= N; ++k) {
     const P* now = first.terms.data() + static_cast<size_t>(k) * size;
     const P* other = second.terms.data() + static_cast<size_t>(k) * size;
@@ -190,7 +191,7 @@ HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
       auto &u = first.contacts[i], &w = second.contacts[i];
       c.displacement(now, u.dx[k], u.dy[k]);
       c.displacement(other, w.dx[k], w.dy[k]);
-      P* forces = work_.data() + 4 * i;
+      P* forces = t.forces.data() + 4 * i;
       std::fill(forces, forces + 4, P(0.0));
       forces_of[static_cast<size_t>(k)](slopes.J, u.dx, u.dy, w.dx, w.dy, forces);
       if (slopes.has_H) {
@@ -199,7 +200,7 @@ HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
         forces_of[static_cast<size_t>(k)](slopes.H, u.vx, u.vy, w.vx, w.vy, forces);
       }
     }
-    accelerate_columns(k, work_.data());
+    accelerate_columns(k, t.forces.data());
     if (!any_sticks) continue;
     for (auto& track : t.tracks) stick_column(track, k, inverse_of<P>(k + 1));
   }
@@ -291,7 +292,6 @@ HWY_ATTR void Engine<P>::orthonormalize(uint64_t due) {
   auto& t = *tangents_;
   const Mask where = mask_of<P>(due);
   const size_t size = 2 * static_cast<size_t>(n_);
-  work_.resize(std::max(work_.size(), size));
   for (size_t c = 0; c < size; ++c) {
     P* a = t.columns.data() + c * size;
     P square(0.0);
@@ -301,12 +301,12 @@ HWY_ATTR void Engine<P>::orthonormalize(uint64_t due) {
     t.log_sums[c] = t.log_sums[c] + select(where, P(0.5) * log(square), P(0.0));
     for (size_t i = 0; i < size; ++i) {
       a[i] = select(where, a[i] * inverse, a[i]);
-      work_[i] = t.weights[i] * a[i];
+      t.weighted[i] = t.weights[i] * a[i];
     }
     for (size_t other = c + 1; other < size; ++other) {
       P* b = t.columns.data() + other * size;
       P dot(0.0);
-      for (size_t i = 0; i < size; ++i) dot = fma(work_[i], b[i], dot);
+      for (size_t i = 0; i < size; ++i) dot = fma(t.weighted[i], b[i], dot);
       dot = select(where, dot, P(0.0));
       for (size_t i = 0; i < size; ++i) b[i] = fnma(dot, a[i], b[i]);
     }
@@ -337,14 +337,14 @@ HWY_ATTR void Engine<P>::unload_tangents(int l, double time, Trajectory& to) {
       for (int i = 0; i < size; ++i)
         to.tangent(i, c) = lane(t.columns[static_cast<size_t>(c * size + i)], l);
     }
-  } else {
+  } else if (time > 0.0) {  // else it failed at once, and there is nothing to tell
     orthonormalize(uint64_t{1} << l);
     to.exponents.resize(size);
     for (int c = 0; c < size; ++c)
       to.exponents(c) = lane(t.log_sums[static_cast<size_t>(c)], l) / time;
     std::sort(to.exponents.begin(), to.exponents.end(), std::greater<>());
   }
-  to.divergence = lane(t.divergence, l) / time;
+  if (time > 0.0) to.divergence = static_cast<double>(lane(t.divergence, l)) / time;
 }
 
 }  // namespace HWY_NAMESPACE

@@ -40,6 +40,8 @@ struct Tangents {
     std::vector<Column> contacts;
   };
   std::array<Track, 2> tracks;
+  std::vector<P> forces;    ///< of contacts on both tracks, x and y of each
+  std::vector<P> weighted;  ///< a column times its weights
 };
 
 /// Adds coefficient K of m times two displacements (or velocities), newest terms last.
