@@ -108,13 +108,13 @@ double ContactSystem::phase_rate() const {
   return Omega_ != 0.0 ? std::abs(Omega_) : 2.0 * std::numbers::pi;
 }
 
-Vec ContactSystem::smooth_acceleration(double phase, const double* y) const {
+void ContactSystem::smooth_acceleration(double phase, const double* y, double* a) const {
   const int n = coordinates();
+  Eigen::Map<Vec> result(a, n);
   const Eigen::Map<const Vec> eta(y, n), rate(y + n, n);
-  Vec a = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
-  a.noalias() -= K_ * eta;
-  a.noalias() -= D_ * rate;
-  return a;
+  result = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
+  result.noalias() -= K_ * eta;
+  result.noalias() -= D_ * rate;
 }
 
 void ContactSystem::forces(double phase, const double* y, const ContactStates& states,
@@ -134,7 +134,8 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
 
   // friction that keeps every sticking slip velocity constant:
   //   v_t' = t . u'' - (t . u')(n . u') / r = 0,   u'' = U eta''
-  Vec a = smooth_acceleration(phase, y);
+  Vec a(n);
+  smooth_acceleration(phase, y, a.data());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!states[i].in_touch()) continue;
     a -= contacts_[i].B * (out[i].normal * out[i].n + out[i].friction * out[i].t());
@@ -162,10 +163,7 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
                                  double* a) const {
   const int n = coordinates();
   Eigen::Map<Vec> result(a, n);
-  const Eigen::Map<const Vec> eta(y, n), rate(y + n, n);
-  result = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
-  result.noalias() -= K_ * eta;
-  result.noalias() -= D_ * rate;
+  smooth_acceleration(phase, y, a);
   bool any_sticks = false;
   for (const ContactState& s : states) any_sticks = any_sticks || s.touch == Touch::sticking;
   if (any_sticks) {
@@ -188,20 +186,12 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
 void ContactSystem::acceleration(double phase, const double* y, double* a) const {
   const int n = coordinates();
   Eigen::Map<Vec> result(a, n);
-  const Eigen::Map<const Vec> eta(y, n), rate(y + n, n);
-  result = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
-  result.noalias() -= K_ * eta;
-  result.noalias() -= D_ * rate;
+  smooth_acceleration(phase, y, a);
   for (const ReducedContact& c : contacts_) {
     const ContactForces f = kinematics(c, y, n);
     if (f.depth <= 0.0 || f.normal <= 0.0) continue;
-    Vec2 force = f.normal * f.n;
-    if (c.friction.mu > 0.0) {
-      const double sign = f.slip >= 0.0 ? 1.0 : -1.0;
-      const double share = c.friction.is_exact() ? sign : c.friction.smooth_share(f.slip);
-      force += c.friction.mu * share * f.normal * f.t();
-    }
-    result.noalias() -= c.B * force;
+    const ContactState state{Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
+    result.noalias() -= c.B * (f.normal * f.n + sliding_friction(c, state, f) * f.t());
   }
 }
 

@@ -107,7 +107,8 @@ class ContactSystem {
   void remove_slip(double* y, const ContactStates& states) const;
 
  private:
-  Vec smooth_acceleration(double phase, const double* y) const;
+  /// Without contacts.
+  void smooth_acceleration(double phase, const double* y, double* a) const;
 
   Mat K_, D_;
   Vec f0_, fc_, fs_;

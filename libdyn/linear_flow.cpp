@@ -43,12 +43,16 @@ Mat first_order_matrix(const ContactSystem& system) {
   return A;
 }
 
+double contact_gain(const ReducedContact& contact) {
+  return Eigen::JacobiSVD<Mat2>(contact.U * contact.B).singularValues()(0);
+}
+
 double contact_frequency(const ContactSystem& system) {
   double sum = 0.0;
   for (const ReducedContact& c : system.contacts()) {
     const double depth = 0.01 * c.clearance;
     const double k = (normal_force(c.law, depth, 0.0) - normal_force(c.law, 0.0, 0.0)) / depth;
-    sum += k * Eigen::JacobiSVD<Mat2>(c.U * c.B).singularValues()(0);
+    sum += k * contact_gain(c);
   }
   return std::sqrt(sum);
 }

@@ -86,6 +86,9 @@ double balanced_norm(Mat A);
 /// A of y' = A y + ..., for y = (eta, eta').
 Mat first_order_matrix(const ContactSystem& system);
 
+/// Acceleration along a contact by a unit of force in it, at most: |U B| [1/kg].
+double contact_gain(const ReducedContact& contact);
+
 /// Frequency of the rotor in its contacts, w_c = (sum over contacts of k |U B|)^(1/2) [rad/s], k
 /// the stiffness of the law at a hundredth of the clearance.
 double contact_frequency(const ContactSystem& system);

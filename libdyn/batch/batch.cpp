@@ -62,9 +62,7 @@ int order_for(double tolerance) {
 }
 
 void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& options) {
-  std::vector<const ContactSystem*> systems;
-  for (const Trajectory& t : trajectories) systems.push_back(t.system);
-  const Pattern pattern = Pattern::of(systems);
+  const Pattern pattern = pattern_of(trajectories);
   const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
   const std::size_t wanted =
       options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors;
@@ -81,8 +79,7 @@ void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& opt
 
 void integrate_single(Trajectory& trajectory, const BatchOptions& options,
                       const Observer& observer) {
-  const ContactSystem* system = trajectory.system;
-  const Pattern pattern = Pattern::of({&system, 1});
+  const Pattern pattern = pattern_of({&trajectory, 1});
   HWY_DYNAMIC_DISPATCH(run_one)(pattern, options, trajectory, observer ? &observer : nullptr);
 }
 

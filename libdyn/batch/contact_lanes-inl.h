@@ -307,17 +307,22 @@ struct ContactLanes {
     fy = py;
   }
 
+  /// Adds coefficient k of d x d' to a sum;  d'_i = (i + 1) d_{i+1}.
+  HWY_ATTR inline P add_turn(P sum, int k) const {
+    for (int i = 0; i <= k; ++i) {
+      const P factor(k - i + 1.0);
+      sum = fma(dx[i], factor * dy[k - i + 1], sum);
+      sum = fnma(dy[i], factor * dx[k - i + 1], sum);
+    }
+    return sum;
+  }
+
   /// tau_k of sliding lanes, exact or smooth; zero for sticking ones, which are solved for later.
   HWY_ATTR P friction(int k) {
     P sliding = share * q[k];
     if (smooth != 0) {
-      // slip velocity rim + (d x d') / r, over the width; d'_i = (i + 1) d_{i+1}
-      P cross(0.0);
-      for (int i = 0; i <= k; ++i) {
-        const P factor(k - i + 1.0);
-        cross = fma(dx[i], factor * dy[k - i + 1], cross);
-        cross = fnma(dy[i], factor * dx[k - i + 1], cross);
-      }
+      // slip velocity rim + (d x d') / r, over the width
+      P cross = add_turn(P(0.0), k);
       for (int i = 1; i <= k; ++i) cross = fnma(r[i], turn_rate[k - i], cross);
       turn_rate[k] = cross * inverse_r;
       slip[k] = (k == 0 ? rim + turn_rate[0] : turn_rate[k]) * inverse_width;

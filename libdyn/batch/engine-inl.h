@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "libdyn/batch/batch.hpp"
+#include "libdyn/batch/equation_lanes-inl.h"
 #include "libdyn/batch/events-inl.h"
-#include "libdyn/batch/pattern.hpp"
 #include "libdyn/batch/tangents-inl.h"
 #include "libdyn/events.hpp"
 #include "libdyn/free_flight.hpp"
@@ -37,13 +37,13 @@ class Engine {
         options_(options),
         N(options.order > 0 ? options.order : order_for(options.tolerance)),
         n_(pattern.n),
-        lanes_(P::lanes()) {
+        lanes_(P::lanes()),
+        log2_tolerance_(std::log2(options.tolerance)),
+        equations_(pattern) {
     const auto n = static_cast<size_t>(n_);
     terms_.assign(2 * n * static_cast<size_t>(N + 3), P(0.0));
-    for (std::vector<P>* v : {&f0_, &fc_, &fs_, &K_diagonal_, &D_diagonal_}) v->assign(n, P(0.0));
     scale_.assign(n, P(1.0));
     y_.assign(2 * n, P(0.0));
-    A_.assign(static_cast<size_t>(pattern.off_diagonals), P(0.0));
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
     falls_.resize(contacts_.size());
@@ -102,6 +102,10 @@ class Engine {
 
   HWY_ATTR void load(int l, Trajectory& t);
   HWY_ATTR void unload(int l);
+  HWY_ATTR Vec state_of(int l) const;
+  HWY_ATTR void set_state(int l, const Vec& y);
+  HWY_ATTR ContactStates contacts_of(int l) const;
+  HWY_ATTR MotionState motion_of(int l) const;
   HWY_ATTR void fail(int l, Outcome outcome, const char* what);
 
   // engine_step-inl.h
@@ -111,7 +115,6 @@ class Engine {
   HWY_ATTR void measure(const P& h);
   HWY_ATTR void fly_on(int l);
   HWY_ATTR void remove_slip(int l);
-  HWY_ATTR Vec state_of(int l) const;
   HWY_ATTR bool tell(const Observer& observer, double h);
 
   // engine_series-inl.h
@@ -151,9 +154,11 @@ class Engine {
   const Pattern& pattern_;
   BatchOptions options_;
   int N, n_, lanes_;  // order of the series, coordinates, lanes
+  double log2_tolerance_;
 
   // equations
-  std::vector<P> K_diagonal_, D_diagonal_, A_, f0_, fc_, fs_, scale_;
+  EquationLanes<P> equations_;
+  std::vector<P> scale_;
   std::vector<ContactLanes<P>> contacts_;
   std::vector<AnyLawWork<P>> laws_;
   P rate_{1.0}, period_{1.0};
@@ -190,23 +195,11 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   if (t.state.contacts.size() != contacts_.size()) {
     t.state.contacts = s.classify(t.state.phase, t.state.y.data());
   }
+  equations_.load(s, l);
   for (int i = 0; i < n_; ++i) {
-    const auto ui = static_cast<size_t>(i);
-    set_lane(K_diagonal_[ui], l, s.K()(i, i));
-    set_lane(D_diagonal_[ui], l, s.D()(i, i));
-    set_lane(f0_[ui], l, s.constant_load()(i));
-    set_lane(fc_[ui], l, s.cosine_load()(i));
-    set_lane(fs_[ui], l, s.sine_load()(i));
-    set_lane(scale_[ui], l, 1.0 / s.state_scale()(i));
+    set_lane(scale_[static_cast<size_t>(i)], l, 1.0 / s.state_scale()(i));
   }
-  for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
-    for (size_t e = 0; e < row.source.size(); ++e) {
-      const int j = row.source[e];
-      set_lane(A_[static_cast<size_t>(row.begin) + e], l,
-               j < n_ ? s.K()(row.i, j) : s.D()(row.i, j - n_));
-    }
-  }
-  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
+  set_state(l, t.state.y);
   if constexpr (!P::is_double) {
     for (int i = 0; i < t.lower_digits.size(); ++i) {
       P& y = y_[static_cast<size_t>(i)];
@@ -231,16 +224,13 @@ template <class P>
 HWY_ATTR void Engine<P>::unload(int l) {
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
   const Book& book = book_[static_cast<size_t>(l)];
-  t.state.y = state_of(l);
+  t.state = motion_of(l);
   if constexpr (!P::is_double) {
     t.lower_digits.resize(2 * n_);
     for (int i = 0; i < 2 * n_; ++i) {
       t.lower_digits(i) = lane(y_[static_cast<size_t>(i)] - P(t.state.y(i)), l);
     }
   }
-  t.state.revolution = book.revolution;
-  t.state.phase = lane(time_, l) * t.system->phase_rate();
-  for (size_t c = 0; c < contacts_.size(); ++c) t.state.contacts[c] = contacts_[c].state(l);
   const long steps = steps_ - book.first_step;
   t.cost.steps += steps - book.no_steps;
   t.cost.evaluations += steps * (N + 1);  // one for each coefficient
@@ -268,17 +258,40 @@ HWY_ATTR void Engine<P>::unload(int l) {
   trajectory_[static_cast<size_t>(l)] = nullptr;
 }
 
+/// State in a lane, rounded to double.
+template <class P>
+HWY_ATTR Vec Engine<P>::state_of(int l) const {
+  Vec y(2 * n_);
+  for (int i = 0; i < 2 * n_; ++i) y(i) = lane(y_[static_cast<size_t>(i)], l);
+  return y;
+}
+
+template <class P>
+HWY_ATTR void Engine<P>::set_state(int l, const Vec& y) {
+  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, y(i));
+}
+
+template <class P>
+HWY_ATTR ContactStates Engine<P>::contacts_of(int l) const {
+  ContactStates states;
+  for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
+  return states;
+}
+
+/// Where the motion in a lane is.
+template <class P>
+HWY_ATTR MotionState Engine<P>::motion_of(int l) const {
+  const auto ul = static_cast<size_t>(l);
+  return {book_[ul].revolution, lane(time_, l) * trajectory_[ul]->system->phase_rate(), state_of(l),
+          contacts_of(l)};
+}
+
 /// Ends a trajectory that cannot go on; its state is the last good one.
 template <class P>
 HWY_ATTR void Engine<P>::fail(int l, Outcome outcome, const char* what) {
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
-  MotionState state = t.state;
-  state.y = state_of(l);
-  state.revolution = book_[static_cast<size_t>(l)].revolution;
-  state.phase = lane(time_, l) * t.system->phase_rate();
-  for (size_t c = 0; c < contacts_.size(); ++c) state.contacts[c] = contacts_[c].state(l);
   t.outcome = outcome;
-  t.diagnosis = diagnosis(*t.system, state, what);
+  t.diagnosis = diagnosis(*t.system, motion_of(l), what);
   finished_ |= uint64_t{1} << l;
 }
 

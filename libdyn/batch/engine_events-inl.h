@@ -76,15 +76,7 @@ HWY_ATTR void Engine<P>::watch_slip(size_t i, P& h) {
   if (asked == 0) return;
   // sign * (Omega R r + d x d'), which has the sign of the slip times the sense it had
   P* g = c.slip;
-  for (int k = 0; k <= N; ++k) {
-    P cross = c.rim * c.r[k];
-    for (int j = 0; j <= k; ++j) {
-      const P factor(k - j + 1.0);
-      cross = fma(c.dx[j], factor * c.dy[k - j + 1], cross);
-      cross = fnma(c.dy[j], factor * c.dx[k - j + 1], cross);
-    }
-    g[k] = cross;
-  }
+  for (int k = 0; k <= N; ++k) g[k] = c.add_turn(c.rim * c.r[k], k);
   note(i, &Falls::slip,
        first_fall(g, N, c.sign, c.slip_scale, h, mask_of<P>(asked), mask_of<P>(c.surface_slip)));
 }
@@ -161,8 +153,7 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   Book& book = book_[static_cast<size_t>(l)];
   if (!book.watcher) book.watcher = std::make_unique<EventWatcher>(*t.system);
   Vec y = state_of(l);
-  ContactStates states;
-  for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
+  ContactStates states = contacts_of(l);
 
   const Falls& f = falls_[i];
   EventKind kind = EventKind::touch;
@@ -198,9 +189,7 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
     }
   }
   t.system->remove_slip(y.data(), states);
-  if constexpr (P::is_double) {
-    for (int j = 0; j < 2 * n_; ++j) set_lane(y_[static_cast<size_t>(j)], l, y(j));
-  }
+  if constexpr (P::is_double) set_state(l, y);
   ContactLanes<P>& c = contacts_[i];
   c.set_state(states[i], l);
   const auto starts = [&](EventKind k) { return book.watcher->on_surface(index, k); };

@@ -18,7 +18,8 @@ template <class P>
 HWY_ATTR inline void Engine<P>::linear(int k, const P& sine, const P& cosine, const P& inverse) {
   const P* now = term(k);
   P* next = term(k + 1);
-  const P *kd = K_diagonal_.data(), *dd = D_diagonal_.data(), *fc = fc_.data(), *fs = fs_.data();
+  const P *kd = equations_.K.data(), *dd = equations_.D.data(), *fc = equations_.fc.data(),
+          *fs = equations_.fs.data();
   for (int i = 0; i < n_; ++i) {
     const P rate = now[n_ + i];
     P sum = fma(fc[i], cosine, fs[i] * sine);
@@ -29,7 +30,7 @@ HWY_ATTR inline void Engine<P>::linear(int k, const P& sine, const P& cosine, co
   }
   for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
     P sum(0.0);
-    const P* a = A_.data() + row.begin;
+    const P* a = equations_.A.data() + row.begin;
     for (const int source : row.source) sum = fma(*a++, now[source], sum);
     next[n_ + row.i] = fnma(sum, inverse, next[n_ + row.i]);
   }
@@ -58,7 +59,8 @@ HWY_ATTR void Engine<P>::series() {
     linear(k, sine, cosine, inverse);
     P* acceleration = term(k + 1) + n_;
     if (k == 0) {
-      for (int i = 0; i < n_; ++i) acceleration[i] = acceleration[i] + f0_[static_cast<size_t>(i)];
+      for (int i = 0; i < n_; ++i)
+        acceleration[i] = acceleration[i] + equations_.f0[static_cast<size_t>(i)];
     }
     for (size_t i = 0; i < contacts; ++i) {
       ContactLanes<P>& c = contacts_[i];

@@ -31,7 +31,7 @@ HWY_ATTR P Engine<P>::step_length() {
   for (int i = 0; i < n_; ++i)
     size = max(size, abs(y_[static_cast<size_t>(i)]) * scale_[static_cast<size_t>(i)]);
   bounded_ = less(size, P(boundless));
-  const P e(std::log2(options_.tolerance));
+  const P e(log2_tolerance_);
   const P h1 = (e - rough_log2(last)) * P(1.0 / (N + 2));
   const P h2 = (e - rough_log2(before)) * P(1.0 / (N + 1));
   return P(0.95) * rough_exp2(min(min(h1, h2), P(900.0)));
@@ -143,11 +143,7 @@ HWY_ATTR void Engine<P>::fly_on(int l) {
   book.certificate_due = 2 * book.revolution - book.free_since;
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
   if (!book.free_flight) book.free_flight = std::make_unique<FreeFlight>(*t.system);
-  MotionState state = t.state;
-  state.y = state_of(l);
-  state.revolution = book.revolution;
-  state.phase = 0.0;
-  for (size_t c = 0; c < contacts_.size(); ++c) state.contacts[c] = contacts_[c].state(l);
+  MotionState state = motion_of(l);
   if (!book.free_flight->is_certain(state)) return;
   while (book.revolution < book.last) {
     const long to = options_.sections ? book.revolution + 1 : book.last;
@@ -155,28 +151,19 @@ HWY_ATTR void Engine<P>::fly_on(int l) {
     book.revolution = to;
     if (options_.sections) t.sections.insert(t.sections.end(), state.y.begin(), state.y.end());
   }
-  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, state.y(i));
+  set_state(l, state.y);
 }
 
 /// Takes off the slip that sticking contacts of a lane have gathered by rounding and truncation.
 template <class P>
 HWY_ATTR void Engine<P>::remove_slip(int l) {
   if constexpr (!P::is_double) return;  // what double computes would be worse than what is left
-  ContactStates states;
-  for (const ContactLanes<P>& c : contacts_) states.push_back(c.state(l));
+  const ContactStates states = contacts_of(l);
   const auto sticks = [](const ContactState& c) { return c.touch == Touch::sticking; };
   if (std::none_of(states.begin(), states.end(), sticks)) return;
   Vec y = state_of(l);
   trajectory_[static_cast<size_t>(l)]->system->remove_slip(y.data(), states);
-  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, y(i));
-}
-
-/// State in a lane.
-template <class P>
-HWY_ATTR Vec Engine<P>::state_of(int l) const {
-  Vec y(2 * n_);
-  for (int i = 0; i < 2 * n_; ++i) y(i) = lane(y_[static_cast<size_t>(i)], l);
-  return y;
+  set_state(l, y);
 }
 
 /// Largest value of a parabola through three equidistant values, if its top lies between them.
@@ -237,7 +224,7 @@ HWY_ATTR bool Engine<P>::tell(const Observer& observer, double h) {
       if (k <= N + 1) step.v(i, k) = lane(term(k)[n_ + i], 0) * power;
     }
   }
-  for (const ContactLanes<P>& c : contacts_) step.contacts.push_back(c.state(0));
+  step.contacts = contacts_of(0);
   return observer(step);
 }
 

@@ -16,12 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// s^2 = (q + (q^2 - 4 det^2)^(1/2)) / 2 with q = |m|^2 of Frobenius.
-inline double largest_singular_value(const Mat2& m) {
-  const double q = m.squaredNorm(), d = m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0);
-  return std::sqrt(0.5 * (q + std::sqrt(std::max(0.0, q * q - 4.0 * d * d))));
-}
-
 template <class P>
 HWY_ATTR void Engine<P>::prepare_tangents() {
   const size_t size = 2 * static_cast<size_t>(n_);
@@ -63,7 +57,7 @@ HWY_ATTR void Engine<P>::load_tangents(int l, const ContactSystem& s) {
   set_lane(t.divergence, l, 0.0);
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const ReducedContact& c = s.contacts()[i];
-    set_lane(t.gain[i], l, largest_singular_value(c.U * c.B));
+    set_lane(t.gain[i], l, contact_gain(c));
   }
 }
 
@@ -97,7 +91,7 @@ HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces) {
   const P inverse = inverse_of<P>(k + 1);
   for (int i = 0; i < n_; ++i) {
     const auto ui = static_cast<size_t>(i);
-    const P stiffness = K_diagonal_[ui], damping = D_diagonal_[ui];
+    const P stiffness = equations_.K[ui], damping = equations_.D[ui];
     next_a[i] = a[n_ + i] * inverse;
     next_b[i] = b[n_ + i] * inverse;
     next_a[n_ + i] = fma(stiffness, a[i], damping * a[n_ + i]);
@@ -105,7 +99,7 @@ HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces) {
   }
   for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
     P sum_a(0.0), sum_b(0.0);
-    const P* entry = A_.data() + row.begin;
+    const P* entry = equations_.A.data() + row.begin;
     for (const int source : row.source) {
       sum_a = fma(*entry, a[source], sum_a);
       sum_b = fma(*entry, b[source], sum_b);

@@ -43,7 +43,6 @@ struct alignas(8 * L) Pack {
     MaskRegister m[B];
   };
 
-  static size_t block_lanes() { return hn::Lanes(D()); }
   static int lanes() { return static_cast<int>(B * hn::Lanes(D())); }
 
   Register v[B];
@@ -87,6 +86,8 @@ struct alignas(8 * L) Pack {
 WHIRL_UNARY(operator-, hn::Neg(a))
 WHIRL_UNARY(abs, hn::Abs(a))
 WHIRL_UNARY(sqrt, hn::Sqrt(a))
+WHIRL_UNARY(tanh, hn::Tanh(typename Pack<L, B>::D(), a))
+WHIRL_UNARY(log, hn::Log(typename Pack<L, B>::D(), a))
 WHIRL_BINARY(operator+, hn::Add(a, c))
 WHIRL_BINARY(operator-, hn::Sub(a, c))
 WHIRL_BINARY(operator*, hn::Mul(a, c))
@@ -190,22 +191,6 @@ HWY_ATTR inline void sin_cos(const Pack<L, B>& x, Pack<L, B>& sine, Pack<L, B>& 
     sine.v[b] = hn::Sin(d, x.v[b]);
     cosine.v[b] = hn::Cos(d, x.v[b]);
   }
-}
-
-template <size_t L, int B>
-HWY_ATTR inline Pack<L, B> tanh(const Pack<L, B>& x) {
-  Pack<L, B> r;
-  typename Pack<L, B>::D d;
-  for (int b = 0; b < B; ++b) r.v[b] = hn::Tanh(d, x.v[b]);
-  return r;
-}
-
-template <size_t L, int B>
-HWY_ATTR inline Pack<L, B> log(const Pack<L, B>& x) {
-  Pack<L, B> r;
-  typename Pack<L, B>::D d;
-  for (int b = 0; b < B; ++b) r.v[b] = hn::Log(d, x.v[b]);
-  return r;
 }
 
 /// Binary logarithm to 1e-3, of positive normal numbers: for step sizes.

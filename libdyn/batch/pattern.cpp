@@ -51,7 +51,6 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
       const Friction& f = contact.friction;
       rows.has_rate = rows.has_rate || !is_continuous(contact.law);
       rows.has_friction = rows.has_friction || f.mu > 0.0;
-      rows.has_exact_friction = rows.has_exact_friction || f.is_exact();
       rows.has_smooth_friction =
           rows.has_smooth_friction || (f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
     }
@@ -69,6 +68,12 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     p.off_diagonal.push_back({i, begin, std::move(sources)});
   }
   return p;
+}
+
+Pattern pattern_of(std::span<const Trajectory> trajectories) {
+  std::vector<const ContactSystem*> systems;
+  for (const Trajectory& t : trajectories) systems.push_back(t.system);
+  return Pattern::of(systems);
 }
 
 }  // namespace whirl

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "libdyn/contact_system.hpp"
+#include "libdyn/batch/batch.hpp"
 
 namespace whirl {
 
@@ -21,7 +21,6 @@ struct Pattern {
     std::vector<int> pushed_by_x, pushed_by_y;  ///< coordinates that its force accelerates
     bool has_rate = false;                      ///< the law depends on the rate of the depth
     bool has_friction = false;
-    bool has_exact_friction = false;   ///< slip that switches and sticks
     bool has_smooth_friction = false;  ///< tanh of the slip
     std::size_t law = 0;               ///< index in AnyContactLaw
   };
@@ -34,5 +33,8 @@ struct Pattern {
   /// @throws NumericalError  if the systems differ in coordinates, contacts or kinds of laws
   static Pattern of(std::span<const ContactSystem* const> systems);
 };
+
+/// Pattern of the systems of trajectories.
+Pattern pattern_of(std::span<const Trajectory> trajectories);
 
 }  // namespace whirl

@@ -14,8 +14,7 @@
 namespace whirl {
 
 void integrate_quad(Trajectory& trajectory, const BatchOptions& options) {
-  const ContactSystem* system = trajectory.system;
-  const Pattern pattern = Pattern::of({&system, 1});
+  const Pattern pattern = pattern_of({&trajectory, 1});
   using Engine = HWY_NAMESPACE::Engine<HWY_NAMESPACE::QuadPack>;
   std::make_unique<Engine>(pattern, options)->run({&trajectory, 1}, nullptr);
 }

@@ -13,6 +13,7 @@
 
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/batch/contact_lanes-inl.h"
+#include "libdyn/batch/equation_lanes-inl.h"
 #include "libdyn/methods/diagnosis.hpp"
 #include "libdyn/methods/rk4.hpp"
 
@@ -27,11 +28,10 @@ class Rk4Lanes {
  public:
   using Mask = typename P::Mask;
 
-  explicit Rk4Lanes(const Pattern& pattern) : pattern_(pattern), n_(pattern.n) {
+  explicit Rk4Lanes(const Pattern& pattern)
+      : pattern_(pattern), n_(pattern.n), equations_(pattern) {
     const auto n = static_cast<size_t>(n_);
-    for (std::vector<P>* v : {&K_, &D_, &f0_, &fc_, &fs_}) v->assign(n, P(0.0));
     for (std::vector<P>* v : {&y_, &stage_, &k_, &sum_, &start_}) v->assign(2 * n, P(0.0));
-    A_.assign(static_cast<size_t>(pattern.off_diagonals), P(0.0));
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
   }
@@ -78,21 +78,7 @@ class Rk4Lanes {
  private:
   HWY_ATTR void load(int l, const Trajectory& t) {
     const ContactSystem& s = *t.system;
-    for (int i = 0; i < n_; ++i) {
-      const auto ui = static_cast<size_t>(i);
-      set_lane(K_[ui], l, s.K()(i, i));
-      set_lane(D_[ui], l, s.D()(i, i));
-      set_lane(f0_[ui], l, s.constant_load()(i));
-      set_lane(fc_[ui], l, s.cosine_load()(i));
-      set_lane(fs_[ui], l, s.sine_load()(i));
-    }
-    for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
-      for (size_t e = 0; e < row.source.size(); ++e) {
-        const int j = row.source[e];
-        set_lane(A_[static_cast<size_t>(row.begin) + e], l,
-                 j < n_ ? s.K()(row.i, j) : s.D()(row.i, j - n_));
-      }
-    }
+    equations_.load(s, l);
     for (size_t c = 0; c < contacts_.size(); ++c) {
       contacts_[c].load(s.contacts()[c], {}, l, s.phase_rate());
     }
@@ -148,15 +134,16 @@ class Rk4Lanes {
 
   /// k = (eta', eta'') of a state.
   HWY_ATTR void derivative(const P* y, const P& sine, const P& cosine) {
+    const EquationLanes<P>& e = equations_;
     P* a = k_.data() + n_;
     for (int i = 0; i < n_; ++i) {
       const auto ui = static_cast<size_t>(i);
       k_[ui] = y[n_ + i];
-      const P load = fma(fc_[ui], cosine, fma(fs_[ui], sine, f0_[ui]));
-      a[i] = fnma(K_[ui], y[i], fnma(D_[ui], y[n_ + i], load));
+      const P load = fma(e.fc[ui], cosine, fma(e.fs[ui], sine, e.f0[ui]));
+      a[i] = fnma(e.K[ui], y[i], fnma(e.D[ui], y[n_ + i], load));
     }
     for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
-      const P* factor = A_.data() + row.begin;
+      const P* factor = e.A.data() + row.begin;
       for (const int source : row.source) a[row.i] = fnma(*factor++, y[source], a[row.i]);
     }
     for (const ContactLanes<P>& c : contacts_) push(c, y, a);
@@ -197,7 +184,7 @@ class Rk4Lanes {
 
   const Pattern& pattern_;
   int n_;
-  std::vector<P> K_, D_, A_, f0_, fc_, fs_;  // K and D: diagonals
+  EquationLanes<P> equations_;
   std::vector<ContactLanes<P>> contacts_;
   P rate_{1.0}, period_{1.0};
   std::vector<P> y_, start_;  // now, and at the start of the revolution

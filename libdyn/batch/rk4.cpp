@@ -33,9 +33,7 @@ namespace whirl {
 HWY_EXPORT(run_rk4);
 
 void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOptions& options) {
-  std::vector<const ContactSystem*> systems;
-  for (const Trajectory& t : trajectories) systems.push_back(t.system);
-  const Pattern pattern = Pattern::of(systems);
+  const Pattern pattern = pattern_of(trajectories);
   HWY_DYNAMIC_DISPATCH(run_rk4)(pattern, options, trajectories);
 }
 

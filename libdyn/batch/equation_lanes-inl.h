@@ -1,0 +1,56 @@
+// The linear part of the equations of motion in all lanes.
+
+#if defined(WHIRL_EQUATION_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_EQUATION_LANES_INL_H
+#undef WHIRL_EQUATION_LANES_INL_H
+#else
+#define WHIRL_EQUATION_LANES_INL_H
+#endif
+
+#include <vector>
+
+#include "libdyn/batch/pack-inl.h"
+#include "libdyn/batch/pattern.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// eta'' = f0 + fc cos(phase) + fs sin(phase) - [K D] y - ..., with what is not zero in any lane.
+template <class P>
+struct EquationLanes {
+  const Pattern& pattern;
+  std::vector<P> K, D;  ///< diagonals
+  std::vector<P> A;     ///< of [K D] beside them, as pattern.off_diagonal
+  std::vector<P> f0, fc, fs;
+
+  explicit EquationLanes(const Pattern& of) : pattern(of) {
+    for (std::vector<P>* v : {&K, &D, &f0, &fc, &fs}) v->assign(static_cast<size_t>(of.n), P(0.0));
+    A.assign(static_cast<size_t>(of.off_diagonals), P(0.0));
+  }
+
+  HWY_ATTR void load(const ContactSystem& s, int l) {
+    const int n = pattern.n;
+    for (int i = 0; i < n; ++i) {
+      const auto ui = static_cast<size_t>(i);
+      set_lane(K[ui], l, s.K()(i, i));
+      set_lane(D[ui], l, s.D()(i, i));
+      set_lane(f0[ui], l, s.constant_load()(i));
+      set_lane(fc[ui], l, s.cosine_load()(i));
+      set_lane(fs[ui], l, s.sine_load()(i));
+    }
+    for (const Pattern::OffDiagonal& row : pattern.off_diagonal) {
+      for (size_t e = 0; e < row.source.size(); ++e) {
+        const int j = row.source[e];
+        set_lane(A[static_cast<size_t>(row.begin) + e], l,
+                 j < n ? s.K()(row.i, j) : s.D()(row.i, j - n));
+      }
+    }
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard
