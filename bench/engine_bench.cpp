@@ -3,33 +3,21 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
-#include <memory>
 #include <random>
 #include <vector>
 
 #include "libdyn/batch/batch.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/trajectories.hpp"
 
 namespace whirl {
 namespace {
 
 using test::RotorStator;
-
-struct Points {
-  std::vector<std::unique_ptr<Scene>> scenes;
-  std::vector<Trajectory> trajectories;
-
-  void add(const RotorStator& p, long settled) {
-    scenes.push_back(std::make_unique<Scene>(p.scene()));
-    Trajectory t{.system = &scenes.back()->contacts, .revolutions = settled};
-    t.state = test::start_of(p.model(), *scenes.back());
-    trajectories.push_back(t);
-  }
-};
+using test::Trajectories;
 
 /// Points of all nine planes: speed, contact stiffness, friction. Beyond a transient.
-Points random_points(int count) {
-  Points points;
+Trajectories random_points(int count) {
+  Trajectories points;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit;
   for (int i = 0; i < count; ++i) {
@@ -38,27 +26,27 @@ Points random_points(int count) {
     p.mu = mu[i % 9];
     points.add(p, 100);
   }
-  integrate_batch(points.trajectories, {});
+  integrate_batch(points.all, {});
   return points;
 }
 
 /// Time of a revolution of one trajectory on one core.
-void time_batch(benchmark::State& state, const Points& points, long revolutions,
+void time_batch(benchmark::State& state, const Trajectories& points, long revolutions,
                 const BatchOptions& options) {
   for (auto _ : state) {
-    std::vector<Trajectory> batch = points.trajectories;
+    std::vector<Trajectory> batch = points.all;
     for (Trajectory& t : batch) t.revolutions = revolutions;
     integrate_batch(batch, options);
     benchmark::DoNotOptimize(batch.data());
   }
   state.counters["s_per_rev"] = benchmark::Counter(
-      static_cast<double>(revolutions) * static_cast<double>(points.trajectories.size()),
+      static_cast<double>(revolutions) * static_cast<double>(points.all.size()),
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   state.SetLabel(instruction_set());
 }
 
 void RandomMapPoints(benchmark::State& state) {
-  static const Points points = random_points(252);
+  static const Trajectories points = random_points(252);
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   time_batch(state, points, 20,
              {.tolerance = tolerance, .threads = 1, .exponents = state.range(1) != 0});
@@ -69,9 +57,9 @@ BENCHMARK(RandomMapPoints)
     ->Unit(benchmark::kMillisecond);
 
 void EightExponents(benchmark::State& state) {
-  Points points;
+  Trajectories points;
   for (int i = 0; i < 16; ++i) points.add(test::P1, 400);
-  integrate_batch(points.trajectories, {});
+  integrate_batch(points.all, {});
   const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
   time_batch(state, points, 50, {.tolerance = tolerance, .threads = 1, .exponents = true});
 }

@@ -5,12 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 #include <random>
 #include <vector>
 
 #include "libfe/base/error.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/trajectories.hpp"
 
 namespace whirl {
 namespace {
@@ -19,25 +18,18 @@ using test::RotorStator;
 
 /// Trajectories of rotors with random speeds, contacts and friction: free, bouncing, rubbing,
 /// rolling (the soft corner with much friction), some with damped contacts.
-struct Sample {
-  std::vector<std::unique_ptr<Scene>> scenes;
-  std::vector<Trajectory> trajectories;
-
-  explicit Sample(int size, bool is_damped = false) {
-    std::mt19937 random(11);
-    std::uniform_real_distribution<double> unit;
-    for (int i = 0; i < size; ++i) {
-      RotorStator p{.Omega = 120.0 + 50.0 * unit(random), .mu = 0.3 * unit(random)};
-      p.kC = 2e6 * std::pow(100.0, unit(random));
-      if (is_damped) p.cC = 1e3 * unit(random);
-      scenes.push_back(std::make_unique<Scene>(p.scene()));
-      Trajectory t{.system = &scenes.back()->contacts};
-      t.state = test::start_of(p.model(), *scenes.back());
-      t.revolutions = 20 + static_cast<long>(20.0 * unit(random));
-      trajectories.push_back(t);
-    }
+test::Trajectories random_rotors(int size, bool are_damped = false) {
+  test::Trajectories sample;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit;
+  for (int i = 0; i < size; ++i) {
+    RotorStator p{.Omega = 120.0 + 50.0 * unit(random), .mu = 0.3 * unit(random)};
+    p.kC = 2e6 * std::pow(100.0, unit(random));
+    if (are_damped) p.cC = 1e3 * unit(random);
+    sample.add(p, 20 + static_cast<long>(20.0 * unit(random)));
   }
-};
+  return sample;
+}
 
 bool is_same(const Trajectory& a, const Trajectory& b) {
   return a.state.y == b.state.y && a.state.revolution == b.state.revolution &&
@@ -46,12 +38,12 @@ bool is_same(const Trajectory& a, const Trajectory& b) {
          a.sections == b.sections && a.exponents == b.exponents && a.tangent == b.tangent;
 }
 
-void expect_same_as_alone(const Sample& sample, const BatchOptions& options) {
-  std::vector<Trajectory> batch = sample.trajectories;
+void expect_same_as_alone(const test::Trajectories& sample, const BatchOptions& options) {
+  std::vector<Trajectory> batch = sample.all;
   integrate_batch(batch, options);
   int events = 0;
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    Trajectory alone = sample.trajectories[i];
+    Trajectory alone = sample.all[i];
     integrate_single(alone, options);
     EXPECT_EQ(alone.outcome, Outcome::reached_end) << alone.diagnosis;
     EXPECT_TRUE(is_same(batch[i], alone)) << i;
@@ -61,25 +53,25 @@ void expect_same_as_alone(const Sample& sample, const BatchOptions& options) {
 }
 
 TEST(Batch, GivesEachTrajectoryWhatItIsAlone) {
-  expect_same_as_alone(Sample(40), {.sections = true});
+  expect_same_as_alone(random_rotors(40), {.sections = true});
 }
 TEST(Batch, GivesEachTrajectoryWhatItIsAloneWithDampedContacts) {
-  expect_same_as_alone(Sample(24, true), {.tolerance = 1e-8});
+  expect_same_as_alone(random_rotors(24, true), {.tolerance = 1e-8});
 }
 TEST(Batch, GivesEachTrajectoryItsExponents) {
-  expect_same_as_alone(Sample(20), {.tolerance = 1e-8, .exponents = true});
+  expect_same_as_alone(random_rotors(20), {.tolerance = 1e-8, .exponents = true});
 }
 
 TEST(Batch, DoesNotDependOnTheOrderOfTrajectoriesNorOnThreads) {
-  const Sample sample(50);
-  std::vector<Trajectory> forward = sample.trajectories;
+  const test::Trajectories sample = random_rotors(50);
+  std::vector<Trajectory> forward = sample.all;
   integrate_batch(forward, {.threads = 1, .sections = true});
   std::vector<std::size_t> order(forward.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::shuffle(order.begin(), order.end(), std::mt19937(5));
   for (const int threads : {1, 2, 3, 7}) {
     std::vector<Trajectory> shuffled;
-    for (const std::size_t i : order) shuffled.push_back(sample.trajectories[i]);
+    for (const std::size_t i : order) shuffled.push_back(sample.all[i]);
     integrate_batch(shuffled, {.threads = threads, .sections = true});
     for (std::size_t i = 0; i < order.size(); ++i) {
       EXPECT_TRUE(is_same(shuffled[i], forward[order[i]])) << threads << " " << i;
@@ -89,14 +81,13 @@ TEST(Batch, DoesNotDependOnTheOrderOfTrajectoriesNorOnThreads) {
 
 // Two methods that share nothing but the equations of motion.
 TEST(Batch, AgreesWithDop853) {
-  const Sample sample(12);
-  std::vector<Trajectory> batch = sample.trajectories;
+  const test::Trajectories sample = random_rotors(12);
+  std::vector<Trajectory> batch = sample.all;
   integrate_batch(batch, {.tolerance = 1e-13});
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    MotionState state = sample.trajectories[i].state;
-    const Integration result =
-        test::run(*sample.scenes[i], state, sample.trajectories[i].revolutions,
-                  {.tolerance = 1e-13, .method = Dop853{}});
+    MotionState state = sample.all[i].state;
+    const Integration result = test::run(*sample.scenes[i], state, sample.all[i].revolutions,
+                                         {.tolerance = 1e-13, .method = Dop853{}});
     EXPECT_EQ(result.cost.events, batch[i].cost.events) << i;
     EXPECT_LT(test::distance(*batch[i].system, batch[i].state.y, state.y), 1e-9) << i;
   }
@@ -104,14 +95,14 @@ TEST(Batch, AgreesWithDop853) {
 
 TEST(Batch, MeasuresContactsAsTheMeterDoes) {
   constexpr double sampling = 1e-4;  // of a maximum, by parabolas through points of other steps
-  Sample sample(8);
-  for (Trajectory& t : sample.trajectories) t.revolutions = 10;
-  std::vector<Trajectory> batch = sample.trajectories;
+  test::Trajectories sample = random_rotors(8);
+  for (Trajectory& t : sample.all) t.revolutions = 10;
+  std::vector<Trajectory> batch = sample.all;
   integrate_batch(batch, {.measures = true});
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const ContactSystem& system = *batch[i].system;
     ContactMeter meter(system);
-    MotionState state = sample.trajectories[i].state;
+    MotionState state = sample.all[i].state;
     test::run(*sample.scenes[i], state, 10, {}, [&](const Step& step) {
       meter.add(step);
       return true;
@@ -127,8 +118,8 @@ TEST(Batch, MeasuresContactsAsTheMeterDoes) {
 }
 
 TEST(Batch, EndsOneTrajectoryWithoutTheOthers) {
-  const Sample sample(12);
-  std::vector<Trajectory> batch = sample.trajectories;
+  const test::Trajectories sample = random_rotors(12);
+  std::vector<Trajectory> batch = sample.all;
   batch[3].state.y(2) = std::numeric_limits<double>::quiet_NaN();
   batch[7].state.y(6) = std::numeric_limits<double>::infinity();
   integrate_batch(batch, {});
@@ -137,7 +128,7 @@ TEST(Batch, EndsOneTrajectoryWithoutTheOthers) {
     EXPECT_EQ(batch[i].outcome, is_bad ? Outcome::not_finite : Outcome::reached_end) << i;
     EXPECT_EQ(batch[i].diagnosis.empty(), !is_bad);
     if (is_bad) continue;
-    Trajectory alone = sample.trajectories[i];
+    Trajectory alone = sample.all[i];
     integrate_single(alone, {});
     EXPECT_TRUE(is_same(batch[i], alone)) << i;
   }

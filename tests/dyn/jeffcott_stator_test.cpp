@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/trajectories.hpp"
 
 namespace whirl {
 namespace {
@@ -15,21 +13,15 @@ namespace {
 using test::RotorStator;
 
 /// Motions of several rotors after a transient from their static sag.
-std::vector<Trajectory> motions_of(const std::vector<RotorStator>& rotors, long transient,
-                                   long revolutions, BatchOptions options) {
-  static std::vector<std::unique_ptr<Scene>> scenes;  // must outlive the trajectories
-  std::vector<Trajectory> all;
-  for (const RotorStator& p : rotors) {
-    scenes.push_back(std::make_unique<Scene>(p.scene()));
-    all.push_back({.system = &scenes.back()->contacts,
-                   .state = test::start_of(p.model(), *scenes.back()),
-                   .revolutions = transient});
-  }
-  integrate_batch(all, {.tolerance = options.tolerance});
-  for (Trajectory& t : all) t.revolutions = revolutions;
-  integrate_batch(all, options);
-  for (const Trajectory& t : all) EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
-  return all;
+test::Trajectories motions_of(const std::vector<RotorStator>& rotors, long transient,
+                              long revolutions, BatchOptions options) {
+  test::Trajectories motions;
+  for (const RotorStator& p : rotors) motions.add(p, transient);
+  integrate_batch(motions.all, {.tolerance = options.tolerance});
+  for (Trajectory& t : motions.all) t.revolutions = revolutions;
+  integrate_batch(motions.all, options);
+  for (const Trajectory& t : motions.all) EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  return motions;
 }
 
 /// Smallest number of revolutions, up to 12, after which the sections of a motion repeat; 0: none.
@@ -61,7 +53,7 @@ TEST(JeffcottStator, ContactBeginsWhereTheLinearResponseReachesTheGap) {
   for (const double Omega : {128.5, 129.0, 129.5, 130.5}) {
     rotors.push_back({.Omega = Omega, .kC = 100e6});
   }
-  const std::vector<Trajectory> all = motions_of(rotors, 1000, 50, {.measures = true});
+  const auto [scenes, all] = motions_of(rotors, 1000, 50, {.measures = true});
   EXPECT_EQ(all[0].contacts[0].duty, 0.0);
   EXPECT_EQ(all[1].contacts[0].duty, 0.0);
   EXPECT_GT(all[2].contacts[0].duty, 0.0);
@@ -75,7 +67,7 @@ TEST(JeffcottStator, RubsAllAroundAtMediumSpeeds) {
   for (const double Omega : {136.0, 143.0, 150.0, 159.0}) {
     rotors.push_back({.Omega = Omega, .kC = 100e6, .mu = 0.1});
   }
-  const std::vector<Trajectory> all = motions_of(rotors, 1000, 50, {.measures = true});
+  const auto [scenes, all] = motions_of(rotors, 1000, 50, {.measures = true});
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double share = all[i].contacts[0].duty / (50.0 * all[i].system->period());
     EXPECT_EQ(share > 1.0 - 1e-9, i > 0) << share;
@@ -89,7 +81,7 @@ TEST(JeffcottStator, FrictionTurnsChaosIntoOrderAndBack) {
   for (const double mu : {0.0, 0.2, 0.11, 0.15}) {
     rotors.push_back({.Omega = 138.4, .kC = 64e6, .mu = mu});
   }
-  const std::vector<Trajectory> lyapunov = motions_of(rotors, 500, 1000, {.exponents = true});
+  const auto [scenes, lyapunov] = motions_of(rotors, 500, 1000, {.exponents = true});
   constexpr double spread = 1.5;  // of exponents averaged over 1000 revolutions of chaos [1/s]
   EXPECT_NEAR(lyapunov[0].exponents(0), 13.0, spread);
   EXPECT_NEAR(lyapunov[1].exponents(0), 22.0, spread);
@@ -97,7 +89,7 @@ TEST(JeffcottStator, FrictionTurnsChaosIntoOrderAndBack) {
   EXPECT_LT(lyapunov[3].exponents(0), 0.0);
   for (const Trajectory& t : lyapunov) EXPECT_NEAR(t.exponents.sum(), -119.2, 1e-5);
 
-  const std::vector<Trajectory> sections =
+  const auto [more_scenes, sections] =
       motions_of({rotors[2], rotors[3]}, 2000, 24, {.sections = true});
   EXPECT_EQ(period_of(sections[0]), 4);
   EXPECT_EQ(period_of(sections[1]), 1);
