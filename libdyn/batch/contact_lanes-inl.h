@@ -83,40 +83,31 @@ inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
   bits_of = yes ? bits_of | bit : bits_of & ~bit;
 }
 
-/// Sums of products over the older coefficients of order K, in straight lines: as loops they would
-/// cost a single trajectory a tenth more, for branches that are predicted wrongly.
-template <int K, class P>
-HWY_ATTR void old_squares(const P* dx, const P* dy, const P* r, P* sums) {
+/// Sums over the older coefficients of order k: of half the products in d . d and in r r.
+template <class P>
+HWY_ATTR inline void sum_squares(const P* dx, const P* dy, const P* r, int k, P& of_d, P& of_r) {
   P a(0.0), b(0.0), c(0.0);
-#pragma GCC unroll 32
-  for (int i = 1; i <= (K - 1) / 2; ++i) {
-    a = fma(dx[i], dx[K - i], a);
-    b = fma(dy[i], dy[K - i], b);
-    c = fma(r[i], r[K - i], c);
+  for (int i = 1; i <= (k - 1) / 2; ++i) {
+    a = fma(dx[i], dx[k - i], a);
+    b = fma(dy[i], dy[k - i], b);
+    c = fma(r[i], r[k - i], c);
   }
-  sums[0] = a + b;
-  sums[1] = c;
+  of_d = a + b;
+  of_r = c;
 }
-template <int K, class P>
-HWY_ATTR void old_forces(const P* dx, const P* dy, const P* r, const P* q, P* sums) {
+/// The same of the products with q in r q and d q.
+template <class P>
+HWY_ATTR inline void sum_products(const P* dx, const P* dy, const P* r, const P* q, int k, P& of_r,
+                                  P& of_dx, P& of_dy) {
   P a(0.0), b(0.0), c(0.0);
-#pragma GCC unroll 32
-  for (int i = 1; i < K; ++i) {
-    a = fma(r[K - i], q[i], a);
-    b = fma(dx[K - i], q[i], b);
-    c = fma(dy[K - i], q[i], c);
+  for (int i = 1; i < k; ++i) {
+    a = fma(r[k - i], q[i], a);
+    b = fma(dx[k - i], q[i], b);
+    c = fma(dy[k - i], q[i], c);
   }
-  sums[0] = a;
-  sums[1] = b;
-  sums[2] = c;
-}
-template <class P, int... K>
-constexpr auto table_of_squares(std::integer_sequence<int, K...>) {
-  return std::array{&old_squares<K, P>...};
-}
-template <class P, int... K>
-constexpr auto table_of_forces(std::integer_sequence<int, K...>) {
-  return std::array{&old_forces<K, P>...};
+  of_r = a;
+  of_dx = b;
+  of_dy = c;
 }
 
 /// The force of a contact is -(q d + tau rot d): q = N / r, tau = T / r, rot d = (-d_y, d_x).
@@ -142,12 +133,14 @@ struct ContactLanes {
 
   // this step
   bool is_evaluated = false;             // whether any lane needs the force
-  bool has_tau = false;                  // whether tau is more than a constant share of q
+  bool any_has_tau = false;              // whether in any lane tau is more than a share of q
   bool is_ahead = false;                 // whether the force needs geometry one coefficient ahead
   typename P::Mask evaluated, in_touch;  // lanes that need the force, lanes that feel it
-  P inverse_r{1.0}, share{0.0};
+  typename P::Mask has_tau;              // lanes that slide smoothly or stick
+  P inverse_r{1.0}, half_inverse_r{0.5}, share{0.0};
   P dx[P::most_terms], dy[P::most_terms], s[P::most_terms], r[P::most_terms];
-  P N[P::most_terms], q[P::most_terms], tau[P::most_terms];
+  P N[P::most_terms], q[P::most_terms], tau[P::most_terms];  // tau: of lanes that have it
+  P fx, fy;                                                  // newest coefficient of the force
   P slip[P::most_terms], sine[P::most_terms],
       cosine2[P::most_terms];              // smooth friction: u, tanh u, 1 - tanh^2 u
   P ax[P::most_terms], ay[P::most_terms];  // relative acceleration, for sticking
@@ -209,25 +202,39 @@ struct ContactLanes {
   HWY_ATTR void begin(uint64_t active) {
     const uint64_t needed = (touching | receding) & active;
     is_evaluated = needed != 0;
-    has_tau = ((sticking | (smooth & touching)) & active) != 0;
-    is_ahead = is_evaluated && (has_tau || rows.has_rate);
+    const uint64_t own = sticking | (smooth & touching);
+    has_tau = mask_of<P>(own);
+    any_has_tau = (own & active) != 0;
+    is_ahead = is_evaluated && (any_has_tau || rows.has_rate);
     evaluated = mask_of<P>(needed);
     in_touch = mask_of<P>(touching);
     share = mu * sign;
   }
 
-  /// Coefficient k of the displacement: rows times coordinates.
+  /// Coefficient k of the displacement: rows times coordinates. Here and below, Bodies is what
+  /// Pattern::bodies says, where the compiler may know it; 0: anything.
+  template <int Bodies = 0>
   HWY_ATTR inline void displacement(const P* x, P& to_x, P& to_y) const {
-    to_x = ux[0] * x[rows.of_x[0]];
-    to_y = uy[0] * x[rows.of_y[0]];
-    for (size_t i = 1; i < ux.size(); ++i) to_x = fma(ux[i], x[rows.of_x[i]], to_x);
-    for (size_t i = 1; i < uy.size(); ++i) to_y = fma(uy[i], x[rows.of_y[i]], to_y);
+    if constexpr (Bodies > 0) {
+      to_x = ux[0] * x[0];
+      to_y = uy[0] * x[1];
+      for (int i = 1; i < Bodies; ++i) {
+        to_x = fma(ux[static_cast<size_t>(i)], x[2 * i], to_x);
+        to_y = fma(uy[static_cast<size_t>(i)], x[2 * i + 1], to_y);
+      }
+    } else {
+      to_x = ux[0] * x[rows.of_x[0]];
+      to_y = uy[0] * x[rows.of_y[0]];
+      for (size_t i = 1; i < ux.size(); ++i) to_x = fma(ux[i], x[rows.of_x[i]], to_x);
+      for (size_t i = 1; i < uy.size(); ++i) to_y = fma(uy[i], x[rows.of_y[i]], to_y);
+    }
   }
 
   /// Coefficient 0 of displacement, distance squared, distance.
+  template <int Bodies = 0>
   HWY_ATTR inline void first_geometry(const P* x) {
     P x0, y0;
-    displacement(x, x0, y0);
+    displacement<Bodies>(x, x0, y0);
     dx[0] = x0 = x0 - offset_x;
     dy[0] = y0 = y0 - offset_y;
     const P s0 = fma(x0, x0, y0 * y0);
@@ -236,54 +243,52 @@ struct ContactLanes {
     const P r0 = sqrt(select(evaluated, s0, clearance2));  // harmless where there is no touch
     r[0] = r0;
     inverse_r = P(1.0) / r0;
+    half_inverse_r = P(0.5) * inverse_r;
   }
 
   /// Coefficient k > 0 of the same; the newest terms come last, which shortens the chain.
-  HWY_ATTR inline void geometry(const P* x, int k) {
+  template <int Bodies = 0>
+  HWY_ATTR inline void geometry(const P* x, int k, bool with_distance) {
     P xk, yk;
-    displacement(x, xk, yk);
+    displacement<Bodies>(x, xk, yk);
     dx[k] = xk;
     dy[k] = yk;
-    static constexpr auto squares =
-        table_of_squares<P>(std::make_integer_sequence<int, P::most_terms>());
-    P sums[2], rr;
-    if (is_evaluated) {
-      squares[static_cast<size_t>(k)](dx, dy, r, sums);
+    P half_s, half_r;
+    if (with_distance) {
+      sum_squares(dx, dy, r, k, half_s, half_r);
     } else {
       P a(0.0), b(0.0);
       for (int i = 1; i <= (k - 1) / 2; ++i) {
         a = fma(dx[i], dx[k - i], a);
         b = fma(dy[i], dy[k - i], b);
       }
-      sums[0] = a + b;
+      half_s = a + b;
     }
-    P sk = sums[0] + sums[0];
+    P sk = half_s + half_s;
     if (k % 2 == 0) sk = fma(dx[k / 2], dx[k / 2], fma(dy[k / 2], dy[k / 2], sk));
     const P newest = fma(dx[0], xk, dy[0] * yk);
     sk = sk + (newest + newest);
     s[k] = sk;
-    if (!is_evaluated) return;
-    rr = sums[1] + sums[1];
+    if (!with_distance) return;
+    P rr = half_r + half_r;
     if (k % 2 == 0) rr = fma(r[k / 2], r[k / 2], rr);
-    r[k] = (sk - rr) * (P(0.5) * inverse_r);
+    r[k] = (sk - rr) * half_inverse_r;
   }
 
   /// Rate of the distance, coefficient k; for laws that know it, geometry is one coefficient ahead.
   HWY_ATTR inline P rate(int k) const { return rows.has_rate ? P(k + 1.0) * r[k + 1] : P(0.0); }
 
-  /// Coefficient k of the force on the rotor, sign reversed; without the share of tau_k while
-  /// sticking.
-  HWY_ATTR inline void force(AnyLawWork<P>& work, int k, P& fx, P& fy) {
-    const P depth = k == 0 ? r[0] - clearance : r[k];
-    const P rate_k = rate(k);
-    const P Nk =
-        with_alternative(work, [&](auto& l) HWY_ATTR { return l.normal(k, depth, rate_k); });
+  /// Coefficient k of the force on the rotor, sign reversed, in fx and fy; without the share of
+  /// tau_k while sticking. With Bodies, no lane may stick or slide smoothly, nor the law know a rate.
+  template <int Bodies = 0>
+  HWY_ATTR inline void force(AnyLawWork<P>& work, int k) {
+    P depth = r[k], rate_k(0.0), Nk;
+    if (k == 0) depth = depth - clearance;
+    if (Bodies == 0) rate_k = rate(k);
+    with_alternative(work, [&](auto& l) HWY_ATTR { Nk = l.normal(k, depth, rate_k); });
     N[k] = Nk;
-    static constexpr auto forces =
-        table_of_forces<P>(std::make_integer_sequence<int, P::most_terms>());
-    P sums[3];
-    forces[static_cast<size_t>(k)](dx, dy, r, q, sums);
-    P rq = sums[0], px = sums[1], py = sums[2];
+    P rq, px, py;
+    sum_products(dx, dy, r, q, k, rq, px, py);
     if (k > 0) {
       rq = fma(r[k], q[0], rq);
       px = fma(q[0], dx[k], px);
@@ -293,18 +298,16 @@ struct ContactLanes {
     q[k] = qk;
     px = fma(qk, dx[0], px);
     py = fma(qk, dy[0], py);
-    if (!has_tau) {
-      fx = fnma(share, py, px);
-      fy = fma(share, px, py);
-      return;
-    }
+    fx = fnma(share, py, px);
+    fy = fma(share, px, py);
+    if (Bodies > 0 || !any_has_tau) return;
     tau[k] = friction(k);
     for (int i = 0; i <= k; ++i) {
       px = fnma(tau[i], dy[k - i], px);
       py = fma(tau[i], dx[k - i], py);
     }
-    fx = px;
-    fy = py;
+    fx = select(has_tau, px, fx);
+    fy = select(has_tau, py, fy);
   }
 
   /// Adds coefficient k of d x d' to a sum;  d'_i = (i + 1) d_{i+1}.
@@ -317,42 +320,48 @@ struct ContactLanes {
     return sum;
   }
 
-  /// tau_k of sliding lanes, exact or smooth; zero for sticking ones, which are solved for later.
+  /// tau_k of lanes that slide smoothly; zero in sticking ones, for which it is solved later.
   HWY_ATTR P friction(int k) {
-    P sliding = share * q[k];
-    if (smooth != 0) {
-      // slip velocity rim + (d x d') / r, over the width
-      P cross = add_turn(P(0.0), k);
-      for (int i = 1; i <= k; ++i) cross = fnma(r[i], turn_rate[k - i], cross);
-      turn_rate[k] = cross * inverse_r;
-      slip[k] = (k == 0 ? rim + turn_rate[0] : turn_rate[k]) * inverse_width;
-      // y = tanh u:  y' = (1 - y^2) u'
-      P y(0.0), z(0.0);
-      if (k == 0) {
-        y = tanh(slip[0]);
-      } else {
-        for (int i = 1; i <= k; ++i) y = fma(P(i * inverse_of<P>(k)) * slip[i], cosine2[k - i], y);
-      }
-      sine[k] = y;
-      for (int i = 0; i <= k; ++i) z = fnma(sine[i], sine[k - i], z);
-      cosine2[k] = k == 0 ? P(1.0) + z : z;
-      P t(0.0);
-      for (int i = 0; i <= k; ++i) t = fma(q[i], sine[k - i], t);
-      sliding = select(mask_of<P>(smooth), mu * t, sliding);
+    if (smooth == 0) return P(0.0);
+    // slip velocity rim + (d x d') / r, over the width
+    P cross = add_turn(P(0.0), k);
+    for (int i = 1; i <= k; ++i) cross = fnma(r[i], turn_rate[k - i], cross);
+    turn_rate[k] = cross * inverse_r;
+    slip[k] = (k == 0 ? rim + turn_rate[0] : turn_rate[k]) * inverse_width;
+    // y = tanh u:  y' = (1 - y^2) u'
+    P y(0.0), z(0.0);
+    if (k == 0) {
+      y = tanh(slip[0]);
+    } else {
+      for (int i = 1; i <= k; ++i) y = fma(P(i * inverse_of<P>(k)) * slip[i], cosine2[k - i], y);
     }
-    return select(mask_of<P>(sticking), P(0.0), sliding);
+    sine[k] = y;
+    for (int i = 0; i <= k; ++i) z = fnma(sine[i], sine[k - i], z);
+    cosine2[k] = k == 0 ? P(1.0) + z : z;
+    P t(0.0);
+    for (int i = 0; i <= k; ++i) t = fma(q[i], sine[k - i], t);
+    return select(mask_of<P>(smooth), mu * t, P(0.0));
   }
   P turn_rate[P::most_terms];  // (d x d') / r
 
   /// Adds -force to the accelerations of the coordinates.
-  HWY_ATTR inline void push(P* acceleration, const P& fx, const P& fy) const {
-    for (size_t i = 0; i < bx.size(); ++i) {
-      P& a = acceleration[rows.pushed_by_x[i]];
-      a = fnma(bx[i], fx, a);
-    }
-    for (size_t i = 0; i < by.size(); ++i) {
-      P& a = acceleration[rows.pushed_by_y[i]];
-      a = fnma(by[i], fy, a);
+  template <int Bodies = 0>
+  HWY_ATTR inline void push(P* acceleration, const P& of_x, const P& of_y) const {
+    if constexpr (Bodies > 0) {
+      for (int i = 0; i < Bodies; ++i) {
+        P &x = acceleration[2 * i], &y = acceleration[2 * i + 1];
+        x = fnma(bx[static_cast<size_t>(i)], of_x, x);
+        y = fnma(by[static_cast<size_t>(i)], of_y, y);
+      }
+    } else {
+      for (size_t i = 0; i < bx.size(); ++i) {
+        P& a = acceleration[rows.pushed_by_x[i]];
+        a = fnma(bx[i], of_x, a);
+      }
+      for (size_t i = 0; i < by.size(); ++i) {
+        P& a = acceleration[rows.pushed_by_y[i]];
+        a = fnma(by[i], of_y, a);
+      }
     }
   }
 };

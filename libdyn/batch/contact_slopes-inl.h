@@ -137,14 +137,21 @@ struct ContactSlopes {
       m.yy[k] = fma(share, xy, m.yy[k]);
     }
   }
+  /// The same with a share that changes. The first term comes last, as with one that does not: it is
+  /// all there is in lanes of exact friction.
   static HWY_ATTR void turn_by(SeriesMatrix<P>& m, const P* share, int N) {
+    const auto older = [&](const P* a, int k) HWY_ATTR {
+      P sum(0.0);
+      for (int i = 1; i <= k; ++i) sum = fma(share[i], a[k - i], sum);
+      return sum;
+    };
     for (int k = N; k >= 0; --k) {  // downward: coefficient k needs those below as they were
-      const P xx = product_term(share, m.yx, k), xy = product_term(share, m.yy, k);
-      const P yx = product_term(share, m.xx, k), yy = product_term(share, m.xy, k);
-      m.xx[k] = m.xx[k] - xx;
-      m.xy[k] = m.xy[k] - xy;
-      m.yx[k] = m.yx[k] + yx;
-      m.yy[k] = m.yy[k] + yy;
+      const P xx = m.xx[k], xy = m.xy[k];
+      const P of_xx = older(m.xx, k), of_xy = older(m.xy, k);
+      m.xx[k] = fnma(share[0], m.yx[k], xx - older(m.yx, k));
+      m.xy[k] = fnma(share[0], m.yy[k], xy - older(m.yy, k));
+      m.yx[k] = fma(share[0], xx, m.yx[k] + of_xx);
+      m.yy[k] = fma(share[0], xy, m.yy[k] + of_xy);
     }
   }
 

@@ -41,7 +41,7 @@ class Engine {
         log2_tolerance_(std::log2(options.tolerance)),
         equations_(pattern) {
     const auto n = static_cast<size_t>(n_);
-    terms_.assign(2 * n * static_cast<size_t>(N + 3), P(0.0));
+    terms_.assign(n * static_cast<size_t>(N + 3), P(0.0));
     scale_.assign(n, P(1.0));
     y_.assign(2 * n, P(0.0));
     contacts_.reserve(pattern.contacts.size());
@@ -111,6 +111,7 @@ class Engine {
   // engine_step-inl.h
   HWY_ATTR void step(const Observer* observer);
   HWY_ATTR P step_length();
+  template <int Bodies>
   HWY_ATTR void evaluate(const P* terms, const P& h, P* y) const;
   HWY_ATTR void measure(const P& h);
   HWY_ATTR void fly_on(int l);
@@ -118,9 +119,14 @@ class Engine {
   HWY_ATTR bool tell(const Observer& observer, double h);
 
   // engine_series-inl.h
-  __attribute__((flatten)) HWY_ATTR void series();
-  HWY_ATTR inline void linear(int k, const P& sine, const P& cosine, const P& inverse);
-  HWY_ATTR void stick(int k, const P& inverse);
+  HWY_ATTR void series();
+  /// Whether series_of<2> can make this step.
+  bool is_rotor_in_stator() const { return pattern_.bodies == 2 && !contacts_[0].any_has_tau; }
+  template <int Bodies>
+  __attribute__((flatten)) HWY_ATTR void series_of();
+  template <int Bodies>
+  HWY_ATTR inline void accelerate(int k, const P& sine, const P& cosine, P* to);
+  HWY_ATTR void stick(int k);
   HWY_ATTR void solve_influence();
 
   // engine_events-inl.h
@@ -133,6 +139,8 @@ class Engine {
   HWY_ATTR void apply_rare_event(int l, size_t i);
 
   // engine_tangents-inl.h
+  /// Packs of several registers are for motions alone: their tangents would not fit the caches.
+  bool has_tangents() const { return P::blocks == 1 && tangents_ != nullptr; }
   HWY_ATTR void prepare_tangents();
   HWY_ATTR void load_tangents(int l, const ContactSystem& s);
   HWY_ATTR void unload_tangents(int l, double time, Trajectory& to);
@@ -142,13 +150,15 @@ class Engine {
   HWY_ATTR uint64_t due_lanes(uint64_t ends) const;
   HWY_ATTR void orthonormalize(uint64_t due);
   HWY_ATTR P contact_divergence(size_t i, const P& h);
-  HWY_ATTR void column_series(const P* start, bool any_sticks);
-  HWY_ATTR inline void accelerate_columns(int k, const P* forces);
-  HWY_ATTR void stick_column(typename Tangents<P>::Track& track, int k, const P& inverse);
+  template <int Bodies>
+  __attribute__((flatten)) HWY_ATTR void move_columns(P* columns, bool any_sticks, const P& h);
+  template <int Bodies>
+  HWY_ATTR inline void accelerate_columns(int k, const P* forces, P* to_a, P* to_b);
+  HWY_ATTR void stick_column(typename Tangents<P>::Track& track, int k);
 
-  /// Coefficient k of all displacements, then of all velocities.
+  /// Coefficient k of all coordinates.
   HWY_ATTR inline P* term(int k) {
-    return terms_.data() + static_cast<size_t>(2 * k) * static_cast<size_t>(n_);
+    return terms_.data() + static_cast<size_t>(k) * static_cast<size_t>(n_);
   }
 
   const Pattern& pattern_;
@@ -215,7 +225,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   for (size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
   }
-  if (tangents_) load_tangents(l, s);
+  if (has_tangents()) load_tangents(l, s);
   active_ |= bit;
   if (t.revolutions <= 0) finished_ |= bit;
 }
@@ -248,7 +258,7 @@ HWY_ATTR void Engine<P>::unload(int l) {
       m.max_tangential = std::max(m.max_tangential, lane(from.max_friction, l));
     }
   }
-  if (tangents_) {
+  if (has_tangents()) {
     const double turns = static_cast<double>(book.revolution - book.first_revolution);
     const double start = book.first_phase / t.system->phase_rate();
     unload_tangents(l, turns * t.system->period() + t.state.phase / t.system->phase_rate() - start,

@@ -183,7 +183,7 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
         states[i] = {Touch::sticking, 1.0};
     }
   }
-  if (tangents_) {
+  if (has_tangents()) {
     if (const auto jump = saltation(*t.system, event, phase, y, before, states)) {
       jump_tangents(l, *jump);
     }

@@ -13,79 +13,98 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// Coefficient k + 1 of displacements and velocities, contacts apart.
+/// Coefficient k of the acceleration, contacts apart; Bodies as below.
 template <class P>
-HWY_ATTR inline void Engine<P>::linear(int k, const P& sine, const P& cosine, const P& inverse) {
-  const P* now = term(k);
-  P* next = term(k + 1);
+template <int Bodies>
+HWY_ATTR inline void Engine<P>::accelerate(int k, const P& sine, const P& cosine, P* to) {
+  const int n = Bodies > 0 ? 2 * Bodies : n_;
+  const P *now = term(k), *rate = term(k + 1);  // x' has coefficients (k + 1) x_{k+1}
   const P *kd = equations_.K.data(), *dd = equations_.D.data(), *fc = equations_.fc.data(),
           *fs = equations_.fs.data();
-  for (int i = 0; i < n_; ++i) {
-    const P rate = now[n_ + i];
-    P sum = fma(fc[i], cosine, fs[i] * sine);
-    sum = fnma(kd[i], now[i], sum);
-    sum = fnma(dd[i], rate, sum);
-    next[i] = rate * inverse;
-    next[n_ + i] = sum * inverse;
-  }
-  for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
+  const P whole(k + 1.0);
+  const int forced = Bodies > 0 ? 2 : n;  // coordinates with unbalance
+  each<2 * Bodies>(n, [&](int i) HWY_ATTR {
     P sum(0.0);
+    if (i < forced) sum = fma(fc[i], cosine, fs[i] * sine);
+    sum = fnma(kd[i], now[i], sum);
+    to[i] = fnma(whole * dd[i], rate[i], sum);
+  });
+  if (k == 0) {
+    each<2 * Bodies>(
+        n, [&](int i) HWY_ATTR { to[i] = to[i] + equations_.f0[static_cast<size_t>(i)]; });
+  }
+  if (Bodies > 0) return;
+  for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
     const P* a = equations_.A.data() + row.begin;
-    for (const int source : row.source) sum = fma(*a++, now[source], sum);
-    next[n_ + row.i] = fnma(sum, inverse, next[n_ + row.i]);
+    P of_x(0.0), of_rate(0.0);
+    for (const int j : row.of_x) of_x = fma(*a++, now[j], of_x);
+    for (const int j : row.of_rate) of_rate = fma(*a++, rate[j], of_rate);
+    to[row.i] = to[row.i] - fma(whole, of_rate, of_x);
   }
 }
 
-/// Coefficients x_{k+1}, v_{k+1} from those up to k:  v' = f - K x - D v - sum B F,  x' = v.
+/// Coefficients x_{k+2} from those up to k + 1:  x'' = f - K x - D x' - sum B F.
 template <class P>
 HWY_ATTR void Engine<P>::series() {
-  P sine, cosine;
-  sin_cos(rate_ * time_, sine, cosine);
-  std::copy(y_.begin(), y_.end(), term(0));
   laws_.clear();
-  bool any_sticks = false;
   for (ContactLanes<P>& c : contacts_) {
     c.begin(active_);
-    any_sticks = any_sticks || (c.sticking & active_) != 0;
     with_alternative(c.law, [&](const auto& law) HWY_ATTR {
       using Law = std::remove_cvref_t<decltype(law)>;
       laws_.emplace_back(std::in_place_type<LawWork<P, Law>>, law);
     });
   }
-  const size_t contacts = contacts_.size();
-  P fx, fy;
+  if (is_rotor_in_stator()) {
+    series_of<2>();
+  } else {
+    series_of<0>();
+  }
+}
+
+/// The same for Pattern::bodies that the compiler knows, which saves a third of the time, while
+/// friction has no series of its own; 0: any system.
+template <class P>
+template <int Bodies>
+HWY_ATTR void Engine<P>::series_of() {
+  const int n = Bodies > 0 ? 2 * Bodies : n_;
+  const size_t contacts = Bodies > 0 ? 1 : contacts_.size();
+  P sine, cosine;
+  sin_cos(rate_ * time_, sine, cosine);
+  std::copy(y_.begin(), y_.end(), term(0));
+  bool any_sticks = false;
+  for (const ContactLanes<P>& c : contacts_) any_sticks = any_sticks || (c.sticking & active_) != 0;
+  P in_registers[Bodies > 0 ? 2 * Bodies : 1];
   for (int k = 0; k <= N; ++k) {
-    const P inverse(inverse_of<P>(k + 1));
-    linear(k, sine, cosine, inverse);
-    P* acceleration = term(k + 1) + n_;
-    if (k == 0) {
-      for (int i = 0; i < n_; ++i)
-        acceleration[i] = acceleration[i] + equations_.f0[static_cast<size_t>(i)];
-    }
-    for (size_t i = 0; i < contacts; ++i) {
+    P* next = term(k + 2);
+    P* acceleration = Bodies > 0 ? in_registers : next;
+    for (size_t i = 0; i < contacts; ++i) {  // before all else: this takes longest
       ContactLanes<P>& c = contacts_[i];
-      if (k == 0) c.first_geometry(term(0));
-      if (c.is_ahead) {
-        c.geometry(term(k + 1), k + 1);
+      if (k == 0) c.template first_geometry<Bodies>(term(0));
+      if (Bodies == 0 && c.is_ahead) {
+        c.geometry(term(k + 1), k + 1, true);
       } else if (k > 0) {
-        c.geometry(term(k), k);
+        c.template geometry<Bodies>(term(k), k, c.is_evaluated);
       }
-      if (!c.is_evaluated) continue;
-      c.force(laws_[i], k, fx, fy);
-      c.push(acceleration, fx * inverse, fy * inverse);
+      if (c.is_evaluated) c.template force<Bodies>(laws_[i], k);
     }
-    if (any_sticks) stick(k, inverse);
-    const P turn = rate_ * inverse;
+    accelerate<Bodies>(k, sine, cosine, acceleration);
+    for (size_t i = 0; i < contacts; ++i) {
+      const ContactLanes<P>& c = contacts_[i];
+      if (c.is_evaluated) c.template push<Bodies>(acceleration, c.fx, c.fy);
+    }
+    if (Bodies == 0 && any_sticks) stick(k);
+    const P scale(twice_integrated<P>(k));
+    each<2 * Bodies>(n, [&](int i) HWY_ATTR { next[i] = acceleration[i] * scale; });
+    const P turn = rate_ * P(inverse_of<P>(k + 1));
     const P turned = -(turn * sine);
     sine = turn * cosine;
     cosine = turned;
   }
-  for (int i = 0; i < n_; ++i)
-    term(N + 2)[i] = term(N + 1)[n_ + i] * P(Number(1.0) / Number(N + 2));
-  // the distance needs two more coefficients to be as good as the state
-  for (ContactLanes<P>& c : contacts_) {
-    if (!c.is_ahead) c.geometry(term(N + 1), N + 1);
-    c.geometry(term(N + 2), N + 2);
+  // to be as good as the state, the square of the distance needs two more
+  for (size_t i = 0; i < contacts; ++i) {
+    ContactLanes<P>& c = contacts_[i];
+    if (!c.is_ahead) c.template geometry<Bodies>(term(N + 1), N + 1, false);
+    c.template geometry<Bodies>(term(N + 2), N + 2, false);
   }
 }
 
@@ -109,9 +128,9 @@ HWY_ATTR void Engine<P>::solve_influence() {
 /// Coefficient k of this is linear in the tau_k of all sticking contacts; lanes and contacts that
 /// do not stick have a one on the diagonal and zero on the right.
 template <class P>
-HWY_ATTR void Engine<P>::stick(int k, const P& inverse) {
+HWY_ATTR void Engine<P>::stick(int k) {
   const size_t m = contacts_.size();
-  P* acceleration = term(k + 1) + n_;
+  P* acceleration = term(k + 2);  // not yet integrated
   P ax, ay;
   if (k == 0) {  // what a unit of tau_j does to the left side of contact i
     influence_.assign(m * m, P(0.0));
@@ -136,14 +155,13 @@ HWY_ATTR void Engine<P>::stick(int k, const P& inverse) {
     }
   }
   work_.assign(m, P(0.0));
-  const P whole(k + 1.0);
   for (size_t i = 0; i < m; ++i) {
     ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
     c.displacement(acceleration, ax, ay);
-    P sum = fma(c.dx[0], whole * ay, -(c.dy[0] * (whole * ax)));
+    P sum = fma(c.dx[0], ay, -(c.dy[0] * ax));
     for (int j = 1; j <= k; ++j) sum = fma(c.dx[j], c.ay[k - j], fnma(c.dy[j], c.ax[k - j], sum));
-    sum = fma(c.rim, whole * c.r[k + 1], sum);
+    sum = fma(c.rim, P(k + 1.0) * c.r[k + 1], sum);
     work_[i] = select(mask_of<P>(c.sticking), sum, P(0.0));
   }
   solve_influence();
@@ -152,13 +170,11 @@ HWY_ATTR void Engine<P>::stick(int k, const P& inverse) {
     if ((c.sticking & active_) == 0) continue;
     const P tau = work_[i];
     c.tau[k] = c.tau[k] + tau;
-    c.push(acceleration, -(tau * c.dy[0]) * inverse, tau * c.dx[0] * inverse);
+    c.push(acceleration, -(tau * c.dy[0]), tau * c.dx[0]);
   }
   for (ContactLanes<P>& c : contacts_) {
     if ((c.sticking & active_) == 0) continue;
-    c.displacement(acceleration, ax, ay);
-    c.ax[k] = whole * ax;
-    c.ay[k] = whole * ay;
+    c.displacement(acceleration, c.ax[k], c.ay[k]);
   }
 }
 

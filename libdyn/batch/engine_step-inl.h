@@ -37,27 +37,36 @@ HWY_ATTR P Engine<P>::step_length() {
   return P(0.95) * rough_exp2(min(min(h1, h2), P(900.0)));
 }
 
-/// Value at h of the series of a state, in all active lanes.
+/// Values at h of series and of their derivatives, in all active lanes; Bodies as in series_of.
 template <class P>
+template <int Bodies>
 HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
+  constexpr int at_once = Bodies > 0 ? 2 * Bodies : 2;  // coordinates, whose chains overlap
+  const int n = Bodies > 0 ? 2 * Bodies : n_;
   const Mask active = mask_of<P>(active_);
-  const auto term_at = [&](int k) { return terms + 2 * k * n_; };
-  const P *top = term_at(N + 1), *last = term_at(N + 2);
-  for (int i = 0; i < n_; i += 2) {  // two coordinates at once: four chains
-    const int j = std::min(i + 1, n_ - 1);
-    P xi = fma(last[i], h, top[i]), xj = fma(last[j], h, top[j]);
-    P vi = top[n_ + i], vj = top[n_ + j];
-    for (int k = N; k >= 0; --k) {
-      const P* now = term_at(k);
-      xi = fma(xi, h, now[i]);
-      xj = fma(xj, h, now[j]);
-      vi = fma(vi, h, now[n_ + i]);
-      vj = fma(vj, h, now[n_ + j]);
+  const P order(N + 2.0);
+  for (int first = 0; first < n; first += at_once) {
+    const auto place = [&](int i) { return Bodies > 0 ? i : std::min(first + i, n - 1); };
+    P x[at_once], v[at_once];
+    const P* now = terms + (N + 2) * n;
+    each<at_once>(0, [&](int i) HWY_ATTR {
+      x[i] = now[place(i)];
+      v[i] = order * x[i];
+    });
+    for (int k = N + 1; k >= 1; --k) {
+      now -= n;
+      const P whole(static_cast<double>(k));
+      each<at_once>(0, [&](int i) HWY_ATTR {
+        const P& term = now[place(i)];
+        x[i] = fma(x[i], h, term);
+        v[i] = fma(v[i], h, whole * term);
+      });
     }
-    y[j] = select(active, xj, y[j]);
-    y[n_ + j] = select(active, vj, y[n_ + j]);
-    y[i] = select(active, xi, y[i]);
-    y[n_ + i] = select(active, vi, y[n_ + i]);
+    each<at_once>(0, [&](int i) HWY_ATTR {
+      P &to_x = y[place(i)], &to_v = y[n + place(i)];
+      to_x = select(active, fma(x[i], h, terms[place(i)]), to_x);
+      to_v = select(active, v[i], to_v);
+    });
   }
 }
 
@@ -66,7 +75,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   constexpr Number too_small = 10.0 * P::rounding;  // of a revolution
   series();
   P h = step_length();
-  if (tangents_) h = limit_for_tangents(h);
+  if (has_tangents()) h = limit_for_tangents(h);
   if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
   const P left = max(period_ - time_, P(0.0));
   const Mask reaches = less_equal(left * P(Number(1.0) - 100.0 * P::rounding), h);
@@ -98,8 +107,12 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   }
   bool goes_on = true;
   if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
-  if (tangents_) move_tangents(h);
-  evaluate(terms_.data(), h, y_.data());
+  if (has_tangents()) move_tangents(h);
+  if (pattern_.bodies == 2) {
+    evaluate<2>(terms_.data(), h, y_.data());
+  } else {
+    evaluate<0>(terms_.data(), h, y_.data());
+  }
   time_ = time_ + h;
   time_ = select(mask_of<P>(ends), P(0.0), time_);
   ++steps_;
@@ -115,10 +128,10 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
       for (const P& y : y_) sections.push_back(lane(y, l));
     }
-    if (P::is_double && !observer && !tangents_) fly_on(l);
+    if (P::is_double && !observer && !has_tangents()) fly_on(l);
     if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
   }
-  if (options_.exponents) orthonormalize(due_lanes(ends));
+  if (has_tangents() && options_.exponents) orthonormalize(due_lanes(ends));
   if (!goes_on) {
     trajectory_[0]->outcome = Outcome::stopped_by_observer;
     finished_ |= 1;
@@ -190,11 +203,11 @@ HWY_ATTR void Engine<P>::measure(const P& h) {
       const P t = h * P(static_cast<double>(j) / intervals);
       horner(c.N, N, t, normal[j], unused);
       friction[j] = c.mu * normal[j];
-      if (c.has_tau) {
+      if (c.any_has_tau) {
         P tau, r;
         horner(c.tau, N, t, tau, unused);
         horner(c.r, N, t, r, unused);
-        friction[j] = abs(tau * r);
+        friction[j] = select(c.has_tau, abs(tau * r), friction[j]);
       }
     }
     for (int j = 1; j < intervals; ++j) {
@@ -221,7 +234,7 @@ HWY_ATTR bool Engine<P>::tell(const Observer& observer, double h) {
   for (int k = 0; k <= N + 2; ++k, power *= h) {
     for (int i = 0; i < n_; ++i) {
       step.q(i, k) = lane(term(k)[i], 0) * power;
-      if (k <= N + 1) step.v(i, k) = lane(term(k)[n_ + i], 0) * power;
+      if (k <= N + 1) step.v(i, k) = (k + 1) * lane(term(k + 1)[i], 0) * power;
     }
   }
   step.contacts = contacts_of(0);

@@ -79,45 +79,41 @@ HWY_ATTR P Engine<P>::limit_for_tangents(const P& h) {
   return min(h, P(t.reach) / sqrt(max(square, P(1e-200))));
 }
 
-/// Coefficients k + 1 of both columns, from their coefficients k and the forces of contacts.
+/// Coefficient k of the acceleration of both columns.
 template <class P>
-HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces) {
+template <int Bodies>
+HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces, P* to_a, P* to_b) {
   auto& [first, second] = tangents_->tracks;
-  const size_t size = 2 * static_cast<size_t>(n_);
-  const P *a = first.terms.data() + static_cast<size_t>(k) * size,
-          *b = second.terms.data() + static_cast<size_t>(k) * size;
-  P *next_a = first.terms.data() + static_cast<size_t>(k + 1) * size,
-    *next_b = second.terms.data() + static_cast<size_t>(k + 1) * size;
-  const P inverse = inverse_of<P>(k + 1);
-  for (int i = 0; i < n_; ++i) {
-    const auto ui = static_cast<size_t>(i);
-    const P stiffness = equations_.K[ui], damping = equations_.D[ui];
-    next_a[i] = a[n_ + i] * inverse;
-    next_b[i] = b[n_ + i] * inverse;
-    next_a[n_ + i] = fma(stiffness, a[i], damping * a[n_ + i]);
-    next_b[n_ + i] = fma(stiffness, b[i], damping * b[n_ + i]);
-  }
-  for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
-    P sum_a(0.0), sum_b(0.0);
-    const P* entry = equations_.A.data() + row.begin;
-    for (const int source : row.source) {
-      sum_a = fma(*entry, a[source], sum_a);
-      sum_b = fma(*entry, b[source], sum_b);
-      ++entry;
-    }
-    next_a[n_ + row.i] = next_a[n_ + row.i] + sum_a;
-    next_b[n_ + row.i] = next_b[n_ + row.i] + sum_b;
-  }
-  for (size_t c = 0; c < contacts_.size(); ++c, forces += 4) {
+  const int n = Bodies > 0 ? 2 * Bodies : n_;
+  const P *a = tangents_->term(first, k), *b = tangents_->term(second, k);
+  const P *rate_a = a + n, *rate_b = b + n, *kd = equations_.K.data(), *dd = equations_.D.data();
+  const P whole(k + 1.0);
+  each<2 * Bodies>(n, [&](int i) HWY_ATTR {
+    const P stiffness = kd[i], damping = whole * dd[i];
+    to_a[i] = -fma(stiffness, a[i], damping * rate_a[i]);
+    to_b[i] = -fma(stiffness, b[i], damping * rate_b[i]);
+  });
+  const size_t contacts = Bodies > 0 ? 1 : contacts_.size();
+  for (size_t c = 0; c < contacts; ++c, forces += 4) {
     const ContactLanes<P>& contact = contacts_[c];
     if ((contact.touching & active_) == 0) continue;
-    contact.push(next_a + n_, -forces[0], -forces[1]);
-    contact.push(next_b + n_, -forces[2], -forces[3]);
+    contact.template push<Bodies>(to_a, forces[0], forces[1]);
+    contact.template push<Bodies>(to_b, forces[2], forces[3]);
   }
-  const P minus = -inverse;
-  for (int i = n_; i < 2 * n_; ++i) {
-    next_a[i] = next_a[i] * minus;
-    next_b[i] = next_b[i] * minus;
+  if (Bodies > 0) return;
+  for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
+    P of_a(0.0), of_b(0.0), of_rate_a(0.0), of_rate_b(0.0);
+    const P* entry = equations_.A.data() + row.begin;
+    for (const int j : row.of_x) {
+      of_a = fma(*entry, a[j], of_a);
+      of_b = fma(*entry++, b[j], of_b);
+    }
+    for (const int j : row.of_rate) {
+      of_rate_a = fma(*entry, rate_a[j], of_rate_a);
+      of_rate_b = fma(*entry++, rate_b[j], of_rate_b);
+    }
+    to_a[row.i] = to_a[row.i] - fma(whole, of_rate_a, of_a);
+    to_b[row.i] = to_b[row.i] - fma(whole, of_rate_b, of_b);
   }
 }
 
@@ -139,9 +135,11 @@ HWY_ATTR void Engine<P>::move_tangents(const P& h) {
   const size_t size = 2 * static_cast<size_t>(n_);
   for (size_t c = 0; c < size; c += 2) {
     P* y = t.columns.data() + c * size;
-    column_series(y, any_sticks);
-    evaluate(t.tracks[0].terms.data(), h, y);
-    evaluate(t.tracks[1].terms.data(), h, y + size);
+    if (is_rotor_in_stator()) {
+      move_columns<2>(y, any_sticks, h);
+    } else {
+      move_columns<0>(y, any_sticks, h);
+    }
   }
 }
 
@@ -165,55 +163,64 @@ HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
   return -(integral * h);
 }
 
-/// Series of two columns from their start.
+/// Moves two columns, one after the other in memory; Bodies as in series_of.
 template <class P>
-HWY_ATTR void Engine<P>::column_series(const P* start, bool any_sticks) {
-  static constexpr auto forces_of =
-      table_of_slope_forces<P>(std::make_integer_sequence<int, P::most_terms>());
+template <int Bodies>
+HWY_ATTR void Engine<P>::move_columns(P* columns, bool any_sticks, const P& h) {
   auto& t = *tangents_;
   auto& [first, second] = t.tracks;
-  const size_t size = 2 * static_cast<size_t>(n_);
-  std::copy(start, start + size, first.terms.data());
-  std::copy(start + size, start + 2 * size, second.terms.data());
+  const int n = Bodies > 0 ? 2 * Bodies : n_;
+  const size_t contacts = Bodies > 0 ? 1 : contacts_.size();
+  std::copy(columns, columns + 2 * n, first.terms.data());
+  std::copy(columns + 2 * n, columns + 4 * n, second.terms.data());
+  P local_forces[4], local_a[Bodies > 0 ? 2 * Bodies : 1], local_b[Bodies > 0 ? 2 * Bodies : 1];
+  P* forces = Bodies > 0 ? local_forces : t.forces.data();
   for (int k = 0; k <= N; ++k) {
-    const P* now = first.terms.data() + static_cast<size_t>(k) * size;
-    const P* other = second.terms.data() + static_cast<size_t>(k) * size;
-    for (size_t i = 0; i < contacts_.size(); ++i) {
+    const P *now = t.term(first, k), *other = t.term(second, k);
+    std::fill(forces, forces + 4 * contacts, P(0.0));
+    for (size_t i = 0; i < contacts; ++i) {
       const ContactLanes<P>& c = contacts_[i];
       if ((c.touching & active_) == 0) continue;
       const ContactSlopes<P>& slopes = t.slopes[i];
       auto &u = first.contacts[i], &w = second.contacts[i];
-      c.displacement(now, u.dx[k], u.dy[k]);
-      c.displacement(other, w.dx[k], w.dy[k]);
-      P* forces = t.forces.data() + 4 * i;
-      std::fill(forces, forces + 4, P(0.0));
-      forces_of[static_cast<size_t>(k)](slopes.J, u.dx, u.dy, w.dx, w.dy, forces);
-      if (slopes.has_H) {
-        c.displacement(now + n_, u.vx[k], u.vy[k]);
-        c.displacement(other + n_, w.vx[k], w.vy[k]);
-        forces_of[static_cast<size_t>(k)](slopes.H, u.vx, u.vy, w.vx, w.vy, forces);
+      c.template displacement<Bodies>(now, u.dx[k], u.dy[k]);
+      c.template displacement<Bodies>(other, w.dx[k], w.dy[k]);
+      P* of_contact = forces + 4 * i;
+      add_slope_forces(slopes.J, u.dx, u.dy, w.dx, w.dy, k, of_contact);
+      if (Bodies == 0 && slopes.has_H) {
+        const P whole(k + 1.0);
+        for (auto [column, rate] : {std::pair(&u, now + n), std::pair(&w, other + n)}) {
+          P vx, vy;
+          c.displacement(rate, vx, vy);
+          column->vx[k] = whole * vx;
+          column->vy[k] = whole * vy;
+        }
+        add_slope_forces(slopes.H, u.vx, u.vy, w.vx, w.vy, k, of_contact);
       }
     }
-    accelerate_columns(k, t.forces.data());
-    if (!any_sticks) continue;
-    for (auto& track : t.tracks) stick_column(track, k, inverse_of<P>(k + 1));
+    P *next_a = t.term(first, k + 2), *next_b = t.term(second, k + 2);
+    P *to_a = Bodies > 0 ? local_a : next_a, *to_b = Bodies > 0 ? local_b : next_b;
+    accelerate_columns<Bodies>(k, forces, to_a, to_b);
+    if (Bodies == 0 && any_sticks) {
+      for (auto& track : t.tracks) stick_column(track, k);
+    }
+    const P scale(twice_integrated<P>(k));
+    each<2 * Bodies>(n, [&](int i) HWY_ATTR {
+      next_a[i] = to_a[i] * scale;
+      next_b[i] = to_b[i] * scale;
+    });
   }
-  for (auto& track : t.tracks) {
-    const P* top = track.terms.data() + static_cast<size_t>(N + 1) * size + n_;
-    P* last = track.terms.data() + static_cast<size_t>(N + 2) * size;
-    for (int i = 0; i < n_; ++i) last[i] = top[i] * P(Number(1.0) / Number(N + 2));
-  }
+  evaluate<Bodies>(first.terms.data(), h, columns);
+  evaluate<Bodies>(second.terms.data(), h, columns + 2 * n);
 }
 
 /// Change of the friction of sticking contacts, so that a column stays without slip:
 ///
 ///   d(d) x d'' + d x d(d'') + Omega R d(r)' = 0
 template <class P>
-HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k, const P& inverse) {
+HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k) {
   const size_t m = contacts_.size();
-  P* next = track.terms.data() + static_cast<size_t>(2 * (k + 1)) * static_cast<size_t>(n_);
-  P* acceleration = next + n_;
-  const P whole(k + 1.0);
+  P* acceleration = tangents_->term(track, k + 2);  // not yet integrated
   P ax, ay;
   work_.assign(m, P(0.0));
   for (size_t i = 0; i < m; ++i) {
@@ -226,8 +233,8 @@ HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k,
       fx = fnma(u.tau[j], c.dy[k - j], fx);
       fy = fma(u.tau[j], c.dx[k - j], fy);
     }
-    c.push(acceleration, fx * inverse, fy * inverse);
-    c.displacement(next, u.dx[k + 1], u.dy[k + 1]);
+    c.push(acceleration, fx, fy);
+    c.displacement(tangents_->term(track, k + 1), u.dx[k + 1], u.dy[k + 1]);
     if (k == 0) u.r[0] = fma(c.dx[0], u.dx[0], c.dy[0] * u.dy[0]) / c.r[0];
     P along(0.0);
     for (int j = 0; j <= k + 1; ++j) {
@@ -241,10 +248,10 @@ HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k,
     if ((c.sticking & active_) == 0) continue;
     auto& u = track.contacts[i];
     c.displacement(acceleration, ax, ay);
-    P sum = fma(c.dx[0], whole * ay, -(c.dy[0] * (whole * ax)));
+    P sum = fma(c.dx[0], ay, -(c.dy[0] * ax));
     for (int j = 1; j <= k; ++j) sum = fma(c.dx[j], u.ay[k - j], fnma(c.dy[j], u.ax[k - j], sum));
     for (int j = 0; j <= k; ++j) sum = fma(u.dx[j], c.ay[k - j], fnma(u.dy[j], c.ax[k - j], sum));
-    sum = fma(c.rim, whole * u.r[k + 1], sum);
+    sum = fma(c.rim, P(k + 1.0) * u.r[k + 1], sum);
     work_[i] = select(mask_of<P>(c.sticking), sum, P(0.0));
   }
   solve_influence();
@@ -253,14 +260,12 @@ HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k,
     if ((c.sticking & active_) == 0) continue;
     const P tau = work_[i];
     track.contacts[i].tau[k] = tau;
-    c.push(acceleration, -(tau * c.dy[0]) * inverse, tau * c.dx[0] * inverse);
+    c.push(acceleration, -(tau * c.dy[0]), tau * c.dx[0]);
   }
   for (size_t i = 0; i < m; ++i) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.sticking & active_) == 0) continue;
-    c.displacement(acceleration, ax, ay);
-    track.contacts[i].ax[k] = whole * ax;
-    track.contacts[i].ay[k] = whole * ay;
+    c.displacement(acceleration, track.contacts[i].ax[k], track.contacts[i].ay[k]);
   }
 }
 

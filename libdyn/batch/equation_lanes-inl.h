@@ -40,11 +40,9 @@ struct EquationLanes {
       set_lane(fs[ui], l, s.sine_load()(i));
     }
     for (const Pattern::OffDiagonal& row : pattern.off_diagonal) {
-      for (size_t e = 0; e < row.source.size(); ++e) {
-        const int j = row.source[e];
-        set_lane(A[static_cast<size_t>(row.begin) + e], l,
-                 j < n ? s.K()(row.i, j) : s.D()(row.i, j - n));
-      }
+      P* entry = A.data() + row.begin;
+      for (const int j : row.of_x) set_lane(*entry++, l, s.K()(row.i, j));
+      for (const int j : row.of_rate) set_lane(*entry++, l, s.D()(row.i, j));
     }
   }
 };

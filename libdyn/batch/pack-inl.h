@@ -48,6 +48,14 @@ struct alignas(8 * L) Pack {
   Register v[B];
 
   Pack() = default;
+  // register by register: g++ 12 would copy halves of registers through the stack
+  HWY_ATTR Pack(const Pack& other) {
+    for (int b = 0; b < B; ++b) v[b] = other.v[b];
+  }
+  HWY_ATTR Pack& operator=(const Pack& other) {
+    for (int b = 0; b < B; ++b) v[b] = other.v[b];
+    return *this;
+  }
   HWY_ATTR Pack(double x) {
     for (int b = 0; b < B; ++b) v[b] = hn::Set(D(), x);
   }

@@ -13,13 +13,33 @@ void insert(std::vector<int>& sorted, int value) {
   if (place == sorted.end() || *place != value) sorted.insert(place, value);
 }
 
+int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
+  if (p.contacts.size() != 1 || p.contacts[0].has_rate || p.off_diagonals > 0) return 0;
+  for (const ContactSystem* s : systems) {
+    for (int i = 2; i < p.n; ++i) {
+      if (s->cosine_load()(i) != 0.0 || s->sine_load()(i) != 0.0) return 0;
+    }
+  }
+  const int bodies = p.n / 2;
+  std::vector<int> of_x, of_y;
+  for (int i = 0; i < bodies; ++i) {
+    of_x.push_back(2 * i);
+    of_y.push_back(2 * i + 1);
+  }
+  const Pattern::ContactRows& c = p.contacts[0];
+  const bool fits = p.n == 2 * bodies && c.of_x == of_x && c.pushed_by_x == of_x &&
+                    c.of_y == of_y && c.pushed_by_y == of_y;
+  return fits ? bodies : 0;
+}
+
 }  // namespace
 
 Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
   Pattern p;
   if (systems.empty()) return p;
   p.n = systems.front()->coordinates();
-  std::vector<std::vector<int>> off(static_cast<std::size_t>(p.n));
+  p.off_diagonal.resize(static_cast<std::size_t>(p.n));
+  for (int i = 0; i < p.n; ++i) p.off_diagonal[static_cast<std::size_t>(i)].i = i;
   p.contacts.resize(systems.front()->contacts().size());
   for (std::size_t c = 0; c < p.contacts.size(); ++c) {
     p.contacts[c].law = systems.front()->contacts()[c].law.index();
@@ -29,11 +49,11 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
       throw NumericalError(
           "the systems of a batch must have equal numbers of coordinates and contacts");
     }
-    for (int i = 0; i < p.n; ++i) {
+    for (OffDiagonal& row : p.off_diagonal) {
       for (int j = 0; j < p.n; ++j) {
-        if (j == i) continue;
-        if (s->K()(i, j) != 0.0) insert(off[static_cast<std::size_t>(i)], j);
-        if (s->D()(i, j) != 0.0) insert(off[static_cast<std::size_t>(i)], p.n + j);
+        if (j == row.i) continue;
+        if (s->K()(row.i, j) != 0.0) insert(row.of_x, j);
+        if (s->D()(row.i, j) != 0.0) insert(row.of_rate, j);
       }
     }
     for (std::size_t c = 0; c < p.contacts.size(); ++c) {
@@ -60,13 +80,13 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     if (rows.of_x.empty()) rows.of_x.push_back(0);
     if (rows.of_y.empty()) rows.of_y.push_back(0);
   }
-  for (int i = 0; i < p.n; ++i) {
-    std::vector<int>& sources = off[static_cast<std::size_t>(i)];
-    if (sources.empty()) continue;
-    const int begin = p.off_diagonals;
-    p.off_diagonals += static_cast<int>(sources.size());
-    p.off_diagonal.push_back({i, begin, std::move(sources)});
+  std::erase_if(p.off_diagonal,
+                [](const OffDiagonal& row) { return row.of_x.empty() && row.of_rate.empty(); });
+  for (OffDiagonal& row : p.off_diagonal) {
+    row.begin = p.off_diagonals;
+    p.off_diagonals += static_cast<int>(row.of_x.size() + row.of_rate.size());
   }
+  p.bodies = bodies_in(p, systems);
   return p;
 }
 

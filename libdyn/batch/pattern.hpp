@@ -10,11 +10,11 @@ namespace whirl {
 
 /// Where the nonzero coefficients of the equations of motion are.
 struct Pattern {
-  /// Coefficients of [K D] beside the diagonals of both, of one row.
+  /// Coefficients of K and D beside their diagonals, of one row.
   struct OffDiagonal {
     int i = 0;
-    int begin = 0;            ///< of this row among all of them
-    std::vector<int> source;  ///< columns of [K D]
+    int begin = 0;                   ///< of this row among all of them, K before D
+    std::vector<int> of_x, of_rate;  ///< columns of K, of D
   };
   struct ContactRows {
     std::vector<int> of_x, of_y;                ///< coordinates that move the contact in x, in y
@@ -29,6 +29,11 @@ struct Pattern {
   std::vector<OffDiagonal> off_diagonal;  ///< rows that have any
   int off_diagonals = 0;                  ///< coefficients in all of them
   std::vector<ContactRows> contacts;
+
+  /// How many bodies there are, where the coordinates are their (x, y), the first alone is out of
+  /// balance, and nothing couples them but a contact that all are in, whose law does not know the
+  /// rate of the depth; else 0.
+  int bodies = 0;
 
   /// @throws NumericalError  if the systems differ in coordinates, contacts or kinds of laws
   static Pattern of(std::span<const ContactSystem* const> systems);

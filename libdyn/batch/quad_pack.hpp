@@ -18,6 +18,7 @@ struct QuadPack {
     bool m;
   };
   using Number = __float128;
+  static constexpr int blocks = 1;
   static constexpr bool is_double = false;
   /// M_PIq in parts that are doubles: its literal is no standard C++.
   static constexpr Number pi =

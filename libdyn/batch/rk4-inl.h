@@ -144,7 +144,8 @@ class Rk4Lanes {
     }
     for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
       const P* factor = e.A.data() + row.begin;
-      for (const int source : row.source) a[row.i] = fnma(*factor++, y[source], a[row.i]);
+      for (const int j : row.of_x) a[row.i] = fnma(*factor++, y[j], a[row.i]);
+      for (const int j : row.of_rate) a[row.i] = fnma(*factor++, y[n_ + j], a[row.i]);
     }
     for (const ContactLanes<P>& c : contacts_) push(c, y, a);
   }

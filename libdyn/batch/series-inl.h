@@ -18,6 +18,20 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
+/// Calls f(i) for i = 0 to Count - 1, written out so that what i indexes can stay in registers; with
+/// Count = 0 for i = 0 to n - 1, in a loop.
+template <int Count, class F>
+HWY_ATTR inline void each(int n, F&& f) {
+  if constexpr (Count == 0) {
+    for (int i = 0; i < n; ++i) f(i);
+  } else {
+    [&]<int... i>(std::integer_sequence<int, i...>) HWY_ATTR {
+      (f(i), ...);
+    }
+    (std::make_integer_sequence<int, Count>());
+  }
+}
+
 /// 1 / k for the orders of a series, as exact as the numbers of a pack.
 template <class P>
 inline typename P::Number inverse_of(int k) {
@@ -25,6 +39,18 @@ inline typename P::Number inverse_of(int k) {
     std::array<typename P::Number, P::most_terms> t{};
     for (int i = 1; i < P::most_terms; ++i) {
       t[static_cast<size_t>(i)] = typename P::Number(1.0) / typename P::Number(i);
+    }
+    return t;
+  }();
+  return table[static_cast<size_t>(k)];
+}
+/// 1 / ((k + 1) (k + 2)): coefficient k + 2 of x per coefficient k of x''.
+template <class P>
+inline typename P::Number twice_integrated(int k) {
+  static constexpr auto table = [] {
+    std::array<typename P::Number, P::most_terms> t{};
+    for (int i = 0; i < P::most_terms; ++i) {
+      t[static_cast<size_t>(i)] = typename P::Number(1.0) / typename P::Number((i + 1) * (i + 2));
     }
     return t;
   }();

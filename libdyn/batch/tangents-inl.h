@@ -40,37 +40,36 @@ struct Tangents {
     std::vector<Column> contacts;
   };
   std::array<Track, 2> tracks;
+  /// Coefficient k of a track.
+  HWY_ATTR inline P* term(Track& track, int k) const {
+    return track.terms.data() + static_cast<size_t>(k) * weights.size() / 2;
+  }
   std::vector<P> forces;    ///< of contacts on both tracks, x and y of each
   std::vector<P> weighted;  ///< a column times its weights
 };
 
-/// Adds coefficient K of m times two displacements (or velocities), newest terms last.
+/// Adds coefficient k of m times two displacements (or velocities), newest terms last.
 ///
 /// @param u, w  x and y of the first and the second column
 /// @param sums  x and y of the first, x and y of the second
-template <int K, class P>
-HWY_ATTR void slope_forces(const SeriesMatrix<P>& m, const P* ux, const P* uy, const P* wx,
-                           const P* wy, P* sums) {
+template <class P>
+HWY_ATTR inline void add_slope_forces(const SeriesMatrix<P>& m, const P* ux, const P* uy,
+                                      const P* wx, const P* wy, int k, P* sums) {
   P a(0.0), b(0.0), c(0.0), d(0.0), e(0.0), f(0.0), g(0.0), h(0.0);
-#pragma GCC unroll 32
-  for (int j = K; j >= 0; --j) {
-    a = fma(m.xx[j], ux[K - j], a);
-    b = fma(m.xy[j], uy[K - j], b);
-    c = fma(m.yx[j], ux[K - j], c);
-    d = fma(m.yy[j], uy[K - j], d);
-    e = fma(m.xx[j], wx[K - j], e);
-    f = fma(m.xy[j], wy[K - j], f);
-    g = fma(m.yx[j], wx[K - j], g);
-    h = fma(m.yy[j], wy[K - j], h);
+  for (int j = k; j >= 0; --j) {
+    a = fma(m.xx[j], ux[k - j], a);
+    b = fma(m.xy[j], uy[k - j], b);
+    c = fma(m.yx[j], ux[k - j], c);
+    d = fma(m.yy[j], uy[k - j], d);
+    e = fma(m.xx[j], wx[k - j], e);
+    f = fma(m.xy[j], wy[k - j], f);
+    g = fma(m.yx[j], wx[k - j], g);
+    h = fma(m.yy[j], wy[k - j], h);
   }
   sums[0] = sums[0] + (a + b);
   sums[1] = sums[1] + (c + d);
   sums[2] = sums[2] + (e + f);
   sums[3] = sums[3] + (g + h);
-}
-template <class P, int... K>
-constexpr auto table_of_slope_forces(std::integer_sequence<int, K...>) {
-  return std::array{&slope_forces<K, P>...};
 }
 
 }  // namespace HWY_NAMESPACE

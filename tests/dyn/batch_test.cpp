@@ -31,11 +31,19 @@ test::Trajectories random_rotors(int size, bool are_damped = false) {
   return sample;
 }
 
+bool is_same(const std::vector<ContactMeasure>& a, const std::vector<ContactMeasure>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.duty == y.duty && x.sticking == y.sticking && x.impacts == y.impacts &&
+           x.max_normal == y.max_normal && x.max_tangential == y.max_tangential;
+  });
+}
+
 bool is_same(const Trajectory& a, const Trajectory& b) {
   return a.state.y == b.state.y && a.state.revolution == b.state.revolution &&
          a.state.phase == b.state.phase && a.state.contacts == b.state.contacts &&
          a.outcome == b.outcome && a.cost.steps == b.cost.steps && a.cost.events == b.cost.events &&
-         a.sections == b.sections && a.exponents == b.exponents && a.tangent == b.tangent;
+         a.sections == b.sections && is_same(a.contacts, b.contacts) &&
+         a.exponents == b.exponents && a.tangent == b.tangent;
 }
 
 void expect_same_as_alone(const test::Trajectories& sample, const BatchOptions& options) {
@@ -60,6 +68,26 @@ TEST(Batch, GivesEachTrajectoryWhatItIsAloneWithDampedContacts) {
 }
 TEST(Batch, GivesEachTrajectoryItsExponents) {
   expect_same_as_alone(random_rotors(20), {.tolerance = 1e-8, .exponents = true});
+}
+
+// Rolling, sliding and smoothly sliding lanes side by side compute their forces in different ways.
+TEST(Batch, GivesEachTrajectoryWhatItIsAloneAmongSlidingAndStickingOnes) {
+  test::Trajectories sample;
+  for (int i = 0; i < 18; ++i) {
+    RotorStator p{.kC = 30e6, .mu = i % 2 == 0 ? 0.05 : 0.5, .R = 0.01};
+    if (i % 3 == 0) p.slip_tolerance = 0.05;
+    Trajectory& t = sample.add(p, 20 + i);
+    const double backward = p.Omega * p.R;  // velocity without slip
+    t.state = test::state_of((Vec(8) << p.gap + 2e-4, 0, 0, 0, 0, -backward, 0, 0).finished());
+  }
+  std::vector<Trajectory> batch = sample.all;
+  integrate_batch(batch, {.measures = true});
+  const auto sticks = [](const Trajectory& t) { return t.contacts[0].sticking > 0.0; };
+  const auto sticking = std::count_if(batch.begin(), batch.end(), sticks);
+  EXPECT_GT(sticking, 3);
+  EXPECT_LT(sticking, 13);
+  expect_same_as_alone(sample, {.sections = true, .measures = true});
+  expect_same_as_alone(sample, {.tolerance = 1e-8, .exponents = true});
 }
 
 TEST(Batch, DoesNotDependOnTheOrderOfTrajectoriesNorOnThreads) {

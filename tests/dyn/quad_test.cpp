@@ -141,14 +141,15 @@ TEST(Quad, GoesOnWithAllDigits) {
   EXPECT_LT(distance(parts, whole), 1e-28);
 }
 
-// The tangent comes from the same template: it agrees with that of double.
+// The tangent comes from the same template: it agrees with that of double, whose state is rounded to
+// 1e-14 of the length scale, which turns the tangent by a thousand times as much.
 TEST(Quad, CarriesTangents) {
   const Motion motion(test::P1);
-  BatchOptions options{.tolerance = 1e-15, .tangent = true};
+  const BatchOptions options{.tolerance = 1e-16, .order = 12, .tangent = true};
   const Trajectory quad = motion.quad(options, 1);
   Trajectory t{.system = &motion.scene.contacts, .state = motion.start, .revolutions = 1};
   integrate_single(t, options);
-  EXPECT_LT((quad.tangent - t.tangent).norm(), 1e-12 * t.tangent.norm());
+  EXPECT_LT((quad.tangent - t.tangent).norm(), 1e-11 * t.tangent.norm());
 }
 
 }  // namespace

@@ -104,6 +104,10 @@ struct Bad {
   const char* problem;
 };
 
+void PrintTo(const Bad& bad, std::ostream* out) {
+  *out << bad.text << " as " << bad.si_unit;
+}
+
 class BadQuantity : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadQuantity, IsExplained) {
