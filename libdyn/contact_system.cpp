@@ -1,12 +1,11 @@
 #include "libdyn/contact_system.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -50,7 +49,7 @@ double sliding_friction(const ReducedContact& c, const ContactState& state,
 ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
                              const std::vector<Contact>& contacts)
     : Omega_(reduced.Omega) {
-  const Eigen::PartialPivLU<Mat> mass(reduced.M);
+  const DenseLu<Mat> mass(reduced.M);
   K_ = mass.solve(reduced.K);
   D_ = mass.solve(reduced.D());
   const Mat back = reduced.dofs.T * reduced.Phi;  // full displacement of each coordinate
@@ -77,8 +76,7 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
 
   // scales: clearances, else what the loads do
   if (contacts_.empty()) {
-    const Eigen::ColPivHouseholderQR<Mat> stiffness(K_);
-    const Vec sag = stiffness.solve(f0_);
+    const Vec sag = least_squares(K_, f0_);
     const double turn = phase_rate();
     const double size = std::max({(back * sag).cwiseAbs().maxCoeff(),
                                   (back * fc_).cwiseAbs().maxCoeff() / (turn * turn),
@@ -153,7 +151,7 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
       influence(j, k) = f.t().dot(contacts_[ij].U * (contacts_[ik].B * out[ik].t()));
     }
   }
-  const Vec T = influence.partialPivLu().solve(slip_rate);
+  const Vec T = DenseLu<Mat>(influence).solve(slip_rate);
   for (Eigen::Index j = 0; j < m; ++j) {
     out[static_cast<std::size_t>(sticking[static_cast<std::size_t>(j)])].friction = T(j);
   }

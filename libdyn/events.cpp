@@ -1,8 +1,9 @@
 #include "libdyn/events.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -25,7 +26,7 @@ struct Interpolation {
       s(i) = 0.5 * (1.0 - std::cos(std::numbers::pi * i / (samples - 1)));
       for (int k = 0; k < samples; ++k) powers(i, k) = std::pow(s(i), k);
     }
-    to_powers = powers.inverse();
+    to_powers = DenseLu<Mat>(powers).solve(Mat::Identity(samples, samples));
   }
 };
 const Interpolation& interpolation() {

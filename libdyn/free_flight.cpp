@@ -1,12 +1,11 @@
 #include "libdyn/free_flight.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
+
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -22,7 +21,7 @@ std::optional<Mat> periodic_motion(const ContactSystem& system) {
   const double w = system.phase_rate();
   Mat y = Mat::Zero(2 * n, 3);
   if (!system.constant_load().isZero(0.0)) {
-    const Eigen::PartialPivLU<Mat> K(system.K());
+    const DenseLu<Mat> K(system.K());
     if (!(K.rcond() > resonant)) return std::nullopt;
     y.col(0).head(n) = K.solve(system.constant_load());
   }
@@ -30,7 +29,7 @@ std::optional<Mat> periodic_motion(const ContactSystem& system) {
     // (K - w^2 + i w D) q = fc - i fs, eta = Re(q e^(i phase))
     const CMat dynamic = (system.K() - w * w * Mat::Identity(n, n)).cast<Complex>() +
                          Complex(0.0, w) * system.D().cast<Complex>();
-    const Eigen::PartialPivLU<CMat> lu(dynamic);
+    const DenseLu<CMat> lu(dynamic);
     if (!(lu.rcond() > resonant)) return std::nullopt;
     const CVec q = lu.solve(system.cosine_load().cast<Complex>() -
                             Complex(0.0, 1.0) * system.sine_load().cast<Complex>());
@@ -94,19 +93,19 @@ void FreeFlight::prepare() {
   const auto P = lyapunov(first_order_matrix(system_), Q);
   if (!P) return;
   P_ = 0.5 * (*P + P->transpose());
-  const Eigen::LLT<Mat> cholesky(P_);
-  if (cholesky.info() != Eigen::Success) return;
+  if (!(symmetric_modes(P_).values(0) > 0.0)) return;
+  const DenseLu<Mat> factors(P_);
   decays_ = true;
   for (const ReducedContact& c : system_.contacts()) {
     Mat rows = Mat::Zero(2 * n, 2);
     rows.topRows(n) = c.U.transpose();
-    const Mat2 spread = rows.transpose() * cholesky.solve(rows);
-    const Eigen::SelfAdjointEigenSolver<Mat2> reach(spread);
+    const Mat spread = rows.transpose() * factors.solve(rows);
+    const double reach = symmetric_modes(0.5 * (spread + spread.transpose())).values(1);
     const double left =
         careful * c.clearance - largest_radius(c.U * periodic_.col(0).head(n) - c.offset,
                                                c.U * periodic_.col(1).head(n),
                                                c.U * periodic_.col(2).head(n));
-    room_.push_back(left > 0.0 ? careful * left * left / reach.eigenvalues()(1) : -1.0);
+    room_.push_back(left > 0.0 ? careful * left * left / reach : -1.0);
   }
 }
 

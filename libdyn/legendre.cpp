@@ -1,8 +1,9 @@
 #include "libdyn/legendre.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -62,7 +63,7 @@ Mat values_to_legendre(const Vec& nodes) {
   const auto n = static_cast<int>(nodes.size());
   Mat values(n, n);
   for (int i = 0; i < n; ++i) values.row(i) = legendre(nodes(i), n).transpose();
-  return values.partialPivLu().inverse();
+  return DenseLu<Mat>(values).solve(Mat::Identity(n, n));
 }
 
 Vec chebyshev_points(int points) {

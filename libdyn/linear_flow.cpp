@@ -1,8 +1,8 @@
 #include "libdyn/linear_flow.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -44,7 +44,8 @@ Mat first_order_matrix(const ContactSystem& system) {
 }
 
 double contact_gain(const ReducedContact& contact) {
-  return Eigen::JacobiSVD<Mat2>(contact.U * contact.B).singularValues()(0);
+  const Mat G = contact.U * contact.B;
+  return std::sqrt(symmetric_modes(G.transpose() * G).values(1));
 }
 
 double contact_frequency(const ContactSystem& system) {
@@ -58,7 +59,7 @@ double contact_frequency(const ContactSystem& system) {
 }
 
 double fastest_mode(const ContactSystem& system) {
-  return first_order_matrix(system).eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(first_order_matrix(system)).cwiseAbs().maxCoeff();
 }
 
 LinearFlow::LinearFlow(const ContactSystem& system, double longest, int terms)

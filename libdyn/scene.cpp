@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/static.hpp"
@@ -82,7 +82,7 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
 
   // the coordinates whose motion is nearest to a given one in kinetic energy
   const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
-  const Eigen::PartialPivLU<Mat> mass(scene.reduced.M);
+  const DenseLu<Mat> mass(scene.reduced.M);
   const auto coordinates = [&](const Vec& q) -> Vec { return mass.solve(weighted * q); };
 
   switch (model.start.from) {
@@ -91,7 +91,7 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
     case StartFrom::equilibrium:
       if (model.structure.gravity != 0.0) {
         require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
-        state.y.head(n) = scene.contacts.K().partialPivLu().solve(scene.contacts.constant_load());
+        state.y.head(n) = DenseLu<Mat>(scene.contacts.K()).solve(scene.contacts.constant_load());
       }
       break;
     case StartFrom::file: {
@@ -104,7 +104,7 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
       }
       // full vectors to the system's coordinates by least squares (T has full column rank)
       const Mat dense_T(T);
-      const Eigen::PartialPivLU<Mat> normal(dense_T.transpose() * dense_T);
+      const DenseLu<Mat> normal(dense_T.transpose() * dense_T);
       state.y.head(n) = coordinates(normal.solve(dense_T.transpose() * end->displacement));
       state.y.tail(n) = coordinates(normal.solve(dense_T.transpose() * end->velocity));
       break;

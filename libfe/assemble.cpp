@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
+#include "libfe/eigen/sparse_lu.hpp"
 #include "libfe/elements/beam.hpp"
 #include "libfe/elements/body.hpp"
 #include "libfe/elements/connection.hpp"
@@ -188,8 +188,8 @@ Sparse condensation(const Sparse& K, const std::vector<int>& condensed) {
   Sparse Kss(ns, ns), Ksk(ns, kept);
   Kss.setFromTriplets(ss.begin(), ss.end());
   Ksk.setFromTriplets(sk.begin(), sk.end());
-  Eigen::SparseLU<Sparse> solver(Kss);
-  if (solver.info() != Eigen::Success) {
+  const SparseLu solver(Kss);
+  if (!solver.is_regular()) {
     throw NumericalError(
         "some freedoms have neither inertia nor stiffness: give a massless part of the shaft "
         "a density, or a massless body a mass or a support");

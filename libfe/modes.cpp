@@ -1,6 +1,5 @@
 #include "libfe/modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
 #include "libfe/eigen/quadratic.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
@@ -75,9 +75,9 @@ void separate_planes(QuadraticModes& modes, const DofMap& dofs) {
     const CMat A = dofs.T * q;
     const CMat difference = A.adjoint() * plane.cast<Complex>().asDiagonal() * A;
     const CMat sum = A.adjoint() * plane.cwiseAbs().cast<Complex>().asDiagonal() * A;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<CMat> planes(difference, sum);
-    if (planes.info() != Eigen::Success) continue;
-    const CMat turned = q * planes.eigenvectors().rowwise().reverse();
+    const auto planes = hermitian_modes(difference, sum);
+    if (!planes) continue;
+    const CMat turned = q * planes->vectors.rowwise().reverse();
     modes.q(Eigen::all, equal) = turned.colwise().normalized();
   }
 }

@@ -1,14 +1,13 @@
 #include "libfe/reduce.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/quadratic.hpp"
+#include "libfe/eigen/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/modes.hpp"
 
@@ -48,9 +47,8 @@ Mat static_shapes(const Sparse& K, const Sparse& M, const std::vector<Vec>& rows
     const double flexible = modes.first_flexible();  // 0: nothing deforms, K = 0
     A = K + (flexible > 0.0 ? 0.09 * flexible * flexible : 1.0) * M;
   }
-  const Eigen::SparseLU<Sparse> solver(A);
-  if (solver.info() != Eigen::Success)
-    throw NumericalError("static shapes: the stiffness is singular");
+  const SparseLu solver(A);
+  if (!solver.is_regular()) throw NumericalError("static shapes: the stiffness is singular");
   return solver.solve(loads);
 }
 
@@ -78,11 +76,11 @@ ReducedSystem project(const System& system, const Mat& basis) {
   if (basis.cols() == 0) throw NumericalError("the reduction has no shape: nothing oscillates");
   const Mat M = basis.transpose() * (system.M * basis);
   const Mat K = basis.transpose() * (system.K * basis);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> ritz(0.5 * (K + K.transpose()), M);
-  if (ritz.info() != Eigen::Success) {
+  const auto ritz = symmetric_modes(0.5 * (K + K.transpose()), M);
+  if (!ritz) {
     throw NumericalError("the basis of the reduction has no inertia in some direction");
   }
-  Mat Phi = basis * ritz.eigenvectors();
+  Mat Phi = basis * ritz->vectors;
   for (Eigen::Index j = 0; j < Phi.cols(); ++j) {
     Eigen::Index largest = 0;
     Phi.col(j).cwiseAbs().maxCoeff(&largest);
@@ -137,7 +135,7 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
     if (!is_regular) continue;
     const CMat Z = (reduced.K - w * w * reduced.M).cast<Complex>() +
                    Complex(0.0, w) * reduced.D().cast<Complex>();
-    const CMat approximate = small_rows.transpose() * Z.partialPivLu().solve(small_rows);
+    const CMat approximate = small_rows.transpose() * DenseLu<CMat>(Z).solve(small_rows);
     // at an antiresonance the static receptance is the measure, not the vanishing one
     if (static_size == 0.0) static_size = exact.norm();
     error.receptance =

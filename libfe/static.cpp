@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseLU>
-
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl {
@@ -39,8 +38,8 @@ StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {
   require_supports(assembler, Omega, "the static sag needs");
   const System system = assembler.uncondensed(Omega);
   const Vec load = assembler.gravity_load();
-  const Eigen::SparseLU<Sparse> solver(system.K);
-  if (solver.info() != Eigen::Success) {
+  const SparseLu solver(system.K);
+  if (!solver.is_regular()) {
     throw NumericalError("the stiffness is singular at this speed");
   }
   const Vec q = solver.solve(Vec(system.dofs.T.transpose() * load));

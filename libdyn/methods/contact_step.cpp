@@ -1,11 +1,11 @@
 #include "libdyn/methods/contact_step.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "libdyn/legendre.hpp"
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -243,7 +243,7 @@ bool ContactStep::newton(const MotionState& from) {
   const double h = size(rung_);
   Mat J(2 * terms * m, 2 * terms * m);
   Vec r(2 * terms * m);
-  Eigen::PartialPivLU<Mat> lu;
+  std::optional<DenseLu<Mat>> lu;
   double before = std::numeric_limits<double>::infinity();
   bool has_jacobian = false;
   if (!a_.allFinite()) a_.setZero();
@@ -298,9 +298,9 @@ bool ContactStep::newton(const MotionState& from) {
         }
       }
     }
-    if (renew) lu.compute(J);
+    if (renew) lu.emplace(J);
     has_jacobian = true;
-    const Vec change = lu.solve(r);
+    const Vec change = lu->solve(r);
     double size_of_change = change.cwiseAbs().maxCoeff(), effect = 0.0;
     if (!std::isfinite(size_of_change)) return false;
     for (Eigen::Index p = 0; p < m; ++p) {

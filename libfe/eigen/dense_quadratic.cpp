@@ -1,8 +1,7 @@
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
 #include "libfe/eigen/quadratic.hpp"
 
 namespace whirl {
@@ -12,13 +11,13 @@ QuadraticModes dense_quadratic_modes(const Sparse& M, const Sparse& D, const Spa
   const auto n = M.rows();
   if (n == 0) return {};
   const Mat mass(M), damping(D);
-  const Eigen::PartialPivLU<Mat> stiffness(shift * shift * mass + shift * damping + Mat(K));
+  const DenseLu<Mat> stiffness(shift * shift * mass + shift * damping + Mat(K));
 
   // velocities are measured in a frequency typical of the lowest modes
   double scale = std::abs(shift);
   if (scale == 0.0) {
     Vec v = Vec::Ones(n);
-    for (int i = 0; i < 3; ++i) v = stiffness.solve(mass * v).normalized();
+    for (int i = 0; i < 3; ++i) v = Vec(stiffness.solve(mass * v)).normalized();
     scale = std::sqrt(std::abs(v.dot(K * v) / v.dot(mass * v)));
     if (!std::isfinite(scale) || scale == 0.0) scale = 1.0;
   }
@@ -28,12 +27,12 @@ QuadraticModes dense_quadratic_modes(const Sparse& M, const Sparse& D, const Spa
   inverse.bottomRows(n) = (shift / scale) * inverse.topRows(n);
   inverse.bottomLeftCorner(n, n).diagonal().array() += 1.0 / scale;
 
-  const Eigen::EigenSolver<Mat> solver(inverse);
-  if (solver.info() != Eigen::Success) {
+  const auto inverse_modes = general_modes(inverse);
+  if (!inverse_modes) {
     throw NumericalError("the dense eigenvalue iteration of the damped system did not converge");
   }
-  const CVec mu = solver.eigenvalues();
-  const CMat vectors = solver.eigenvectors();
+  const CVec mu = inverse_modes->values;
+  const CMat vectors = inverse_modes->vectors;
   const double infinite = 1e-14 * mu.cwiseAbs().maxCoeff();
   QuadraticModes modes{CVec(2 * n), CMat(n, 2 * n)};
   Eigen::Index kept = 0;

@@ -5,10 +5,10 @@
 #include <Spectra/SymGEigsSolver.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -26,10 +26,10 @@ HermitianModes dense(const Sparse& M, const Sparse& G, double g, const Sparse& K
   L.triangularView<Eigen::Lower>().solveInPlace(B);
   B.adjointInPlace();
   L.triangularView<Eigen::Lower>().solveInPlace(B);
-  const Eigen::SelfAdjointEigenSolver<CMat> solver(B);
-  CMat q = solver.eigenvectors().rowwise().reverse().leftCols(count);
+  const SymmetricModes<CMat> modes = hermitian_modes(B);
+  CMat q = modes.vectors.rowwise().reverse().leftCols(count);
   L.adjoint().triangularView<Eigen::Upper>().solveInPlace(q);
-  return {solver.eigenvalues().reverse().head(count), q};
+  return {modes.values.reverse().head(count), q};
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/quadratic.hpp"
+#include "libfe/eigen/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl {
@@ -22,9 +22,9 @@ class RealFactor {
     if (uses_ldlt_) {
       ldlt_.compute(A);
     } else {
-      lu_.compute(A);
+      lu_ = SparseLu(A);
     }
-    if ((uses_ldlt_ ? ldlt_.info() : lu_.info()) != Eigen::Success) {
+    if (uses_ldlt_ ? ldlt_.info() != Eigen::Success : !lu_.is_regular()) {
       throw NumericalError("the dynamic stiffness is singular at the shift of the eigensolver");
     }
   }
@@ -33,7 +33,7 @@ class RealFactor {
  private:
   bool uses_ldlt_ = false;
   Eigen::SimplicialLDLT<Sparse> ldlt_;
-  Eigen::SparseLU<Sparse> lu_;
+  SparseLu lu_;
 };
 
 /// (A - s I)^-1 of the state (q, p = q' / scale), on second-order matrices.

@@ -4,13 +4,13 @@
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -47,11 +47,11 @@ struct ShiftInvert {
 };
 
 RealModes dense_modes(const Sparse& K, const Sparse& M) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> solver{Mat(K), Mat(M)};
-  if (solver.info() != Eigen::Success || !solver.eigenvalues().allFinite()) {
+  const auto modes = symmetric_modes(Mat(K), Mat(M));
+  if (!modes) {
     throw NumericalError("the mass matrix is not positive definite: some freedoms lack inertia");
   }
-  return {solver.eigenvalues(), solver.eigenvectors(), 0};
+  return {modes->values, modes->vectors, 0};
 }
 
 /// First flexible omega^2 of a free system, by subspace iteration from above.
@@ -65,11 +65,11 @@ double estimate_first_flexible(const Sparse& K, const Sparse& M) {
   for (int it = 0; it < 40; ++it) {
     const Ldlt factor(Sparse(K + s * M));
     V = factor.solve(M * V);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> ritz{Mat(V.transpose() * (K * V)),
-                                                             Mat(V.transpose() * (M * V))};
-    V = V * ritz.eigenvectors();
+    const auto ritz = symmetric_modes(V.transpose() * (K * V), V.transpose() * (M * V));
+    if (!ritz) break;
+    V = V * ritz->vectors;
     // the largest gap between neighbors separates rigid from flexible
-    const Vec& theta = ritz.eigenvalues();
+    const Vec& theta = ritz->values;
     Eigen::Index first = 0;
     while (first + 1 < theta.size() &&
            std::abs(theta(first)) < rigid_share * theta(theta.size() - 1))

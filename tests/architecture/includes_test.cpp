@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace includes_test {
 
 namespace fs = std::filesystem;
 
@@ -92,4 +92,4 @@ TEST(Architecture, NoFileIsTooLong) {
   }
 }
 
-}  // namespace
+}  // namespace includes_test

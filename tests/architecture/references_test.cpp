@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace references_test {
 
 namespace fs = std::filesystem;
 const fs::path root = WHIRL_SOURCE_DIR;
@@ -74,4 +74,4 @@ TEST(References, EveryEntryIsCitedAndInItsPlace) {
   }
 }
 
-}  // namespace
+}  // namespace references_test

@@ -3,7 +3,7 @@
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
-namespace {
+namespace bad_call_test {
 
 class BadCall : public Program {
  protected:
@@ -255,5 +255,5 @@ TEST_F(BadCall, AStartNeedsAMotionThatFits) {
                   "the result has 2 freedoms, the model 4: they do not fit"));
 }
 
-}  // namespace
+}  // namespace bad_call_test
 }  // namespace whirl::test

@@ -9,7 +9,7 @@
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
-namespace {
+namespace bench_test {
 
 class Bench : public Program {
  protected:
@@ -172,5 +172,5 @@ TEST_F(Bench, RefusesWhatItCannotMeasure) {
   EXPECT_TRUE(has(outcome.err, "operation.speed")) << outcome.err;
 }
 
-}  // namespace
+}  // namespace bench_test
 }  // namespace whirl::test

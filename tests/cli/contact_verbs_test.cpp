@@ -8,7 +8,7 @@
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
-namespace {
+namespace contact_verbs_test {
 
 using namespace std::chrono_literals;
 
@@ -314,5 +314,5 @@ TEST_F(Interrupt, BeforeTheFirstRecordedRevolution) {
   EXPECT_EQ(file.vector("/trajectory/end_displacement").size(), 2);
 }
 
-}  // namespace
+}  // namespace contact_verbs_test
 }  // namespace whirl::test

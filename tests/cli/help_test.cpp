@@ -5,7 +5,7 @@
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
-namespace {
+namespace help_test {
 
 std::vector<std::string> all_verbs() {
   std::vector<std::string> verbs = model_verbs;
@@ -105,5 +105,5 @@ TEST_F(Help, EveryExampleRuns) {
   }
 }
 
-}  // namespace
+}  // namespace help_test
 }  // namespace whirl::test

@@ -6,7 +6,7 @@
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
-namespace {
+namespace linear_verbs_test {
 
 constexpr double m = 2.0, k = 2e4, c = 4.0, e = 1e-4, g = 9.81;  // of `jeffcott`
 constexpr double omega = 100.0, zeta = 0.01;
@@ -317,5 +317,5 @@ TEST_F(Linear, JsonToAFileLeavesTheTextAndQuietLeavesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace linear_verbs_test
 }  // namespace whirl::test

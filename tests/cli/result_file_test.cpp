@@ -9,7 +9,7 @@
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
-namespace {
+namespace result_file_test {
 
 class Results : public Program {
  protected:
@@ -276,5 +276,5 @@ TEST_F(Results, AMotionIsNotExportedOnAnotherRotor) {
   EXPECT_TRUE(has(outcome.err, "leave out --set")) << outcome.err;
 }
 
-}  // namespace
+}  // namespace result_file_test
 }  // namespace whirl::test

@@ -8,8 +8,7 @@
 
 #include "libcontact/contact.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::friction_test {
 
 // share = tanh(v_t / tolerance): odd, of slope 1 / tolerance at rest, one beyond a few tolerances.
 TEST(Friction, ThatIsSmoothedFollowsATanhOfTheSlip) {
@@ -52,5 +51,4 @@ TEST(Contact, RequiresItsClearance) {
   EXPECT_EQ(field.unit, "m");
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::friction_test

@@ -10,8 +10,7 @@
 #include <string>
 #include <type_traits>
 
-namespace whirl {
-namespace {
+namespace whirl::laws_test {
 
 constexpr double rounding = 1e-14;  // relative, of a few operations
 
@@ -151,5 +150,4 @@ TEST(AnyContactLaw, AnswersForTheLawItHolds) {
   EXPECT_EQ(is_continuous(any), law.is_continuous());
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::laws_test

@@ -9,8 +9,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::arkode_test {
 
 using test::RotorStator;
 
@@ -47,5 +46,4 @@ TEST(Arkode, KeepsItsOrderOverEvents) {
   EXPECT_NEAR(order(ArkodeDirk{}, test::P2, 2, steps), 5.0, 0.3);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::arkode_test

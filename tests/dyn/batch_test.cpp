@@ -11,8 +11,7 @@
 #include "libfe/base/error.hpp"
 #include "tests/support/trajectories.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::batch_test {
 
 using test::RotorStator;
 
@@ -204,5 +203,4 @@ TEST(Batch, OfNothingIsNothing) {
   integrate_batch({}, {});
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::batch_test

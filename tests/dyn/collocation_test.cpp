@@ -11,8 +11,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::collocation_test {
 
 using test::MassInRing;
 using test::order_of;
@@ -334,5 +333,4 @@ TEST(Collocation, TakesAnUnreducedModel) {
   EXPECT_LT((ring.U * (a.y - b.y).head(52)).norm(), 1e-9 * ring.clearance);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::collocation_test

@@ -11,8 +11,7 @@
 #include "libfe/base/error.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::contact_system_test {
 
 using test::MassInRing;
 using test::RotorStator;
@@ -287,5 +286,4 @@ TEST(ContactSystem, RefusesAContactAtAStationWithoutInertia) {
   EXPECT_NO_THROW(make_scene(model));
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::contact_system_test

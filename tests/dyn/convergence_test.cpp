@@ -9,8 +9,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::convergence_test {
 
 using test::MassInRing;
 using test::order_of;
@@ -173,5 +172,4 @@ TEST(Dop853, EndsStepsOnTheSurface) {
   EXPECT_NEAR(events, 200, 20);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::convergence_test

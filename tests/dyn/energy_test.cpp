@@ -10,8 +10,7 @@
 #include "libfe/base/quadrature.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::energy_test {
 
 using test::MassInRing;
 using test::RotorStator;
@@ -169,5 +168,4 @@ TEST(DampedContact, ReleasesAFreeMassAtTheVelocityOfItsClosedForm) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::energy_test

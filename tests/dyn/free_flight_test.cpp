@@ -9,8 +9,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::free_flight_test {
 
 using test::MassInRing;
 using test::RotorStator;
@@ -151,5 +150,4 @@ TEST(FreeFlight, GivesStepsToAnObserver) {
   EXPECT_LT(test::distance(scene.contacts, jump.y, seen.y), roundings);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::free_flight_test

@@ -12,8 +12,7 @@
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::hard_cases_test {
 
 using test::MassInRing;
 using test::pi;
@@ -283,5 +282,4 @@ TEST_P(HardCase, OverflowIsReportedWithTimeContactAndState) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::hard_cases_test

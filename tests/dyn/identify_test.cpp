@@ -10,8 +10,7 @@
 #include "libfe/campbell.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::identify_test {
 
 using test::rpm;
 using test::TwoDiskRub;
@@ -131,5 +130,4 @@ TEST(RatioOf, FindsSmallNumbers) {
   EXPECT_EQ(near.low, 1.0);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::identify_test

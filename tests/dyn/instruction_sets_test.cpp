@@ -11,8 +11,7 @@
 #include "libdyn/batch/batch.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::instruction_sets_test {
 
 /// Lets the engine see only one instruction set, until the end of its life.
 struct Only {
@@ -97,5 +96,4 @@ TEST(InstructionSets, GiveTheSameExponents) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::instruction_sets_test

@@ -9,8 +9,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::invariance_test {
 
 using test::RotorStator;
 
@@ -119,5 +118,4 @@ TEST(Invariance, TheOrderOfBodiesDoesNotMatter) {
   EXPECT_LT((a.y.segment<2>(2) - b.y.segment<2>(0)).norm(), accurate * test::P3.gap);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::invariance_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/trajectories.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::jeffcott_stator_test {
 
 using test::RotorStator;
 
@@ -95,5 +94,4 @@ TEST(JeffcottStator, FrictionTurnsChaosIntoOrderAndBack) {
   EXPECT_EQ(period_of(sections[1]), 1);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::jeffcott_stator_test

@@ -12,8 +12,7 @@
 #include "libfe/base/error.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::methods_test {
 
 using test::RotorStator;
 
@@ -142,5 +141,4 @@ TEST_P(EveryMethod, SaysWhatWentWrongWithAStateThatIsNoNumber) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::methods_test

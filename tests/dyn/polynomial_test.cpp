@@ -8,8 +8,7 @@
 #include <initializer_list>
 #include <random>
 
-namespace whirl {
-namespace {
+namespace whirl::polynomial_test {
 
 // A root is taken as reached at g = 1e-15: a root of multiplicity m lies within (1e-15)^(1/m) of
 // it.
@@ -224,5 +223,4 @@ TEST(FirstFall, OfRandomPolynomialsIsThatOfBruteForce) {
   EXPECT_GT(without, 1000);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::polynomial_test

@@ -6,8 +6,7 @@
 #include "libdyn/batch/batch.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::quad_test {
 
 using test::RotorStator;
 
@@ -152,5 +151,4 @@ TEST(Quad, CarriesTangents) {
   EXPECT_LT((quad.tangent - t.tangent).norm(), 1e-11 * t.tangent.norm());
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::quad_test

@@ -10,8 +10,7 @@
 #include "libdyn/batch/batch.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::rk4_batch_test {
 
 constexpr int size = 19;  // more than lanes
 
@@ -81,5 +80,4 @@ TEST(Rk4Batch, OfNothingIsNothing) {
   integrate_batch_rk4({}, {});
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::rk4_batch_test

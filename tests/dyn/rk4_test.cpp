@@ -11,8 +11,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::rk4_test {
 
 using test::order_of;
 using test::RotorStator;
@@ -117,5 +116,4 @@ TEST(Rk4, TakesItsStepsFromTheToleranceOrTheFixedStep) {
   EXPECT_EQ(steps({.fixed_step = period / 250.5, .method = Rk4{}}), 2 * 251);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::rk4_test

@@ -10,8 +10,7 @@
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::scene_test {
 
 using test::MassInRing;
 using test::rpm;
@@ -119,5 +118,4 @@ TEST(StartState, FromAResultIsWhereItEnded) {
   EXPECT_THROW(start_state(model, scene, &foreign), ModelError);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::scene_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::simulate_test {
 
 using test::MassInRing;
 using test::pi;
@@ -166,5 +165,4 @@ TEST(ContactMeasures, OfAWholeAreThoseOfItsParts) {
   EXPECT_NEAR(sum.impacts, parts[0].impacts + parts[1].impacts, 1.0);  // one may begin at the seam
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::simulate_test

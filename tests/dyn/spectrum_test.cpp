@@ -10,8 +10,7 @@
 #include "libdyn/response.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::spectrum_test {
 
 using test::MassInRing;
 using test::pi;
@@ -147,5 +146,4 @@ TEST(Response, SplitsALineIntoTwoCircles) {
   EXPECT_NEAR(spectra.total()(bin), 1e-4, 1e-15);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::spectrum_test

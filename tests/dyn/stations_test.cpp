@@ -10,8 +10,7 @@
 #include "libfe/base/error.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::stations_test {
 
 /// Two disks, bearings at the ends, a ring at the left disk, and a stator.
 Model model() {
@@ -73,5 +72,4 @@ TEST(Stations, ThatAreNotThereAreRefused) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::stations_test

@@ -7,8 +7,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::sticking_force_test {
 
 using test::RotorStator;
 
@@ -116,5 +115,4 @@ TEST(StickingForce, OfTwoContactsIsSolvedTogether) {
   EXPECT_GT(std::abs(together[0].friction - alone[0].friction), 1e-3 * alone[0].normal);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::sticking_force_test

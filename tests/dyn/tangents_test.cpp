@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "libdyn/batch/batch.hpp"
+#include "libfe/eigen/dense.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::tangents_test {
 
 using test::MassInRing;
 using test::RotorStator;
@@ -108,7 +108,7 @@ TEST(RollingTangent, IsTheLimitOfDifferencesAlongRollingMotions) {
 Vec floquet_exponents(const ContactSystem& system, const Mat& tangent) {
   const auto scale = system.state_scale().asDiagonal();
   const Mat scaled = scale.inverse() * tangent * scale;
-  Vec rates = scaled.eigenvalues().cwiseAbs().array().log() / system.period();
+  Vec rates = eigenvalues(scaled).cwiseAbs().array().log() / system.period();
   std::sort(rates.begin(), rates.end(), std::greater<>());
   return rates;
 }
@@ -192,5 +192,4 @@ TEST(Lyapunov, OfAWeaklyChaoticMotionDoesNotDependOnTheTolerance) {
   EXPECT_NEAR(largest[0], largest[1], 1e-2 * largest[1]);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::tangents_test

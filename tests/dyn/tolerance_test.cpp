@@ -8,8 +8,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::tolerance_test {
 
 using test::RotorStator;
 
@@ -134,5 +133,4 @@ TEST(Tolerance, CostsStepsAsTheOrderSays) {
   EXPECT_NEAR(test::order_of(tolerances, steps), 1.0 / 8.0, 0.02);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::tolerance_test

@@ -14,8 +14,7 @@
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::two_disk_mac_test {
 
 using test::rpm;
 using test::TwoDiskRub;
@@ -201,5 +200,4 @@ TEST(TwoDiskRub, WithTwoRingsWhirlsBackwardOrBouncesOnOneOfThem) {
   EXPECT_NEAR(bouncing.near(-9597.0).frequency / rpm, -9597.0, 1.0);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::two_disk_mac_test

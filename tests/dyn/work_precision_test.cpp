@@ -10,8 +10,7 @@
 #include "libfe/base/error.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::work_precision_test {
 
 constexpr long revolutions = 20;
 constexpr TimingOptions quick{.most_runs = 1, .most_time = 0.01};
@@ -157,5 +156,4 @@ TEST(WorkPrecision, KeepsFailures) {
   EXPECT_THROW(dop853_reference(p.scene.contacts, start, revolutions), NumericalError);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::work_precision_test

@@ -10,8 +10,7 @@
 #include "libfe/modes.hpp"
 #include "tests/support/reference_cases.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::acceptance_test {
 
 using test::Json;
 
@@ -79,5 +78,4 @@ TEST(Acceptance, ModesAsPublished) {
   EXPECT_GT(compared, 60);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::acceptance_test

@@ -2,16 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <complex>
 #include <limits>
 
+#include "libfe/eigen/dense.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::buckling_test {
 
 using test::pi;
 
@@ -40,13 +39,14 @@ Buckling buckling(const Structure& without, const Structure& with) {
   Buckling lowest;
   lowest.system = assemble(without, 0.0);
   const Mat K0 = lowest.system.K, K_load = Mat(assemble(with, 0.0).K) - K0;
-  const Eigen::EigenSolver<Mat> solver(K0.partialPivLu().solve(Mat(-K_load)));
+  const auto modes = general_modes(DenseLu<Mat>(K0).solve(-K_load));
+  if (!modes) throw NumericalError("no buckling modes");
   for (Eigen::Index i = 0; i < K0.rows(); ++i) {
-    const Complex inverse = solver.eigenvalues()(i);
+    const Complex inverse = modes->values(i);
     const bool is_real = std::abs(inverse.imag()) < 1e-6 * std::abs(inverse.real());
     if (!is_real || inverse.real() <= 0.0 || 1.0 / inverse.real() > lowest.factor) continue;
     lowest.factor = 1.0 / inverse.real();
-    lowest.shape = solver.eigenvectors().col(i).real();
+    lowest.shape = modes->vectors.col(i).real();
   }
   return lowest;
 }
@@ -148,5 +148,4 @@ TEST(Buckling, TheHelixTurnsWithTheTorque) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::buckling_test

@@ -14,8 +14,7 @@
 #include "libfe/critical.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::campbell_test {
 
 using test::at;
 using test::node;
@@ -280,5 +279,4 @@ TEST(Mac, IsOneForOneShapeAndZeroForOrthogonalOnes) {
   EXPECT_NEAR(mac(a, c, W), 20.0 / 36.0, rounding);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::campbell_test

@@ -15,8 +15,7 @@
 #include "libfe/eigen/hermitian.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::critical_test {
 
 using test::at;
 
@@ -224,5 +223,4 @@ TEST(CriticalSpeeds, NeedSupports) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::critical_test

@@ -4,14 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "libfe/eigen/dense.hpp"
 #include "libfe/elements/body.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::disk_test {
 
 constexpr double rounding = 1e-14;  // relative; a few products
 
@@ -27,7 +26,7 @@ TEST(Disk, SpinSplitsTheConicalFrequenciesAsInClosedForm) {
   A.topRightCorner<2, 2>().setIdentity();
   A.bottomLeftCorner<2, 2>().diagonal().setConstant(-k / disk.Id);
   A.bottomRightCorner<2, 2>() = -Omega / disk.Id * e.G.bottomRightCorner<2, 2>();
-  Eigen::Vector4d w = A.eigenvalues().imag();
+  Eigen::Vector4d w = eigenvalues(A).imag();
   std::sort(w.begin(), w.end());
 
   const double mean = disk.Ip * Omega / (2.0 * disk.Id);
@@ -97,5 +96,4 @@ TEST(Body, IsADiskOnlyIfItSpins) {
   EXPECT_TRUE(matrices(stator).G.isZero(0.0));
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::disk_test

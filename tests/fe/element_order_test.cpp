@@ -11,8 +11,7 @@
 #include "libfe/modes.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::element_order_test {
 
 using test::pi;
 
@@ -128,5 +127,4 @@ TEST_P(ElementOrder, OfAConeAgainstAFineMesh) {
   EXPECT_NEAR(order, c.order, slope_tolerance);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::element_order_test

@@ -10,8 +10,7 @@
 
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::mesh_test {
 
 using test::at;
 using test::node;
@@ -215,5 +214,4 @@ TEST(Mesh, UnknownNodesAndBodiesAreNamed) {
   EXPECT_NE(std::string(error_of(s).what()).find("\"stator\""), std::string::npos);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::mesh_test

@@ -12,8 +12,7 @@
 #include "libfe/base/error.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::modes_test {
 
 using test::at;
 using test::pi;
@@ -367,5 +366,4 @@ TEST(ModeFinder, FindsWhatIsFoundSpeedBySpeed) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::modes_test

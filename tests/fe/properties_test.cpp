@@ -8,8 +8,7 @@
 
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::properties_test {
 
 using test::at;
 using test::pi;
@@ -44,5 +43,4 @@ TEST(RotorProperties, CountDisksAndBodiesThatSpin) {
   EXPECT_NEAR(p.Ip, shaft * 0.05 * 0.05 / 8.0 + 0.2 + 0.3, rounding);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::properties_test

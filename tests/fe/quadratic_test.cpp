@@ -13,8 +13,7 @@
 #include "libfe/base/error.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::quadratic_test {
 
 using test::at;
 
@@ -219,5 +218,4 @@ TEST(QuadraticModes, EigenvectorsOfTheDenseSolverSolveTheProblem) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::quadratic_test

@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace whirl {
-namespace {
+namespace whirl::quadrature_test {
 
 constexpr double rounding = 1e-14;  // sums of at most 24 terms below one
 
@@ -66,5 +65,4 @@ TEST(Gauss, PointsOfTwoAndThreeAreThoseOfTheTables) {
   EXPECT_NEAR(three.w(1), 0.5 * 0.888888888888889, printed);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::quadrature_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::section_test {
 
 constexpr double rounding = 1e-14;  // relative; a few products
 
@@ -84,5 +83,4 @@ TEST(Choices, NamesAreThoseOfModelFiles) {
   EXPECT_EQ(name_of(ShearFormula::hutchinson), "hutchinson");
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::section_test

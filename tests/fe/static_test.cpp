@@ -12,8 +12,7 @@
 #include "libfe/properties.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::static_test {
 
 using test::at;
 using test::node;
@@ -170,5 +169,4 @@ TEST(StaticEquilibrium, NeedsSupportsInBothDirections) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::static_test

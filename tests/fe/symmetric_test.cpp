@@ -4,17 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::symmetric_test {
 
 using test::at;
 
@@ -35,10 +34,9 @@ Vec dense_by_planes(const System& s) {
   Vec all(s.size());
   Eigen::Index next = 0;
   for (const auto& plane : planes) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Mat> solver(
-        Mat(K(plane, plane)), Mat(M(plane, plane)), Eigen::EigenvaluesOnly);
-    all.segment(next, solver.eigenvalues().size()) = solver.eigenvalues();
-    next += solver.eigenvalues().size();
+    const Vec values = symmetric_modes(K(plane, plane), M(plane, plane)).value().values;
+    all.segment(next, values.size()) = values;
+    next += values.size();
   }
   std::sort(all.begin(), all.end());
   return all;
@@ -231,5 +229,4 @@ TEST(IsSymmetric, SeesCrossCoupling) {
   EXPECT_TRUE(is_symmetric(symmetric_part(K)));
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::symmetric_test

@@ -7,8 +7,7 @@
 #include "libfe/elements/connection.hpp"
 #include "tests/support/rotors.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::table_bearing_test {
 
 constexpr double rounding = 1e-9;  // relative 1e-15 of the coefficients below
 
@@ -103,5 +102,4 @@ TEST(TableBearing, RayleighDampingFollowsItsStiffness) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::table_bearing_test

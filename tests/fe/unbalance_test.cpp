@@ -12,8 +12,7 @@
 #include "libfe/critical.hpp"
 #include "tests/support/reference_cases.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::unbalance_test {
 
 using test::at;
 using test::Json;
@@ -161,5 +160,4 @@ TEST(UnbalanceResponse, AtAnUndampedResonanceIsAnError) {
                NumericalError);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::unbalance_test

@@ -13,8 +13,7 @@
 #include "libfe/modes.hpp"
 #include "tests/support/reference_cases.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::validation_table_test {
 
 using test::Json;
 
@@ -84,5 +83,4 @@ TEST(Validation, TablesOfTheDocumentAreWhatComesOut) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::validation_table_test

@@ -10,8 +10,7 @@
 
 #include "libio/model_file.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::bad_input_test {
 
 namespace fs = std::filesystem;
 
@@ -611,5 +610,4 @@ TEST(BadInput, WhateverStandsInAFileIsReadOrReported) {
   EXPECT_GT(bad_ones, texts / 5);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::bad_input_test

@@ -6,8 +6,7 @@
 
 #include <numbers>
 
-namespace whirl {
-namespace {
+namespace whirl::bearing_table_test {
 
 constexpr double rpm = std::numbers::pi / 30.0;
 
@@ -114,5 +113,4 @@ TEST(BearingTable, ATableWithoutRowsIsNone) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::bearing_table_test

@@ -9,8 +9,7 @@
 #include "libdyn/simulate.hpp"
 #include "libio/model_file.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::bundled_models_test {
 
 const std::filesystem::path folder = std::filesystem::path(WHIRL_SOURCE_DIR) / "models";
 
@@ -57,5 +56,4 @@ TEST(BundledModels, MoveAlikeByEveryMethod) {
   EXPECT_GE(models, 3);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::bundled_models_test

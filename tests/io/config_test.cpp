@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace whirl {
-namespace {
+namespace whirl::config_test {
 
 using Kind = ConfigNode::Kind;
 
@@ -255,5 +254,4 @@ TEST(Config, ShowsValuesAsTheyWouldBeWritten) {
   EXPECT_LE(text.as_written().size(), 60u);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::config_test

@@ -10,8 +10,7 @@
 
 #include "libio/units.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::format_test {
 
 TEST(Format, ChoosesThePrefix) {
   EXPECT_EQ(format_engineering(4e6, "N/m"), "4 MN/m");
@@ -67,5 +66,4 @@ TEST(Format, IsReadBackToFourDigits) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::format_test

@@ -8,8 +8,7 @@
 #include "libio/hdf5.hpp"
 #include "tests/io/result_folder.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::hdf5_programs_test {
 
 using test::write_example;
 
@@ -80,5 +79,4 @@ TEST_F(ResultFileElsewhere, H5dumpReadsIt) {
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::hdf5_programs_test

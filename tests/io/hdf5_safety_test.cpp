@@ -13,8 +13,7 @@
 #include "libio/hdf5.hpp"
 #include "tests/io/result_folder.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::hdf5_safety_test {
 
 namespace fs = std::filesystem;
 using test::content, test::problem_of, test::write_example;
@@ -99,5 +98,4 @@ TEST_F(ResultFileSafety, IsWholeWhereverItsWriterIsKilled) {
   EXPECT_GT(killed_at_work, 0);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::hdf5_safety_test

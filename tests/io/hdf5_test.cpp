@@ -10,8 +10,7 @@
 
 #include "tests/io/result_folder.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::hdf5_test {
 
 namespace fs = std::filesystem;
 using test::content, test::problem_of, test::write_example;
@@ -246,5 +245,4 @@ TEST_F(ResultFile, ErrorsAreSilentInEveryThread) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::hdf5_test

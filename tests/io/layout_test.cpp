@@ -10,8 +10,7 @@
 #include "libio/model_file.hpp"
 #include "libio/table.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::layout_test {
 
 std::string draw(const std::string& parts, int columns = 72) {
   const Model model = parse_model(R"(
@@ -119,5 +118,4 @@ TEST(Layout, WithoutAShaftThereIsNothingToDraw) {
   EXPECT_EQ(draw_layout(model, Assembler(model.structure)), "");
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::layout_test

@@ -13,8 +13,7 @@
 #include "libfe/base/error.hpp"
 #include "libio/model_file.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::manual_test {
 
 std::string manual() {
   std::ifstream file(std::filesystem::path(WHIRL_SOURCE_DIR) / "docs/model-file.md");
@@ -78,5 +77,4 @@ TEST(Manual, NamesNoKeyThatTheReaderDoesNotKnow) {
   EXPECT_GT(keys, 60);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::manual_test

@@ -11,8 +11,7 @@
 
 #include "libfe/assemble.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::model_file_test {
 
 namespace fs = std::filesystem;
 
@@ -648,5 +647,4 @@ TEST(ModelFile, BundledModelsSurviveBeingStored) {
   EXPECT_GT(models, 0);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::model_file_test

@@ -7,8 +7,7 @@
 
 #include "libio/model_file.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::model_reference_test {
 
 std::string manual() {
   std::ostringstream text;
@@ -109,5 +108,4 @@ spins = true
   }
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::model_reference_test

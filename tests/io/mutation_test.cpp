@@ -13,8 +13,7 @@
 #include "libfe/base/error.hpp"
 #include "libio/model_file.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::mutation_test {
 
 using Random = std::mt19937;
 
@@ -120,5 +119,4 @@ TEST(ModelFile, BrokenInAnyWayEndsInAModelOrAnError) {
   EXPECT_GT(errors, 400);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::mutation_test

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-namespace whirl {
-namespace {
+namespace whirl::nearest_test {
 
 const std::vector<std::string> keys = {"friction", "stiffness", "damping", "clearance", "at"};
 
@@ -26,5 +25,4 @@ TEST(Nearest, DoesNotGuessWildly) {
   EXPECT_EQ(nearest(std::string(1'000'000, 'x'), keys), std::nullopt);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::nearest_test

@@ -9,8 +9,7 @@
 
 #include "libio/svg.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::plot_test {
 
 std::vector<std::string> labels(const Axis& axis, int most) {
   std::vector<std::string> all;
@@ -143,5 +142,4 @@ TEST(LinePlot, OfNothingIsAnEmptyFrame) {
   EXPECT_EQ(svg.find("nan"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::plot_test

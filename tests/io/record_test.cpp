@@ -8,8 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace whirl {
-namespace {
+namespace whirl::record_test {
 
 using nlohmann::json;
 
@@ -99,5 +98,4 @@ TEST(Record, SmallThingsStayOnOneLine) {
             "}\n");
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::record_test

@@ -8,8 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace whirl {
-namespace {
+namespace whirl::replace_file_test {
 
 namespace fs = std::filesystem;
 
@@ -78,5 +77,4 @@ TEST_F(ReplaceFile, RefusesWhatIsNotAFile) {
   EXPECT_EQ(problem(""), "cannot write : this is not the name of a file");
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::replace_file_test

@@ -6,8 +6,7 @@
 
 #include <sstream>
 
-namespace whirl {
-namespace {
+namespace whirl::table_test {
 
 std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> result;
@@ -61,5 +60,4 @@ TEST(Table, ShortRowsAndNoRowsAreFine) {
   EXPECT_EQ(table.text(), "  a  b\n  ─  ─\n  x\n\n");
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::table_test

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace whirl {
-namespace {
+namespace whirl::units_test {
 
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 4e-16;  // a few roundings of a double, relative
@@ -290,5 +289,4 @@ TEST(Units, GarbageIsNeitherCrashNorInfinity) {
   EXPECT_GT(good, 1000);  // the search reaches good texts too
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::units_test

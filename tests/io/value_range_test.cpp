@@ -8,8 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace whirl {
-namespace {
+namespace whirl::value_range_test {
 
 constexpr double rpm = std::numbers::pi / 30.0;  // [rad/s]
 constexpr double rounding = 1e-15;               // relative
@@ -103,5 +102,4 @@ TEST(ValueRange, GarbageDoesNotCrash) {
   EXPECT_GT(good, 100);
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::value_range_test

@@ -25,8 +25,7 @@
 #include "libio/replace_file.hpp"
 #include "libio/vtk_scene.hpp"
 
-namespace whirl {
-namespace {
+namespace whirl::vtk_test {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
@@ -421,5 +420,4 @@ TEST_F(VtkSeries, FilesThatCannotBeWrittenAreExplained) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-}  // namespace
-}  // namespace whirl
+}  // namespace whirl::vtk_test
