@@ -15,6 +15,7 @@ struct WhirlStart {
   int mode = 1;            ///< number from 1, as `modes` lists them at the operating speed
   double amplitude = 0.0;  ///< largest lateral radius [m]
   double phase = 0.0;      ///< [rad]
+  Where where{};           ///< of the mode, for errors
 };
 
 enum class StartFrom { rest, equilibrium, file };

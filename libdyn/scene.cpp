@@ -116,7 +116,7 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
   const Modes modes = complex_modes(scene.system, highest);
   for (const WhirlStart& w : model.start.whirl) {
     if (w.mode < 1 || w.mode > static_cast<int>(modes.oscillatory.size())) {
-      throw ModelError({}, "start.whirl",
+      throw ModelError(w.where, "start.whirl",
                        fmt::format("found mode {}, expected a mode from 1 to {}", w.mode,
                                    modes.oscillatory.size()));
     }

@@ -157,6 +157,7 @@ void ModelBuilder::read_settings() {
       WhirlStart w;
       if (const auto mode = item.integer("mode", Range::positive, true))
         w.mode = static_cast<int>(*mode);
+      w.where = item.where("mode");
       if (const auto a = item.quantity("amplitude", "m", Range::nonnegative, true))
         w.amplitude = *a;
       if (const auto p = item.quantity("phase", "rad", Range::any)) w.phase = *p;

@@ -55,6 +55,18 @@ TEST_F(BadCall, MissingAndSurplusWords) {
   EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--modes"}), "--modes"));
 }
 
+// Known only once the modes are computed, and told with its place all the same.
+TEST_F(BadCall, AStartInAModeThatTheRotorLacks) {
+  write("start.toml", std::string(jeffcott) +
+                          "\n[start]\nfrom = \"rest\"\nwhirl = [\n"
+                          "  { mode = 99, amplitude = \"1 mm\" } ]\n");
+  const std::string said = problem({"simulate", "start.toml", "--speed", "3000rpm"});
+  const std::string before = std::string(jeffcott) + "\n[start]\nfrom = \"rest\"\nwhirl = [\n";
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  EXPECT_TRUE(has(said, "start.toml:" + std::to_string(line) + ":12")) << said;
+  EXPECT_TRUE(has(said, "found mode 99, expected a mode from 1 to ")) << said;
+}
+
 TEST_F(BadCall, ValuesOfOptions) {
   EXPECT_EQ(problem({"modes", "rotor.toml", "--modes", "x"}),
             "--modes x: expected a whole number of 1 or more\n");
