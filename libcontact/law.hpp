@@ -7,10 +7,27 @@
 ///   static constexpr auto fields();              its keys (libfe/base/field.hpp)
 ///   auto normal(d, d_rate) const;                normal force [N] at depth d [m], its rate [m/s]
 ///   bool is_continuous() const;                  normal(0, d_rate) = 0 for every rate
+///   static constexpr bool is_analytic;           `normal` has a Taylor series at d = 0
 ///
 /// `normal` is the smooth force of the law while in touch, and its smooth continuation a little
 /// beyond (trial steps of integrators end there). It does not branch, allocate or remember:
 /// touching, parting, sliding and sticking are decided by the engine, from events.
 
+#include <cmath>
+
 /// Laws are inlined everywhere, so that one source serves every number type and instruction set.
 #define WHIRL_INLINE [[gnu::always_inline]] inline
+
+namespace whirl {
+
+/// Square root of a depth; zero a little beyond the surface.
+WHIRL_INLINE double depth_root(double d) {
+  return d > 0.0 ? std::sqrt(d) : 0.0;
+}
+template <class T>
+WHIRL_INLINE auto depth_root(const T& d) {
+  using std::sqrt;
+  return sqrt(d);
+}
+
+}  // namespace whirl

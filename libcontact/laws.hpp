@@ -1,14 +1,18 @@
 #pragma once
 /// The list of contact laws.
 
+#include <type_traits>
 #include <variant>
 
+#include "libcontact/laws/hertz.hpp"
 #include "libcontact/laws/radial.hpp"
 
 namespace whirl {
 
 template <class R = double>
-using AnyContactLaw = std::variant<Radial<R>>;
+using AnyContactLaw = std::variant<  //
+    Radial<R>,                       //
+    Hertz<R>>;
 
 /// Normal force [N] of any law at a depth [m] and its rate [m/s].
 inline double normal_force(const AnyContactLaw<>& law, double depth, double rate) {
@@ -17,6 +21,11 @@ inline double normal_force(const AnyContactLaw<>& law, double depth, double rate
 
 inline bool is_continuous(const AnyContactLaw<>& law) {
   return std::visit([](const auto& l) { return l.is_continuous(); }, law);
+}
+
+inline bool is_analytic(const AnyContactLaw<>& law) {
+  return std::visit([](const auto& l) { return std::remove_cvref_t<decltype(l)>::is_analytic; },
+                    law);
 }
 
 }  // namespace whirl

@@ -19,6 +19,7 @@ namespace whirl {
 template <class R = double>
 struct Radial {
   static constexpr std::string_view name = "radial";
+  static constexpr bool is_analytic = true;
 
   R k{};  ///< contact stiffness [N/m]
   R c{};  ///< contact damping [N.s/m]

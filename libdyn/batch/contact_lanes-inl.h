@@ -121,6 +121,7 @@ struct ContactLanes {
   P clearance{1.0}, clearance2{1.0}, offset_x{0.0}, offset_y{0.0};
   P mu{0.0}, rim{0.0}, inverse_width{1.0};  // friction, Omega R, 1 / width of a smoothed sign
   P force_scale{1.0}, slip_scale{1.0};
+  P least_depth{0.0};  // at the start of a step, see depth()
   AnyContactLaw<P> law;
   std::vector<P> ux, uy;  // per of_x, of_y
   std::vector<P> bx, by;  // per pushed_by_x, pushed_by_y
@@ -168,6 +169,7 @@ struct ContactLanes {
     set_lane(force_scale, l, normal_force(from.law, from.clearance, 0.0));
     set_lane(slip_scale, l,
              std::max(std::abs(from.rim_speed), from.clearance * turn) * from.clearance);
+    set_lane(least_depth, l, is_analytic(from.law) ? -boundless : 1e-8 * from.clearance);
     set_law(law, from.law, l);
     for (size_t i = 0; i < ux.size(); ++i) set_lane(ux[i], l, from.U(0, rows.of_x[i]));
     for (size_t i = 0; i < uy.size(); ++i) set_lane(uy[i], l, from.U(1, rows.of_y[i]));
@@ -275,6 +277,14 @@ struct ContactLanes {
     r[k] = (sk - rr) * half_inverse_r;
   }
 
+  /// Coefficient k of the depth. A law that has no Taylor series at the surface starts its step just
+  /// below it, where its force is still nothing; steps near the surface are short by themselves.
+  HWY_ATTR inline P depth(int k) const {
+    P d = r[k];
+    if (k == 0) d = max(d - clearance, least_depth);
+    return d;
+  }
+
   /// Rate of the distance, coefficient k; for laws that know it, geometry is one coefficient ahead.
   HWY_ATTR inline P rate(int k) const { return rows.has_rate ? P(k + 1.0) * r[k + 1] : P(0.0); }
 
@@ -282,10 +292,9 @@ struct ContactLanes {
   /// tau_k while sticking. With Bodies, no lane may stick or slide smoothly, nor the law know a rate.
   template <int Bodies = 0>
   HWY_ATTR inline void force(AnyLawWork<P>& work, int k) {
-    P depth = r[k], rate_k(0.0), Nk;
-    if (k == 0) depth = depth - clearance;
+    P rate_k(0.0), Nk;
     if (Bodies == 0) rate_k = rate(k);
-    with_alternative(work, [&](auto& l) HWY_ATTR { Nk = l.normal(k, depth, rate_k); });
+    with_alternative(work, [&](auto& l) HWY_ATTR { Nk = l.normal(k, depth(k), rate_k); });
     N[k] = Nk;
     P rq, px, py;
     sum_products(dx, dy, r, q, k, rq, px, py);

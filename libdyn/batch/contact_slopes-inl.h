@@ -88,9 +88,8 @@ struct ContactSlopes {
       auto by_depth = derivative<0>(force);
       auto by_rate = derivative<1>(force);
       for (int k = 0; k <= N; ++k) {
-        const P depth = k == 0 ? c.r[0] - c.clearance : c.r[k];
-        normal_by_depth[k] = by_depth.at(k, depth, c.rate(k));
-        normal_by_rate[k] = by_rate.at(k, depth, c.rate(k));
+        normal_by_depth[k] = by_depth.at(k, c.depth(k), c.rate(k));
+        normal_by_rate[k] = by_rate.at(k, c.depth(k), c.rate(k));
       }
     });
   }

@@ -47,6 +47,9 @@ class Engine {
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
     falls_.resize(contacts_.size());
+    for (const Pattern::ContactRows& rows : pattern.contacts) {
+      is_analytic_ = is_analytic_ && rows.is_analytic;
+    }
     trajectory_.assign(static_cast<size_t>(lanes_), nullptr);
     book_.resize(static_cast<size_t>(lanes_));
     if (options.exponents || options.tangent) {
@@ -170,6 +173,7 @@ class Engine {
   EquationLanes<P> equations_;
   std::vector<P> scale_;
   std::vector<ContactLanes<P>> contacts_;
+  bool is_analytic_ = true;  // all laws are
   std::vector<AnyLawWork<P>> laws_;
   P rate_{1.0}, period_{1.0};
 

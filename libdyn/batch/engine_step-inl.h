@@ -34,7 +34,12 @@ HWY_ATTR P Engine<P>::step_length() {
   const P e(log2_tolerance_);
   const P h1 = (e - rough_log2(last)) * P(1.0 / (N + 2));
   const P h2 = (e - rough_log2(before)) * P(1.0 / (N + 1));
-  return P(0.95) * rough_exp2(min(min(h1, h2), P(900.0)));
+  P h = min(min(h1, h2), P(900.0));
+  if (!is_analytic_) {  // steps get short at a surface: the last term of the velocity counts too
+    const P speed = rough_log2(rate_) - P(std::log2(N + 2.0));
+    h = min(h, (e + speed - rough_log2(last)) * P(1.0 / (N + 1)));
+  }
+  return P(0.95) * rough_exp2(h);
 }
 
 /// Values at h of series and of their derivatives, in all active lanes; Bodies as in series_of.

@@ -65,7 +65,7 @@ HWY_ATTR void Engine<P>::load_tangents(int l, const ContactSystem& s) {
 template <class P>
 HWY_ATTR P Engine<P>::limit_for_tangents(const P& h) {
   auto& t = *tangents_;
-  P square = t.fastest2;
+  P square = t.fastest2, longest = h;
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const ContactLanes<P>& c = contacts_[i];
     if ((c.touching & active_) == 0) continue;
@@ -75,8 +75,13 @@ HWY_ATTR P Engine<P>::limit_for_tangents(const P& h) {
     const P damping = t.slopes[i].has_H ? t.gain[i] * H.size(0) : P(0.0);
     const P both_rates = fma(damping, damping, t.gain[i] * stiffness);
     square = square + select(c.in_touch, both_rates, P(0.0));
+    if (!c.rows.is_analytic) {  // at a surface the slopes change faster than the force
+      const P last = max(t.gain[i] * J.size(N), P(1e-280)) / (rate_ * P(N + 1.0));
+      const P steep = rough_exp2((P(log2_tolerance_) - rough_log2(last)) * P(1.0 / (N + 1)));
+      longest = min(longest, select(c.in_touch, steep, h));
+    }
   }
-  return min(h, P(t.reach) / sqrt(max(square, P(1e-200))));
+  return min(longest, P(t.reach) / sqrt(max(square, P(1e-200))));
 }
 
 /// Coefficient k of the acceleration of both columns.

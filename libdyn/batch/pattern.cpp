@@ -42,7 +42,9 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
   for (int i = 0; i < p.n; ++i) p.off_diagonal[static_cast<std::size_t>(i)].i = i;
   p.contacts.resize(systems.front()->contacts().size());
   for (std::size_t c = 0; c < p.contacts.size(); ++c) {
-    p.contacts[c].law = systems.front()->contacts()[c].law.index();
+    const AnyContactLaw<>& law = systems.front()->contacts()[c].law;
+    p.contacts[c].law = law.index();
+    p.contacts[c].is_analytic = is_analytic(law);
   }
   for (const ContactSystem* s : systems) {
     if (s->coordinates() != p.n || s->contacts().size() != p.contacts.size()) {

@@ -23,6 +23,7 @@ struct Pattern {
     bool has_friction = false;
     bool has_smooth_friction = false;  ///< tanh of the slip
     std::size_t law = 0;               ///< index in AnyContactLaw
+    bool is_analytic = true;           ///< the law has a Taylor series at the surface
   };
 
   int n = 0;

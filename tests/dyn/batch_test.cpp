@@ -16,8 +16,8 @@ namespace whirl::batch_test {
 using test::RotorStator;
 
 /// Trajectories of rotors with random speeds, contacts and friction: free, bouncing, rubbing,
-/// rolling (the soft corner with much friction), some with damped contacts.
-test::Trajectories random_rotors(int size, bool are_damped = false) {
+/// rolling (the soft corner with much friction); with damped or Hertz contacts on request.
+test::Trajectories random_rotors(int size, bool are_damped = false, bool are_hertz = false) {
   test::Trajectories sample;
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit;
@@ -25,6 +25,7 @@ test::Trajectories random_rotors(int size, bool are_damped = false) {
     RotorStator p{.Omega = 120.0 + 50.0 * unit(random), .mu = 0.3 * unit(random)};
     p.kC = 2e6 * std::pow(100.0, unit(random));
     if (are_damped) p.cC = 1e3 * unit(random);
+    if (are_hertz) p.kH = 100.0 * p.kC;
     sample.add(p, 20 + static_cast<long>(20.0 * unit(random)));
   }
   return sample;
@@ -64,6 +65,9 @@ TEST(Batch, GivesEachTrajectoryWhatItIsAlone) {
 }
 TEST(Batch, GivesEachTrajectoryWhatItIsAloneWithDampedContacts) {
   expect_same_as_alone(random_rotors(24, true), {.tolerance = 1e-8});
+}
+TEST(Batch, GivesEachTrajectoryWhatItIsAloneWithHertzContacts) {
+  expect_same_as_alone(random_rotors(24, false, true), {.sections = true});
 }
 TEST(Batch, GivesEachTrajectoryItsExponents) {
   expect_same_as_alone(random_rotors(20), {.tolerance = 1e-8, .exponents = true});

@@ -56,6 +56,11 @@ RotorStator changed(RotorStator p, double cC, double slip_tolerance) {
   return p;
 }
 
+RotorStator with_hertz_contact(RotorStator p) {
+  p.kH = 1.5e10;  // as stiff as P1 at 0.1 mm
+  return p;
+}
+
 class Tangent : public ::testing::TestWithParam<Case> {};
 const RotorStator rolling{.Omega = 151.8462, .kC = 3.07445e6, .mu = 0.2625};
 INSTANTIATE_TEST_SUITE_P(
@@ -64,6 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"permanent_contact", test::P3, 400, 1, 1e-5},
                       Case{"damped_contact", changed(test::P1, 2e4, 0.0), 400, 1, 1e-6},
                       Case{"heavily_damped_contact", changed(test::P1, 2e5, 0.0), 400, 1, 1e-5},
+                      Case{"hertz_contact", with_hertz_contact(test::P1), 400, 1, 1e-6},
                       Case{"smoothed_friction", changed(test::P1, 0.0, 1.0), 400, 1, 1e-6},
                       Case{"smoothed_rolling", changed(rolling, 0.0, 0.1), 100, 1, 1e-5},
                       Case{"smoothed_friction_damped", changed(rolling, 1e3, 0.3), 20, 2, 1e-5},

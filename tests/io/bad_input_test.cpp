@@ -311,6 +311,16 @@ TEST(BadInput, NumbersOutOfRange) {
   });
 }
 
+// Each law has keys of its own.
+TEST(BadInput, KeysOfAnotherLaw) {
+  expect_each({
+      {"stiffness = \"3 MN/m\"\nfriction", "law = \"hertz\"\nfriction", "44:1",
+       "contact.seal.hertz_stiffness", "missing, expected a Hertz stiffness (N/m^1.5)"},
+      {"friction = 0.1", "hertz_stiffness = 1e9", "50:1", "contact.seal.hertz_stiffness",
+       "unknown"},
+  });
+}
+
 TEST(BadInput, WordsThatAreNotOnes) {
   expect_each({
       {"elements = 12", "elements = 12\ntheory = \"timoschenko\"", "13:10", "shaft.1.theory",
@@ -318,6 +328,8 @@ TEST(BadInput, WordsThatAreNotOnes) {
       {"elements = 12", "elements = 12\nshear_coefficient = \"cowpr\"", "13:21",
        "shaft.1.shear_coefficient", "did you mean \"cowper\"?"},
       {"friction = 0.1", "law = \"radal\"", "50:7", "contact.seal.law", "did you mean \"radial\"?"},
+      {"friction = 0.1", "law = \"herz\"", "50:7", "contact.seal.law",
+       "expected one of radial, hertz; did you mean \"hertz\"?"},
       {"friction = 0.1", "slip = \"actal\"", "50:8", "contact.seal.slip",
        "expected one of actual, forward; did you mean \"actual\"?"},
       {"method = \"modal\"", "method = \"modl\"", "54:10", "reduction.method",

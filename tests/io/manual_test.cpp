@@ -46,35 +46,46 @@ TEST(Manual, ShowsWholeModelsThatAreAccepted) {
   }
 }
 
-// Keys in the tables of a section "## `[[disk]]`" are known to the reader: with a nonsense value,
-// the complaint is about the value. (Keys that a family shares in one row are separated by commas.)
+/// Whether a key is known in a table: with a nonsense value, the complaint is about the value.
+void expect_known(const std::string& table, const std::string& key) {
+  const std::string model = "format = 1\n" + table + "\n" + key + " = 1979-05-27\n";
+  try {
+    parse_model(model, "manual");
+    ADD_FAILURE() << "accepted:\n" << model;
+  } catch (const ModelError& error) {
+    EXPECT_EQ(std::string(error.what()).find("unknown key"), std::string::npos) << error.what();
+  }
+}
+
+// Keys in the tables of a section "## `[[disk]]`", those that a family shares in one row separated
+// by commas, and the keys that a law adds, in rows that begin with its name.
 TEST(Manual, NamesNoKeyThatTheReaderDoesNotKnow) {
   const std::string text = manual();
   const std::regex section(R"(\n## `(\[{1,2})(\w+)(\.NAME)?\]{1,2}`\n)");
   const std::regex row(R"(\n\| (`\w+`(?:, `\w+`)*) \|)"), key(R"(`(\w+)`)");
-  int keys = 0;
+  const std::regex law(R"re(\n\| `"(\w+)"` \|[^|]*\|([^|]*)\|)re");
+  int keys = 0, laws = 0;
   for (std::sregex_iterator s(text.begin(), text.end(), section), end; s != end; ++s) {
     const auto from = static_cast<std::size_t>(s->position() + s->length());
     const std::string body = text.substr(from - 1, text.find("\n## ", from) - from + 1);
     const std::string name = (*s)[2], suffix = (*s)[3].matched ? ".steel" : "";
     const std::string header = (*s)[1] == "[[" ? "[[" + name + "]]" : "[" + name + suffix + "]";
-    for (std::sregex_iterator r(body.begin(), body.end(), row); r != end; ++r) {
-      const std::string list = (*r)[1];
-      for (std::sregex_iterator k(list.begin(), list.end(), key); k != end; ++k) {
-        const std::string model =
-            "format = 1\n" + header + "\n" + std::string((*k)[1]) + " = 1979-05-27\n";  // no such
-        try {
-          parse_model(model, "manual");
-          ADD_FAILURE() << "accepted:\n" << model;
-        } catch (const ModelError& error) {
-          EXPECT_EQ(std::string(error.what()).find("unknown key"), std::string::npos)
-              << error.what();
-        }
-        ++keys;
+    const auto check = [&](const std::string& table, const std::string& list) {
+      for (std::sregex_iterator k(list.begin(), list.end(), key); k != end; ++k, ++keys) {
+        expect_known(table, (*k)[1]);
       }
+    };
+    for (std::sregex_iterator r(body.begin(), body.end(), row); r != end; ++r)
+      check(header, (*r)[1]);
+    for (auto at = body.cbegin(); true; ++laws) {
+      std::smatch found;
+      if (!std::regex_search(at, body.cend(), found, law)) break;
+      check(header + "\nlaw = \"" + std::string(found[1]) + "\"", found[2]);
+      at = found[0].second;
     }
   }
   EXPECT_GT(keys, 60);
+  EXPECT_EQ(laws, static_cast<int>(std::variant_size_v<AnyContactLaw<>>));
 }
 
 }  // namespace whirl::manual_test

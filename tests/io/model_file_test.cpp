@@ -498,6 +498,14 @@ TEST(ModelFile, ContactDefaults) {
   EXPECT_EQ(std::get<Radial<>>(c.law).c, 0.0);
 }
 
+TEST(ModelFile, HertzContact) {
+  const Contact c = rotor(
+                        "[[contact]]\nnode = 7\nclearance = \"0.1 mm\"\nlaw = \"hertz\"\n"
+                        "hertz_stiffness = \"23.33 kN/mm^1.5\"\n")
+                        .contacts.at(0);
+  EXPECT_NEAR(std::get<Hertz<>>(c.law).k, 23.33e3 * std::pow(1e3, 1.5), 1e-3);
+}
+
 TEST(ModelFile, ContactRadiusIsThatOfTheShaftThere) {
   const std::string cone = R"(
 [[shaft]]

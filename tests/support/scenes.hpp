@@ -13,6 +13,12 @@
 
 namespace whirl::test {
 
+/// Linear contact, or Hertz contact if its stiffness kH is given.
+inline AnyContactLaw<> contact_law(double kC, double cC, double kH) {
+  if (kH > 0.0) return Hertz<>{.k = kH};
+  return Radial<>{.k = kC, .c = cC};
+}
+
 /// Rotor and stator of "Nonlinear dynamics of a rotor-stator system with contacts", coordinates
 /// x_r, y_r, x_s, y_s; the contact is "ring".
 ///
@@ -22,6 +28,7 @@ struct RotorStator {
   double Omega = 136.0;             ///< [rad/s]
   double kC = 150e6, mu = 0.1;      ///< contact: stiffness [N/m], friction
   double cC = 0.0;                  ///< and damping [N.s/m]
+  double kH = 0.0;                  ///< above 0: Hertz contact instead [N/m^1.5]
   double mr = 50.0, ms = 50.0;      ///< [kg]
   double kr = 980e3, ks = 14.58e6;  ///< [N/m]
   double cr = 280.0, cs = 2700.0;   ///< [N.s/m]
@@ -48,7 +55,7 @@ struct RotorStator {
                    .clearance = gap,
                    .offset = offset,
                    .friction = {.mu = mu, .slip = slip, .radius = R, .tolerance = slip_tolerance},
-                   .law = Radial<>{.k = kC, .c = cC}}};
+                   .law = contact_law(kC, cC, kH)}};
     return m;
   }
   Scene scene() const { return make_scene(model()); }
@@ -67,6 +74,7 @@ struct MassInRing {
   double k = 1e4, c = 0.0;      ///< of the spring [N/m] and damper [N.s/m]; 0: the mass is free
   double U = 0.0, phase = 0.0;  ///< unbalance [kg.m], [rad]
   double kC = 1e6, cC = 0.0;    ///< of the contact [N/m], [N.s/m]
+  double kH = 0.0;              ///< above 0: Hertz contact instead [N/m^1.5]
   double mu = 0.0, R = 0.0;     ///< friction and its radius [m]
   double clearance = 1e-3;      ///< [m]
   double gravity = 0.0;         ///< [m/s^2]
@@ -85,7 +93,7 @@ struct MassInRing {
                    .clearance = clearance,
                    .offset = offset,
                    .friction = {.mu = mu, .radius = R},
-                   .law = Radial<>{.k = kC, .c = cC}}};
+                   .law = contact_law(kC, cC, kH)}};
     return s;
   }
   Scene scene() const { return make_scene(model()); }
