@@ -38,6 +38,14 @@ int distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// Whether a word is the first or the last part of a name: "diameter" of "outer_diameter".
+bool is_part(std::string_view word, std::string_view name) {
+  if (word.empty() || name.size() <= word.size()) return false;
+  const std::size_t rest = name.size() - word.size();
+  return (name.ends_with(word) && name[rest - 1] == '_') ||
+         (name.starts_with(word) && name[word.size()] == '_');
+}
+
 }  // namespace
 
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known) {
@@ -53,7 +61,11 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
       found = candidate;
     }
   }
-  return found;
+  if (found) return found;
+  for (const std::string& candidate : known) {
+    if (is_part(word, candidate)) return candidate;
+  }
+  return std::nullopt;
 }
 
 }  // namespace whirl

@@ -11,6 +11,7 @@ namespace whirl {
 ///
 /// Distance: a letter missing, too many or wrong costs 2, two neighbors swapped 2, a wrong case 1.
 /// Close enough is a distance up to the length of `word`, but no more than 6; of several the first.
+/// Else the first known word that it is a part of, as "diameter" of "outer_diameter".
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known);
 
 }  // namespace whirl

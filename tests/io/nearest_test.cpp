@@ -17,6 +17,15 @@ TEST(Nearest, FindsWhatWasMeant) {
   EXPECT_EQ(nearest("att", keys), "at");
 }
 
+TEST(Nearest, TakesAPartForTheWhole) {
+  const std::vector<std::string> parts{"outer_diameter", "inner_diameter", "polar_inertia"};
+  EXPECT_EQ(nearest("diameter", parts), "outer_diameter");
+  EXPECT_EQ(nearest("inner", parts), "inner_diameter");
+  EXPECT_EQ(nearest("inertia", parts), "polar_inertia");
+  EXPECT_EQ(nearest("iner", parts), std::nullopt);
+  EXPECT_EQ(nearest("meter", parts), std::nullopt);
+}
+
 TEST(Nearest, DoesNotGuessWildly) {
   EXPECT_EQ(nearest("viscosity", keys), std::nullopt);
   EXPECT_EQ(nearest("", keys), std::nullopt);
