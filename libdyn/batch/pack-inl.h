@@ -11,6 +11,7 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+#include <cstring>
 #include <numbers>
 
 HWY_BEFORE_NAMESPACE();
@@ -240,22 +241,22 @@ HWY_ATTR inline Pack<L, B> rough_exp2(const Pack<L, B>& x) {
   return result;
 }
 
-template <size_t L, int B>
-HWY_ATTR inline double lane(const Pack<L, B>& x, int i) {
-  alignas(64) double all[B * L];
-  typename Pack<L, B>::D d;
-  const size_t lanes = hn::Lanes(d);
-  for (int b = 0; b < B; ++b) hn::Store(x.v[b], d, all + static_cast<size_t>(b) * lanes);
-  return all[i];
+/// Where lane i of a pack is in its memory [bytes].
+template <class P>
+inline size_t offset_of_lane(int i) {
+  const size_t lanes = hn::Lanes(typename P::D()), ui = static_cast<size_t>(i);
+  return ui / lanes * sizeof(typename P::Register) + ui % lanes * sizeof(double);
 }
 template <size_t L, int B>
-HWY_ATTR inline void set_lane(Pack<L, B>& x, int i, double value) {
-  alignas(64) double all[B * L];
-  typename Pack<L, B>::D d;
-  const size_t lanes = hn::Lanes(d);
-  for (int b = 0; b < B; ++b) hn::Store(x.v[b], d, all + static_cast<size_t>(b) * lanes);
-  all[i] = value;
-  for (int b = 0; b < B; ++b) x.v[b] = hn::Load(d, all + static_cast<size_t>(b) * lanes);
+inline double lane(const Pack<L, B>& x, int i) {
+  double value;
+  std::memcpy(&value, reinterpret_cast<const char*>(&x) + offset_of_lane<Pack<L, B>>(i),
+              sizeof value);
+  return value;
+}
+template <size_t L, int B>
+inline void set_lane(Pack<L, B>& x, int i, double value) {
+  std::memcpy(reinterpret_cast<char*>(&x) + offset_of_lane<Pack<L, B>>(i), &value, sizeof value);
 }
 
 }  // namespace HWY_NAMESPACE
