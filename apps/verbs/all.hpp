@@ -13,6 +13,7 @@ Report run_critical(const Invocation& call);
 Report run_unbalance(const Invocation& call);
 Report run_simulate(const Invocation& call);
 Report run_identify(const Invocation& call);
+Report run_classify(const Invocation& call);
 Report run_bench(const Invocation& call);
 Report run_export(const Invocation& call);
 

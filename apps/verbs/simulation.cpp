@@ -93,6 +93,9 @@ EarlierEnd read_end(const std::string& path) {
   return end;
 }
 
+/// The order of freedoms in a result file.
+const std::string all = ": x, y, theta_x, theta_y of every node, then of every body";
+
 }  // namespace
 
 const std::vector<OptionSpec>& integration_options() {
@@ -191,26 +194,44 @@ int status_of(const Run& run) {
   }
 }
 
-void add_run(Record& record, const Run& run) {
-  const Simulation& s = run.simulation;
-  const Recording& recording = s.recording;
-  record.set("revolutions", recording.revolutions);
-  Record contacts = Record::array();
-  for (const ContactMeasure& c : recording.contacts) {
-    const double revolutions = static_cast<double>(std::max(1L, recording.revolutions));
+void add_contacts(Record& record, const std::vector<ContactMeasure>& contacts, long revolutions) {
+  Record list = Record::array();
+  for (const ContactMeasure& c : contacts) {
     Record r;
     r.set("name", c.name).set("regime", name_of(c.regime())).set("duty", c.duty);
-    r.set("impacts_per_rev", c.impacts / revolutions);
+    r.set("impacts_per_rev", c.impacts / static_cast<double>(std::max(1L, revolutions)));
     r.set("max_normal_n", c.max_normal).set("max_tangential_n", c.max_tangential);
     r.set("sticking", c.sticking).set("mean_slip_m_s", c.mean_slip);
-    contacts.add(r);
+    list.add(r);
   }
-  record.set("contacts", contacts);
+  record.set("contacts", list);
+}
+
+std::string contacts_table(const std::vector<ContactMeasure>& contacts, long revolutions) {
+  Table table({"contact", "regime", "duty", "impacts/rev", "largest normal [N]", "tangential [N]",
+               "mean slip [m/s]"});
+  for (const ContactMeasure& c : contacts) {
+    table.row({c.name, std::string(name_of(c.regime())), fmt::format("{:.4f}", c.duty),
+               fmt::format("{:.3f}", c.impacts / static_cast<double>(revolutions)),
+               force_text(c.max_normal), force_text(c.max_tangential),
+               fmt::format("{:.4g}", c.mean_slip)});
+  }
+  return table.text();
+}
+
+void add_reduction(Record& record, const Scene& scene) {
   Record reduction;
-  const ReductionError& e = run.scene.error;
-  reduction.set("size", run.scene.reduced.size()).set("freedoms", run.scene.system.size());
+  const ReductionError& e = scene.error;
+  reduction.set("size", scene.reduced.size()).set("freedoms", scene.system.size());
   reduction.set("eigenvalue_error", e.eigenvalue()).set("receptance_error", e.receptance);
   record.set("reduction", reduction);
+}
+
+void add_run(Record& record, const Run& run) {
+  const Simulation& s = run.simulation;
+  record.set("revolutions", s.recording.revolutions);
+  add_contacts(record, s.recording.contacts, s.recording.revolutions);
+  add_reduction(record, run.scene);
   Record cost;
   cost.set("steps", s.integration.cost.steps).set("evaluations", s.integration.cost.evaluations);
   cost.set("events", s.integration.cost.events).set("wall_s", s.wall).set("method", run.method);
@@ -236,18 +257,16 @@ void add_stations(Record& record, const Run& run) {
   record.set("stations", list);
 }
 
-std::string run_text(const Run& run, const Model& model) {
-  const Simulation& s = run.simulation;
-  const Recording& recording = s.recording;
-  const ReductionError& e = run.scene.error;
+std::string reduction_text(const Scene& scene, const Model& model) {
+  const ReductionError& e = scene.error;
   std::string text;
-  if (run.scene.reduced.size() == run.scene.system.size()) {
-    text += fmt::format("  {} freedoms, not reduced\n", run.scene.system.size());
+  if (scene.reduced.size() == scene.system.size()) {
+    text += fmt::format("  {} freedoms, not reduced\n", scene.system.size());
   } else {
     text += fmt::format(
         "  {} of {} freedoms; up to {:.0f} rpm eigenvalues are {:.2g} % off, contact receptances "
         "{:.2g} %\n",
-        run.scene.reduced.size(), run.scene.system.size(), e.band / rpm, 100.0 * e.eigenvalue(),
+        scene.reduced.size(), scene.system.size(), e.band / rpm, 100.0 * e.eigenvalue(),
         100.0 * e.receptance);
     if (!e.within_tolerance) {
       const auto worst =
@@ -262,6 +281,13 @@ std::string run_text(const Run& run, const Model& model) {
       text += "\n";
     }
   }
+  return text;
+}
+
+std::string run_text(const Run& run, const Model& model) {
+  const Simulation& s = run.simulation;
+  const Recording& recording = s.recording;
+  std::string text = reduction_text(run.scene, model);
   text += fmt::format(
       "  {} revolution{} recorded at {:.6g} rpm; {} steps, {} events, {:.2f} s with {}\n",
       recording.revolutions, recording.revolutions == 1 ? "" : "s", model.speed / rpm,
@@ -274,15 +300,7 @@ std::string run_text(const Run& run, const Model& model) {
   if (!run.has_motion()) return text;
 
   if (!recording.contacts.empty()) {
-    Table table({"contact", "regime", "duty", "impacts/rev", "largest normal [N]", "tangential [N]",
-                 "mean slip [m/s]"});
-    for (const ContactMeasure& c : recording.contacts) {
-      table.row({c.name, std::string(name_of(c.regime())), fmt::format("{:.4f}", c.duty),
-                 fmt::format("{:.3f}", c.impacts / static_cast<double>(recording.revolutions)),
-                 force_text(c.max_normal), force_text(c.max_tangential),
-                 fmt::format("{:.4g}", c.mean_slip)});
-    }
-    text += "\n" + table.text();
+    text += "\n" + contacts_table(recording.contacts, recording.revolutions);
   }
   Table table({"station", "largest radius", "strongest frequencies [rpm] (radius)",
                "seen from the rotor [rpm]"});
@@ -295,17 +313,20 @@ std::string run_text(const Run& run, const Model& model) {
   return text + "\n" + table.text();
 }
 
-void write_run(ResultWriter& file, const Run& run, const Model& model) {
-  const Recording& r = run.simulation.recording;
-  file.attribute("/", "speed", model.speed);
-  write_points(file, model, run.scene.assembler);
-  const FullState end = full_state(run.scene, run.simulation.end);
-  const std::string all = ": x, y, theta_x, theta_y of every node, then of every body";
+void write_end(ResultWriter& file, const Scene& scene, const MotionState& state) {
+  const FullState end = full_state(scene, state);
   file.dataset("/trajectory/end_displacement", end.displacement,
                {"m, rad", "displacement at the end" + all, {""}});
   file.dataset("/trajectory/end_velocity", end.velocity,
                {"m/s, rad/s", "velocity at the end" + all, {""}});
-  file.attribute("/trajectory", "end_phase", run.simulation.end.phase);
+  file.attribute("/trajectory", "end_phase", state.phase);
+}
+
+void write_run(ResultWriter& file, const Run& run, const Model& model) {
+  const Recording& r = run.simulation.recording;
+  file.attribute("/", "speed", model.speed);
+  write_points(file, model, run.scene.assembler);
+  write_end(file, run.scene, run.simulation.end);
   file.attribute("/trajectory", "samples_per_revolution", r.samples);
   file.attribute("/trajectory", "revolutions", static_cast<double>(r.revolutions));
   file.attribute("/trajectory", "period", r.period);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/verb.hpp"
+#include "libdyn/contact_measures.hpp"
 #include "libdyn/response.hpp"
 #include "libdyn/simulate.hpp"
 #include "libdyn/stations.hpp"
@@ -44,6 +45,13 @@ Run run_simulation(const Invocation& call, const Model& model);
 /// Exit status of a run: 0, 3 (failed) or 130 (stopped by the user).
 int status_of(const Run& run);
 
+/// `contacts` entry: what contacts did over so many revolutions, and the same for people.
+void add_contacts(Record& record, const std::vector<ContactMeasure>& contacts, long revolutions);
+std::string contacts_table(const std::vector<ContactMeasure>& contacts, long revolutions);
+/// `reduction` entry, and a line or two for people.
+void add_reduction(Record& record, const Scene& scene);
+std::string reduction_text(const Scene& scene, const Model& model);
+
 /// `revolutions`, `contacts`, `cost`, `reduction` entries.
 void add_run(Record& record, const Run& run);
 /// `stations` entry with peaks in both frames.
@@ -51,6 +59,9 @@ void add_stations(Record& record, const Run& run);
 
 /// What was integrated, how, at what cost, and what the contacts did, for people.
 std::string run_text(const Run& run, const Model& model);
+
+/// Where a motion ended, for --from, in group /trajectory.
+void write_end(ResultWriter& file, const Scene& scene, const MotionState& end);
 
 /// Groups /trajectory and /contacts, and /spectra of the stations.
 void write_run(ResultWriter& file, const Run& run, const Model& model);

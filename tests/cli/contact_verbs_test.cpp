@@ -1,4 +1,4 @@
-// simulate and identify: JSON keys, closed forms, going on, failing, being stopped.
+// simulate, identify and classify: JSON keys, closed forms, going on, failing, being stopped.
 
 #include <cmath>
 #include <csignal>
@@ -312,6 +312,51 @@ TEST_F(Interrupt, BeforeTheFirstRecordedRevolution) {
   EXPECT_EQ(r["peaks"], json::array());
   const ResultReader file(folder / "run.h5");
   EXPECT_EQ(file.vector("/trajectory/end_displacement").size(), 2);
+}
+
+// ---- classify -----------------------------------------------------------------------------------
+
+class Classify : public Simulation {};
+
+TEST_F(Classify, TellsAProvenPeriodicMotion) {
+  const json r = result({"classify", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml"});
+  EXPECT_EQ(r["motion"], "periodic");
+  EXPECT_EQ(r["period_revs"], 1);
+  EXPECT_EQ(r["is_proven"], true);
+  EXPECT_EQ(r["impacts"], 5);
+  EXPECT_EQ(r["revs"], 1);
+  ASSERT_EQ(r["lyapunov_per_rev"].size(), 8u);
+  EXPECT_NEAR(r["lyapunov_per_rev"][0], -2.944044 * 2.0 * pi / 136.0, 1e-7);
+  EXPECT_EQ(r["resolution_per_rev"], 0.0);
+  EXPECT_LT(r["residual"], 1e-8);
+  EXPECT_EQ(r["contacts"][0]["regime"], "intermittent");
+  EXPECT_EQ(r["contacts"][0]["impacts_per_rev"], 5.0);
+  EXPECT_EQ(r["reduction"]["size"], 4);
+}
+
+TEST_F(Classify, ClaimsChaosOnlyAboveItsResolution) {
+  const json r = result({"classify", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--speed",
+                         "138.4rad/s", "--set", "contact.ring.stiffness=64e6", "--set",
+                         "contact.ring.friction=0.2", "--revolutions", "300"});
+  EXPECT_EQ(r["motion"], "chaotic");
+  EXPECT_TRUE(r["period_revs"].is_null());
+  EXPECT_EQ(r["is_proven"], false);
+  EXPECT_TRUE(r["residual"].is_null());
+  EXPECT_EQ(r["revs"], 300);
+  EXPECT_GT(r["lyapunov_per_rev"][0], 10.0 * r["resolution_per_rev"].get<double>());
+  EXPECT_NEAR(r["resolution_per_rev"], (1.0 + std::log(300.0)) / 300.0, 1e-12);
+}
+
+// A motion goes on where its kind was told.
+TEST_F(Classify, LeavesItsEndToGoOnFrom) {
+  const std::string model = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
+  ASSERT_EQ(whirl({"classify", model, "--out", "kind.h5", "--quiet"}).status, 0);
+  const ResultReader file(folder / "kind.h5");
+  EXPECT_EQ(file.string_attribute("/classify", "motion"), "periodic");
+  EXPECT_EQ(file.vector("/classify/exponent").size(), 8);
+  const json r =
+      result({"simulate", model, "--from", "kind.h5", "--discard", "0", "--revolutions", "16"});
+  EXPECT_EQ(r["contacts"][0]["impacts_per_rev"], 5.0);
 }
 
 }  // namespace contact_verbs_test

@@ -167,9 +167,9 @@ class Program : public testing::Test {
 };
 
 /// Names of all verbs that take a model.
-inline const std::vector<std::string> model_verbs{"check",    "static",   "modes",
-                                                  "campbell", "critical", "unbalance",
-                                                  "simulate", "identify", "bench"};
+inline const std::vector<std::string> model_verbs{"check",    "static",    "modes",    "campbell",
+                                                  "critical", "unbalance", "simulate", "identify",
+                                                  "classify", "bench"};
 
 /// The words of a call with options that keep its verb from measuring for long.
 inline std::vector<std::string> briefly(std::vector<std::string> words) {

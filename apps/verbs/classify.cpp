@@ -1,0 +1,110 @@
+#include "libdyn/classify.hpp"
+
+#include <fmt/format.h>
+
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
+#include "apps/verbs/simulation.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/table.hpp"
+
+namespace whirl {
+
+namespace {
+
+std::string plural(long n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// What was found, and why it is so.
+std::string evidence(const Classification& c, double period) {
+  std::string text = fmt::format("  {}", name_of(c.kind));
+  if (c.period > 0 && c.kind != MotionKind::equilibrium) {
+    text += fmt::format(", repeats after {}", plural(c.period, "revolution"));
+  }
+  if (!c.contacts.empty()) {
+    text += fmt::format("; {} in {}", plural(static_cast<long>(c.impacts()), "impact"),
+                        plural(c.revolutions, "revolution"));
+  }
+  text += "\n";
+  const double largest = c.exponents(0);
+  if (c.is_proven) {
+    text += fmt::format(
+        "  Newton's method found the orbit, to {:.0e} length scales; its largest multiplier is "
+        "{:.6f} a revolution\n",
+        c.residual, std::exp(largest));
+  } else {
+    text += fmt::format(
+        "  largest exponent {:+.4f} a revolution ({:+.3f} 1/s), mean of {}; within {:.4f} it would "
+        "count as zero\n",
+        largest, largest / period, c.revolutions, c.resolution);
+  }
+  Table table({"exponent", "per revolution", "[1/s]"});
+  for (Eigen::Index i = 0; i < c.exponents.size(); ++i) {
+    table.row({std::to_string(i + 1), fmt::format("{:+.6f}", c.exponents(i)),
+               fmt::format("{:+.4f}", c.exponents(i) / period)});
+  }
+  return text + "\n" + table.text();
+}
+
+}  // namespace
+
+Report run_classify(const Invocation& call) {
+  const Model model = call.model();
+  require_speed(model);
+  const auto file = call.result_file(model);
+  ClassifyOptions options;
+  options.revolutions = call.integer("revolutions", options.revolutions);
+  options.discard = call.integer("discard", options.discard, 0);
+  options.tolerance = call.number("tolerance", "", options.tolerance);
+  require_tolerance(options.tolerance, "--tolerance " + call.text("tolerance"));
+  const Scene scene = make_scene(model);
+  Progress progress("classifying", options.discard + options.revolutions, call.shows_progress);
+  is_interrupted();  // from now on Ctrl-C stops between revolutions
+  options.progress = [&](long done) {
+    progress.update(done);
+    return !is_interrupted();
+  };
+  const Classification c = classify(scene.contacts, starting_state(call, model, scene), options);
+
+  Report report{.record = begin_record(call, model), .failure = c.diagnosis};
+  report.status = c.outcome == Outcome::reached_end           ? 0
+                  : c.outcome == Outcome::stopped_by_observer ? 130
+                                                              : 3;
+  const bool is_known = report.status == 0;
+  Record& r = report.record;
+  r.set("motion", is_known ? Record(name_of(c.kind)) : Record(nullptr));
+  r.set("period_revs", is_known && c.period > 0 ? Record(c.period) : Record(nullptr));
+  r.set("lyapunov_per_rev", std::vector<double>(c.exponents.begin(), c.exponents.end()));
+  r.set("resolution_per_rev", c.resolution).set("is_proven", c.is_proven);
+  r.set("residual", c.is_proven ? Record(c.residual) : Record(nullptr));
+  r.set("impacts", c.impacts()).set("revs", c.revolutions);
+  add_contacts(r, c.contacts, c.revolutions);
+  add_reduction(r, scene);
+  if (!c.diagnosis.empty()) r.set("failure", c.diagnosis);
+
+  report.text = "Kind of motion" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
+                reduction_text(scene, model);
+  if (is_known) {
+    report.text += evidence(c, scene.contacts.period());
+    if (!c.contacts.empty()) report.text += "\n" + contacts_table(c.contacts, c.revolutions);
+  } else if (report.status == 130) {
+    report.text += fmt::format("  stopped after {}, before the kind was known\n",
+                               plural(c.revolutions, "averaged revolution"));
+  }
+  if (file) {
+    file->attribute("/", "speed", model.speed);
+    write_points(*file, model, scene.assembler);
+    write_end(*file, scene, c.end);
+    if (is_known) {
+      file->dataset("/classify/exponent", Vec(c.exponents / scene.contacts.period()),
+                    {"1/s", "Lyapunov exponents, descending", {""}});
+      file->attribute("/classify", "motion", std::string(name_of(c.kind)));
+      file->attribute("/classify", "period_revolutions", c.period);
+    }
+  }
+  commit(call, file.get(), report);
+  return report;
+}
+
+}  // namespace whirl

@@ -1,0 +1,97 @@
+// Kinds of motion: published ones of the rotor and stator, and those that are known in closed form.
+
+#include "libdyn/classify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/scenes.hpp"
+
+namespace whirl::classify_test {
+
+using test::RotorStator;
+
+Classification kind_of(const RotorStator& p, const ClassifyOptions& options = {}) {
+  const Scene scene = p.scene();
+  Classification c = classify(scene.contacts, test::start_of(p.model(), scene), options);
+  EXPECT_EQ(c.outcome, Outcome::reached_end) << c.diagnosis;
+  return c;
+}
+
+// Five impacts a revolution; the multipliers are those of the reference, to 1e-6 1/s.
+TEST(Classify, ProvesAPeriodicMotion) {
+  const Classification c = kind_of(test::P1);
+  EXPECT_EQ(c.kind, MotionKind::periodic);
+  EXPECT_TRUE(c.is_proven);
+  EXPECT_EQ(c.period, 1);
+  EXPECT_EQ(c.revolutions, 1);
+  EXPECT_EQ(c.impacts(), 5.0);
+  EXPECT_LT(c.residual, 1e-8);
+  const Vec rates = c.exponents / test::P1.scene().contacts.period();
+  EXPECT_NEAR(rates(0), -2.944044, 1e-6);
+  EXPECT_NEAR(rates(1), -2.944044, 1e-6);
+  EXPECT_NEAR(rates(2), -3.473444, 1e-6);
+  EXPECT_NEAR(rates(3), -3.473444, 1e-6);
+}
+
+// At 138.4 rad/s and 64 MN/m friction makes chaos and order: chaotic at 0 and 0.2, four revolutions
+// at 0.11, one at 0.15.
+TEST(Classify, TellsChaosFromOrder) {
+  const auto at = [](double mu) { return RotorStator{.Omega = 138.4, .kC = 64e6, .mu = mu}; };
+  for (const double mu : {0.0, 0.2}) {
+    const Classification c = kind_of(at(mu));
+    EXPECT_TRUE(c.kind == MotionKind::chaotic || c.kind == MotionKind::hyperchaotic) << mu;
+    EXPECT_FALSE(c.is_proven);
+    EXPECT_EQ(c.period, 0);
+    EXPECT_GT(c.exponents(0), 0.3);
+    EXPECT_GT(c.resolution, 1e-3);
+    EXPECT_EQ(c.revolutions, 1000);
+  }
+  const Classification four = kind_of(at(0.11), {.discard = 2000});
+  EXPECT_EQ(four.kind, MotionKind::periodic);
+  EXPECT_EQ(four.period, 4);
+  const Classification one = kind_of(at(0.15));
+  EXPECT_EQ(one.kind, MotionKind::periodic);
+  EXPECT_EQ(one.period, 1);
+}
+
+// A rotor that whirls without damping beside its unbalance has two frequencies.
+TEST(Classify, FindsTwoFrequencies) {
+  const test::MassInRing p{.Omega = 100.0, .k = 1.7e4, .U = 1e-5, .clearance = 1e-2};
+  const Scene scene = p.scene();
+  const Classification c =
+      classify(scene.contacts, test::state_of({1e-3, 0.0}, {0.0, 0.1}), {.revolutions = 300});
+  EXPECT_EQ(c.kind, MotionKind::quasi_periodic);
+  EXPECT_LT(c.exponents.cwiseAbs().maxCoeff(), c.resolution);
+}
+
+// Without unbalance it comes to rest where its weight hangs; with it, it goes around once a turn.
+TEST(Classify, KnowsRestFromMotion) {
+  test::MassInRing p{.Omega = 100.0, .k = 1e4, .c = 20.0, .clearance = 1e-2, .gravity = 9.81};
+  const Scene still = p.scene();
+  const MotionState start = test::state_of({1e-3, 0.0}, {0.0, 0.1});
+  const Classification rest = classify(still.contacts, start, {});
+  EXPECT_EQ(rest.kind, MotionKind::equilibrium);
+  EXPECT_NEAR(rest.end.y(1), -9.81 / 1e4, 1e-12);
+  // x'' + 20 x' + 1e4 x = 0: all exponents are -10 1/s
+  EXPECT_LT((rest.exponents / still.contacts.period() + Vec::Constant(4, 10.0)).norm(), 1e-6);
+  p.U = 1e-5;
+  const Scene whirling = p.scene();
+  const Classification around = classify(whirling.contacts, start, {});
+  EXPECT_EQ(around.kind, MotionKind::periodic);
+  EXPECT_EQ(around.period, 1);
+}
+
+// What cannot be integrated is said, with what was found so far.
+TEST(Classify, StopsWhenAskedTo) {
+  const RotorStator p{.Omega = 138.4, .kC = 64e6, .mu = 0.2};
+  const Scene scene = p.scene();
+  const Classification c = classify(scene.contacts, test::start_of(p.model(), scene),
+                                    {.progress = [](long done) { return done < 700; }});
+  EXPECT_EQ(c.outcome, Outcome::stopped_by_observer);
+  EXPECT_GT(c.revolutions, 190);
+  EXPECT_LT(c.revolutions, 210);
+}
+
+}  // namespace whirl::classify_test
