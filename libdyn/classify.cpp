@@ -22,10 +22,6 @@ constexpr double accurate = 1e-8;          ///< what rounding and events may lea
 constexpr double attracting = 1.0 - 1e-7;  ///< largest multiplier, whose error is below the rest
 constexpr int most_newton = 8;
 
-double distance(const ContactSystem& system, const Vec& a, const Vec& b) {
-  return (a - b).cwiseQuotient(system.state_scale()).cwiseAbs().maxCoeff();
-}
-
 /// One motion, moved on by pieces; it remembers the first failure.
 struct Motion {
   const ContactSystem& system;

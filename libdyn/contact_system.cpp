@@ -236,4 +236,8 @@ void ContactSystem::remove_slip(double* y, const ContactStates& states) const {
   }
 }
 
+double distance(const ContactSystem& system, const Vec& a, const Vec& b) {
+  return ((a - b).array() / system.state_scale().array()).abs().maxCoeff();
+}
+
 }  // namespace whirl

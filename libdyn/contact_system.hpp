@@ -118,6 +118,10 @@ class ContactSystem {
   Vec scale_;
 };
 
+/// Largest difference of two states: displacements by the length scale (the clearance), velocities
+/// by it times the rate of the phase (clearance times speed).
+double distance(const ContactSystem& system, const Vec& a, const Vec& b);
+
 /// Kinematics and normal force of one contact; friction is left zero.
 ContactForces kinematics(const ReducedContact& contact, const double* y, int coordinates);
 

@@ -85,8 +85,8 @@ ReferenceMotion quad_reference(const ContactSystem& system, const MotionState& s
   reference.revolutions = revolutions;
   reference.made_by = fmt::format("taylor in quadruple precision at {:g}", quad.tolerance);
   reference.end = a.state.y;
-  reference.error = error_between(system, a.state.y - b.state.y, b.lower_digits);
-  reference.growth = error_between(system, reference.end, deviated.y) / deviation;
+  reference.error = distance(system, a.state.y - b.state.y, b.lower_digits);
+  reference.growth = distance(system, reference.end, deviated.y) / deviation;
   return reference;
 }
 
@@ -97,8 +97,8 @@ ReferenceMotion dop853_reference(const ContactSystem& system, const MotionState&
   reference.made_by = fmt::format("dop853 at {:g}", tightest);
   reference.end = end_of(system, start, revolutions, tightest).y;
   reference.error =
-      error_between(system, reference.end, end_of(system, start, revolutions, second_tightest).y);
-  reference.growth = error_between(system, reference.end, deviated.y) / deviation;
+      distance(system, reference.end, end_of(system, start, revolutions, second_tightest).y);
+  reference.growth = distance(system, reference.end, deviated.y) / deviation;
   return reference;
 }
 
@@ -117,10 +117,6 @@ Candidate batch_of(std::string_view name, const ContactSystem& system, F integra
 }
 
 }  // namespace
-
-double error_between(const ContactSystem& system, const Vec& a, const Vec& b) {
-  return ((a - b).array() / system.state_scale().array()).abs().maxCoeff();
-}
 
 ReferenceMotion reference_motion(const ContactSystem& system, const MotionState& start,
                                  long revolutions) {
@@ -177,7 +173,7 @@ TimedRun measure(const Candidate& candidate, double tolerance, const ContactSyst
   run.integration = candidate.move(state, reference.revolutions, tolerance);
   const double first = processor_time() - begin;
   run.error = run.has_failed() ? std::numeric_limits<double>::quiet_NaN()
-                               : error_between(system, state.y, reference.end);
+                               : distance(system, state.y, reference.end);
 
   // the first run warms caches up and counts only if it is the only one
   std::vector<double> times;

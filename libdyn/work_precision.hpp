@@ -13,7 +13,7 @@ namespace whirl {
 /// What errors are measured against: where a motion really is after some revolutions.
 struct ReferenceMotion {
   Vec end;               ///< (eta, eta')
-  double error = 0.0;    ///< its own, estimated from two independent settings; as error_between
+  double error = 0.0;    ///< its own, estimated from two independent settings; as distance
   double growth = 1.0;   ///< of a small deviation over these revolutions
   std::string made_by;   ///< in words
   long revolutions = 0;  ///< from the start
@@ -21,10 +21,6 @@ struct ReferenceMotion {
   /// Whether the deviation became as large as the motion: growth then is a lower bound.
   bool is_lost() const { return growth > 1e6; }
 };
-
-/// Largest error of a state: displacements by the length scale (the clearance), velocities by it
-/// times the rate of the phase (clearance times speed).
-double error_between(const ContactSystem& system, const Vec& a, const Vec& b);
 
 /// Reference by Taylor series in quadruple precision (integrate_quad) where that works and takes
 /// seconds, else by DOP853.

@@ -32,28 +32,26 @@ HWY_ATTR inline void each(int n, F&& f) {
   }
 }
 
-/// 1 / k for the orders of a series, as exact as the numbers of a pack.
+/// 1 / of(k) for the orders of a series, as exact as the numbers of a pack.
+template <class P, class F>
+constexpr auto reciprocals(F of) {
+  using Number = typename P::Number;
+  std::array<Number, P::most_terms> table{};
+  for (int k = 0; k < P::most_terms; ++k) {
+    if (of(k) != 0) table[static_cast<size_t>(k)] = Number(1.0) / Number(of(k));
+  }
+  return table;
+}
+/// 1 / k.
 template <class P>
 inline typename P::Number inverse_of(int k) {
-  static constexpr auto table = [] {
-    std::array<typename P::Number, P::most_terms> t{};
-    for (int i = 1; i < P::most_terms; ++i) {
-      t[static_cast<size_t>(i)] = typename P::Number(1.0) / typename P::Number(i);
-    }
-    return t;
-  }();
+  static constexpr auto table = reciprocals<P>([](int i) { return i; });
   return table[static_cast<size_t>(k)];
 }
 /// 1 / ((k + 1) (k + 2)): coefficient k + 2 of x per coefficient k of x''.
 template <class P>
 inline typename P::Number twice_integrated(int k) {
-  static constexpr auto table = [] {
-    std::array<typename P::Number, P::most_terms> t{};
-    for (int i = 0; i < P::most_terms; ++i) {
-      t[static_cast<size_t>(i)] = typename P::Number(1.0) / typename P::Number((i + 1) * (i + 2));
-    }
-    return t;
-  }();
+  static constexpr auto table = reciprocals<P>([](int i) { return (i + 1) * (i + 2); });
   return table[static_cast<size_t>(k)];
 }
 

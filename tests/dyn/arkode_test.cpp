@@ -27,7 +27,7 @@ double order(const AnyMethod& method, const RotorStator& p, long revolutions,
     const Integration result = test::run(
         scene, state, revolutions, {.fixed_step = scene.contacts.period() / n, .method = method});
     EXPECT_EQ(result.outcome, Outcome::reached_end) << result.diagnosis;
-    error.push_back(test::distance(scene.contacts, state.y, reference.y));
+    error.push_back(distance(scene.contacts, state.y, reference.y));
   }
   return test::order_of(steps, error);
 }

@@ -120,7 +120,7 @@ TEST(Batch, AgreesWithDop853) {
     const Integration result = test::run(*sample.scenes[i], state, sample.all[i].revolutions,
                                          {.tolerance = 1e-13, .method = Dop853{}});
     EXPECT_EQ(result.cost.events, batch[i].cost.events) << i;
-    EXPECT_LT(test::distance(*batch[i].system, batch[i].state.y, state.y), 1e-9) << i;
+    EXPECT_LT(distance(*batch[i].system, batch[i].state.y, state.y), 1e-9) << i;
   }
 }
 
@@ -184,7 +184,7 @@ TEST(Batch, FliesOnInClosedFormWhereNothingCanHappen) {
   ASSERT_EQ(t.sections.size(), stepped.sections.size());
   for (std::size_t i = 0; i < t.sections.size(); i += 8) {
     const Eigen::Map<const Vec> a(&t.sections[i], 8), b(&stepped.sections[i], 8);
-    EXPECT_LT(test::distance(scene.contacts, a, b), 1e-8) << i / 8;  // of the steps before
+    EXPECT_LT(distance(scene.contacts, a, b), 1e-8) << i / 8;  // of the steps before
   }
   Trajectory far = t;
   far.cost = {};
@@ -192,7 +192,7 @@ TEST(Batch, FliesOnInClosedFormWhereNothingCanHappen) {
   integrate_single(far, {});
   EXPECT_LT(far.cost.steps, 50);
   EXPECT_EQ(far.state.revolution, 1'000'100);
-  EXPECT_LT(test::distance(scene.contacts, far.state.y, t.state.y), 1e-8);  // steady since long
+  EXPECT_LT(distance(scene.contacts, far.state.y, t.state.y), 1e-8);  // steady since long
 }
 
 TEST(Batch, RefusesSystemsOfDifferentShape) {

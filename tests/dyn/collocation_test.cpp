@@ -91,7 +91,7 @@ TEST(Collocation, IsExactWithoutContact) {
       return true;
     });
     EXPECT_LT(worst, dense);
-    EXPECT_LT(test::distance(scene.contacts, seen.y, state.y), roundings);
+    EXPECT_LT(distance(scene.contacts, seen.y, state.y), roundings);
   }
 }
 
@@ -109,7 +109,7 @@ double order_over(const Scene& scene, const MotionState& start, long revolutions
         test::run(scene, state, revolutions,
                   {.fixed_step = scene.contacts.period() / n, .method = collocation});
     EXPECT_EQ(result.cost.events, events) << n;
-    error.push_back(test::distance(scene.contacts, state.y, reference.y));
+    error.push_back(distance(scene.contacts, state.y, reference.y));
     EXPECT_GT(error.back(), 2e-13) << n;  // else rounding is measured
   }
   return order_of(steps, error);
@@ -206,7 +206,7 @@ TEST(Collocation, AgreesWithDop853InEveryKindOfContact) {
     EXPECT_EQ(result.outcome, Outcome::reached_end) << result.diagnosis;
     EXPECT_EQ(result.cost.events, expected.cost.events);
     EXPECT_EQ(a.contacts, b.contacts);
-    EXPECT_LT(test::distance(scene.contacts, a.y, b.y), allowed * tolerance);
+    EXPECT_LT(distance(scene.contacts, a.y, b.y), allowed * tolerance);
   }
 }
 
@@ -279,7 +279,7 @@ Effort effort(const Model& model, double tolerance) {
   MotionState a = start, b = start;
   test::run(scene, a, 1, {.tolerance = tolerance, .method = collocation});
   test::run(scene, b, 1, {.tolerance = 1e-11});
-  const double error = test::distance(scene.contacts, a.y, b.y);
+  const double error = distance(scene.contacts, a.y, b.y);
   const Integration result =
       test::run(scene, a, 10, {.tolerance = tolerance, .method = collocation});
   return {static_cast<double>(result.cost.steps) / 10.0, error};
@@ -311,7 +311,7 @@ TEST(Collocation, AgreesWithDop853OnTheTwoDiskRotor) {
   MotionState b = a;
   test::run(scene, a, 5, {.tolerance = 1e-13});
   test::run(scene, b, 5, {.tolerance = 1e-9, .method = collocation});
-  EXPECT_LT(test::distance(scene.contacts, a.y, b.y), 1e-8);
+  EXPECT_LT(distance(scene.contacts, a.y, b.y), 1e-8);
 }
 
 // 104 states, the fastest at 4.5e5 rad/s and hardly damped: forces follow all of them, which takes

@@ -87,7 +87,7 @@ double order_over_events(const AnyMethod& method, const RotorStator& p, long rev
     const Integration result = test::run(
         scene, state, revolutions, {.fixed_step = scene.contacts.period() / n, .method = method});
     EXPECT_EQ(result.cost.events, events) << n;
-    error.push_back(test::distance(scene.contacts, state.y, reference.y));
+    error.push_back(distance(scene.contacts, state.y, reference.y));
     EXPECT_GT(error.back(), 1e-13) << n;  // else rounding is measured
   }
   return order_of(steps, error);

@@ -99,7 +99,7 @@ TEST(FreeFlight, JumpsToWhereStepsLead) {
   EXPECT_EQ(steps.cost.events, 0);
   EXPECT_GT(steps.cost.steps, 3);
   EXPECT_EQ(jump.cost.steps, 1);
-  EXPECT_LT(test::distance(a.contacts, x.y, y.y), roundings);
+  EXPECT_LT(distance(a.contacts, x.y, y.y), roundings);
 }
 
 // One step for a million revolutions, and no error: what is left is the steady motion,
@@ -147,7 +147,7 @@ TEST(FreeFlight, GivesStepsToAnObserver) {
     return true;
   });
   EXPECT_EQ(last, 49);
-  EXPECT_LT(test::distance(scene.contacts, jump.y, seen.y), roundings);
+  EXPECT_LT(distance(scene.contacts, jump.y, seen.y), roundings);
 }
 
 }  // namespace whirl::free_flight_test

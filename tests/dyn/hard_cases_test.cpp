@@ -153,7 +153,7 @@ TEST_P(HardCase, RollingStaysLocked) {
   EXPECT_EQ(result.cost.events, 0);
   EXPECT_LT(slip, accuracy() * rotor.speed * 0.01);
   test::run(scene, reference, 5, {.tolerance = 1e-13});
-  EXPECT_LT(test::distance(scene.contacts, state.y, reference.y), 10.0 * accuracy());
+  EXPECT_LT(distance(scene.contacts, state.y, reference.y), 10.0 * accuracy());
 }
 
 // ---- starts -------------------------------------------------------------------------------------

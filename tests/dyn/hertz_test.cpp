@@ -82,8 +82,7 @@ TEST(Hertz, ErrorFollowsTheTolerance) {
     integrate_single(t, {.tolerance = tolerance});
     ASSERT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
     EXPECT_GT(t.cost.events, 20);
-    EXPECT_LT(test::distance(scene.contacts, t.state.y, exact.state.y), 1e3 * tolerance)
-        << tolerance;
+    EXPECT_LT(distance(scene.contacts, t.state.y, exact.state.y), 1e3 * tolerance) << tolerance;
   }
 }
 

@@ -65,7 +65,7 @@ TEST(InstructionSets, GiveTheSameMotions) {
     const std::vector<Trajectory> all = run(rotors, options);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Trajectory &t = all[i], &e = expected[i];
-      EXPECT_LT(test::distance(*t.system, t.state.y, e.state.y), rounding)
+      EXPECT_LT(distance(*t.system, t.state.y, e.state.y), rounding)
           << instruction_set() << " " << i;
       EXPECT_EQ(t.cost.events, e.cost.events) << instruction_set() << " " << i;
       EXPECT_NEAR(t.contacts[0].max_normal, e.contacts[0].max_normal,

@@ -62,7 +62,7 @@ TEST(Invariance, MirroredAndBackwardInTimeTheMotionRetracesItself) {
   MotionState state = test::state_of(start);
   const Integration out = test::run(there, state, 4, {.tolerance = 1e-13});
   EXPECT_GT(out.cost.events, 10);
-  EXPECT_GT(test::distance(there.contacts, state.y, start), 0.1);
+  EXPECT_GT(distance(there.contacts, state.y, start), 0.1);
 
   p.phase = test::pi - p.phase;
   p.offset(0) = -p.offset(0);
@@ -70,7 +70,7 @@ TEST(Invariance, MirroredAndBackwardInTimeTheMotionRetracesItself) {
   MotionState returning = test::state_of(mirrored(state.y));
   const Integration home = test::run(back, returning, 4, {.tolerance = 1e-13});
   EXPECT_EQ(home.cost.events, out.cost.events);
-  EXPECT_LT(test::distance(back.contacts, returning.y, mirrored(start)), accurate);
+  EXPECT_LT(distance(back.contacts, returning.y, mirrored(start)), accurate);
 }
 
 // Time is a revolution and a phase within it: a million revolutions later the same motion happens,
@@ -101,7 +101,7 @@ TEST(Invariance, AMotionMayBeInterruptedAtRevolutions) {
   test::run(scene, whole, 10);
   for (int i = 0; i < 10; ++i) test::run(scene, pieces, 1);
   EXPECT_EQ(pieces.revolution, 10);
-  EXPECT_LT(test::distance(scene.contacts, whole.y, pieces.y), accurate);
+  EXPECT_LT(distance(scene.contacts, whole.y, pieces.y), accurate);
 }
 
 // The steady motion of coordinates does not depend on how they are called: bodies in another order.

@@ -33,7 +33,7 @@ int period_of(const Trajectory& t) {
   for (int period = 1; period <= 12; ++period) {
     double worst = 0.0;
     for (int i = 0; i + period < count; ++i) {
-      worst = std::max(worst, test::distance(*t.system, section(i), section(i + period)));
+      worst = std::max(worst, distance(*t.system, section(i), section(i + period)));
     }
     if (worst < repeats) return period;
   }

@@ -66,7 +66,7 @@ TEST_P(EveryMethod, GivesStepsThatJoin) {
         }
         EXPECT_NEAR(step.turn, step.h * test::P1.Omega, 1e-14);
         step.at(0.0, z.data());
-        EXPECT_LT(test::distance(scene.contacts, y, z), interpolation);
+        EXPECT_LT(distance(scene.contacts, y, z), interpolation);
         step.at(1.0, y.data());
         revolution = step.revolution;
         phase = step.phase + step.turn;
@@ -75,7 +75,7 @@ TEST_P(EveryMethod, GivesStepsThatJoin) {
   EXPECT_EQ(result.outcome, Outcome::reached_end);
   EXPECT_EQ(state.revolution, 23);
   EXPECT_EQ(state.phase, 0.0);
-  EXPECT_LT(test::distance(scene.contacts, y, state.y), interpolation);
+  EXPECT_LT(distance(scene.contacts, y, state.y), interpolation);
   EXPECT_GT(result.cost.steps, 0);
   EXPECT_GT(result.cost.evaluations, result.cost.steps);
 }
@@ -98,8 +98,8 @@ TEST_P(EveryMethod, InterpolatesWithinItsSteps) {
     return y;
   };
   for (const double phase : {0.1, 1.0, 2.0, 3.3, 4.4, 5.9}) {
-    EXPECT_LT(test::distance(scene.contacts, state_at(method(), 1e-10, phase),
-                             state_at(Dop853{}, 1e-15, phase)),
+    EXPECT_LT(distance(scene.contacts, state_at(method(), 1e-10, phase),
+                       state_at(Dop853{}, 1e-15, phase)),
               1e-7)  // a dense output may be worse than its steps, by an order or two
         << phase;
   }
@@ -123,7 +123,7 @@ TEST_P(EveryMethod, StopsWhereTheObserverSays) {
   EXPECT_EQ(state.phase, 0.0);
   MotionState whole = test::start_of(test::P1.model(), scene);
   test::run(scene, whole, 2);
-  EXPECT_LT(test::distance(scene.contacts, state.y, whole.y), 1e-6);
+  EXPECT_LT(distance(scene.contacts, state.y, whole.y), 1e-6);
 }
 
 TEST_P(EveryMethod, SaysWhatWentWrongWithAStateThatIsNoNumber) {

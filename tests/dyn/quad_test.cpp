@@ -30,7 +30,7 @@ struct Motion {
   }
 };
 
-/// Largest difference of the ends in all their digits; as test::distance.
+/// Largest difference of the ends in all their digits; as distance.
 double distance(const Trajectory& a, const Trajectory& b) {
   const Vec apart = (a.state.y - b.state.y) + (a.lower_digits - b.lower_digits);
   return (apart.array() / a.system->state_scale().array()).abs().maxCoeff();
@@ -51,7 +51,7 @@ void expect_consistent(const RotorStator& p, double of_double, long count = revo
   MotionState state = motion.start;
   const Integration result = test::run(motion.scene, state, count, {.tolerance = 1e-15});
   EXPECT_EQ(result.cost.events, a.cost.events);
-  EXPECT_LT(test::distance(motion.scene.contacts, state.y, a.state.y), of_double);
+  EXPECT_LT(distance(motion.scene.contacts, state.y, a.state.y), of_double);
 }
 
 // Rounding of double is some 1e-15 in each of 1000 steps. P4 lets deviations grow.
@@ -112,7 +112,7 @@ TEST(Quad, IsConsistentWithStickingThatEnds) {
   EXPECT_LT(a.contacts[0].sticking, motion.scene.contacts.period());
   MotionState state = motion.start;
   test::run(motion.scene, state, some, {.tolerance = 1e-15});
-  EXPECT_LT(test::distance(motion.scene.contacts, state.y, a.state.y), rounding_of_chaos);
+  EXPECT_LT(distance(motion.scene.contacts, state.y, a.state.y), rounding_of_chaos);
 }
 
 // A mass on a spring of m Omega^2 swings once in a revolution: it comes back to where it

@@ -45,7 +45,7 @@ TEST(Rk4Batch, GivesEachTrajectoryWhatRk4Gives) {
     MotionState state = rotors.trajectories[i].state;
     const Integration alone = test::run(*rotors.scenes[i], state, batch[i].revolutions,
                                         {.tolerance = tolerance, .method = Rk4{}});
-    EXPECT_LT(test::distance(*batch[i].system, batch[i].state.y, state.y), rounding) << i;
+    EXPECT_LT(distance(*batch[i].system, batch[i].state.y, state.y), rounding) << i;
     EXPECT_EQ(batch[i].state.contacts, state.contacts) << i;
     EXPECT_EQ(batch[i].state.revolution, state.revolution) << i;
     EXPECT_EQ(batch[i].state.phase, 0.0) << i;
@@ -61,7 +61,7 @@ TEST(Rk4Batch, BeginsWithinARevolution) {
   MotionState state = t.state;
   integrate_batch_rk4({&t, 1}, {.fixed_step = 1e-4});
   test::run(*rotors.scenes[0], state, t.revolutions, {.fixed_step = 1e-4, .method = Rk4{}});
-  EXPECT_LT(test::distance(*t.system, t.state.y, state.y), 1e-11);
+  EXPECT_LT(distance(*t.system, t.state.y, state.y), 1e-11);
 }
 
 // A state that is no number ends its own lane only, and is said.

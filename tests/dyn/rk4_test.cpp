@@ -36,7 +36,7 @@ struct Motion {
                   {.fixed_step = scene.contacts.period() / steps, .method = Rk4{}});
     EXPECT_EQ(result.cost.steps, static_cast<long>(steps) * revolutions);
     EXPECT_EQ(result.cost.evaluations, 4 * result.cost.steps + 1);
-    return test::distance(scene.contacts, state.y, end.y);
+    return distance(scene.contacts, state.y, end.y);
   }
   std::vector<double> errors(const std::vector<double>& steps) const {
     std::vector<double> all;

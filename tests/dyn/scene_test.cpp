@@ -104,7 +104,7 @@ TEST(StartState, FromAResultIsWhereItEnded) {
   const FullState full = full_state(scene, end);
   model.start.from = StartFrom::file;
   const MotionState same = start_state(model, scene, &full);
-  EXPECT_LT(test::distance(scene.contacts, same.y, end.y), 1e-9 / scene.contacts.length_scale());
+  EXPECT_LT(distance(scene.contacts, same.y, end.y), 1e-9 / scene.contacts.length_scale());
 
   Model all = model;
   all.reduction = {.method = ReductionMethod::none};

@@ -64,7 +64,7 @@ void expect_proportional(const Reference& r, const AnyMethod& method, double rat
     const Integration result =
         test::run(r.scene, state, revolutions, {.tolerance = tolerance, .method = method});
     ASSERT_EQ(result.outcome, Outcome::reached_end);
-    const double error = test::distance(r.scene.contacts, state.y, r.end.y);
+    const double error = distance(r.scene.contacts, state.y, r.end.y);
     EXPECT_LT(error, ratio * tolerance);
     EXPECT_EQ(static_cast<double>(result.cost.events), r.point.events * revolutions);
     if (loosest == 0.0) loosest = error;

@@ -50,7 +50,7 @@ TEST(WorkPrecision, ReferencesAgreeWithinTheirErrors) {
   const ReferenceMotion other = dop853_reference(p.scene.contacts, p.start, revolutions);
   EXPECT_EQ(other.made_by, "dop853 at 1e-15");
   EXPECT_LT(other.error, 1e-12);
-  const double apart = error_between(p.scene.contacts, other.end, p.reference.end);
+  const double apart = distance(p.scene.contacts, other.end, p.reference.end);
   EXPECT_GT(apart, p.reference.error);
   EXPECT_LT(apart, 3.0 * other.error);
   EXPECT_NEAR(other.growth, p.reference.growth, 1e-4);
@@ -89,7 +89,7 @@ TEST(WorkPrecision, MeasuresErrorAndTimeOfMethods) {
   const TimedRun fine = measure(dop853, 1e-12, p.scene.contacts, p.start, p.reference, quick);
   EXPECT_EQ(coarse.method, "dop853");
   EXPECT_FALSE(coarse.has_failed());
-  EXPECT_EQ(coarse.error, test::distance(p.scene.contacts, end.y, p.reference.end));
+  EXPECT_EQ(coarse.error, distance(p.scene.contacts, end.y, p.reference.end));
   EXPECT_LT(fine.error, 1e-4 * coarse.error);
   EXPECT_GT(coarse.time, 1e-7);  // 100 ns and 10 ms a revolution: any machine is in between
   EXPECT_LT(fine.time, 1e-2);

@@ -171,12 +171,6 @@ inline Integration run(const Scene& scene, MotionState& state, long revolutions,
                    {.tolerance = how.tolerance, .fixed_step = how.fixed_step}, observer);
 }
 
-/// Largest difference of two states, displacements by the length scale, velocities by it and the
-/// rate of the phase.
-inline double distance(const ContactSystem& system, const Vec& a, const Vec& b) {
-  return ((a - b).array() / system.state_scale().array()).abs().maxCoeff();
-}
-
 /// Order of convergence: slope of the line through log(error) over log(1 / number), least squares.
 inline double order_of(const std::vector<double>& number, const std::vector<double>& error) {
   const auto n = static_cast<double>(number.size());
