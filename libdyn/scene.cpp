@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libdyn/equilibrium.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 #include "libfe/eigen/symmetric.hpp"
@@ -91,7 +92,7 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
     case StartFrom::equilibrium:
       if (model.structure.gravity != 0.0) {
         require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
-        state.y.head(n) = DenseLu<Mat>(scene.contacts.K()).solve(scene.contacts.constant_load());
+        state.y.head(n) = equilibrium(scene.contacts);
       }
       break;
     case StartFrom::file: {

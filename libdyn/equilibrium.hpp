@@ -1,0 +1,19 @@
+#pragma once
+/// Where a rotor lies at rest, on its stators if its sag is more than their clearance.
+
+#include "libdyn/contact_system.hpp"
+
+namespace whirl {
+
+/// Coordinates eta at which weight, springs and the normal forces of contacts balance, without
+/// unbalance and friction:
+///
+///   f0 = K eta + sum_j B_j N_j n_j
+///
+/// Where no contact is reached this is the linear sag, else it is found from there by Newton's
+/// method with line search (KINSOL).
+///
+/// @throws NumericalError  if K is singular, or if the iteration does not converge
+Vec equilibrium(const ContactSystem& system);
+
+}  // namespace whirl
