@@ -169,18 +169,27 @@ Classification classify(const ContactSystem& system, MotionState start,
     return true;
   };
 
-  motion.go(options.discard, {});
-  if (!motion.is_good() || is_proven_periodic()) return finished();
+  /// Asks once a revolution whether to go on; `before`: revolutions done when it begins.
+  const auto asker = [&](long before) {
+    return [&options, before, first = motion.state.revolution,
+            last = motion.state.revolution](const Step& step) mutable {
+      if (step.revolution == last || !options.progress) return true;
+      last = step.revolution;
+      return options.progress(before + last - first);
+    };
+  };
+
+  motion.go(options.discard, {}, options.progress ? Observer(asker(0)) : Observer());
+  if (motion.is_good() && is_proven_periodic()) return finished();
+  if (!motion.is_good()) return finished();
 
   ContactMeter meter(system);
   const long first = motion.state.revolution;
-  long done = first;
-  const Trajectory t = motion.go(options.revolutions, {.exponents = true}, [&](const Step& step) {
+  const auto averaging = [&, goes_on = asker(options.discard)](const Step& step) mutable {
     meter.add(step);
-    if (step.revolution == done || !options.progress) return true;
-    done = step.revolution;
-    return options.progress(options.discard + done - first);
-  });
+    return goes_on(step);
+  };
+  const Trajectory t = motion.go(options.revolutions, {.exponents = true}, averaging);
   result.revolutions = motion.state.revolution - first;
   result.contacts = meter.measures();
   if (!motion.is_good() || result.revolutions == 0) return finished();

@@ -314,6 +314,18 @@ TEST_F(Interrupt, BeforeTheFirstRecordedRevolution) {
   EXPECT_EQ(file.vector("/trajectory/end_displacement").size(), 2);
 }
 
+TEST_F(Interrupt, InTheTransientOfClassify) {
+  double seconds = 0.0;
+  const Outcome outcome =
+      stopped({"classify", "rub.toml", "--discard", "900000000", "--out", "kind.h5", "--json", "-"},
+              seconds);
+  EXPECT_EQ(outcome.status, 130);
+  const json r = outcome.tree();
+  EXPECT_TRUE(r["motion"].is_null());
+  EXPECT_EQ(r["revs"], 0);
+  EXPECT_EQ(ResultReader(folder / "kind.h5").vector("/trajectory/end_displacement").size(), 2);
+}
+
 // ---- classify -----------------------------------------------------------------------------------
 
 class Classify : public Simulation {};
