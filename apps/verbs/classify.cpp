@@ -67,10 +67,8 @@ Report run_classify(const Invocation& call) {
   };
   const Classification c = classify(scene.contacts, starting_state(call, model, scene), options);
 
-  Report report{.record = begin_record(call, model), .failure = c.diagnosis};
-  report.status = c.outcome == Outcome::reached_end           ? 0
-                  : c.outcome == Outcome::stopped_by_observer ? 130
-                                                              : 3;
+  Report report{
+      .record = begin_record(call, model), .failure = c.diagnosis, .status = status_of(c.outcome)};
   const bool is_known = report.status == 0;
   Record& r = report.record;
   r.set("motion", is_known ? Record(name_of(c.kind)) : Record(nullptr));
@@ -93,9 +91,7 @@ Report run_classify(const Invocation& call) {
                                plural(c.revolutions, "averaged revolution"));
   }
   if (file) {
-    file->attribute("/", "speed", model.speed);
-    write_points(*file, model, scene.assembler);
-    write_end(*file, scene, c.end);
+    write_end(*file, model, scene, c.end);
     if (is_known) {
       file->dataset("/classify/exponent", Vec(c.exponents / scene.contacts.period()),
                     {"1/s", "Lyapunov exponents, descending", {""}});

@@ -71,7 +71,7 @@ Report run_identify(const Invocation& call) {
 
   Report report{.record = begin_record(call, model),
                 .failure = run.simulation.integration.diagnosis,
-                .status = status_of(run)};
+                .status = status_of(run.simulation.integration.outcome)};
   add_run(report.record, run);
   report.text = "Identification" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
                 run_text(run, model);

@@ -12,7 +12,7 @@ Report run_simulate(const Invocation& call) {
 
   Report report{.record = begin_record(call, model),
                 .failure = run.simulation.integration.diagnosis,
-                .status = status_of(run)};
+                .status = status_of(run.simulation.integration.outcome)};
   add_run(report.record, run);
   add_stations(report.record, run);
   report.text = "Simulation" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +

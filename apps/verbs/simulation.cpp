@@ -80,7 +80,8 @@ struct EarlierEnd {
 EarlierEnd read_end(const std::string& path) {
   const ResultReader file(path);
   if (!file.has("/trajectory/end_displacement")) {
-    throw ModelError({path}, "", "holds no motion to start from; simulate and identify write one");
+    throw ModelError({path}, "",
+                     "holds no motion to start from; simulate, identify and classify write one");
   }
   EarlierEnd end{
       {file.vector("/trajectory/end_displacement"), file.vector("/trajectory/end_velocity")},
@@ -94,20 +95,20 @@ EarlierEnd read_end(const std::string& path) {
 }
 
 /// The order of freedoms in a result file.
-const std::string all = ": x, y, theta_x, theta_y of every node, then of every body";
+const std::string full_vector = ": x, y, theta_x, theta_y of every node, then of every body";
 
 }  // namespace
 
 const std::vector<OptionSpec>& integration_options() {
   static const std::vector<OptionSpec> options{
       {"revolutions", "N", "revolutions that are recorded (512)"},
-      {"discard", "N", "revolutions before them, for the transient (500)"},
+      discard_option,
       {"samples", "N", "samples per revolution (64)"},
       {"method", "M",
        "integrator: taylor, collocation (left out: the better of these), dop853, cvode-adams, "
        "cvode-bdf, arkode, arkode-dirk, rk4"},
-      {"tolerance", "T", "of a step, displacements by the clearance (1e-10)"},
-      {"from", "FILE.h5", "start where a result ended"},
+      tolerance_option,
+      from_option,
       {"stations", "NAME,...",
        "what is recorded and shown: names, node numbers, all (contacts, disks, bearings)"}};
   return options;
@@ -183,8 +184,8 @@ Run run_simulation(const Invocation& call, const Model& model) {
   return run;
 }
 
-int status_of(const Run& run) {
-  switch (run.simulation.integration.outcome) {
+int status_of(Outcome outcome) {
+  switch (outcome) {
     case Outcome::reached_end:
       return 0;
     case Outcome::stopped_by_observer:
@@ -313,20 +314,21 @@ std::string run_text(const Run& run, const Model& model) {
   return text + "\n" + table.text();
 }
 
-void write_end(ResultWriter& file, const Scene& scene, const MotionState& state) {
+void write_end(ResultWriter& file, const Model& model, const Scene& scene,
+               const MotionState& state) {
+  file.attribute("/", "speed", model.speed);
+  write_points(file, model, scene.assembler);
   const FullState end = full_state(scene, state);
   file.dataset("/trajectory/end_displacement", end.displacement,
-               {"m, rad", "displacement at the end" + all, {""}});
+               {"m, rad", "displacement at the end" + full_vector, {""}});
   file.dataset("/trajectory/end_velocity", end.velocity,
-               {"m/s, rad/s", "velocity at the end" + all, {""}});
+               {"m/s, rad/s", "velocity at the end" + full_vector, {""}});
   file.attribute("/trajectory", "end_phase", state.phase);
 }
 
 void write_run(ResultWriter& file, const Run& run, const Model& model) {
   const Recording& r = run.simulation.recording;
-  file.attribute("/", "speed", model.speed);
-  write_points(file, model, run.scene.assembler);
-  write_end(file, run.scene, run.simulation.end);
+  write_end(file, model, run.scene, run.simulation.end);
   file.attribute("/trajectory", "samples_per_revolution", r.samples);
   file.attribute("/trajectory", "revolutions", static_cast<double>(r.revolutions));
   file.attribute("/trajectory", "period", r.period);
@@ -360,7 +362,7 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
       "/trajectory/coordinates", r.eta,
       {"", "reduced coordinates: displacement = basis * coordinates", {"", "/trajectory/time"}});
   file.dataset("/trajectory/basis", run.scene.displacement_map(),
-               {"m, rad", "displacement of the reduced coordinates" + all, {"", ""}});
+               {"m, rad", "displacement of the reduced coordinates" + full_vector, {"", ""}});
 
   if (!r.contacts.empty()) {
     std::vector<std::string> contacts, regimes;

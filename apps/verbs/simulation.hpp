@@ -15,7 +15,14 @@ namespace whirl {
 
 class ResultWriter;
 
-/// Options of every verb that integrates.
+/// Options that verbs share one by one.
+constexpr OptionSpec discard_option{"discard", "N",
+                                    "revolutions before them, for the transient (500)"};
+constexpr OptionSpec tolerance_option{"tolerance", "T",
+                                      "of a step, displacements by the clearance (1e-10)"};
+constexpr OptionSpec from_option{"from", "FILE.h5", "start where a result ended"};
+
+/// Options of simulate and identify.
 const std::vector<OptionSpec>& integration_options();
 
 /// A finished (or failed, or stopped) run.
@@ -43,7 +50,7 @@ MotionState starting_state(const Invocation& call, Model model, const Scene& sce
 Run run_simulation(const Invocation& call, const Model& model);
 
 /// Exit status of a run: 0, 3 (failed) or 130 (stopped by the user).
-int status_of(const Run& run);
+int status_of(Outcome outcome);
 
 /// `contacts` entry: what contacts did over so many revolutions, and the same for people.
 void add_contacts(Record& record, const std::vector<ContactMeasure>& contacts, long revolutions);
@@ -60,8 +67,8 @@ void add_stations(Record& record, const Run& run);
 /// What was integrated, how, at what cost, and what the contacts did, for people.
 std::string run_text(const Run& run, const Model& model);
 
-/// Where a motion ended, for --from, in group /trajectory.
-void write_end(ResultWriter& file, const Scene& scene, const MotionState& end);
+/// Speed, group /points, and where a motion ended, for --from, in group /trajectory.
+void write_end(ResultWriter& file, const Model& model, const Scene& scene, const MotionState& end);
 
 /// Groups /trajectory and /contacts, and /spectra of the stations.
 void write_run(ResultWriter& file, const Run& run, const Model& model);

@@ -8,7 +8,6 @@
 #endif
 
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "libdyn/batch/contact_slopes-inl.h"

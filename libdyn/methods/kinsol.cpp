@@ -11,11 +11,8 @@ namespace whirl {
 
 namespace {
 
+using sundials::values;
 using Function = std::function<void(const Vec&, Vec&)>;
-
-Eigen::Map<Vec> values(N_Vector v) {
-  return {N_VGetArrayPointer(v), N_VGetLength_Serial(v)};
-}
 
 int evaluate(N_Vector x, N_Vector to, void* function) {
   Vec f(N_VGetLength_Serial(x));
@@ -31,9 +28,7 @@ struct Release {
 }  // namespace
 
 std::optional<Vec> find_root(const Function& f, const Vec& guess, const Vec& scale, double size) {
-  SUNContext created = nullptr;
-  SUNContext_Create(nullptr, &created);
-  const sundials::Context context(created);
+  const sundials::Context context = sundials::new_context();
   const auto vector = [&](const Vec& from) {
     sundials::Vector v(N_VNew_Serial(from.size(), context.get()));
     values(v.get()) = from;

@@ -17,17 +17,17 @@ namespace {
 constexpr int most_instant_events = 50;
 enum Flag { stop_time = 1, root = 2 };  // of CVODE and ARKODE alike; below zero: a failure
 
-SUNContext new_context() {
+}  // namespace
+
+Context new_context() {
   SUNContext context = nullptr;
   SUNContext_Create(nullptr, &context);
-  return context;
+  return Context(context);
 }
 
-Eigen::Map<Vec> values(const Vector& v) {
-  return {N_VGetArrayPointer(v.get()), N_VGetLength_Serial(v.get())};
+Eigen::Map<Vec> values(N_Vector v) {
+  return {N_VGetArrayPointer(v), N_VGetLength_Serial(v)};
 }
-
-}  // namespace
 
 NewtonSolver::NewtonSolver(N_Vector y, SUNContext context)
     : jacobian(SUNDenseMatrix(N_VGetLength_Serial(y), N_VGetLength_Serial(y), context)),
@@ -45,8 +45,8 @@ Motion::Motion(const ContactSystem& system, MotionState& state, double tolerance
     state.contacts = system.classify(state.phase, state.y.data());
   }
   apply_events_at_start();
-  values(y_) = state.y;
-  values(weight_) = tolerance * system.state_scale();
+  values(y_.get()) = state.y;
+  values(weight_.get()) = tolerance * system.state_scale();
 }
 
 int Motion::rhs(realtype t, N_Vector y, N_Vector dy, void* motion) {
@@ -124,8 +124,8 @@ void Motion::dense(const Solver& solver, void* memory, double from, double to, S
   for (int k = 0; k <= degree; ++k) {
     if (k > 0) factor *= (to - from) / k;
     solver.derivative(memory, from, k, work_.get());
-    step.q.col(k) = factor * values(work_).head(n);
-    step.v.col(k) = factor * values(work_).tail(n);
+    step.q.col(k) = factor * values(work_.get()).head(n);
+    step.v.col(k) = factor * values(work_.get()).tail(n);
   }
 }
 
@@ -133,7 +133,7 @@ Integration Motion::run(const Solver& solver, void* memory, long revolutions,
                         const Observer& observer) {
   const double rate = system_.phase_rate(), period = system_.period();
   const long last = state_.revolution + revolutions;
-  const Eigen::Map<Vec> now = values(y_);
+  const Eigen::Map<Vec> now = values(y_.get());
   const auto fail = [&](Outcome outcome, std::string_view what) {
     result_.outcome = outcome;
     result_.diagnosis = diagnosis(system_, state_, what);

@@ -34,6 +34,11 @@ using Matrix = std::unique_ptr<_generic_SUNMatrix, Releaser<SUNMatDestroy>>;
 using LinearSolver = std::unique_ptr<_generic_SUNLinearSolver, Releaser<SUNLinSolFree>>;
 using NonlinearSolver = std::unique_ptr<_generic_SUNNonlinearSolver, Releaser<SUNNonlinSolFree>>;
 
+Context new_context();
+
+/// The numbers of a vector.
+Eigen::Map<Vec> values(N_Vector v);
+
 /// Silences a solver's own messages; what went wrong is in the outcome.
 inline void no_messages(int, const char*, const char*, char*, void*) {}
 
