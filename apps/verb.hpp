@@ -29,6 +29,7 @@ class Invocation {
   std::string verb;
   std::string file;                          ///< model or result
   std::vector<std::string> sets;             ///< PATH=VALUE lines, --speed included
+  std::vector<std::string> over;             ///< values of --over, which may be given several times
   std::map<std::string, std::string> given;  ///< options and their values; flags have an empty one
   std::vector<std::string> line;             ///< the command line, to be stored in results
   std::string model_text;                    ///< of a result that is run again; else empty

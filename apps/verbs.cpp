@@ -2,12 +2,18 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/simulation.hpp"
+#include "apps/verbs/study.hpp"
 
 namespace whirl {
 
 namespace {
 
 const OptionSpec speeds{"speeds", "A:B:STEP", "speeds, such as 0:8000:50rpm"};
+
+const OptionSpec over{"over", "PATH=A:B:STEP",
+                      "a value of the model and what it runs over: first:last:step, first:last "
+                      "with --points, or value,value,..."};
+const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
   own.insert(own.end(), integration_options().begin(), integration_options().end());
@@ -82,6 +88,24 @@ const std::vector<Verb>& verbs() {
         tolerance_option,
         from_option},
        run_classify},
+      {"sweep", "Contact", "bifurcation diagram and spectra along one parameter, up and down",
+       "MODEL",
+       "whirl sweep models/jeffcott_stator.toml --over operation.speed=130:140:0.5rad/s --out "
+       "sweep.h5",
+       study_options({over,
+                      points,
+                      {"fresh", "", "every value from the model's start, not from the one before"},
+                      {"sections", "N", "Poincare sections kept of a motion (64)"},
+                      {"spectra", "N", "revolutions of a value's spectrum (32); 0: none"},
+                      {"stations", "NAME,...",
+                       "of sections and spectra: names, node numbers, all (contacts, disks, "
+                       "bearings)"}}),
+       run_sweep},
+      {"map", "Contact", "a plane of two parameters, or several planes, every point classified",
+       "MODEL",
+       "whirl map models/jeffcott_stator.toml --over operation.speed=130:160:2rad/s --over "
+       "contact.ring.stiffness=10:150:10MN/m --out map.h5",
+       study_options({over, points}), run_map},
       {"bench",
        "Contact",
        "speed against error of every integrator on this model",

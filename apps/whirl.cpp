@@ -184,7 +184,12 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   for (const OptionSpec& option : verb->options) {
     const std::string name(option.name);
     has_out = has_out || name == "out";
-    if (option.value.empty()) {
+    if (name == "over") {
+      app.add_option("--over", call.over, std::string(option.help))
+          ->type_name(std::string(option.value))
+          ->take_all()
+          ->expected(1);
+    } else if (option.value.empty()) {
       app.add_flag("--" + name, flags[name], std::string(option.help));
     } else {
       app.add_option("--" + name, values[name], std::string(option.help))

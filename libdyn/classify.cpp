@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "libdyn/batch/batch.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 /// Distances of sections that make a period worth a try: the nearer they repeat, the surer.
 constexpr double repeats[] = {1e-6, 1e-4, 1e-2};
+constexpr int sure_repeats = 2;            ///< how many of them count before the transient is over
 constexpr double nearby = 10.0;            ///< how many of them the orbit may be away
 constexpr double same = 1e-6;              ///< of a shorter period that Newton's orbit has, too
 constexpr double exact = 1e-12;            ///< tolerance of steps for an orbit and its multipliers
@@ -22,99 +24,282 @@ constexpr double converged = 1e-11;        ///< residual of an orbit
 constexpr double accurate = 1e-8;          ///< what rounding and events may leave of it
 constexpr double attracting = 1.0 - 1e-7;  ///< largest multiplier, whose error is below the rest
 constexpr int most_newton = 8;
+constexpr long first_search = 96;     ///< revolutions
+constexpr double later_search = 1.5;  ///< times those of the search before
+constexpr std::size_t few = 2;        ///< trajectories that are faster one by one than in lanes
 
-/// One motion, moved on by pieces; it remembers the first failure.
-struct Motion {
-  const ContactSystem& system;
-  double tolerance;
-  MotionState state;
-  Outcome outcome = Outcome::reached_end;
-  std::string diagnosis;
-
-  bool is_good() const { return outcome == Outcome::reached_end; }
-
-  Trajectory go(long revolutions, BatchOptions options, const Observer& observer = {}) {
-    options.tolerance = tolerance;
-    Trajectory t{.system = &system, .state = state, .revolutions = revolutions};
-    integrate_single(t, options, observer);
-    if (t.outcome != Outcome::reached_end && is_good()) {
-      outcome = t.outcome;
-      diagnosis = t.diagnosis;
-    }
-    state = t.state;
-    return t;
+/// Trajectories of any systems, in batches of those that have the same shape.
+void integrate_all(std::vector<Trajectory>& all, const BatchOptions& options) {
+  std::map<std::vector<std::size_t>, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<std::size_t> shape{static_cast<std::size_t>(all[i].system->coordinates())};
+    for (const ReducedContact& c : all[i].system->contacts()) shape.push_back(c.law.index());
+    groups[shape].push_back(i);
   }
-};
+  for (const auto& [shape, members] : groups) {
+    if (members.size() <= few) {
+      for (const std::size_t i : members) integrate_single(all[i], options);
+      continue;
+    }
+    std::vector<Trajectory> batch;
+    for (const std::size_t i : members) batch.push_back(std::move(all[i]));
+    integrate_batch(batch, options);
+    for (std::size_t i = 0; i < members.size(); ++i) all[members[i]] = std::move(batch[i]);
+  }
+}
 
-/// Smallest period with which the last sections repeat within a bound; 0: none.
-int period_of(const ContactSystem& system, const std::vector<double>& sections, int longest,
-              double bound) {
-  const int size = system.size(), count = static_cast<int>(sections.size()) / size;
-  const auto section = [&](int i) -> Vec {
-    return Eigen::Map<const Vec>(sections.data() + i * size, size);
+/// Motions that are classified together.
+class Together {
+ public:
+  Together(std::span<Subject> all, const ClassifyOptions& options) : options_(options) {
+    for (Subject& s : all) {
+      if (s.system->coordinates() == 0) {
+        throw NumericalError("nothing moves: the system has no freedoms");
+      }
+      if (s.found.is_good() && !s.found.is_proven) open_.push_back(&s);
+    }
+  }
+
+  void settle() {
+    long done = 0;
+    for (double next = first_search; done < options_.discard && !open_.empty();
+         next *= later_search) {
+      // the last stage takes what would be too short for one of its own
+      const bool is_last = later_search * next > static_cast<double>(options_.discard);
+      const long to = is_last ? options_.discard : static_cast<long>(next);
+      const long watched = std::min(to - done, 2L * options_.longest_period);
+      go(to - done - watched, {});
+      search(go(watched, {.sections = true}), is_last);
+      done = to;
+      for (Subject* s : open_) s->found.transient = done;
+    }
+  }
+
+  void average() {
+    const std::vector<Trajectory> averaged =
+        go(options_.revolutions,
+           {.sections = options_.sections > 0, .measures = true, .exponents = true});
+    std::vector<Subject*> attracted;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      const Trajectory& t = averaged[i];
+      Classification& c = open_[i]->found;
+      const double period = open_[i]->system->period();
+      const double turns = static_cast<double>(c.revolutions);
+      c.exponents = t.exponents * period;
+      c.resolution = (1.0 + std::log(turns)) / turns;
+      const auto positive = (c.exponents.array() > c.resolution).count();
+      if (positive > 0) {
+        c.kind = positive > 1 ? MotionKind::hyperchaotic : MotionKind::chaotic;
+      } else if (c.exponents(0) > -c.resolution) {
+        c.kind = MotionKind::quasi_periodic;
+      } else {
+        c.kind = MotionKind::periodic;
+        attracted.push_back(open_[i]);
+      }
+    }
+    open_ = std::move(attracted);  // they have come nearer to their orbits by now
+    if (!open_.empty()) search(go(2L * options_.longest_period, {.sections = true}), true);
+  }
+
+ private:
+  /// An orbit that is looked for.
+  struct Candidate {
+    Subject* of;
+    int period;
+    double farthest;
+    Vec y;
+    double residual = std::numeric_limits<double>::infinity();
+    std::optional<Vec> exponents{};  ///< once it is found
   };
-  for (int p = 1; p <= std::min(longest, count / 2); ++p) {
-    double worst = 0.0;
-    for (int i = count - p; i < count; ++i) {
-      worst = std::max(worst, distance(system, section(i), section(i - p)));
-    }
-    if (worst < bound) return p;
+
+  std::function<bool(long)> watch(bool counts) const {
+    if (!options_.watch) return {};
+    return [this, counts](long done) { return options_.watch(done_ + (counts ? done : 0)); };
   }
-  return 0;
-}
 
-struct Orbit {
-  Vec y;
-  double residual = 0.0;
-  Vec exponents;  ///< per revolution, descending
-};
+  /// Moves all open motions on; those that fail or are stopped are open no longer.
+  std::vector<Trajectory> go(long revolutions, BatchOptions how) {
+    how.tolerance = options_.tolerance;
+    how.threads = 1;
+    how.watch = watch(true);
+    std::vector<Trajectory> all;
+    std::vector<long> first;
+    for (Subject* s : open_) {
+      first.push_back(s->found.end.revolution);
+      all.push_back(
+          {.system = s->system, .state = std::move(s->found.end), .revolutions = revolutions});
+    }
+    if (revolutions > 0) integrate_all(all, how);
+    std::vector<Trajectory> good;
+    std::vector<Subject*> open;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Classification& c = open_[i]->found;
+      if (how.measures) {
+        c.revolutions = all[i].state.revolution - first[i];
+        take_measures(all[i], c);
+      }
+      c.end = all[i].state;
+      c.outcome = all[i].outcome;
+      c.diagnosis = all[i].diagnosis;
+      if (!c.is_good()) continue;
+      open.push_back(open_[i]);
+      good.push_back(std::move(all[i]));
+    }
+    done_ += revolutions * static_cast<long>(open_.size());
+    open_ = std::move(open);
+    return good;
+  }
 
-/// Attracting orbit of a period within a distance of a state, by Newton's method on the return map.
-std::optional<Orbit> orbit_near(const ContactSystem& system, const MotionState& start, int period,
-                                double farthest, double tolerance) {
-  const Vec& scale = system.state_scale();
-  const Mat unscale = scale.asDiagonal(), to_scale = scale.cwiseInverse().asDiagonal();
-  Orbit orbit{.y = start.y};
-  double before = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < most_newton; ++iteration) {
-    Motion motion{system, tolerance, {.revolution = 0, .phase = 0.0, .y = orbit.y}};
-    const Trajectory t = motion.go(period, {.tangent = true});
-    if (!motion.is_good() || !t.tangent.allFinite()) return std::nullopt;
-    orbit.residual = distance(system, t.state.y, orbit.y);
+  /// What the contacts did in so many revolutions, and the last sections.
+  void take_measures(const Trajectory& t, Classification& to) const {
+    to.contacts.clear();
+    if (to.revolutions == 0) return;
+    to.contacts = t.contacts;
+    for (ContactMeasure& m : to.contacts) m.mean_slip = std::numeric_limits<double>::quiet_NaN();
+    to_shares(to.contacts, t.system->period() * static_cast<double>(to.revolutions));
+    if (options_.sections == 0) return;
+    const auto size = static_cast<std::ptrdiff_t>(2 * t.system->coordinates());
+    const auto kept = std::min(std::ssize(t.sections), options_.sections * size);
+    to.sections.assign(t.sections.end() - kept, t.sections.end());
+  }
+
+  /// Closes the motions whose sections show a period, if it is proven.
+  void search(const std::vector<Trajectory>& sections, bool is_last) {
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < open_.size(); ++i) {
+      for (int k = 0; k < (is_last ? std::ssize(repeats) : sure_repeats); ++k) {
+        const int p = period_of(*open_[i]->system, sections[i].sections, repeats[k]);
+        if (p == 0) continue;
+        candidates.push_back({open_[i], p, nearby * repeats[k], open_[i]->found.end.y});
+        break;
+      }
+    }
+    find_orbits(candidates, is_last);
+    std::vector<Trajectory> orbits;
+    for (const Candidate& c : candidates) {
+      MotionState on_it = c.of->found.end;
+      on_it.y = c.y;
+      on_it.contacts.clear();  // as they follow from the motion
+      orbits.push_back({.system = c.of->system, .state = on_it, .revolutions = c.period});
+    }
+    if (orbits.empty()) return;
+    integrate_all(orbits, {.tolerance = options_.tolerance,
+                           .threads = 1,
+                           .sections = options_.sections > 0,
+                           .measures = true});
+    for (std::size_t i = 0; i < orbits.size(); ++i) {
+      if (orbits[i].outcome != Outcome::reached_end) continue;  // a border case: it stays open
+      Classification& found = candidates[i].of->found;
+      found.end = orbits[i].state;
+      found.period = candidates[i].period;
+      found.exponents = *candidates[i].exponents;
+      found.residual = candidates[i].residual;
+      found.resolution = 0.0;
+      found.is_proven = true;
+      found.revolutions = found.period;
+      take_measures(orbits[i], found);
+      found.kind = found.period == 1 && stands_still(*candidates[i].of) ? MotionKind::equilibrium
+                                                                        : MotionKind::periodic;
+    }
+    std::erase_if(open_, [](const Subject* s) { return s->found.is_proven; });
+  }
+
+  /// Smallest period with which the last sections repeat within a bound; 0: none.
+  int period_of(const ContactSystem& system, const std::vector<double>& sections,
+                double bound) const {
+    const int size = system.size(), count = static_cast<int>(sections.size()) / size;
+    const auto section = [&](int i) -> Vec {
+      return Eigen::Map<const Vec>(sections.data() + i * size, size);
+    };
+    for (int p = 1; p <= std::min(options_.longest_period, count / 2); ++p) {
+      double worst = 0.0;
+      for (int i = count - p; i < count && worst < bound; ++i) {
+        worst = std::max(worst, distance(system, section(i), section(i - p)));
+      }
+      if (worst < bound) return p;
+    }
+    return 0;
+  }
+
+  /// Newton's method on the return maps; candidates that are no attracting orbits go.
+  /// @param is_patient  goes on where convergence is slow
+  void find_orbits(std::vector<Candidate>& candidates, bool is_patient) const {
+    std::vector<Candidate> found;
+    for (int iteration = 0; iteration < most_newton && !candidates.empty(); ++iteration) {
+      std::vector<Trajectory> returns;
+      for (const Candidate& c : candidates) {
+        returns.push_back({.system = c.of->system,
+                           .state = {.revolution = 0, .phase = 0.0, .y = c.y},
+                           .revolutions = c.period});
+      }
+      BatchOptions how{.tolerance = std::min(options_.tolerance, exact),
+                       .threads = 1,
+                       .sections = true,
+                       .tangent = true};
+      how.watch = watch(false);
+      integrate_all(returns, how);
+      std::vector<Candidate> further;
+      for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (!improve(candidates[i], returns[i], is_patient)) continue;
+        (candidates[i].exponents ? found : further).push_back(std::move(candidates[i]));
+      }
+      candidates = std::move(further);
+    }
+    candidates = std::move(found);
+  }
+
+  /// A step of Newton's method; false: this leads nowhere.
+  static bool improve(Candidate& c, const Trajectory& t, bool is_patient) {
+    const ContactSystem& system = *c.of->system;
+    if (t.outcome != Outcome::reached_end || !t.tangent.allFinite()) return false;
+    const Mat unscale = system.state_scale().asDiagonal();
+    const Mat to_scale = system.state_scale().cwiseInverse().asDiagonal();
+    const double before = c.residual;
+    c.residual = distance(system, t.state.y, c.y);
     const Mat tangent = to_scale * t.tangent * unscale;
-    if (orbit.residual < converged ||
-        (orbit.residual < accurate && orbit.residual > 0.5 * before)) {
+    if (c.residual < converged || (c.residual < accurate && c.residual > 0.5 * before)) {
       const Vec sizes = eigenvalues(tangent).cwiseAbs();
-      if (!(sizes.maxCoeff() < attracting)) return std::nullopt;
-      orbit.exponents = sizes.array().max(1e-300).log() / period;
-      std::sort(orbit.exponents.begin(), orbit.exponents.end(), std::greater<>());
-      if (distance(system, orbit.y, start.y) > farthest) return std::nullopt;  // another one
-      return orbit;
+      if (!(sizes.maxCoeff() < attracting)) return false;
+      if (distance(system, c.y, c.of->found.end.y) > c.farthest) return false;  // another one
+      Vec exponents = sizes.array().max(1e-300).log() / c.period;
+      std::sort(exponents.begin(), exponents.end(), std::greater<>());
+      c.exponents = exponents;
+      for (int p = 1; p < c.period; ++p) {  // it may have a shorter period
+        const Eigen::Map<const Vec> section(t.sections.data() + (p - 1) * system.size(),
+                                            system.size());
+        if (c.period % p == 0 && distance(system, section, c.y) < same) c.period = p;
+      }
+      return true;
     }
-    if (orbit.residual > 10.0 * before) return std::nullopt;
-    before = orbit.residual;
+    if (c.residual > (is_patient ? 10.0 : 0.1) * before) return false;
     const DenseLu<Mat> lu(Mat(tangent - Mat::Identity(tangent.rows(), tangent.cols())));
-    if (!(lu.rcond() > 1e-14)) return std::nullopt;
-    const Vec step = lu.solve((t.state.y - orbit.y).cwiseQuotient(scale));
-    orbit.y -= scale.cwiseProduct(step);
-  }
-  return std::nullopt;
-}
-
-/// Whether a motion stands still all through a revolution.
-bool stands_still(const ContactSystem& system, const MotionState& state, double tolerance) {
-  double moved = 0.0;
-  Motion motion{system, tolerance, state};
-  Vec y(system.size());
-  motion.go(1, {}, [&](const Step& step) {
-    for (const double s : {0.5, 1.0}) {
-      step.at(s, y.data());
-      moved = std::max(moved, distance(system, y, state.y));
-    }
+    if (!(lu.rcond() > 1e-14)) return false;
+    c.y -= system.state_scale().cwiseProduct(
+        Vec(lu.solve((t.state.y - c.y).cwiseQuotient(system.state_scale()))));
     return true;
-  });
-  return motion.is_good() && moved < same;
-}
+  }
+
+  /// Whether a motion stands still all through a revolution, as none does that is out of balance.
+  bool stands_still(const Subject& s) const {
+    const ContactSystem& system = *s.system;
+    if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0)) return false;
+    double moved = 0.0;
+    Trajectory t{.system = s.system, .state = s.found.end, .revolutions = 1};
+    Vec y(system.size());
+    integrate_single(t, {.tolerance = options_.tolerance}, [&](const Step& step) {
+      for (const double place : {0.5, 1.0}) {
+        step.at(place, y.data());
+        moved = std::max(moved, distance(system, y, s.found.end.y));
+      }
+      return true;
+    });
+    return t.outcome == Outcome::reached_end && moved < same;
+  }
+
+  const ClassifyOptions& options_;
+  std::vector<Subject*> open_;
+  long done_ = 0;  ///< revolutions of all motions
+};
 
 }  // namespace
 
@@ -124,90 +309,25 @@ double Classification::impacts() const {
   return sum;
 }
 
+void settle(std::span<Subject> motions, const ClassifyOptions& options) {
+  Together(motions, options).settle();
+}
+
+void average(std::span<Subject> motions, const ClassifyOptions& options) {
+  Together(motions, options).average();
+}
+
 Classification classify(const ContactSystem& system, MotionState start,
                         const ClassifyOptions& options) {
-  if (system.coordinates() == 0) throw NumericalError("nothing moves: the system has no freedoms");
-  Classification result;
-  Motion motion{system, options.tolerance, std::move(start)};
-  const auto finished = [&] {
-    result.end = motion.state;
-    result.outcome = motion.outcome;
-    result.diagnosis = motion.diagnosis;
-    return result;
-  };
-
-  /// The orbit that the sections show, if there is one: then everything is known.
-  const auto is_proven_periodic = [&] {
-    const Trajectory searched = motion.go(2 * options.longest_period, {.sections = true});
-    if (!motion.is_good()) return false;
-    double within = 0.0;
-    for (const double bound : repeats) {
-      result.period = period_of(system, searched.sections, options.longest_period, within = bound);
-      if (result.period > 0) break;
-    }
-    if (result.period == 0) return false;
-    const auto orbit = orbit_near(system, motion.state, result.period, nearby * within,
-                                  std::min(options.tolerance, exact));
-    if (!orbit) return false;
-    motion.state.y = orbit->y;
-    motion.state.contacts.clear();  // as they follow from the motion
-    Motion twice = motion;
-    const Trajectory sections = twice.go(2 * result.period, {.sections = true});
-    result.period = std::max(1, period_of(system, sections.sections, result.period, same));
-    const bool stands = result.period == 1 && stands_still(system, motion.state, options.tolerance);
-    result.kind = stands ? MotionKind::equilibrium : MotionKind::periodic;
-    result.exponents = orbit->exponents;
-    result.residual = orbit->residual;
-    result.is_proven = true;
-    ContactMeter meter(system);
-    motion.go(result.period, {}, [&](const Step& step) {
-      meter.add(step);
-      return true;
-    });
-    result.revolutions = result.period;
-    result.contacts = meter.measures();
-    return true;
-  };
-
-  /// Asks once a revolution whether to go on; `before`: revolutions done when it begins.
-  const auto asker = [&](long before) {
-    return [&options, before, first = motion.state.revolution,
-            last = motion.state.revolution](const Step& step) mutable {
-      if (step.revolution == last || !options.progress) return true;
-      last = step.revolution;
-      return options.progress(before + last - first);
-    };
-  };
-
-  motion.go(options.discard, {}, options.progress ? Observer(asker(0)) : Observer());
-  if (motion.is_good() && is_proven_periodic()) return finished();
-  if (!motion.is_good()) return finished();
-
-  ContactMeter meter(system);
-  const long first = motion.state.revolution;
-  const auto averaging = [&, goes_on = asker(options.discard)](const Step& step) mutable {
-    meter.add(step);
-    return goes_on(step);
-  };
-  const Trajectory t = motion.go(options.revolutions, {.exponents = true}, averaging);
-  result.revolutions = motion.state.revolution - first;
-  result.contacts = meter.measures();
-  if (!motion.is_good() || result.revolutions == 0) return finished();
-
-  const double turns = static_cast<double>(result.revolutions);
-  result.exponents = t.exponents * system.period();
-  result.resolution = (1.0 + std::log(turns)) / turns;
-  const auto positive = (result.exponents.array() > result.resolution).count();
-  if (positive > 0) {
-    result.kind = positive > 1 ? MotionKind::hyperchaotic : MotionKind::chaotic;
-    result.period = 0;
-  } else if (result.exponents(0) > -result.resolution) {
-    result.kind = MotionKind::quasi_periodic;
-    result.period = 0;
-  } else if (!is_proven_periodic()) {  // it attracts, and has come nearer by now
-    result.kind = MotionKind::periodic;
+  Subject motion{.system = &system};
+  motion.found.end = std::move(start);
+  settle({&motion, 1}, options);
+  ClassifyOptions rest = options;  // counts on where the transient ended
+  if (options.watch) {
+    rest.watch = [&](long done) { return options.watch(options.discard + done); };
   }
-  return finished();
+  average({&motion, 1}, rest);
+  return motion.found;
 }
 
 }  // namespace whirl

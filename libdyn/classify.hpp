@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "libdyn/contact_measures.hpp"
@@ -22,14 +23,16 @@ constexpr auto choices(MotionKind) {
 }
 
 struct ClassifyOptions {
-  long discard = 500;        ///< revolutions before, for the transient
+  long discard = 500;        ///< revolutions before, for the transient, at most
   long revolutions = 1000;   ///< over which exponents are averaged
   double tolerance = 1e-10;  ///< of a step, displacements by the length scale
   int longest_period = 32;   ///< that is looked for [revolutions]
-  /// Called now and then with the revolutions done, of discard + revolutions; false: stop.
-  std::function<bool(long)> progress;
+  long sections = 0;         ///< how many of the last ones are kept
+  /// Called now and then with the revolutions done by all motions together; false: stop.
+  std::function<bool(long)> watch;
 };
 
+/// What a motion becomes.
 struct Classification {
   MotionKind kind = MotionKind::periodic;
   int period =
@@ -41,28 +44,47 @@ struct Classification {
   double residual = 0.0;    ///< of a proven orbit after its period, in length scales
   double resolution = 0.0;  ///< exponents within +-this count as zero [1/revolution]
   long revolutions =
-      0;  ///< that contacts were measured over: the period, or all that were averaged
-  std::vector<ContactMeasure> contacts;
-  MotionState end;
+      0;               ///< that contacts were measured over: the period, or all that were averaged
+  long transient = 0;  ///< revolutions until the motion was known to be periodic, or all
+  std::vector<ContactMeasure> contacts;  ///< without mean slips
+  std::vector<double> sections;          ///< states at phase 0, the last ones, if asked for
+  MotionState end;                       ///< a state on the motion
   Outcome outcome = Outcome::reached_end;
   std::string diagnosis;
 
+  bool is_good() const { return outcome == Outcome::reached_end; }
   /// Impacts of all contacts, the p of the p/n notation (n: revolutions).
   double impacts() const;
 };
 
-/// Tells what a motion becomes.
+/// A motion to be classified; its end is where it begins.
+struct Subject {
+  const ContactSystem* system = nullptr;
+  Classification found;
+};
+
+/// Integrates motions through their transients, together in the lanes of a batch.
 ///
-/// After the transient, sections at phase 0 are searched for a period p. Newton's method on the
-/// p-th return map, with the tangent, then finds the orbit itself; if its multipliers lie within the
-/// unit circle and it is where the motion was, the motion is periodic and this is proven. Else the
-/// exponents are averaged: the motion is hyperchaotic or chaotic with two or one of them above the
-/// resolution, quasi-periodic if the largest is within it, and periodic below it. The resolution,
-/// (1 + ln T) / T for T revolutions, is above one over the averaging time: smaller exponents than
-/// that cannot be told from zero.
+/// Ever later, the sections at phase 0 are searched for a period p. Newton's method on the p-th
+/// return map, with the tangent, then finds the orbit itself; if its multipliers lie within the unit
+/// circle and it is where the motion was, the motion is periodic: this is proven, and the rest of
+/// the transient is left out.
 ///
-/// @throws NumericalError  if the system has no coordinates
-/// @source [Benettin1980] for the exponents, [LeineNijmeijer2004] for multipliers of nonsmooth flows
+/// @throws NumericalError  if a system has no coordinates
+/// @source [LeineNijmeijer2004] for multipliers of nonsmooth flows
+void settle(std::span<Subject> motions, const ClassifyOptions& options);
+
+/// Tells what those motions are that are not proven to be periodic, from averaged exponents.
+///
+/// A motion is hyperchaotic or chaotic with two or one of them above the resolution, quasi-periodic
+/// if the largest is within it, and periodic below it. The resolution, (1 + ln T) / T for T
+/// revolutions, is above one over the averaging time: smaller exponents than that cannot be told
+/// from zero.
+///
+/// @source [Benettin1980]
+void average(std::span<Subject> motions, const ClassifyOptions& options);
+
+/// Both: what a motion becomes from a start.
 Classification classify(const ContactSystem& system, MotionState start,
                         const ClassifyOptions& options);
 

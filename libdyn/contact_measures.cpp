@@ -63,13 +63,17 @@ void ContactMeter::add(const Step& step) {
 
 std::vector<ContactMeasure> ContactMeter::measures() const {
   std::vector<ContactMeasure> result = sums_;
-  for (ContactMeasure& m : result) {
-    m.mean_slip = m.duty > 0.0 ? m.mean_slip / m.duty : 0.0;
-    // summed in another order than the whole, "always" may miss one by rounding
-    m.duty = m.duty > (1.0 - 1e-12) * time_ ? 1.0 : m.duty / time_;
-    m.sticking /= time_;
-  }
+  for (ContactMeasure& m : result) m.mean_slip = m.duty > 0.0 ? m.mean_slip / m.duty : 0.0;
+  to_shares(result, time_);
   return result;
+}
+
+void to_shares(std::vector<ContactMeasure>& times, double whole) {
+  for (ContactMeasure& m : times) {
+    // summed in another order than the whole, "always" may miss one by rounding
+    m.duty = m.duty > (1.0 - 1e-12) * whole ? 1.0 : m.duty / whole;
+    m.sticking /= whole;
+  }
 }
 
 }  // namespace whirl

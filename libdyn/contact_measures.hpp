@@ -32,6 +32,9 @@ struct ContactMeasure {
   }
 };
 
+/// Turns times in touch and sticking into shares of a whole [s].
+void to_shares(std::vector<ContactMeasure>& times, double whole);
+
 /// Collects measures from the steps of a motion.
 class ContactMeter {
  public:

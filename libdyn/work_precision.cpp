@@ -16,8 +16,8 @@ namespace whirl {
 namespace {
 
 constexpr double tightest = 1e-15, second_tightest = 1e-14;
-constexpr BatchOptions quad{.tolerance = 1e-26, .order = 28};
-constexpr BatchOptions other_quad{.tolerance = 1e-23, .order = 25};
+const BatchOptions quad{.tolerance = 1e-26, .order = 28};
+const BatchOptions other_quad{.tolerance = 1e-23, .order = 25};
 constexpr std::string_view taylor_batch = "taylor-batch", rk4_batch = "rk4-batch";
 constexpr double most_quad_work = 2e8;  ///< as quad_work; some 3 s
 constexpr int lanes = 16;               ///< motions of a batch: two registers of AVX-512

@@ -49,6 +49,11 @@ class ResultWriter {
   void dataset(const std::string& path, const std::vector<int>& values, const DatasetInfo& info);
   void dataset(const std::string& path, const std::vector<std::string>& values,
                const DatasetInfo& info);
+  /// Of any number of dimensions, the last index running fastest.
+  void dataset(const std::string& path, const std::vector<double>& values,
+               const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
+  void dataset(const std::string& path, const std::vector<int>& values,
+               const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
 
   /// Brings the file to the disk and to its place; nothing can be written after it.
   /// @throws FileError  the place then is as it was
@@ -84,6 +89,8 @@ class ResultReader {
   /// Sizes of a dataset's dimensions.
   std::vector<Eigen::Index> shape(const std::string& path) const;
   Vec vector(const std::string& path) const;
+  /// All numbers of any shape, the last index running fastest.
+  std::vector<double> numbers(const std::string& path) const;
   Mat matrix(const std::string& path) const;
   CVec complex_vector(const std::string& path) const;
   CMat complex_matrix(const std::string& path) const;

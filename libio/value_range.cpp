@@ -4,6 +4,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 namespace whirl {
 
@@ -27,9 +28,9 @@ double whole_steps(const ValueRange& range) {
   return std::floor((range.last - range.first) / *range.step + same_step);
 }
 
-}  // namespace
-
-Parsed<ValueRange> parse_range(std::string_view text, std::string_view si_unit) {
+/// @param number  of a part, with the unit it goes by
+Parsed<ValueRange> parse_with(std::string_view text,
+                              const std::function<Parsed<double>(const std::string&)>& number_of) {
   using Result = Parsed<ValueRange>;
   const std::vector<std::string> parts = split(text);
   if (parts.size() != 2 && parts.size() != 3) {
@@ -45,7 +46,7 @@ Parsed<ValueRange> parse_range(std::string_view text, std::string_view si_unit) 
   for (const std::string& part : parts) {
     const auto quantity = parse_quantity(part);
     const bool is_bare = quantity && quantity->unit.empty();
-    const auto number = parse_as(is_bare && !unit.empty() ? part + ' ' + unit : part, si_unit);
+    const auto number = number_of(is_bare && !unit.empty() ? part + ' ' + unit : part);
     if (!number)
       return Result::failed(fmt::format("{}, in the range {}", number.problem, in_quotes(text)));
     if (!is_bare && unit.empty()) {
@@ -71,6 +72,22 @@ Parsed<ValueRange> parse_range(std::string_view text, std::string_view si_unit) 
     }
   }
   return range;
+}
+
+}  // namespace
+
+Parsed<ValueRange> parse_range(std::string_view text, std::string_view si_unit) {
+  return parse_with(text, [&](const std::string& part) { return parse_as(part, si_unit); });
+}
+
+Parsed<ValueRange> parse_range(std::string_view text, const Dimension& dimension) {
+  return parse_with(text, [&](const std::string& part) {
+    const auto quantity = parse_quantity(part);
+    if (!quantity) return Parsed<double>::failed(quantity.problem);
+    if (quantity->dimension == dimension) return Parsed<double>(quantity->value);
+    return Parsed<double>::failed(
+        fmt::format("{} is of another dimension than the rest", in_quotes(part)));
+  });
 }
 
 std::vector<double> values(const ValueRange& range) {

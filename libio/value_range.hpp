@@ -22,6 +22,9 @@ struct ValueRange {
 /// @param si_unit  unit of the parts, as in dimension_of
 Parsed<ValueRange> parse_range(std::string_view text, std::string_view si_unit);
 
+/// The same where only the dimension of the parts is known.
+Parsed<ValueRange> parse_range(std::string_view text, const Dimension& dimension);
+
 /// first, first + step, ...; the last value belongs to them, exactly, if it is met to 1e-9 steps.
 /// @param range  with a step
 std::vector<double> values(const ValueRange& range);

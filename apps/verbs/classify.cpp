@@ -61,7 +61,7 @@ Report run_classify(const Invocation& call) {
   const Scene scene = make_scene(model);
   Progress progress("classifying", options.discard + options.revolutions, call.shows_progress);
   is_interrupted();  // from now on Ctrl-C stops between revolutions
-  options.progress = [&](long done) {
+  options.watch = [&](long done) {
     progress.update(done);
     return !is_interrupted();
   };

@@ -71,29 +71,6 @@ std::string peaks_text(const std::vector<Peak>& peaks) {
   return text.empty() ? "-" : text;
 }
 
-/// The end of an earlier result, as start.from = "file" asks for; a stopped one ends within a turn.
-struct EarlierEnd {
-  FullState state;
-  double phase = 0.0;  ///< [rad]
-};
-
-EarlierEnd read_end(const std::string& path) {
-  const ResultReader file(path);
-  if (!file.has("/trajectory/end_displacement")) {
-    throw ModelError({path}, "",
-                     "holds no motion to start from; simulate, identify and classify write one");
-  }
-  EarlierEnd end{
-      {file.vector("/trajectory/end_displacement"), file.vector("/trajectory/end_velocity")},
-      file.number_attribute("/trajectory", "end_phase")};
-  if (!end.state.displacement.allFinite() || !end.state.velocity.allFinite()) {
-    throw ModelError(
-        {path}, "",
-        "its motion failed and ends in no finite numbers: there is nothing to start from");
-  }
-  return end;
-}
-
 /// The order of freedoms in a result file.
 const std::string full_vector = ": x, y, theta_x, theta_y of every node, then of every body";
 
@@ -121,6 +98,23 @@ void require_speed(const Model& model) {
                    "\"3000 rpm\", or use --speed 3000rpm");
 }
 
+EarlierEnd earlier_end(const std::string& path) {
+  const ResultReader file(path);
+  if (!file.has("/trajectory/end_displacement")) {
+    throw ModelError({path}, "",
+                     "holds no motion to start from; simulate, identify and classify write one");
+  }
+  EarlierEnd end{
+      {file.vector("/trajectory/end_displacement"), file.vector("/trajectory/end_velocity")},
+      file.number_attribute("/trajectory", "end_phase")};
+  if (!end.state.displacement.allFinite() || !end.state.velocity.allFinite()) {
+    throw ModelError(
+        {path}, "",
+        "its motion failed and ends in no finite numbers: there is nothing to start from");
+  }
+  return end;
+}
+
 MotionState starting_state(const Invocation& call, Model model, const Scene& scene) {
   if (call.has("from")) {
     model.start.from = StartFrom::file;
@@ -128,7 +122,7 @@ MotionState starting_state(const Invocation& call, Model model, const Scene& sce
     model.start.whirl.clear();  // it goes on as it was
   }
   if (model.start.from != StartFrom::file) return start_state(model, scene, nullptr);
-  const EarlierEnd end = read_end(model.start.file);
+  const EarlierEnd end = earlier_end(model.start.file);
   MotionState state = start_state(model, scene, &end.state);
   state.phase = end.phase;
   return state;

@@ -43,6 +43,14 @@ void require_method(const std::string& method, const std::vector<std::string_vie
                     const std::string& option);
 void require_tolerance(double tolerance, const std::string& option);
 
+/// The end of an earlier result; a stopped one ends within a turn.
+struct EarlierEnd {
+  FullState state;
+  double phase = 0.0;  ///< [rad]
+};
+/// @throws FileError, ModelError  if there is none in the file
+EarlierEnd earlier_end(const std::string& path);
+
 /// Where a motion begins: at the model's [start], or where the result of --from ended.
 MotionState starting_state(const Invocation& call, Model model, const Scene& scene);
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The engine: event-exact Taylor integration of many trajectories at once.
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -41,6 +42,9 @@ struct BatchOptions {
   /// away, whose exponent, minus infinity, comes out as a number far below all others.
   bool exponents = false;
   bool tangent = false;  ///< instead of the exponents
+  /// Called every few hundred steps with the revolutions done by this call, in each of its threads
+  /// with its own; false: stop, all trajectories of the thread as they are. May be empty.
+  std::function<bool(long)> watch;
 };
 
 /// Integrates trajectories whose systems have the same shape (coordinates, contacts, laws).

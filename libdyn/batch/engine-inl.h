@@ -66,6 +66,15 @@ class Engine {
     }
     while (active_ != 0) {
       if (finished_ == 0) step(observer);
+      if (options_.watch && ++watched_steps_ % watch_interval == 0 &&
+          !options_.watch(revolutions_)) {
+        for (uint64_t rest = active_ & ~finished_; rest != 0; rest &= rest - 1) {
+          const int l = __builtin_ctzll(rest);
+          trajectory_[static_cast<size_t>(l)]->outcome = Outcome::stopped_by_observer;
+        }
+        for (; next < all.size(); ++next) all[next].outcome = Outcome::stopped_by_observer;
+        finished_ = active_;
+      }
       for (uint64_t rest = finished_; rest != 0; rest &= rest - 1) {
         const int l = __builtin_ctzll(rest);
         unload(l);
@@ -181,6 +190,8 @@ class Engine {
   std::vector<P> y_;
   P time_{0.0};  // since the start of the revolution
   long steps_ = 0;
+  static constexpr long watch_interval = 256;
+  long watched_steps_ = 0, revolutions_ = 0;  // revolutions done in all lanes
   uint64_t active_ = 0, finished_ = 0;
   std::vector<Trajectory*> trajectory_;
   std::vector<Book> book_;

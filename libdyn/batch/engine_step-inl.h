@@ -128,6 +128,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     const int l = __builtin_ctzll(rest);
     Book& book = book_[static_cast<size_t>(l)];
     ++book.revolution;
+    ++revolutions_;
     remove_slip(l);
     if (options_.sections) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
@@ -166,6 +167,7 @@ HWY_ATTR void Engine<P>::fly_on(int l) {
   while (book.revolution < book.last) {
     const long to = options_.sections ? book.revolution + 1 : book.last;
     book.free_flight->finish(state, to);
+    revolutions_ += to - book.revolution;
     book.revolution = to;
     if (options_.sections) t.sections.insert(t.sections.end(), state.y.begin(), state.y.end());
   }

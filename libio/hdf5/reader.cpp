@@ -157,6 +157,15 @@ Vec ResultReader::vector(const std::string& path) const {
   return read_matrix<double>(Attempt(path_, "read dataset", path), id_, 1);
 }
 
+std::vector<double> ResultReader::numbers(const std::string& path) const {
+  const Attempt attempt(path_, "read dataset", path);
+  const Source source = open_dataset(attempt, id_);
+  if (!source.is_number()) attempt.fail("it does not hold real numbers");
+  std::vector<double> values(source.count());
+  read(attempt, source, H5T_NATIVE_DOUBLE, values.data());
+  return values;
+}
+
 Mat ResultReader::matrix(const std::string& path) const {
   return read_matrix<double>(Attempt(path_, "read dataset", path), id_, 2);
 }

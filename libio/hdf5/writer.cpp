@@ -170,6 +170,16 @@ void ResultWriter::dataset(const std::string& path, const std::vector<int>& valu
   write(path, H5T_NATIVE_INT, values.data(), {std::ssize(values)}, info);
 }
 
+void ResultWriter::dataset(const std::string& path, const std::vector<double>& values,
+                           const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
+  write(path, H5T_NATIVE_DOUBLE, values.data(), shape, info);
+}
+
+void ResultWriter::dataset(const std::string& path, const std::vector<int>& values,
+                           const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
+  write(path, H5T_NATIVE_INT, values.data(), shape, info);
+}
+
 void ResultWriter::dataset(const std::string& path, const std::vector<std::string>& values,
                            const DatasetInfo& info) {
   std::vector<const char*> texts;

@@ -89,7 +89,7 @@ TEST(Classify, StopsWhenAskedTo) {
   const RotorStator p{.Omega = 138.4, .kC = 64e6, .mu = 0.2};
   const Scene scene = p.scene();
   const Classification c = classify(scene.contacts, test::start_of(p.model(), scene),
-                                    {.progress = [](long done) { return done < 700; }});
+                                    {.watch = [](long done) { return done < 700; }});
   EXPECT_EQ(c.outcome, Outcome::stopped_by_observer);
   EXPECT_GT(c.revolutions, 190);
   EXPECT_LT(c.revolutions, 210);

@@ -36,8 +36,8 @@ double distance(const Trajectory& a, const Trajectory& b) {
   return (apart.array() / a.system->state_scale().array()).abs().maxCoeff();
 }
 
-constexpr BatchOptions tight{.tolerance = 1e-28};               // order 30
-constexpr BatchOptions other{.tolerance = 1e-24, .order = 26};  // other steps, other truncation
+const BatchOptions tight{.tolerance = 1e-28};               // order 30
+const BatchOptions other{.tolerance = 1e-24, .order = 26};  // other steps, other truncation
 
 constexpr double far_below_double = 1e-20;  // some 1000 steps of 1e-24, and what may grow
 

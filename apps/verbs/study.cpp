@@ -1,0 +1,386 @@
+#include "apps/verbs/study.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <thread>
+
+#include "apps/verbs/common.hpp"
+#include "apps/verbs/simulation.hpp"
+#include "apps/version.hpp"
+#include "libdyn/work_queue.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/format.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/model_file.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr const char* motion_codes =
+    "0 equilibrium, 1 periodic, 2 quasi-periodic, 3 chaotic, 4 hyperchaotic, -1 failed";
+
+/// Words of a command line that do not change what is computed.
+std::vector<std::string> essential(const std::vector<std::string>& words) {
+  const std::set<std::string> with_value{"--out", "--json", "--threads"};
+  std::vector<std::string> kept;
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    const std::string name = words[i].substr(0, words[i].find('='));
+    if (name == "--quiet" || name == "--restart") continue;
+    if (with_value.count(name) > 0) {
+      if (name == words[i]) ++i;
+      continue;
+    }
+    kept.push_back(words[i]);
+  }
+  return kept;
+}
+
+/// Takes over what an earlier run of the same line has left in its file.
+void resume(const Invocation& call, PointTable& table, const std::string& source) {
+  const std::string& place = call.given.at("out");
+  const ResultReader earlier(place);
+  const auto refuse = [&](const std::string& why) {
+    throw FileError(
+        fmt::format("{} {}; take another name, or --restart to replace it", place, why));
+  };
+  if (!earlier.has("/arguments") || !earlier.has("/model")) refuse("is no study of whirl");
+  if (essential(earlier.strings("/arguments")) != essential(call.line)) {
+    refuse("holds another study: " + earlier.string_attribute("/", "command"));
+  }
+  if (earlier.strings("/model").at(0) != source) {
+    refuse("holds this study of a model that has changed since");
+  }
+  if (earlier.string_attribute("/", "whirl_version") != version) {
+    refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
+  }
+  table.read(earlier);
+}
+
+/// Removes what killed runs have left beside a file.
+void remove_leftovers(const std::filesystem::path& place) {
+  namespace fs = std::filesystem;
+  const std::string begin = place.filename().string() + ".tmp.";
+  const fs::path folder = place.has_parent_path() ? place.parent_path() : ".";
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(begin)) continue;
+    int process = 0;
+    const char* number = name.data() + begin.size();
+    const auto [end, problem] = std::from_chars(number, name.data() + name.size(), process);
+    const bool is_number = problem == std::errc{} && end == name.data() + name.size();
+    if (is_number && ::kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), ignored);
+  }
+}
+
+/// Saves now and then: rarely enough that writing takes no more than a twentieth of the time.
+class Saver {
+ public:
+  using clock = std::chrono::steady_clock;
+  Saver(const Invocation& call, PointTable& table,
+        const std::function<std::unique_ptr<ResultWriter>()>& begin)
+      : has_file_(call.has("out")), table_(table), begin_(begin) {}
+
+  void save() {
+    if (!has_file_) return;
+    const auto start = clock::now();
+    const auto file = begin_();
+    table_.write(*file);
+    file->commit();
+    last_ = clock::now();
+    next_ = last_ + std::max<clock::duration>(std::chrono::milliseconds(500), 20 * (last_ - start));
+  }
+  void save_if_due() {
+    if (clock::now() >= next_) save();
+  }
+
+ private:
+  bool has_file_;
+  PointTable& table_;
+  const std::function<std::unique_ptr<ResultWriter>()>& begin_;
+  clock::time_point last_ = clock::now(), next_ = last_ + std::chrono::milliseconds(500);
+};
+
+}  // namespace
+
+std::vector<OptionSpec> study_options(std::vector<OptionSpec> own) {
+  for (const OptionSpec& option :
+       {OptionSpec{"revolutions", "N",
+                   "revolutions over which Lyapunov exponents are averaged "
+                   "(1000)"},
+        discard_option, tolerance_option, from_option,
+        OptionSpec{"restart", "", "begin anew, whatever the file of --out holds"}}) {
+    own.push_back(option);
+  }
+  return own;
+}
+
+StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t most)
+    : model_(call.model()), file_(call.file) {
+  const int count = static_cast<int>(call.integer("points", 0, 2));
+  for (const std::string& text : call.over) {
+    const auto axis = parse_axis(text, count);
+    if (!axis) throw ModelError({"--over " + text}, "", axis.problem);
+    axes_.push_back(*axis);
+  }
+  if (axes_.size() < least || axes_.size() > most) {
+    const std::string right =
+        least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+    throw ModelError({"--over"}, "",
+                     fmt::format("found {} of them, expected {}: --over PATH=first:last:step, "
+                                 "such as --over operation.speed=100:200:1rad/s",
+                                 axes_.size(), right));
+  }
+  options_.revolutions = call.integer("revolutions", options_.revolutions);
+  options_.discard = call.integer("discard", options_.discard, 0);
+  options_.tolerance = call.number("tolerance", "", options_.tolerance);
+  require_tolerance(options_.tolerance, "--tolerance " + call.text("tolerance"));
+  const long processors = std::max(1u, std::thread::hardware_concurrency());
+  threads_ = static_cast<int>(call.integer("threads", processors));
+  if (call.has("from") || model_.start.from == StartFrom::file) {
+    EarlierEnd end = earlier_end(call.text("from", model_.start.file));
+    earlier_ = std::move(end.state);
+    earlier_phase_ = end.phase;
+    if (call.has("from")) model_.start.whirl.clear();  // it goes on as it was
+  }
+  // what is wrong at the ends is said before the work
+  for (std::size_t corner = 0; corner < (std::size_t{1} << axes_.size()); ++corner) {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      indices.push_back((corner >> i & 1) != 0 ? axes_[i].values.size() - 1 : 0);
+    }
+    require_speed(model_at(indices));
+  }
+}
+
+std::size_t StudySetup::points() const {
+  std::size_t product = 1;
+  for (const ParameterAxis& a : axes_) product *= a.values.size();
+  return product;
+}
+
+std::vector<std::size_t> StudySetup::indices_of(std::size_t number) const {
+  std::vector<std::size_t> indices(axes_.size());
+  for (std::size_t i = axes_.size(); i-- > 0;) {
+    indices[i] = number % axes_[i].values.size();
+    number /= axes_[i].values.size();
+  }
+  return indices;
+}
+
+Model StudySetup::model_at(const std::vector<std::size_t>& indices) const {
+  std::vector<std::string> sets;
+  for (std::size_t i = 0; i < axes_.size(); ++i) sets.push_back(axes_[i].assignment(indices[i]));
+  return parse_model(model_.source, file_, sets, std::filesystem::path(file_).parent_path());
+}
+
+StudyPoint StudySetup::point(std::size_t number, const FullState* from) const {
+  StudyPoint p;
+  p.model = std::make_unique<Model>(model_at(indices_of(number)));
+  const FullState* start = from ? from : earlier_ ? &*earlier_ : nullptr;
+  if (start) {
+    p.model->start.from = StartFrom::file;
+    p.model->start.whirl.clear();
+  }
+  try {
+    p.scene = std::make_unique<Scene>(make_scene(*p.model));
+    p.subject.system = &p.scene->contacts;
+    p.subject.found.end = start_state(*p.model, *p.scene, start);
+    if (start && !from) p.subject.found.end.phase = earlier_phase_;
+  } catch (const NumericalError& error) {
+    p.failure = error.what();
+  }
+  return p;
+}
+
+std::vector<std::string> StudySetup::axis_paths(const std::string& group) const {
+  std::vector<std::string> paths;
+  for (const ParameterAxis& axis : axes_) {
+    std::string path = group + '/' + axis.path;
+    if (std::find(paths.begin(), paths.end(), path) != paths.end()) path += ".2";
+    paths.push_back(path);
+  }
+  return paths;
+}
+
+std::unique_ptr<ResultWriter> StudySetup::file(const Invocation& call,
+                                               const std::string& group) const {
+  auto file = call.result_file(model_);
+  const std::vector<std::string> paths = axis_paths(group);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    file->dataset(paths[i], axes_[i].values, {axes_[i].unit, axes_[i].path, {""}});
+  }
+  return file;
+}
+
+std::string StudySetup::describe(std::size_t number) const {
+  const std::vector<std::size_t> indices = indices_of(number);
+  std::string text;
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    text +=
+        fmt::format("{}{} = {:.10g}{}{}", text.empty() ? "" : ", ", axes_[i].path,
+                    axes_[i].values[indices[i]], axes_[i].unit.empty() ? "" : " ", axes_[i].unit);
+  }
+  return text;
+}
+
+Record StudySetup::axes_record() const {
+  Record list = Record::array();
+  for (const ParameterAxis& a : axes_) {
+    Record r;
+    r.set("parameter", a.path).set("unit", a.unit).set("values", a.values);
+    list.add(r);
+  }
+  return list;
+}
+
+std::vector<Column> classification_columns(const Scene& scene, const std::string& group) {
+  const std::vector<Eigen::Index> exponents{scene.contacts.size()};
+  const std::vector<Eigen::Index> contacts{std::ssize(scene.contacts.contacts())};
+  const std::vector<std::string> per{contacts[0] > 0 ? group + "/contact" : ""};
+  return {
+      {"motion", "", std::string("kind of motion: ") + motion_codes, true},
+      {"period", "", "period of a periodic motion [revolutions]; 0: none, or longer", true},
+      {"is_proven", "", "whether Newton's method found the attracting orbit", true},
+      {"transient", "", "revolutions until this was known, or all of the transient", true},
+      {"revolutions", "", "revolutions of contact measures", true},
+      {"resolution", "", "exponents within this count as zero [1/revolution]"},
+      {"exponent", "", "Lyapunov exponents, descending [1/revolution]", false, exponents},
+      {"regime", "", "regime of a contact: 0 none, 1 intermittent, 2 permanent", true, contacts,
+       per},
+      {"duty", "", "share of time in touch", false, contacts, per},
+      {"impacts_per_rev", "", "impacts per revolution", false, contacts, per},
+      {"sticking", "", "share of time sticking", false, contacts, per},
+      {"max_normal", "N", "largest normal force", false, contacts, per},
+      {"max_tangential", "N", "largest friction force", false, contacts, per},
+  };
+}
+
+void write_classification_axes(ResultWriter& file, const Scene& scene, const std::string& group) {
+  std::vector<std::string> names;
+  for (const ReducedContact& c : scene.contacts.contacts()) names.push_back(c.name);
+  if (!names.empty()) file.dataset(group + "/contact", names, {"", "contact", {""}});
+}
+
+PointRow classification_row(const StudyPoint& point) {
+  const Classification& c = point.subject.found;
+  if (!point.is_good()) {
+    PointRow row(13);
+    row[0] = {-1.0};
+    return row;
+  }
+  PointRow row{{static_cast<double>(c.kind)},
+               {static_cast<double>(c.period)},
+               {c.is_proven ? 1.0 : 0.0},
+               {static_cast<double>(c.transient)},
+               {static_cast<double>(c.revolutions)},
+               {c.resolution},
+               {c.exponents.begin(), c.exponents.end()},
+               {},
+               {},
+               {},
+               {},
+               {},
+               {}};
+  for (const ContactMeasure& m : c.contacts) {
+    row[7].push_back(static_cast<double>(m.regime()));
+    row[8].push_back(m.duty);
+    row[9].push_back(m.impacts / static_cast<double>(c.revolutions));
+    row[10].push_back(m.sticking);
+    row[11].push_back(m.max_normal);
+    row[12].push_back(m.max_tangential);
+  }
+  return row;
+}
+
+std::string motion_name(const PointTable& table, std::size_t point) {
+  const double code = table.number("motion", point);
+  return code < 0.0 ? "" : std::string(name_of(static_cast<MotionKind>(static_cast<int>(code))));
+}
+
+StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable& table,
+                       const std::function<std::unique_ptr<ResultWriter>()>& begin) {
+  StudyOutcome outcome;
+  if (call.has("out")) {
+    remove_leftovers(call.given.at("out"));
+    begin();  // says at once what cannot be written
+    if (!call.has("restart") && std::filesystem::exists(call.given.at("out"))) {
+      resume(call, table, call.model().source);
+    }
+  }
+  outcome.resumed = table.done();
+  is_interrupted();  // from now on Ctrl-C stops with what is done
+  Saver saver(call, table, begin);
+  Progress progress(work.label, static_cast<long>(table.points() - outcome.resumed),
+                    call.shows_progress);
+  {
+    WorkQueue<StudyRows> queue(work.threads);
+    const auto take = [&](std::chrono::milliseconds patience) {
+      const auto result = queue.take(patience);
+      if (!result || !result->is_whole) return;
+      for (const auto& [point, row] : result->rows) table.put(point, row);
+      if (outcome.failure.empty()) outcome.failure = result->failure;
+      saver.save_if_due();
+      progress.update(static_cast<long>(table.done() - outcome.resumed));
+    };
+    try {
+      for (const std::vector<std::size_t>& piece : work.pieces) {
+        if (is_interrupted()) break;
+        if (std::all_of(piece.begin(), piece.end(), [&](auto p) { return table.is_done(p); })) {
+          continue;
+        }
+        queue.add(work.prepare(piece));
+        while (queue.is_full()) take(std::chrono::milliseconds(100));
+      }
+      while (queue.has_open()) take(std::chrono::milliseconds(100));
+    } catch (...) {  // a wrong model somewhere in the middle: what is done is kept
+      saver.save();
+      throw;
+    }
+  }
+  saver.save();
+  std::size_t failed = 0;
+  for (std::size_t i = 0; i < table.points(); ++i) {
+    if (table.is_done(i) && table.number("motion", i) < 0.0) ++failed;
+  }
+  if (failed > 0) {
+    outcome.failure =
+        fmt::format("{} of {} points{}{}", failed, table.points(),
+                    outcome.failure.empty() ? "" : ", for instance at ", outcome.failure);
+  }
+  if (table.done() < table.points()) {
+    outcome.status = 130;
+  } else if (failed == table.points()) {
+    outcome.status = 3;
+  }
+  return outcome;
+}
+
+void add_outcome(const Invocation& call, const StudyOutcome& outcome, const PointTable& table,
+                 Report& report) {
+  if (outcome.resumed > 0) {
+    report.text +=
+        fmt::format("\n  {} of {} points were there already\n", outcome.resumed, table.points());
+  }
+  if (outcome.status == 130) {
+    report.text += fmt::format("\n  stopped with {} of {} points{}\n", table.done(), table.points(),
+                               call.has("out") ? "; the same line goes on from there" : "");
+  }
+  if (!outcome.failure.empty()) {
+    if (outcome.status == 3) report.failure = outcome.failure;
+    report.text += fmt::format("\n  failed: {}\n", outcome.failure);
+    report.record.set("failure", outcome.failure);
+  }
+  if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+}
+
+}  // namespace whirl

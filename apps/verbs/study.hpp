@@ -1,0 +1,116 @@
+#pragma once
+/// What the verbs share that compute many points (sweep, map, basins): points from axes, rows of
+/// results, work in threads, and a file that holds what is done at every moment.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/verb.hpp"
+#include "libdyn/classify.hpp"
+#include "libdyn/scene.hpp"
+#include "libio/checkpoint.hpp"
+#include "libio/parameter_axis.hpp"
+
+namespace whirl {
+
+/// Options of all of them.
+std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);
+
+/// A motion at one point of a study.
+struct StudyPoint {
+  std::unique_ptr<Model> model;
+  std::unique_ptr<Scene> scene;
+  Subject subject;
+  std::string failure;  ///< why there is no scene
+
+  bool is_good() const { return failure.empty() && subject.found.is_good(); }
+};
+
+/// What a study knows before its first point.
+class StudySetup {
+ public:
+  /// Reads the model, the options and, for --from, where the earlier motion ended.
+  /// @param least, most  numbers of axes that are right
+  /// @throws ModelError  for a wrong model, option or axis, also at the ends of the axes
+  StudySetup(const Invocation& call, std::size_t least, std::size_t most);
+
+  const Model& model() const { return model_; }
+  const std::vector<ParameterAxis>& axes() const { return axes_; }
+  const ClassifyOptions& options() const { return options_; }
+  ClassifyOptions& options() { return options_; }
+  int threads() const { return threads_; }
+  std::size_t points() const;
+
+  /// Model, scene and start of a point; numbers of points run fastest along the last axis.
+  /// @param from  where the motion goes on from; null: from the model's start
+  StudyPoint point(std::size_t number, const FullState* from = nullptr) const;
+
+  /// A result file with the facts of the call and the axes in it, below a group.
+  std::unique_ptr<ResultWriter> file(const Invocation& call, const std::string& group) const;
+  /// Paths of the axes in it.
+  std::vector<std::string> axis_paths(const std::string& group) const;
+
+  /// "operation.speed = 136 rad/s, contact.ring.friction = 0.1" of a point.
+  std::string describe(std::size_t number) const;
+  /// Entries of the axes for JSON.
+  Record axes_record() const;
+
+ private:
+  Model model_at(const std::vector<std::size_t>& indices) const;
+  std::vector<std::size_t> indices_of(std::size_t number) const;
+
+  Model model_;
+  std::string file_;
+  std::vector<ParameterAxis> axes_;
+  ClassifyOptions options_;
+  int threads_ = 1;
+  std::optional<FullState> earlier_;
+  double earlier_phase_ = 0.0;
+};
+
+/// Columns of a classified motion: motion, period, exponents, what contacts do.
+std::vector<Column> classification_columns(const Scene& scene, const std::string& group);
+/// Axes of these columns.
+void write_classification_axes(ResultWriter& file, const Scene& scene, const std::string& group);
+/// Their numbers.
+PointRow classification_row(const StudyPoint& point);
+
+/// Name of the motion at a point of a table; empty where it failed.
+std::string motion_name(const PointTable& table, std::size_t point);
+
+/// Rows of some points: what a piece of work finds.
+struct StudyRows {
+  std::vector<std::pair<std::size_t, PointRow>> rows;
+  std::string failure;   ///< of the first point that failed, where it is
+  bool is_whole = true;  ///< false: it was interrupted and finds nothing
+};
+
+/// How a study becomes pieces of work.
+struct StudyWork {
+  std::string label;                             ///< for the progress
+  std::vector<std::vector<std::size_t>> pieces;  ///< points that are computed together
+  /// Makes the work of a piece, in order and in one thread; none for pieces that are done.
+  std::function<std::function<StudyRows()>(const std::vector<std::size_t>&)> prepare;
+  int threads = 1;  ///< that do the work
+};
+
+/// Computes what is not done of a table, and keeps the file of --out up to date meanwhile: killed
+/// at any moment, it goes on where it was.
+/// @param begin  makes a file with everything in it but the table
+/// @return  exit status 0, 3 (every point failed) or 130, and what is to be said
+struct StudyOutcome {
+  int status = 0;
+  std::string failure;
+  std::size_t resumed = 0;  ///< points that were there already
+};
+StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable& table,
+                       const std::function<std::unique_ptr<ResultWriter>()>& begin);
+
+/// What was there already, what failed, where the result is, for people.
+void add_outcome(const Invocation& call, const StudyOutcome& outcome, const PointTable& table,
+                 Report& report);
+
+}  // namespace whirl

@@ -1,0 +1,78 @@
+#include "libio/parameter_axis.hpp"
+
+#include <fmt/format.h>
+
+#include "libio/value_range.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// The SI unit of a dimension, where it has one that people write.
+std::string si_unit(const Dimension& dimension) {
+  for (const char* unit :
+       {"m",     "kg", "s",    "rad",  "rad/s",  "rad/s^2", "1/s",       "m/s",
+        "m/s^2", "N",  "N.m",  "N/m",  "N.s/m",  "N.m/rad", "N.m.s/rad", "N/m^1.5",
+        "N.m^2", "Pa", "Pa.s", "kg/m", "kg/m^3", "kg.m",    "kg.m^2"}) {
+    if (dimension_of(unit) == dimension) return unit;
+  }
+  return "";
+}
+
+std::vector<std::string> split(std::string_view text, char at) {
+  std::vector<std::string> parts;
+  for (std::size_t place; (place = text.find(at)) != std::string_view::npos;) {
+    parts.emplace_back(text.substr(0, place));
+    text.remove_prefix(place + 1);
+  }
+  parts.emplace_back(text);
+  return parts;
+}
+
+}  // namespace
+
+std::string ParameterAxis::assignment(std::size_t index) const {
+  return fmt::format("{}={:.17g}", path, values[index]);
+}
+
+Parsed<ParameterAxis> parse_axis(std::string_view text, int points) {
+  using Result = Parsed<ParameterAxis>;
+  constexpr std::string_view expected =
+      "expected PATH=first:last:step, PATH=first:last with --points N, or PATH=value,value,...";
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string_view::npos) {
+    return Result::failed(fmt::format("found {}, {}", in_quotes(text), expected));
+  }
+  ParameterAxis axis{.path = std::string(text.substr(0, equals))};
+  const std::string_view range = text.substr(equals + 1);
+  const bool is_list = range.find(':') == std::string_view::npos;
+  const std::vector<std::string> parts = split(range, is_list ? ',' : ':');
+
+  const auto last = parse_quantity(parts.back());
+  if (!last) return Result::failed(fmt::format("{}; {}", last.problem, expected));
+  if (!last->unit.empty()) axis.unit = si_unit(last->dimension);
+  if (!is_list) {
+    const auto parsed = parse_range(range, last->dimension);
+    if (!parsed) return Result::failed(parsed.problem);
+    if (!parsed->step && points < 1) {
+      return Result::failed(fmt::format("{} has no step: write first:last:step, or say --points N",
+                                        in_quotes(range)));
+    }
+    axis.values = parsed->step ? values(*parsed) : values(*parsed, points);
+    return axis;
+  }
+  for (const std::string& part : parts) {
+    const auto quantity = parse_quantity(part);
+    const bool is_bare = quantity && quantity->unit.empty();
+    const auto value = is_bare ? parse_quantity(part + ' ' + last->unit) : quantity;
+    if (!value) return Result::failed(fmt::format("{}; {}", value.problem, expected));
+    if (value->dimension != last->dimension) {
+      return Result::failed(
+          fmt::format("{} mixes units of different dimensions", in_quotes(range)));
+    }
+    axis.values.push_back(value->value);
+  }
+  return axis;
+}
+
+}  // namespace whirl

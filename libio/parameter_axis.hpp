@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libio/units.hpp"
+
+namespace whirl {
+
+/// A value of the model that a study varies, and the values it takes.
+struct ParameterAxis {
+  std::string path;            ///< such as contact.seal.friction
+  std::string unit;            ///< SI unit of the values; empty: none was written
+  std::vector<double> values;  ///< [SI]
+
+  /// The value at an index, as --set takes it.
+  std::string assignment(std::size_t index) const;
+};
+
+/// Reads what --over says: PATH=first:last:step, PATH=first:last with a number of points, or
+/// PATH=value,value,...
+///
+/// A unit at the end holds for all parts that have none of their own; bare numbers are SI.
+///
+/// @param points  of a range without a step; 0: it must have one
+Parsed<ParameterAxis> parse_axis(std::string_view text, int points);
+
+}  // namespace whirl
