@@ -106,6 +106,16 @@ const std::vector<Verb>& verbs() {
        "whirl map models/jeffcott_stator.toml --over operation.speed=130:160:2rad/s --over "
        "contact.ring.stiffness=10:150:10MN/m --out map.h5",
        study_options({over, points}), run_map},
+      {"basins", "Contact", "coexisting motions, and how much of the starts each attracts", "MODEL",
+       "whirl basins models/jeffcott_stator.toml --set contact.ring.stiffness=50e6 --starts 500",
+       study_options({{"starts", "N", "random starts around that of the model (256)"},
+                      {"seed", "S", "of the random starts (1)"},
+                      {"size", "R", "how far they are, in clearances (0.5)"},
+                      {"over", "PATH=A:B:STEP",
+                       "instead of random starts, values of the model's start: "
+                       "start.displaced.1.x=-1:1:0.1mm"},
+                      points}),
+       run_basins},
       {"bench",
        "Contact",
        "speed against error of every integrator on this model",

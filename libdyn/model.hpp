@@ -18,6 +18,13 @@ struct WhirlStart {
   Where where{};           ///< of the mode, for errors
 };
 
+/// A place that is moved aside, or thrown, at the start of a simulation.
+struct Displaced {
+  Station at;
+  double x = 0.0, y = 0.0;    ///< added displacement [m]
+  double vx = 0.0, vy = 0.0;  ///< added velocity [m/s]
+};
+
 enum class StartFrom { rest, equilibrium, file };
 constexpr auto choices(StartFrom) {
   return std::array{Choice<StartFrom>{"rest", StartFrom::rest},
@@ -28,8 +35,9 @@ constexpr auto choices(StartFrom) {
 /// Start of a simulation.
 struct Start {
   StartFrom from = StartFrom::equilibrium;
-  std::string file;               ///< result whose end is the start (StartFrom::file)
-  std::vector<WhirlStart> whirl;  ///< added to it
+  std::string file;                  ///< result whose end is the start (StartFrom::file)
+  std::vector<WhirlStart> whirl;     ///< added to it
+  std::vector<Displaced> displaced;  ///< likewise
 };
 
 struct Model {

@@ -111,6 +111,20 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
       break;
     }
   }
+  for (const Displaced& d : model.start.displaced) {
+    // what the place does alone: the motion of least kinetic energy with it
+    const Point p = scene.assembler.point(d.at);
+    Mat rows(2, n);
+    rows.row(0) = scene.system.dofs.row(p, X).transpose() * scene.reduced.Phi;
+    rows.row(1) = scene.system.dofs.row(p, Y).transpose() * scene.reduced.Phi;
+    const Mat pull = mass.solve(rows.transpose());
+    const DenseLu<Mat> share(rows * pull);
+    if (!(share.rcond() > 1e-12)) {
+      throw ModelError(d.at.where, "start.displaced", "this place cannot move by itself");
+    }
+    state.y.head(n) += pull * share.solve(Vec2(d.x, d.y));
+    state.y.tail(n) += pull * share.solve(Vec2(d.vx, d.vy));
+  }
   if (model.start.whirl.empty()) return state;
   int highest = 0;
   for (const WhirlStart& w : model.start.whirl) highest = std::max(highest, w.mode);

@@ -165,6 +165,26 @@ void ModelBuilder::read_settings() {
       model_.start.whirl.push_back(w);
     }
   }
+  if (const ConfigNode* displaced = table.node("displaced")) {
+    if (displaced->kind != ConfigNode::Kind::array) {
+      table.problem("displaced", fmt::format("found {}, expected [ {{ body = \"rotor\", x = \"1 "
+                                             "mm\" }} ]",
+                                             displaced->as_written()));
+    }
+    for (std::size_t i = 0; i < displaced->items.size(); ++i) {
+      TableReader item(&displaced->items[i], fmt::format("start.displaced.{}", i + 1), problems_);
+      Displaced d;
+      if (const auto at = station(item)) d.at = *at;
+      for (const auto& [key, unit, to] : {std::tuple{"x", "m", &d.x},
+                                          {"y", "m", &d.y},
+                                          {"vx", "m/s", &d.vx},
+                                          {"vy", "m/s", &d.vy}}) {
+        if (const auto value = item.quantity(key, unit, Range::any)) *to = *value;
+      }
+      item.finish();
+      model_.start.displaced.push_back(d);
+    }
+  }
   table.finish();
 }
 

@@ -32,7 +32,7 @@ std::vector<std::string> split(std::string_view text, char at) {
 }  // namespace
 
 std::string ParameterAxis::assignment(std::size_t index) const {
-  return fmt::format("{}={:.17g}", path, values[index]);
+  return fmt::format("{}={:.17g}{}{}", path, values[index], unit.empty() ? "" : " ", unit);
 }
 
 Parsed<ParameterAxis> parse_axis(std::string_view text, int points) {
@@ -50,7 +50,15 @@ Parsed<ParameterAxis> parse_axis(std::string_view text, int points) {
 
   const auto last = parse_quantity(parts.back());
   if (!last) return Result::failed(fmt::format("{}; {}", last.problem, expected));
-  if (!last->unit.empty()) axis.unit = si_unit(last->dimension);
+  if (last->dimension != Dimension{}) {
+    axis.unit = si_unit(last->dimension);
+    if (axis.unit.empty()) {
+      return Result::failed(
+          fmt::format("found {}, expected a unit of something that a model has; or write numbers "
+                      "in SI without a unit",
+                      in_quotes(range)));
+    }
+  }
   if (!is_list) {
     const auto parsed = parse_range(range, last->dimension);
     if (!parsed) return Result::failed(parsed.problem);

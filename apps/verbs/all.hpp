@@ -16,6 +16,7 @@ Report run_identify(const Invocation& call);
 Report run_classify(const Invocation& call);
 Report run_sweep(const Invocation& call);
 Report run_map(const Invocation& call);
+Report run_basins(const Invocation& call);
 Report run_bench(const Invocation& call);
 Report run_export(const Invocation& call);
 

@@ -97,7 +97,7 @@ class Saver {
     table_.write(*file);
     file->commit();
     last_ = clock::now();
-    next_ = last_ + std::max<clock::duration>(std::chrono::milliseconds(500), 20 * (last_ - start));
+    next_ = last_ + std::max<clock::duration>(least, 20 * (last_ - start));
   }
   void save_if_due() {
     if (clock::now() >= next_) save();
@@ -107,7 +107,8 @@ class Saver {
   bool has_file_;
   PointTable& table_;
   const std::function<std::unique_ptr<ResultWriter>()>& begin_;
-  clock::time_point last_ = clock::now(), next_ = last_ + std::chrono::milliseconds(500);
+  static constexpr std::chrono::milliseconds least{100};  ///< between two savings
+  clock::time_point last_ = clock::now(), next_ = last_ + least;
 };
 
 }  // namespace
@@ -204,10 +205,8 @@ StudyPoint StudySetup::point(std::size_t number, const FullState* from) const {
 
 std::vector<std::string> StudySetup::axis_paths(const std::string& group) const {
   std::vector<std::string> paths;
-  for (const ParameterAxis& axis : axes_) {
-    std::string path = group + '/' + axis.path;
-    if (std::find(paths.begin(), paths.end(), path) != paths.end()) path += ".2";
-    paths.push_back(path);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    paths.push_back(fmt::format("{}/axis_{}", group, i + 1));
   }
   return paths;
 }

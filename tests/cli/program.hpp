@@ -167,17 +167,26 @@ class Program : public testing::Test {
 };
 
 /// Names of all verbs that take a model.
-inline const std::vector<std::string> model_verbs{"check",    "static",    "modes",    "campbell",
-                                                  "critical", "unbalance", "simulate", "identify",
-                                                  "classify", "bench"};
+inline const std::vector<std::string> model_verbs{
+    "check",    "static",   "modes", "campbell", "critical", "unbalance", "simulate",
+    "identify", "classify", "sweep", "map",      "basins",   "bench"};
 
 /// The words of a call with options that keep its verb from measuring for long.
 inline std::vector<std::string> briefly(std::vector<std::string> words) {
-  if (words.front() != "bench") return words;
-  for (const char* word : {"--methods", "dop853,rk4", "--tolerances", "1e-6", "--discard", "2",
-                           "--revolutions", "2"}) {
-    words.emplace_back(word);
+  const std::string verb = words.front();
+  const auto add = [&](const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+  };
+  if (verb == "bench") {
+    add({"--methods", "dop853,rk4", "--tolerances", "1e-6", "--discard", "2", "--revolutions",
+         "2"});
   }
+  if (verb == "sweep" || verb == "map" || verb == "basins") {
+    add({"--discard", "10", "--revolutions", "5"});
+  }
+  if (verb == "sweep" || verb == "map") add({"--over", "gravity=9,10m/s^2"});
+  if (verb == "map") add({"--over", "bearing.1.damping=200,201"});
+  if (verb == "basins") add({"--starts", "3"});
   return words;
 }
 

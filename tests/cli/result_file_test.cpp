@@ -179,10 +179,11 @@ TEST_F(Results, RunAgainToTheSameNumbers) {
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
     std::vector<std::string> line = words(verb);
-    line.insert(line.end(), {"--set", "body.rotor.mass=2.5 kg", "--speed=90", "--out", "a.h5"});
+    line.insert(line.end(),
+                {"--set", "body.rotor.mass=2.5 kg", "--speed=90", "--out", verb + ".h5"});
     json first = result(line);
     std::filesystem::remove(folder / "rub.toml");  // all that is needed is in the result
-    json second = result({"rerun", "a.h5"});
+    json second = result({"rerun", verb + ".h5"});
     write("rub.toml", rubbing);
     for (json* r : {&first, &second}) {
       if (r->contains("cost")) (*r)["cost"].erase("wall_s");

@@ -1,0 +1,303 @@
+// sweep, map and basins: JSON, motions that are known, going on after a kill, refusing.
+
+#include <cmath>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "libio/hdf5.hpp"
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace study_test {
+
+using namespace std::chrono_literals;
+
+const std::string stator = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
+
+class Study : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("rub.toml", rubbing);
+  }
+
+  /// Whether all numbers of two result files are the same, bit by bit.
+  void expect_same(const std::string& a, const std::string& b, const std::string& group) const {
+    const ResultReader one(folder / a), other(folder / b);
+    const auto names = one.list(group);
+    EXPECT_EQ(names, other.list(group));
+    for (const std::string& name : names) {
+      const std::string path = group + '/' + name;
+      if (name == "contact" || name == "station" || name == "direction") {
+        EXPECT_EQ(one.strings(path), other.strings(path));
+        continue;
+      }
+      const std::vector<double> x = one.numbers(path), y = other.numbers(path);
+      ASSERT_EQ(x.size(), y.size()) << path;
+      EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
+    }
+  }
+
+  /// Kills a study again and again at random times; once it ends, it starts anew.
+  void kill_and_compare(std::vector<std::string> words, const std::string& group, int kills,
+                        unsigned seed) {
+    for (const char* name : {"whole.h5", "killed.h5"}) std::filesystem::remove(folder / name);
+    words.insert(words.end(), {"--out", "whole.h5"});
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(whirl(words).status, 0);
+    const double takes =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    words.back() = "killed.h5";
+    std::mt19937 random(seed);
+    long resumed = 0;
+    for (int k = 0; k < kills;) {
+      const pid_t child = start(WHIRL_PROGRAM, words);
+      std::this_thread::sleep_for(std::chrono::duration<double>(
+          takes * std::uniform_real_distribution<double>(0.05, 0.9)(random)));
+      ::kill(child, SIGKILL);
+      const Outcome outcome = wait(child);
+      if (outcome.status == 128 + SIGKILL) {
+        ++k;
+        if (!std::filesystem::exists(folder / "killed.h5")) continue;
+        const ResultReader file(folder / "killed.h5");  // whole, at whatever moment
+        if (file.number_attribute(group, "complete") == 1.0) continue;
+        ++resumed;
+      } else {  // it was done: compare, and begin again
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        expect_same("whole.h5", "killed.h5", group);
+        std::filesystem::remove(folder / "killed.h5");
+      }
+    }
+    ASSERT_EQ(whirl(words).status, 0);
+    expect_same("whole.h5", "killed.h5", group);
+    EXPECT_GT(resumed, 0);
+    for (const std::string& name : files()) EXPECT_FALSE(has(name, ".tmp.")) << name;
+  }
+};
+
+// The rotor in its stator: from permanent contact to bouncing, whatever the contact stiffness.
+TEST_F(Study, MapTellsRegimesAndMotions) {
+  const json r =
+      result({"map", stator, "--over", "operation.speed=151,136rad/s", "--over",
+              "contact.ring.stiffness=50,150MN/m", "--discard", "300", "--revolutions", "200"});
+  ASSERT_EQ(r["axes"].size(), 2u);
+  EXPECT_EQ(r["axes"][0]["parameter"], "operation.speed");
+  EXPECT_EQ(r["axes"][0]["unit"], "rad/s");
+  EXPECT_EQ(r["axes"][1]["values"], (json{50e6, 150e6}));
+  EXPECT_EQ(r["motion"], json::parse(R"([["periodic", "periodic"], ["periodic", "periodic"]])"));
+  EXPECT_EQ(r["regime"],
+            json::parse(R"([["permanent", "permanent"], ["intermittent", "intermittent"]])"));
+  EXPECT_EQ(r["period_revs"][1][1], 1);
+  // the largest exponent of P1 is -2.944044 1/s
+  EXPECT_NEAR(r["lyapunov_max"][1][1].get<double>() * 136.0 / (2.0 * pi), -2.944044, 1e-6);
+}
+
+// Three axes make a stack of planes; neither threads nor the way the points lie change a bit.
+TEST_F(Study, MapIsTheSameOnAnyThreads) {
+  std::vector<std::string> words{"map",           stator,
+                                 "--over",        "operation.speed=130:140:0.1rad/s",
+                                 "--over",        "contact.ring.friction=0.1,0.2",
+                                 "--over",        "contact.ring.stiffness=64e6,150e6",
+                                 "--discard",     "100",
+                                 "--revolutions", "40",
+                                 "--out",         "one.h5",
+                                 "--threads",     "1"};
+  ASSERT_EQ(whirl(words).status, 0);
+  words[words.size() - 3] = "three.h5";
+  words.back() = "3";
+  ASSERT_EQ(whirl(words).status, 0);
+  expect_same("one.h5", "three.h5", "/map");
+  EXPECT_EQ(ResultReader(folder / "one.h5").shape("/map/exponent"),
+            (std::vector<Eigen::Index>{101, 2, 2, 8}));
+}
+
+TEST_F(Study, SweepGoesUpAndDown) {
+  const json r =
+      result({"sweep", stator, "--over", "operation.speed=131:135:1rad/s", "--out", "sweep.h5"});
+  EXPECT_EQ(r["parameter"], "operation.speed");
+  ASSERT_EQ(r["values"].size(), 5u);
+  ASSERT_EQ(r["up"].size(), 5u);
+  ASSERT_EQ(r["down"].size(), 5u);
+  EXPECT_EQ(r["down"][0]["value"], 135.0);  // in the order in which it went
+  // period 1, 2, 4 with three, four and more impacts, then chaos, then period 1 with five
+  const json& up = r["up"];
+  EXPECT_EQ(up[0]["motion"], "periodic");
+  EXPECT_EQ(up[0]["period_revs"], 1);
+  EXPECT_EQ(up[0]["impacts_per_rev"], 3.0);
+  EXPECT_EQ(up[1]["period_revs"], 2);
+  EXPECT_EQ(up[1]["impacts_per_rev"], 4.0);
+  EXPECT_EQ(up[1]["poincare_m"].size(), 2u);
+  EXPECT_EQ(up[2]["period_revs"], 4);
+  EXPECT_EQ(up[4]["period_revs"], 1);
+  EXPECT_EQ(up[4]["impacts_per_rev"], 5.0);
+
+  const ResultReader file(folder / "sweep.h5");
+  EXPECT_EQ(file.strings("/sweep/direction"), (std::vector<std::string>{"up", "down"}));
+  // at 135 rad/s the largest line turns with the speed; its radius is below the largest distance
+  const std::vector<double> orders = file.numbers("/sweep/order");
+  const std::vector<double> all = file.numbers("/sweep/spectrum");
+  const auto lines = static_cast<std::ptrdiff_t>(orders.size());
+  const auto begin = all.begin() + 4 * 2 * lines;  // up, fifth value, first station
+  const auto largest = std::max_element(begin, begin + lines);
+  EXPECT_EQ(orders[static_cast<std::size_t>(largest - begin)], 1.0);
+  EXPECT_LT(*largest, file.numbers("/sweep/max_radius")[8]);
+  // the contact takes as much of the time around the stator as its duty says
+  const std::vector<double> angles = file.numbers("/sweep/contact_angle");
+  double touch = 0.0;
+  for (std::size_t i = 4 * 36; i < 5 * 36; ++i) touch += angles[i];
+  EXPECT_NEAR(touch, file.numbers("/sweep/duty")[4], 0.03);  // by samples
+}
+
+// Where a motion ends depends on where it came from: a carried sweep keeps the rub that a rotor
+// starting from rest never finds.
+TEST_F(Study, SweepCarriesTheStateOrNot) {
+  const std::vector<std::string> words{"sweep", stator, "--over", "operation.speed=160:172:2rad/s"};
+  const json carried = result(words);
+  auto fresh_words = words;
+  fresh_words.emplace_back("--fresh");
+  const json fresh = result(fresh_words);
+  EXPECT_EQ(fresh["down"], json::array());
+  EXPECT_EQ(fresh["up"][6]["impacts_per_rev"], 0.0);
+  EXPECT_EQ(fresh["up"][0]["period_revs"], carried["up"][0]["period_revs"]);
+  const std::vector<double> from_rest = fresh["up"][6]["poincare_m"],
+                            from_below = carried["up"][6]["poincare_m"];
+  EXPECT_GT(std::abs(from_rest[0] - from_below[0]), 1e-3);
+}
+
+// Above the speeds where a rotor at rest begins to rub, those that rub already go on.
+TEST_F(Study, BasinsFindsCoexistingMotions) {
+  std::vector<std::string> words{"basins", stator, "--speed",   "170rad/s", "--starts",      "16",
+                                 "--size", "1",    "--discard", "200",      "--revolutions", "50"};
+  const json r = result(words);
+  EXPECT_EQ(r["starts"], 16);
+  std::map<std::string, double> share;
+  for (const json& a : r["attractors"]) {
+    share[a["regime"]] += a["share"].get<double>();
+    EXPECT_TRUE(a["start"]["number"].is_number_integer());
+    EXPECT_EQ(a["start"]["displacement"].size(), 4u);
+    if (a["regime"] == "none") {
+      EXPECT_EQ(a["motion"], "periodic");
+      EXPECT_EQ(a["impacts_per_rev"], 0.0);
+    }
+  }
+  EXPECT_GT(share["none"], 0.0);
+  EXPECT_GT(share["permanent"] + share["intermittent"], 0.0);
+  EXPECT_NEAR(share["none"] + share["permanent"] + share["intermittent"], 1.0, 1e-12);
+  EXPECT_EQ(result(words)["attractors"], r["attractors"]);
+  words.insert(words.end(), {"--seed", "2"});
+  EXPECT_NE(result(words)["attractors"], r["attractors"]);
+}
+
+// Starts from a plane of the model's own start.
+TEST_F(Study, BasinsOverAPlane) {
+  const json r =
+      result({"basins", stator, "--speed", "170rad/s", "--set",
+              "start.displaced=[{body=\"rotor\"}]", "--over", "start.displaced.1.x=0,6mm", "--over",
+              "start.displaced.1.vy=0,1m/s", "--out", "b.h5"});
+  EXPECT_EQ(r["starts"], 4);
+  EXPECT_EQ(r["axes"][1]["unit"], "m/s");
+  const ResultReader file(folder / "b.h5");
+  EXPECT_EQ(file.shape("/basins/attractor"), (std::vector<Eigen::Index>{2, 2}));
+  const std::vector<double> x = file.numbers("/basins/start_displacement");
+  EXPECT_EQ(x[0], 0.0);
+  EXPECT_NEAR(x[2 * 4], 6e-3, 1e-15);
+}
+
+TEST_F(Study, MapGoesOnWhereItWasKilled) {
+  kill_and_compare({"map", stator, "--over", "operation.speed=130:160:0.5rad/s", "--over",
+                    "contact.ring.friction=0:0.3:0.02", "--discard", "40", "--revolutions", "10"},
+                   "/map", 7, 1);
+}
+
+TEST_F(Study, SweepGoesOnWhereItWasKilled) {
+  kill_and_compare({"sweep", stator, "--over", "operation.speed=130:142:0.2rad/s", "--discard",
+                    "40", "--revolutions", "20", "--spectra", "4"},
+                   "/sweep", 7, 2);
+}
+
+TEST_F(Study, BasinsGoesOnWhereItWasKilled) {
+  kill_and_compare({"basins", stator, "--set", "contact.ring.stiffness=64e6", "--speed",
+                    "138.4rad/s", "--starts", "600", "--discard", "40", "--revolutions", "20"},
+                   "/basins", 6, 3);
+}
+
+TEST_F(Study, StopsOnCtrlCAndGoesOn) {
+  const std::vector<std::string> words{"map",       stator,
+                                       "--over",    "operation.speed=130:160:0.1rad/s",
+                                       "--over",    "contact.ring.friction=0:0.3:0.02",
+                                       "--discard", "300",
+                                       "--out",     "map.h5"};
+  const pid_t child = start(WHIRL_PROGRAM, words);
+  while (!std::filesystem::exists(folder / "map.h5")) std::this_thread::sleep_for(10ms);
+  ::kill(child, SIGINT);
+  const Outcome stopped = wait(child);
+  EXPECT_EQ(stopped.status, 130) << stopped.err;
+  EXPECT_TRUE(has(stopped.out, "the same line goes on from there")) << stopped.out;
+  const ResultReader file(folder / "map.h5");
+  EXPECT_EQ(file.number_attribute("/map", "complete"), 0.0);
+  const std::vector<double> done = file.numbers("/map/done");
+  EXPECT_GT(std::count(done.begin(), done.end(), 1.0), 0);
+}
+
+TEST_F(Study, RefusesFilesOfOtherStudies) {
+  std::vector<std::string> words{"map",           "rub.toml",
+                                 "--over",        "operation.speed=90:100:5",
+                                 "--over",        "contact.ring.stiffness=2e4,3e4",
+                                 "--discard",     "20",
+                                 "--revolutions", "10",
+                                 "--out",         "map.h5"};
+  ASSERT_EQ(whirl(words).status, 0);
+  EXPECT_EQ(result(words)["resumed"], 6);
+  const std::string before = content(folder / "map.h5");
+  const auto refused = [&](const std::vector<std::string>& w, const std::string& why) {
+    const Outcome o = whirl(w);
+    EXPECT_EQ(o.status, 2);
+    EXPECT_TRUE(has(o.err, why)) << o.err;
+    EXPECT_TRUE(has(o.err, "--restart")) << o.err;
+    EXPECT_EQ(content(folder / "map.h5"), before);
+  };
+  auto longer = words;
+  longer[7] = "30";
+  refused(longer, "holds another study");
+  write("rub.toml", std::string(rubbing) + "# changed\n");
+  refused(words, "changed since");
+  write("rub.toml", rubbing);
+  longer.emplace_back("--restart");
+  EXPECT_EQ(whirl(longer).status, 0);
+  EXPECT_NE(content(folder / "map.h5"), before);
+}
+
+// Cross-coupled springs drive the motion beyond all bounds at some points: they are marked, the rest
+// is there.
+TEST_F(Study, KeepsGoingWherePointsFail) {
+  const json r =
+      result({"map", "rub.toml", "--set", "bearing.shaft.stiffness={xx=2e4,yy=2e4,xy=0,yx=-1e6}",
+              "--over", "bearing.shaft.stiffness.xy=0,1e6", "--over",
+              "contact.ring.clearance=4,5mm", "--discard", "1000"});
+  EXPECT_EQ(r["motion"][0][0], "periodic");
+  EXPECT_TRUE(r["motion"][1][0].is_null());
+  EXPECT_TRUE(has(r["failure"], "2 of 4 points")) << r["failure"];
+}
+
+TEST_F(Study, BadInput) {
+  const auto says = [&](const std::vector<std::string>& words, const std::string& what) {
+    const Outcome o = whirl(words);
+    EXPECT_EQ(o.status, 2) << what;
+    EXPECT_TRUE(has(o.err, what)) << o.err;
+  };
+  says({"sweep", "rub.toml"}, "found 0 of them, expected 1");
+  says({"map", "rub.toml", "--over", "operation.speed=1:2:1"}, "found 1 of them, expected 2 to 3");
+  says({"sweep", "rub.toml", "--over", "operation.speed=1:2"}, "--points");
+  says({"sweep", "rub.toml", "--over", "operation.speed=1:2:1kg"}, "expected a speed");
+  says({"sweep", "rub.toml", "--over", "contact.ring.clearance=0:1:0.5mm"}, "clearance");
+  says({"sweep", "rub.toml", "--over", "contact.rim.clearance=1:2:1mm"}, "rim");
+  says({"basins", "rub.toml", "--over", "operation.speed=90:100:5"}, "vary the start only");
+  says({"basins", "rub.toml", "--set", "start.displaced=[{x=1}]"}, "start.displaced.1");
+  says({"basins", "rub.toml", "--set", "start.displaced=[{body=\"rotor\", z=1}]"}, "unknown key");
+  says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5", "--tolerance", "1"}, "1e-15");
+  says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5", "--sections", "0"}, "sections");
+}
+
+}  // namespace study_test
+}  // namespace whirl::test
