@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "libdyn/batch/batch.hpp"
+#include "libdyn/section_geometry.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 
@@ -24,9 +25,10 @@ constexpr double converged = 1e-11;        ///< residual of an orbit
 constexpr double accurate = 1e-8;          ///< what rounding and events may leave of it
 constexpr double attracting = 1.0 - 1e-7;  ///< largest multiplier, whose error is below the rest
 constexpr int most_newton = 8;
-constexpr long first_search = 96;     ///< revolutions
-constexpr double later_search = 1.5;  ///< times those of the search before
-constexpr std::size_t few = 2;        ///< trajectories that are faster one by one than in lanes
+constexpr long first_search = 96;             ///< revolutions
+constexpr double later_search = 1.5;          ///< times those of the search before
+constexpr Eigen::Index most_dimension = 400;  ///< sections that their dimension is taken from
+constexpr std::size_t few = 2;  ///< trajectories that are faster one by one than in lanes
 
 /// Trajectories of any systems, in batches of those that have the same shape.
 void integrate_all(std::vector<Trajectory>& all, const BatchOptions& options) {
@@ -77,8 +79,7 @@ class Together {
 
   void average() {
     const std::vector<Trajectory> averaged =
-        go(options_.revolutions,
-           {.sections = options_.sections > 0, .measures = true, .exponents = true});
+        go(options_.revolutions, {.sections = true, .measures = true, .exponents = true});
     std::vector<Subject*> attracted;
     for (std::size_t i = 0; i < open_.size(); ++i) {
       const Trajectory& t = averaged[i];
@@ -87,6 +88,7 @@ class Together {
       const double turns = static_cast<double>(c.revolutions);
       c.exponents = t.exponents * period;
       c.resolution = (1.0 + std::log(turns)) / turns;
+      c.section_dimension = dimension(t);
       const auto positive = (c.exponents.array() > c.resolution).count();
       if (positive > 0) {
         c.kind = positive > 1 ? MotionKind::hyperchaotic : MotionKind::chaotic;
@@ -161,6 +163,14 @@ class Together {
     const auto size = static_cast<std::ptrdiff_t>(2 * t.system->coordinates());
     const auto kept = std::min(std::ssize(t.sections), options_.sections * size);
     to.sections.assign(t.sections.end() - kept, t.sections.end());
+  }
+
+  /// Dimension of the last sections of a motion.
+  static double dimension(const Trajectory& t) {
+    const Eigen::Index size = t.system->size(), all = std::ssize(t.sections) / size;
+    const Eigen::Index used = std::min(all, most_dimension);
+    const Eigen::Map<const Mat> sections(t.sections.data() + (all - used) * size, size, used);
+    return section_dimension(t.system->state_scale().cwiseInverse().asDiagonal() * sections);
   }
 
   /// Closes the motions whose sections show a period, if it is proven.

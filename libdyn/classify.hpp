@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct Classification {
   bool is_proven = false;   ///< periodic: Newton's method found the orbit, and it attracts
   double residual = 0.0;    ///< of a proven orbit after its period, in length scales
   double resolution = 0.0;  ///< exponents within +-this count as zero [1/revolution]
+  /// Of the set that the sections at phase 0 lie on: 1 for a closed curve (see section_geometry.hpp);
+  /// NaN where the orbit is proven, or too few sections are known.
+  double section_dimension = std::numeric_limits<double>::quiet_NaN();
   long revolutions =
       0;               ///< that contacts were measured over: the period, or all that were averaged
   long transient = 0;  ///< revolutions until the motion was known to be periodic, or all

@@ -38,6 +38,11 @@ std::string evidence(const Classification& c, double period) {
         "  largest exponent {:+.4f} a revolution ({:+.3f} 1/s), mean of {}; within {:.4f} it would "
         "count as zero\n",
         largest, largest / period, c.revolutions, c.resolution);
+    if (c.section_dimension < 1e9) {
+      text += fmt::format("  sections at phase 0 lie on a set of dimension {:.2f}{}\n",
+                          c.section_dimension,
+                          std::abs(c.section_dimension - 1.0) < 0.1 ? ", a closed curve" : "");
+    }
   }
   Table table({"exponent", "per revolution", "[1/s]"});
   for (Eigen::Index i = 0; i < c.exponents.size(); ++i) {
@@ -75,6 +80,7 @@ Report run_classify(const Invocation& call) {
   r.set("period_revs", is_known && c.period > 0 ? Record(c.period) : Record(nullptr));
   r.set("lyapunov_per_rev", std::vector<double>(c.exponents.begin(), c.exponents.end()));
   r.set("resolution_per_rev", c.resolution).set("is_proven", c.is_proven);
+  r.set("section_dimension", c.section_dimension);
   r.set("residual", c.is_proven ? Record(c.residual) : Record(nullptr));
   r.set("impacts", c.impacts()).set("revs", c.revolutions);
   add_contacts(r, c.contacts, c.revolutions);

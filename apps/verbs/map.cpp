@@ -71,7 +71,18 @@ std::string kind_of(const PointTable& table, std::size_t point) {
   if (motion.empty()) return "failed";
   if (motion != "periodic") return motion;
   const int period = static_cast<int>(table.number("period", point));
-  return period == 0 ? "periodic, other" : fmt::format("period {}", period);
+  const bool is_common = period > 0 && (period <= 6 || period == 8);
+  return is_common ? fmt::format("period {}", period) : "other periods";
+}
+
+/// How many points have another motion than in the plane before [%], per plane.
+std::vector<double> changes(const PointTable& table, std::size_t planes) {
+  std::vector<double> percents(planes, 0.0);
+  for (std::size_t i = 0; i < table.points(); ++i) {
+    if (i % planes == 0 || kind_of(table, i) == kind_of(table, i - 1)) continue;
+    percents[i % planes] += 100.0 / static_cast<double>(table.points() / planes);
+  }
+  return percents;
 }
 
 /// Shares of motions; with three axes, a column for each value of the last one.
@@ -98,8 +109,8 @@ std::string shares(const PointTable& table, const StudySetup& setup) {
   const auto rank = [](const std::string& kind) {
     if (kind == "equilibrium") return 0;
     if (kind.starts_with("period ")) return std::stoi(kind.substr(7));
-    const std::vector<std::string> rest{"periodic, other", "quasi-periodic", "chaotic",
-                                        "hyperchaotic",    "failed",         "not computed"};
+    const std::vector<std::string> rest{"other periods", "quasi-periodic", "chaotic",
+                                        "hyperchaotic",  "failed",         "not computed"};
     return 1000 + static_cast<int>(std::find(rest.begin(), rest.end(), kind) - rest.begin());
   };
   std::vector<std::string> kinds;
@@ -113,6 +124,11 @@ std::string shares(const PointTable& table, const StudySetup& setup) {
   };
   Table motions(head);
   for (const std::string& kind : kinds) motions.row(cells(kind, counts[kind]));
+  if (has_planes) {
+    std::vector<std::string> row = cells("another than before", changes(table, planes));
+    row[1] = "-";
+    motions.row(row);
+  }
   std::string text;
   if (has_planes) text += fmt::format("  {}, across\n", setup.axes()[2].path);
   text += motions.text();

@@ -253,6 +253,7 @@ std::vector<Column> classification_columns(const Scene& scene, const std::string
       {"transient", "", "revolutions until this was known, or all of the transient", true},
       {"revolutions", "", "revolutions of contact measures", true},
       {"resolution", "", "exponents within this count as zero [1/revolution]"},
+      {"section_dimension", "", "dimension of the sections, 1 for a closed curve"},
       {"exponent", "", "Lyapunov exponents, descending [1/revolution]", false, exponents},
       {"regime", "", "regime of a contact: 0 none, 1 intermittent, 2 permanent", true, contacts,
        per},
@@ -273,7 +274,7 @@ void write_classification_axes(ResultWriter& file, const Scene& scene, const std
 PointRow classification_row(const StudyPoint& point) {
   const Classification& c = point.subject.found;
   if (!point.is_good()) {
-    PointRow row(13);
+    PointRow row(14);
     row[0] = {-1.0};
     return row;
   }
@@ -283,6 +284,7 @@ PointRow classification_row(const StudyPoint& point) {
                {static_cast<double>(c.transient)},
                {static_cast<double>(c.revolutions)},
                {c.resolution},
+               {c.section_dimension},
                {c.exponents.begin(), c.exponents.end()},
                {},
                {},
@@ -291,12 +293,12 @@ PointRow classification_row(const StudyPoint& point) {
                {},
                {}};
   for (const ContactMeasure& m : c.contacts) {
-    row[7].push_back(static_cast<double>(m.regime()));
-    row[8].push_back(m.duty);
-    row[9].push_back(m.impacts / static_cast<double>(c.revolutions));
-    row[10].push_back(m.sticking);
-    row[11].push_back(m.max_normal);
-    row[12].push_back(m.max_tangential);
+    row[8].push_back(static_cast<double>(m.regime()));
+    row[9].push_back(m.duty);
+    row[10].push_back(m.impacts / static_cast<double>(c.revolutions));
+    row[11].push_back(m.sticking);
+    row[12].push_back(m.max_normal);
+    row[13].push_back(m.max_tangential);
   }
   return row;
 }

@@ -57,6 +57,36 @@ TEST(Classify, TellsChaosFromOrder) {
   }
 }
 
+// In the lanes of a batch, among others, a motion becomes what it becomes alone, bit by bit.
+TEST(Classify, IsTheSameAloneAndTogether) {
+  std::vector<Scene> scenes;
+  std::vector<MotionState> starts;
+  for (int i = 0; i < 12; ++i) {
+    const RotorStator p{.Omega = 131.0 + i, .kC = 64e6, .mu = 0.02 * i};
+    scenes.push_back(p.scene());
+    starts.push_back(test::start_of(p.model(), scenes.back()));
+  }
+  const ClassifyOptions options{.discard = 150, .revolutions = 40, .sections = 8};
+  std::vector<Subject> together;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    together.push_back({.system = &scenes[i].contacts});
+    together.back().found.end = starts[i];
+  }
+  settle(together, options);
+  average(together, options);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Classification alone = classify(scenes[i].contacts, starts[i], options);
+    const Classification& c = together[i].found;
+    EXPECT_EQ(c.kind, alone.kind) << i;
+    EXPECT_EQ(c.period, alone.period) << i;
+    EXPECT_EQ(c.exponents, alone.exponents) << i;
+    EXPECT_EQ(c.end.y, alone.end.y) << i;
+    EXPECT_EQ(c.sections, alone.sections) << i;
+    EXPECT_EQ(c.contacts[0].duty, alone.contacts[0].duty) << i;
+    EXPECT_EQ(c.contacts[0].max_normal, alone.contacts[0].max_normal) << i;
+  }
+}
+
 // A rotor that whirls without damping beside its unbalance has two frequencies.
 TEST(Classify, FindsTwoFrequencies) {
   const test::MassInRing p{.Omega = 100.0, .k = 1.7e4, .U = 1e-5, .clearance = 1e-2};
