@@ -78,6 +78,7 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
 template <class P>
 HWY_ATTR void Engine<P>::step(const Observer* observer) {
   constexpr Number too_small = 10.0 * P::rounding;  // of a revolution
+  constexpr Number brief_step = 1e4 * P::rounding;  // of a revolution; its square is nothing
   series();
   P h = step_length();
   if (has_tangents()) h = limit_for_tangents(h);
@@ -121,7 +122,13 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   time_ = time_ + h;
   time_ = select(mask_of<P>(ends), P(0.0), time_);
   ++steps_;
-  for (ContactLanes<P>& c : contacts_) c.surface_distance = c.surface_force = c.surface_slip = 0;
+  // where next to no time passed, a contact is still on its surface: others touch at the same instant
+  const uint64_t brief = bits(h, less_equal(h, period_ * P(brief_step)));
+  for (ContactLanes<P>& c : contacts_) {
+    for (uint64_t* surface : {&c.surface_distance, &c.surface_force, &c.surface_slip}) {
+      *surface &= brief;
+    }
+  }
   if (fell != 0) apply_events(instant);
 
   for (uint64_t rest = ends; rest != 0; rest &= rest - 1) {
