@@ -47,7 +47,8 @@ double sliding_friction(const ReducedContact& c, const ContactState& state,
 }
 
 ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
-                             const std::vector<Contact>& contacts)
+                             const std::vector<Contact>& contacts,
+                             const std::vector<OilFilm>& films)
     : Omega_(reduced.Omega) {
   const DenseLu<Mat> mass(reduced.M);
   K_ = mass.solve(reduced.K);
@@ -74,8 +75,25 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
     clearance = std::min(clearance, c.clearance);
   }
 
+  for (const OilFilm& film : films) {
+    ReducedFilm r{
+        .name = film.name,
+        .offset = film.offset,
+        .clearance = film.bearing.clearance,
+        .factor = std::visit([&](const auto& law) { return law.factor(film.bearing); }, film.law),
+        .spin = Omega_ / phase_rate(),
+        .rate = phase_rate(),
+        .law = film.law};
+    r.U = (rows(reduced.dofs, assembler.point(film.at)) -
+           rows(reduced.dofs, assembler.point(film.against))) *
+          reduced.Phi;
+    r.B = mass.solve(r.U.transpose());
+    films_.push_back(std::move(r));
+    clearance = std::min(clearance, film.bearing.clearance);
+  }
+
   // scales: clearances, else what the loads do
-  if (contacts_.empty()) {
+  if (contacts_.empty() && films_.empty()) {
     const Vec sag = least_squares(K_, f0_);
     const double turn = phase_rate();
     const double size = std::max({(back * sag).cwiseAbs().maxCoeff(),
@@ -113,6 +131,14 @@ void ContactSystem::smooth_acceleration(double phase, const double* y, double* a
   result = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
   result.noalias() -= K_ * eta;
   result.noalias() -= D_ * rate;
+  for (const ReducedFilm& film : films_) result.noalias() += film.B * film_force(film, y, n);
+}
+
+const ReducedFilm* ContactSystem::left_bearing(const double* y) const {
+  for (const ReducedFilm& film : films_) {
+    if (!(eccentricity(film, y, coordinates()) < 1.0)) return &film;
+  }
+  return nullptr;
 }
 
 void ContactSystem::forces(double phase, const double* y, const ContactStates& states,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "libdyn/film.hpp"
 #include "libdyn/model.hpp"
 #include "libfe/assemble.hpp"
 
@@ -52,9 +53,10 @@ struct ContactForces {
   Vec2 t() const { return {-n(1), n(0)}; }
 };
 
-/// Reduced equations of motion with contacts.
+/// Reduced equations of motion with contacts and oil films.
 ///
 ///   eta'' = f0 + fc cos(phase) + fs sin(phase) - K eta - D eta' - sum_j B_j (N_j n_j + T_j t_j)
+///           + sum_i B_i F_i
 ///
 /// M is multiplied out. The state of an integration is (eta, eta'), size 2 n; phase = Omega t.
 /// A value: copy it, one per thread.
@@ -62,7 +64,7 @@ class ContactSystem {
  public:
   /// @throws ModelError  for contacts at stations without inertia
   ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
-                const std::vector<Contact>& contacts);
+                const std::vector<Contact>& contacts, const std::vector<OilFilm>& films = {});
 
   int coordinates() const { return static_cast<int>(K_.rows()); }
   int size() const { return 2 * coordinates(); }
@@ -78,8 +80,12 @@ class ContactSystem {
   const Vec& cosine_load() const { return fc_; }
   const Vec& sine_load() const { return fs_; }
   const std::vector<ReducedContact>& contacts() const { return contacts_; }
+  const std::vector<ReducedFilm>& films() const { return films_; }
+  /// The first film whose journal is not inside its bearing; null if there is none.
+  const ReducedFilm* left_bearing(const double* y) const;
 
-  /// Scale of displacements for tolerances: the smallest clearance, or the motion of the loads [m].
+  /// Scale of displacements for tolerances: the smallest clearance of a contact or film, or the
+  /// motion of the loads [m].
   double length_scale() const { return length_scale_; }
   /// Error weights of the state: a displacement of one length scale in each coordinate.
   const Vec& state_scale() const { return scale_; }
@@ -113,6 +119,7 @@ class ContactSystem {
   Mat K_, D_;
   Vec f0_, fc_, fs_;
   std::vector<ReducedContact> contacts_;
+  std::vector<ReducedFilm> films_;
   double Omega_ = 0.0;
   double length_scale_ = 1.0;
   Vec scale_;

@@ -8,12 +8,14 @@ namespace whirl {
 /// Coordinates eta at which weight, springs and the normal forces of contacts balance, without
 /// unbalance and friction:
 ///
-///   f0 = K eta + sum_j B_j N_j n_j
+///   f0 + sum_i B_i F_i = K eta + sum_j B_j N_j n_j
 ///
-/// Where no contact is reached this is the linear sag, else it is found from there by Newton's
-/// method with line search (KINSOL).
+/// Without oil films and where no contact is reached this is the linear sag, else it is found from
+/// there by Newton's method with line search (KINSOL). Films F carry as they do at the speed: the
+/// search starts where springs in their place would let the journals sag, soft and stiff ones in
+/// turn.
 ///
-/// @throws NumericalError  if K is singular, or if the iteration does not converge
+/// @throws NumericalError  if nothing holds the rotor, or if the iteration does not converge
 Vec equilibrium(const ContactSystem& system);
 
 }  // namespace whirl

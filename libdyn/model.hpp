@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libcontact/contact.hpp"
+#include "libcontact/oil_film.hpp"
 #include "libfe/reduce.hpp"
 #include "libfe/structure.hpp"
 
@@ -46,6 +47,7 @@ struct Model {
   std::string path;    ///< where it came from
   Structure structure;
   std::vector<Contact> contacts;
+  std::vector<OilFilm> films;
   double speed = 0.0;      ///< operating speed [rad/s]
   bool has_speed = false;  ///< whether the model says it
   Reduction reduction;

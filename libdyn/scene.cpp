@@ -54,6 +54,11 @@ Scene make_scene(const Model& model) {
     require_inertia(assembler, system, c.against, "contact \"" + c.name + "\"");
     add_rows(ports, system.dofs, assembler.point(c.at), assembler.point(c.against));
   }
+  for (const OilFilm& film : model.films) {
+    require_inertia(assembler, system, film.at, "oil film \"" + film.name + "\"");
+    require_inertia(assembler, system, film.against, "oil film \"" + film.name + "\"");
+    add_rows(ports, system.dofs, assembler.point(film.at), assembler.point(film.against));
+  }
   for (const Unbalance& u : model.structure.unbalances) {
     require_inertia(assembler, system, u.at, "unbalance");
     add_rows(others, system.dofs, assembler.point(u.at), {});
@@ -66,7 +71,7 @@ Scene make_scene(const Model& model) {
   }
   ReductionError error;
   ReducedSystem reduced = reduce(system, model.reduction, ports, others, &error);
-  ContactSystem contacts(assembler, reduced, model.contacts);
+  ContactSystem contacts(assembler, reduced, model.contacts, model.films);
   return {std::move(assembler), std::move(system), std::move(reduced), error, std::move(contacts)};
 }
 
@@ -91,7 +96,9 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
       break;
     case StartFrom::equilibrium:
       if (model.structure.gravity != 0.0) {
-        require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
+        if (model.films.empty()) {
+          require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
+        }
         state.y.head(n) = equilibrium(scene.contacts);
       }
       break;

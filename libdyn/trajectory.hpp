@@ -49,7 +49,13 @@ struct IntegrationOptions {
 /// Displacement beyond which a motion is given up, in length scales.
 constexpr double boundless = 1e30;
 
-enum class Outcome { reached_end, stopped_by_observer, step_too_small, not_finite };
+enum class Outcome {
+  reached_end,
+  stopped_by_observer,
+  step_too_small,
+  not_finite,
+  left_bearing  ///< a journal is not inside its bearing, where its oil film has no force
+};
 
 struct Cost {
   long steps = 0;  ///< accepted

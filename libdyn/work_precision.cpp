@@ -66,7 +66,9 @@ double quad_work(const ContactSystem& system, long steps) {
   const ContactSystem* one = &system;
   const Pattern pattern = Pattern::of({&one, 1});
   const auto contacts = static_cast<double>(pattern.contacts.size());
-  const double terms = pattern.off_diagonals + 4.0 * pattern.n + 8.0 * contacts * quad.order;
+  const auto films = static_cast<double>(pattern.films.size());
+  const double terms =
+      pattern.off_diagonals + 4.0 * pattern.n + (8.0 * contacts + 13.0 * films) * quad.order;
   return static_cast<double>(steps) * quad.order * terms;
 }
 

@@ -30,6 +30,7 @@ std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
   };
   for (const Connection& b : model.structure.bearings) all.push_back({place(b.from), "▲", b.name});
   for (const Contact& c : model.contacts) all.push_back({place(c.at), "◯", c.name});
+  for (const OilFilm& f : model.films) all.push_back({place(f.at), "▲", f.name});
   for (const Disk& d : model.structure.disks) all.push_back({place(d.at), "┃", d.name});
   std::erase_if(all, [](const Mark& m) { return m.z < 0.0; });
   std::stable_sort(all.begin(), all.end(), [](const Mark& a, const Mark& b) { return a.z < b.z; });

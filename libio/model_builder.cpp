@@ -25,6 +25,7 @@ Model ModelBuilder::build() {
   read_links();
   read_unbalances();
   read_contacts();
+  read_films();
   read_settings();
   check_places();
   if (!problems_.empty()) {
@@ -55,8 +56,9 @@ void ModelBuilder::read_top() {
   if (const auto title = top.string("title")) model_.title = *title;
   if (const auto g = top.quantity("gravity", "m/s^2", Range::nonnegative))
     model_.structure.gravity = *g;
-  for (const char* table : {"operation", "material", "shaft", "disk", "unbalance", "body",
-                            "bearing", "link", "contact", "damping", "reduction", "start"}) {
+  for (const char* table :
+       {"operation", "material", "shaft", "disk", "unbalance", "body", "bearing", "link",
+        "oil_film", "contact", "damping", "reduction", "start"}) {
     top.node(table);
   }
   top.finish();

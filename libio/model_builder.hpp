@@ -42,6 +42,9 @@ class ModelBuilder {
                                      std::optional<double> mass);
   // model_contacts.cpp
   void read_contacts();
+  // model_films.cpp
+  void read_films();
+  static Vec2 center(TableReader& table);
   // model_connections.cpp
   void read_bearings();
   void read_links();

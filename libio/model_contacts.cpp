@@ -58,17 +58,7 @@ void ModelBuilder::read_contacts() {
       table.unknown_choice("law", law, law_names(laws));
       accept_all_laws(table, laws);
     }
-    if (const ConfigNode* offset = table.node("offset")) {
-      if (offset->kind != ConfigNode::Kind::array || offset->items.size() != 2) {
-        table.problem("offset", fmt::format("found {}, expected [x, y]", offset->as_written()));
-      } else {
-        for (const int k : {0, 1}) {
-          const auto v = table.quantity(offset->items[static_cast<std::size_t>(k)],
-                                        table.path("offset"), "m", Range::any);
-          if (v) contact.offset(k) = *v;
-        }
-      }
-    }
+    contact.offset = center(table);
     if (!table.has("radius")) {
       missing_radii_.push_back({model_.contacts.size(), table.where(), table.path("radius")});
     }

@@ -75,6 +75,9 @@ struct Bench {
 Bench run_all(const Invocation& call, const Model& model) {
   Bench bench{.options = options_of(call)};
   BenchOptions& options = bench.options;
+  if (!call.has("methods") && !model.films.empty()) {
+    std::erase(options.methods, Collocation::name);  // knows no oil films
+  }
   const Scene scene = make_scene(model);
   const ContactSystem& system = scene.contacts;
   MotionState start = starting_state(call, model, scene);

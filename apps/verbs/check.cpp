@@ -23,6 +23,7 @@ Report run_check(const Invocation& call) {
   r.set("mass_kg", rotor.mass).set("length_m", s.length()).set("nodes", assembler.mesh().nodes());
   r.set("dofs", dofs).set("condensed_dofs", system.dofs.condensed);
   r.set("contacts", static_cast<long>(model.contacts.size()));
+  if (!model.films.empty()) r.set("oil_films", static_cast<long>(model.films.size()));
   r.set("center_of_mass_m", s.shaft.empty() ? Record(nullptr) : Record(rotor.center_of_mass));
   r.set("polar_inertia_kg_m2", rotor.Ip);
 
@@ -43,6 +44,7 @@ Report run_check(const Invocation& call) {
                              : fmt::format("{}", dofs)});
   table.row({"disks, bearings, links",
              fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
+  if (!model.films.empty()) table.row({"oil films", fmt::format("{}", model.films.size())});
   table.row({"contacts", fmt::format("{}", model.contacts.size())});
   table.row({"operating speed", model.has_speed ? format_speed(model.speed) : "not given"});
   text += table.text() + "\n  The model is in order.\n";

@@ -12,6 +12,7 @@
 #include <hwy/highway.h>
 
 #include "libdyn/batch/engine_events-inl.h"
+#include "libdyn/batch/engine_films-inl.h"
 #include "libdyn/batch/engine_series-inl.h"
 #include "libdyn/batch/engine_step-inl.h"
 #include "libdyn/batch/engine_tangents-inl.h"

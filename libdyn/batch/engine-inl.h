@@ -15,6 +15,7 @@
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/batch/equation_lanes-inl.h"
 #include "libdyn/batch/events-inl.h"
+#include "libdyn/batch/film_lanes-inl.h"
 #include "libdyn/batch/tangents-inl.h"
 #include "libdyn/events.hpp"
 #include "libdyn/free_flight.hpp"
@@ -50,9 +51,14 @@ class Engine {
     for (const Pattern::ContactRows& rows : pattern.contacts) {
       is_analytic_ = is_analytic_ && rows.is_analytic;
     }
+    const bool has_slopes = options.exponents || options.tangent;
+    for (const Pattern::FilmRows& rows : pattern.films) {
+      films_.push_back(std::make_unique<FilmLanes<P>>(rows, N, has_slopes));
+      is_analytic_ = false;  // near the wall steps get as short as at a surface
+    }
     trajectory_.assign(static_cast<size_t>(lanes_), nullptr);
     book_.resize(static_cast<size_t>(lanes_));
-    if (options.exponents || options.tangent) {
+    if (has_slopes) {
       tangents_ = std::make_unique<Tangents<P>>();
       prepare_tangents();
     }
@@ -168,6 +174,12 @@ class Engine {
   HWY_ATTR inline void accelerate_columns(int k, const P* forces, P* to_a, P* to_b);
   HWY_ATTR void stick_column(typename Tangents<P>::Track& track, int k);
 
+  // engine_films-inl.h
+  HWY_ATTR void fail_by_film(int l, const ReducedFilm& film);
+  HWY_ATTR void find_film_slopes(const P& h, P& square, P& longest);
+  HWY_ATTR P film_divergence(const P& h);
+  HWY_ATTR void add_film_slopes(int k, P* to_a, P* to_b);
+
   /// Coefficient k of all coordinates.
   HWY_ATTR inline P* term(int k) {
     return terms_.data() + static_cast<size_t>(k) * static_cast<size_t>(n_);
@@ -182,7 +194,8 @@ class Engine {
   EquationLanes<P> equations_;
   std::vector<P> scale_;
   std::vector<ContactLanes<P>> contacts_;
-  bool is_analytic_ = true;  // all laws are
+  bool is_analytic_ = true;  // all laws are, and there is no film
+  std::vector<std::unique_ptr<FilmLanes<P>>> films_;
   std::vector<AnyLawWork<P>> laws_;
   P rate_{1.0}, period_{1.0};
 
@@ -240,6 +253,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   for (size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
   }
+  for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
   if (has_tangents()) load_tangents(l, s);
   active_ |= bit;
   if (t.revolutions <= 0) finished_ |= bit;

@@ -92,6 +92,9 @@ HWY_ATTR void Engine<P>::series_of() {
       const ContactLanes<P>& c = contacts_[i];
       if (c.is_evaluated) c.template push<Bodies>(acceleration, c.fx, c.fy);
     }
+    if constexpr (Bodies == 0) {
+      for (const auto& film : films_) film->add(term(k), term(k + 1), k, acceleration);
+    }
     if (Bodies == 0 && any_sticks) stick(k);
     const P scale(twice_integrated<P>(k));
     each<2 * Bodies>(n, [&](int i) HWY_ATTR { next[i] = acceleration[i] * scale; });

@@ -78,10 +78,12 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
 template <class P>
 HWY_ATTR void Engine<P>::step(const Observer* observer) {
   constexpr Number too_small = 10.0 * P::rounding;  // of a revolution
+  constexpr Number brief_step = 1e4 * P::rounding;  // of a revolution; its square is nothing
   series();
   P h = step_length();
   if (has_tangents()) h = limit_for_tangents(h);
   if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
+  for (const auto& film : films_) h = film->shortened(h, N);
   const P left = max(period_ - time_, P(0.0));
   const Mask reaches = less_equal(left * P(Number(1.0) - 100.0 * P::rounding), h);
   const Mask moves = either(reaches, less(period_ * P(too_small), h));
@@ -93,7 +95,10 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     const uint64_t numbers = bits(h, finite_), bounded = bits(h, bounded_);
     for (uint64_t rest = bad; rest != 0; rest &= rest - 1) {
       const int l = __builtin_ctzll(rest);
-      if ((numbers >> l & 1) == 0) {
+      if (const auto* film =
+              trajectory_[static_cast<size_t>(l)]->system->left_bearing(state_of(l).data())) {
+        fail_by_film(l, *film);
+      } else if ((numbers >> l & 1) == 0) {
         fail(l, Outcome::not_finite, "the state is not finite");
       } else {
         fail(l, Outcome::step_too_small,
@@ -121,7 +126,13 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   time_ = time_ + h;
   time_ = select(mask_of<P>(ends), P(0.0), time_);
   ++steps_;
-  for (ContactLanes<P>& c : contacts_) c.surface_distance = c.surface_force = c.surface_slip = 0;
+  // where next to no time passed, a contact is still on its surface: others touch at the same instant
+  const uint64_t brief = bits(h, less_equal(h, period_ * P(brief_step)));
+  for (ContactLanes<P>& c : contacts_) {
+    for (uint64_t* surface : {&c.surface_distance, &c.surface_force, &c.surface_slip}) {
+      *surface &= brief;
+    }
+  }
   if (fell != 0) apply_events(instant);
 
   for (uint64_t rest = ends; rest != 0; rest &= rest - 1) {
@@ -134,7 +145,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
       for (const P& y : y_) sections.push_back(lane(y, l));
     }
-    if (P::is_double && !observer && !has_tangents()) fly_on(l);
+    if (P::is_double && !observer && !has_tangents() && films_.empty()) fly_on(l);
     if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
   }
   if (has_tangents() && options_.exponents) orthonormalize(due_lanes(ends));

@@ -27,8 +27,10 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
   t.weighted.assign(size, P(0.0));
   t.forces.assign(4 * contacts_.size(), P(0.0));
   t.slopes.resize(contacts_.size());
+  t.film_slopes.resize(films_.size());
   for (auto& track : t.tracks) {
     track.contacts.resize(contacts_.size());
+    track.films.resize(films_.size());
     track.terms.assign(terms_.size(), P(0.0));
   }
   t.gain.assign(contacts_.size(), P(0.0));
@@ -82,6 +84,7 @@ HWY_ATTR P Engine<P>::limit_for_tangents(const P& h) {
       longest = min(longest, select(c.in_touch, steep, h));
     }
   }
+  find_film_slopes(h, square, longest);
   return min(longest, P(t.reach) / sqrt(max(square, P(1e-200))));
 }
 
@@ -137,6 +140,9 @@ HWY_ATTR void Engine<P>::move_tangents(const P& h) {
       t.divergence =
           t.divergence + select(both(active, c.in_touch), contact_divergence(i, h), P(0.0));
     }
+  }
+  if (!films_.empty()) {
+    t.divergence = t.divergence + select(active, film_divergence(h), P(0.0));
   }
   const size_t size = 2 * static_cast<size_t>(n_);
   for (size_t c = 0; c < size; c += 2) {
@@ -207,6 +213,7 @@ HWY_ATTR void Engine<P>::move_columns(P* columns, bool any_sticks, const P& h) {
     P *next_a = t.term(first, k + 2), *next_b = t.term(second, k + 2);
     P *to_a = Bodies > 0 ? local_a : next_a, *to_b = Bodies > 0 ? local_b : next_b;
     accelerate_columns<Bodies>(k, forces, to_a, to_b);
+    if constexpr (Bodies == 0) add_film_slopes(k, to_a, to_b);
     if (Bodies == 0 && any_sticks) {
       for (auto& track : t.tracks) stick_column(track, k);
     }

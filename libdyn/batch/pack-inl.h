@@ -121,6 +121,20 @@ HWY_ATTR inline Pack<L, B> fnma(const Pack<L, B>& a, const Pack<L, B>& b, const 
   return r;
 }
 
+/// The angle from 0 to pi whose cotangent is x; exact to rounding where x is large.
+template <size_t L, int B>
+HWY_ATTR inline Pack<L, B> arc_cotangent(const Pack<L, B>& x) {
+  typename Pack<L, B>::D d;
+  Pack<L, B> r;
+  for (int b = 0; b < B; ++b) {
+    const auto size = hn::Max(hn::Abs(x.v[b]), hn::Set(d, 1e-300));
+    const auto angle = hn::Atan(d, hn::Div(hn::Set(d, 1.0), size));
+    const auto obtuse = hn::Sub(hn::Set(d, std::numbers::pi), angle);
+    r.v[b] = hn::IfThenElse(hn::Lt(x.v[b], hn::Zero(d)), obtuse, angle);
+  }
+  return r;
+}
+
 #define WHIRL_COMPARE(name, function)                                                        \
   template <size_t L, int B>                                                                 \
   HWY_ATTR inline typename Pack<L, B>::Mask name(const Pack<L, B>& x, const Pack<L, B>& y) { \

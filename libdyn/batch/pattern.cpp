@@ -14,7 +14,8 @@ void insert(std::vector<int>& sorted, int value) {
 }
 
 int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
-  if (p.contacts.size() != 1 || p.contacts[0].has_rate || p.off_diagonals > 0) return 0;
+  if (!p.films.empty() || p.contacts.size() != 1 || p.contacts[0].has_rate || p.off_diagonals > 0)
+    return 0;
   for (const ContactSystem* s : systems) {
     for (int i = 2; i < p.n; ++i) {
       if (s->cosine_load()(i) != 0.0 || s->sine_load()(i) != 0.0) return 0;
@@ -32,6 +33,26 @@ int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
   return fits ? bodies : 0;
 }
 
+/// Adds the rows of a system's films.
+void add_films(Pattern& p, const ContactSystem& s) {
+  const std::size_t films = s.films().size();
+  bool is_alike = p.films.size() == films;
+  for (std::size_t f = 0; is_alike && f < films; ++f) {
+    const ReducedFilm& film = s.films()[f];
+    Pattern::FilmRows& rows = p.films[f];
+    is_alike = film.law.index() == rows.law.index();
+    for (int j = 0; j < p.n; ++j) {
+      if (film.U(0, j) != 0.0) insert(rows.of_x, j);
+      if (film.U(1, j) != 0.0) insert(rows.of_y, j);
+      if (film.B(j, 0) != 0.0) insert(rows.pushed_by_x, j);
+      if (film.B(j, 1) != 0.0) insert(rows.pushed_by_y, j);
+    }
+  }
+  if (!is_alike) {
+    throw NumericalError("the systems of a batch must have the same kinds of oil films");
+  }
+}
+
 }  // namespace
 
 Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
@@ -46,11 +67,13 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     p.contacts[c].law = law.index();
     p.contacts[c].is_analytic = is_analytic(law);
   }
+  for (const ReducedFilm& film : systems.front()->films()) p.films.push_back({.law = film.law});
   for (const ContactSystem* s : systems) {
     if (s->coordinates() != p.n || s->contacts().size() != p.contacts.size()) {
       throw NumericalError(
           "the systems of a batch must have equal numbers of coordinates and contacts");
     }
+    add_films(p, *s);
     for (OffDiagonal& row : p.off_diagonal) {
       for (int j = 0; j < p.n; ++j) {
         if (j == row.i) continue;
@@ -77,11 +100,14 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
           rows.has_smooth_friction || (f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
     }
   }
-  for (ContactRows& rows :
-       p.contacts) {  // a direction that is held still has one coefficient, of zero
-    if (rows.of_x.empty()) rows.of_x.push_back(0);
-    if (rows.of_y.empty()) rows.of_y.push_back(0);
-  }
+  const auto fill = [](auto& list) {  // a direction that is held still has one coefficient, of zero
+    for (auto& rows : list) {
+      if (rows.of_x.empty()) rows.of_x.push_back(0);
+      if (rows.of_y.empty()) rows.of_y.push_back(0);
+    }
+  };
+  fill(p.contacts);
+  fill(p.films);
   std::erase_if(p.off_diagonal,
                 [](const OffDiagonal& row) { return row.of_x.empty() && row.of_rate.empty(); });
   for (OffDiagonal& row : p.off_diagonal) {

@@ -25,18 +25,24 @@ struct Pattern {
     std::size_t law = 0;               ///< index in AnyContactLaw
     bool is_analytic = true;           ///< the law has a Taylor series at the surface
   };
+  struct FilmRows {
+    std::vector<int> of_x, of_y;                ///< coordinates that move the journal in x, in y
+    std::vector<int> pushed_by_x, pushed_by_y;  ///< coordinates that the oil accelerates
+    AnyFilmLaw law;
+  };
 
   int n = 0;
   std::vector<OffDiagonal> off_diagonal;  ///< rows that have any
   int off_diagonals = 0;                  ///< coefficients in all of them
   std::vector<ContactRows> contacts;
+  std::vector<FilmRows> films;
 
   /// How many bodies there are, where the coordinates are their (x, y), the first alone is out of
   /// balance, and nothing couples them but a contact that all are in, whose law does not know the
-  /// rate of the depth; else 0.
+  /// rate of the depth, and there is no film; else 0.
   int bodies = 0;
 
-  /// @throws NumericalError  if the systems differ in coordinates, contacts or kinds of laws
+  /// @throws NumericalError  if the systems differ in coordinates, contacts, films or kinds of laws
   static Pattern of(std::span<const ContactSystem* const> systems);
 };
 

@@ -7,6 +7,7 @@
 #include "libdyn/batch/quad_pack.hpp"
 // after the pack that they are for
 #include "libdyn/batch/engine_events-inl.h"
+#include "libdyn/batch/engine_films-inl.h"
 #include "libdyn/batch/engine_series-inl.h"
 #include "libdyn/batch/engine_step-inl.h"
 #include "libdyn/batch/engine_tangents-inl.h"

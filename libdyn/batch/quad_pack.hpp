@@ -73,6 +73,9 @@ inline QuadPack sqrt(const QuadPack& a) {
 inline QuadPack tanh(const QuadPack& a) {
   return tanhq(a.x);
 }
+inline QuadPack arc_cotangent(const QuadPack& a) {
+  return atan2q(1.0, a.x);
+}
 inline QuadPack log(const QuadPack& a) {
   return logq(a.x);
 }

@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/batch/contact_lanes-inl.h"
 #include "libdyn/batch/equation_lanes-inl.h"
+#include "libdyn/batch/film_lanes-inl.h"
 #include "libdyn/methods/diagnosis.hpp"
 #include "libdyn/methods/rk4.hpp"
 
@@ -34,6 +36,9 @@ class Rk4Lanes {
     for (std::vector<P>* v : {&y_, &stage_, &k_, &sum_, &start_}) v->assign(2 * n, P(0.0));
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
+    for (const Pattern::FilmRows& rows : pattern.films) {
+      films_.push_back(std::make_unique<FilmLanes<P>>(rows, 0, false));
+    }
   }
 
   /// Integrates at most as many trajectories as there are lanes.
@@ -48,8 +53,10 @@ class Rk4Lanes {
     for (long revolution = 1; active != 0; ++revolution) {
       const long steps = steps_of_revolution(all, active, options);
       start_ = y_;
+      thinnest_ = P(1.0);
       turn(mask_of<P>(active), steps);
-      const uint64_t finite = finite_lanes();
+      const uint64_t inside = bits(thinnest_, less(P(0.0), thinnest_));
+      const uint64_t finite = finite_lanes() & inside;
       for (uint64_t rest = active; rest != 0; rest &= rest - 1) {
         const int l = __builtin_ctzll(rest);
         const uint64_t bit = uint64_t{1} << l;
@@ -67,8 +74,11 @@ class Rk4Lanes {
         for (int i = 0; i < 2 * n_; ++i) t.state.y(i) = lane(y[static_cast<size_t>(i)], l);
         t.state.contacts = t.system->classify(t.state.phase, t.state.y.data());
         if (!is_good) {
-          t.outcome = Outcome::not_finite;
-          t.diagnosis = diagnosis(*t.system, t.state, "a revolution of RK4 gave no finite numbers");
+          const bool left = (inside & bit) == 0;
+          t.outcome = left ? Outcome::left_bearing : Outcome::not_finite;
+          t.diagnosis = diagnosis(*t.system, t.state,
+                                  left ? "a step of the next revolution of RK4 leaves a bearing"
+                                       : "a revolution of RK4 gave no finite numbers");
         }
         active &= ~bit;
       }
@@ -82,6 +92,7 @@ class Rk4Lanes {
     for (size_t c = 0; c < contacts_.size(); ++c) {
       contacts_[c].load(s.contacts()[c], {}, l, s.phase_rate());
     }
+    for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
     for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
     set_lane(rate_, l, s.phase_rate());
     set_lane(period_, l, s.period());
@@ -148,6 +159,7 @@ class Rk4Lanes {
       for (const int j : row.of_rate) a[row.i] = fnma(*factor++, y[n_ + j], a[row.i]);
     }
     for (const ContactLanes<P>& c : contacts_) push(c, y, a);
+    for (const auto& film : films_) film->add_force(y, n_, a, thinnest_);
   }
 
   /// Adds the force of a contact where it touches and pushes.
@@ -187,6 +199,8 @@ class Rk4Lanes {
   int n_;
   EquationLanes<P> equations_;
   std::vector<ContactLanes<P>> contacts_;
+  std::vector<std::unique_ptr<FilmLanes<P>>> films_;
+  P thinnest_{1.0};  // gap of a film in this revolution, 1 - x^2 - y^2
   P rate_{1.0}, period_{1.0};
   std::vector<P> y_, start_;  // now, and at the start of the revolution
   P time_{0.0};               // of the start

@@ -28,6 +28,11 @@ struct Tangents {
   double reach = 0.0;       ///< rate times step at which a tangent is as exact as the tolerance
   std::vector<ContactSlopes<P>> slopes;
   std::vector<P> gain;  ///< per contact, largest eigenvalue of U B [1/kg]
+  /// d(force of a film) = J d(displacement) + H d(velocity).
+  struct FilmSlopes {
+    SeriesMatrix<P> J, H;
+  };
+  std::vector<FilmSlopes> film_slopes;
   /// A contact as one column moves it: displacement, distance, acceleration, friction.
   struct Column {
     P dx[P::most_terms], dy[P::most_terms], vx[P::most_terms], vy[P::most_terms];
@@ -37,6 +42,11 @@ struct Tangents {
   struct Track {
     std::vector<P> terms;  ///< as Engine::term
     std::vector<Column> contacts;
+    /// A film as one column moves it: displacement and velocity.
+    struct FilmColumn {
+      P dx[P::most_terms], dy[P::most_terms], vx[P::most_terms], vy[P::most_terms];
+    };
+    std::vector<FilmColumn> films;
   };
   std::array<Track, 2> tracks;
   /// Coefficient k of a track.

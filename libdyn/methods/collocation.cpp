@@ -8,6 +8,7 @@
 #include "libdyn/free_flight.hpp"
 #include "libdyn/methods/contact_step.hpp"
 #include "libdyn/methods/diagnosis.hpp"
+#include "libfe/base/error.hpp"
 
 namespace whirl {
 
@@ -273,10 +274,16 @@ Run::Result Run::finish(long last) {
 Integration Collocation::integrate(const ContactSystem& system, MotionState& state,
                                    long revolutions, const IntegrationOptions& options,
                                    const Observer& observer) {
+  if (!system.films().empty()) {
+    throw ModelError({}, "--method",
+                     "collocation cannot compute oil films, which carry without a pause: use "
+                     "taylor, the default, or any other method");
+  }
   return Run(system, state, options, observer).go(state.revolution + revolutions);
 }
 
 bool prefers_collocation(const ContactSystem& system) {
+  if (!system.films().empty()) return false;
   return fastest_mode(system) > 10.0 * contact_frequency(system);
 }
 

@@ -17,9 +17,24 @@ std::string diagnosis(const ContactSystem& system, const MotionState& state,
         "; contact \"{}\" {}, {:.4g} clearances from its centre, slip {:.3g} m/s", c.name,
         words[static_cast<int>(state.contacts[i].touch)], f.r / c.clearance, f.slip);
   }
+  for (const ReducedFilm& film : system.films()) {
+    contacts += fmt::format("; journal of oil film \"{}\" at {:.8g} of its clearance", film.name,
+                            eccentricity(film, state.y.data(), system.coordinates()));
+  }
   return fmt::format("{} in revolution {} at {:.3f} of it{}; largest coordinate {:.3g} scales",
                      what, state.revolution, state.phase / (2.0 * std::numbers::pi), contacts,
                      (state.y.array() / system.state_scale().array()).abs().maxCoeff());
+}
+
+std::string left_bearing_text(const ReducedFilm& film) {
+  return fmt::format("the journal of oil film \"{}\" is not inside its bearing", film.name);
+}
+
+void fail(Integration& result, const ContactSystem& system, const MotionState& state,
+          Outcome outcome, std::string_view what) {
+  const ReducedFilm* film = system.left_bearing(state.y.data());
+  result.outcome = film ? Outcome::left_bearing : outcome;
+  result.diagnosis = diagnosis(system, state, film ? left_bearing_text(*film) : what);
 }
 
 }  // namespace whirl

@@ -187,6 +187,10 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
   if (state.contacts.size() != system.contacts().size()) {
     state.contacts = system.classify(state.phase, state.y.data());
   }
+  if (system.left_bearing(state.y.data())) {
+    fail(result, system, state, Outcome::left_bearing, "");
+    return result;
+  }
   stepper.start(state);
 
   while (state.revolution < last) {
@@ -213,8 +217,9 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
                                 : 0.1;
       h = trial * factor;
       if (h < too_small * period) {
-        result.outcome = std::isfinite(error) ? Outcome::step_too_small : Outcome::not_finite;
-        result.diagnosis = diagnosis(system, state, "the step underflowed");
+        fail(result, system, state,
+             std::isfinite(error) ? Outcome::step_too_small : Outcome::not_finite,
+             "the step underflowed");
         return result;
       }
       continue;

@@ -45,10 +45,12 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
   const int n = system.coordinates();
   const double rate = system.phase_rate(), period = system.period();
   const long last = state.revolution + revolutions;
+  bool has_left = false;  // a stage has left a bearing
   const auto derivative = [&](double phase, const Vec& y, Vec& dy) {
     dy.head(n) = y.tail(n);
     system.acceleration(phase, y.data(), dy.data() + n);
     ++cost.evaluations;
+    has_left = has_left || system.left_bearing(y.data()) != nullptr;
   };
 
   Vec& y = state.y;
@@ -68,10 +70,11 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
       stage = y + h * k3;
       derivative(phase + turn, stage, k4);
       end = y + (h / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
-      if (!end.allFinite()) {
+      has_left = has_left || system.left_bearing(end.data()) != nullptr;
+      if (has_left || !end.allFinite()) {
         state.contacts = system.classify(state.phase, y.data());
-        result.outcome = Outcome::not_finite;
-        result.diagnosis = diagnosis(system, state, "a step of RK4 gave no finite numbers");
+        fail(result, system, state, has_left ? Outcome::left_bearing : Outcome::not_finite,
+             has_left ? "a step of RK4 leaves a bearing" : "a step of RK4 gave no finite numbers");
         return result;
       }
       ++cost.steps;

@@ -135,10 +135,10 @@ Integration Motion::run(const Solver& solver, void* memory, long revolutions,
   const long last = state_.revolution + revolutions;
   const Eigen::Map<Vec> now = values(y_.get());
   const auto fail = [&](Outcome outcome, std::string_view what) {
-    result_.outcome = outcome;
-    result_.diagnosis = diagnosis(system_, state_, what);
+    whirl::fail(result_, system_, state_, outcome, what);
     return result_;
   };
+  if (system_.left_bearing(state_.y.data())) return fail(Outcome::left_bearing, "");
   double t = start();
   watch(solver, memory);
   Step step;

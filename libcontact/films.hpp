@@ -1,0 +1,13 @@
+#pragma once
+/// The list of laws of oil films.
+
+#include <variant>
+
+#include "libcontact/films/short.hpp"
+
+namespace whirl {
+
+using AnyFilmLaw = std::variant<  //
+    Short>;
+
+}  // namespace whirl

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "libcontact/films.hpp"
+#include "libfe/structure.hpp"
+
+namespace whirl {
+
+/// A journal bearing with its nonlinear oil film, as the model file says it.
+struct OilFilm {
+  std::string name;
+  Station at;       ///< the journal, which spins
+  Station against;  ///< the bearing: the ground or a body that does not spin
+  JournalBearing bearing;
+  Vec2 offset = Vec2::Zero();  ///< centre of the bearing [m]
+  AnyFilmLaw law;
+  Where where{};
+};
+
+}  // namespace whirl

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "libio/model_builder.hpp"
+#include "libio/nearest.hpp"
+
+namespace whirl {
+
+namespace {
+
+template <std::size_t... I>
+std::vector<std::string> law_names(std::index_sequence<I...>) {
+  return {std::string(std::variant_alternative_t<I, AnyFilmLaw>::name)...};
+}
+/// The law of the given name.
+template <std::size_t... I>
+void set_law(const std::string& name, AnyFilmLaw& to, std::index_sequence<I...>) {
+  const auto try_one = [&](auto law) {
+    if (decltype(law)::name == name) to = law;
+  };
+  (try_one(std::variant_alternative_t<I, AnyFilmLaw>{}), ...);
+}
+constexpr auto laws = std::make_index_sequence<std::variant_size_v<AnyFilmLaw>>{};
+
+}  // namespace
+
+/// The key `offset`, [x, y] of a circle's centre [m].
+Vec2 ModelBuilder::center(TableReader& table) {
+  Vec2 at = Vec2::Zero();
+  const ConfigNode* offset = table.node("offset");
+  if (!offset) return at;
+  if (offset->kind != ConfigNode::Kind::array || offset->items.size() != 2) {
+    table.problem("offset", fmt::format("found {}, expected [x, y]", offset->as_written()));
+    return at;
+  }
+  for (const int k : {0, 1}) {
+    const auto v = table.quantity(offset->items[static_cast<std::size_t>(k)], table.path("offset"),
+                                  "m", Range::any);
+    if (v) at(k) = *v;
+  }
+  return at;
+}
+
+void ModelBuilder::read_films() {
+  for_each("oil_film", [&](TableReader& table, std::size_t i) {
+    OilFilm film;
+    film.where = table.where();
+    film.name = table.string("name").value_or(fmt::format("oil film {}", i + 1));
+    const auto spins = [&](const Station& s) {
+      for (const Body& body : model_.structure.bodies) {
+        if (s.kind == Station::Kind::body && body.name == s.body) return body.spins;
+      }
+      return s.kind == Station::Kind::position || s.kind == Station::Kind::node;
+    };
+    const auto at = station(table);
+    if (at) {
+      film.at = *at;
+      if (!spins(*at)) {
+        table.problem("body", "the journal of an oil film spins: give the body spins = true");
+      }
+    }
+    if (const auto against = table.string("against")) {
+      if (const auto s = named_station(*against, table, "against")) {
+        film.against = *s;
+        if (at && at->kind == Station::Kind::body && at->body == *against) {
+          table.problem("against", "the body would be its own bearing");
+        } else if (spins(*s)) {
+          table.problem("against", "the bearing of an oil film does not spin, but this body does");
+        }
+      }
+    }
+    table.read(film.bearing);
+    film.offset = center(table);
+    if (const auto law = table.string("law")) {
+      const std::vector<std::string> names = law_names(laws);
+      if (std::find(names.begin(), names.end(), *law) == names.end()) {
+        table.unknown_choice("law", *law, names);
+      }
+      set_law(*law, film.law, laws);
+    }
+    if (at) model_.structure.stations.push_back(*at);
+    model_.films.push_back(film);
+  });
+}
+
+}  // namespace whirl
