@@ -1,6 +1,7 @@
 #include "libdyn/contact_system.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -13,11 +14,17 @@ namespace {
 
 constexpr double rest_slip = 1e-12;  ///< of the rim speed: as good as no slip
 
-/// Radius of the contact for the slip velocity: given, or that of the shaft there.
-Eigen::Matrix<double, 2, Eigen::Dynamic> rows(const DofMap& dofs, const Point& p) {
-  Eigen::Matrix<double, 2, Eigen::Dynamic> r(2, dofs.size());
+PlaneRows rows(const DofMap& dofs, const Point& p) {
+  PlaneRows r(2, dofs.size());
   r.row(0) = dofs.row(p, X).transpose();
   r.row(1) = dofs.row(p, Y).transpose();
+  return r;
+}
+/// Axial displacement, per radius, of points on the axes x and y that turn with the cross-section.
+PlaneRows axial_rows(const DofMap& dofs, const Point& p) {
+  PlaneRows r(2, dofs.size());
+  r.row(0) = -dofs.row(p, THETA_Y).transpose();
+  r.row(1) = dofs.row(p, THETA_X).transpose();
   return r;
 }
 
@@ -25,7 +32,9 @@ Eigen::Matrix<double, 2, Eigen::Dynamic> rows(const DofMap& dofs, const Point& p
 
 ContactForces kinematics(const ReducedContact& c, const double* y, int coordinates) {
   const Eigen::Map<const Vec> eta(y, coordinates), rate(y + coordinates, coordinates);
-  return kinematics(c, c.U * eta - c.offset, c.U * rate);
+  ContactForces f = kinematics(c, c.U * eta - c.offset, c.U * rate);
+  if (c.is_face()) f.slip = c.rim_speed + f.t().dot(c.V * rate);
+  return f;
 }
 
 ContactForces kinematics(const ReducedContact& c, const Vec2& d, const Vec2& w) {
@@ -44,6 +53,15 @@ double sliding_friction(const ReducedContact& c, const ContactState& state,
   if (c.friction.mu == 0.0) return 0.0;
   const double share = c.friction.is_exact() ? state.sign : c.friction.smooth_share(f.slip);
   return c.friction.mu * share * f.normal;
+}
+
+void push(const ReducedContact& c, const ContactForces& f, double T, Eigen::Ref<Vec> a) {
+  if (!c.is_face()) {
+    a.noalias() -= c.B * (f.normal * f.n + T * f.t());
+    return;
+  }
+  a.noalias() -= c.B * (f.normal * f.n);
+  a.noalias() -= c.B_t * (T * f.t());
 }
 
 ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
@@ -67,8 +85,19 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
                      .clearance = c.clearance,
                      .rim_speed = Omega_ * c.friction.radius,
                      .friction = c.friction,
-                     .law = c.law};
-    r.U = (rows(reduced.dofs, at) - rows(reduced.dofs, against)) * reduced.Phi;
+                     .law = c.law,
+                     .owner = static_cast<int>(&c - contacts.data())};
+    const PlaneRows lateral = (rows(reduced.dofs, at) - rows(reduced.dofs, against)) * reduced.Phi;
+    if (const auto* face = std::get_if<Face<>>(&c.law)) {
+      assert(!c.friction.is_exact());
+      r.rim_speed = Omega_ * face->radius;
+      r.U = face->radius * (axial_rows(reduced.dofs, at) - axial_rows(reduced.dofs, against)) *
+            reduced.Phi;
+      r.V = lateral;
+      r.B_t = mass.solve(r.V.transpose());
+    } else {
+      r.U = lateral;
+    }
     r.B = mass.solve(r.U.transpose());
     contacts_.push_back(std::move(r));
     clearance = std::min(clearance, c.clearance);
@@ -92,6 +121,9 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
       for (const int component : {X, Y}) {
         largest = std::max(largest, std::abs(back(reduced.dofs.full_index(p, component), i)));
       }
+    }
+    for (const ReducedContact& c : contacts_) {
+      if (c.is_face()) largest = std::max(largest, c.U.col(i).cwiseAbs().maxCoeff());
     }
     scale_(i) = largest > 0.0 ? clearance / largest : clearance;
     scale_(n + i) = scale_(i) * phase_rate();
@@ -136,7 +168,7 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   smooth_acceleration(phase, y, a.data());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!states[i].in_touch()) continue;
-    a -= contacts_[i].B * (out[i].normal * out[i].n + out[i].friction * out[i].t());
+    push(contacts_[i], out[i], out[i].friction, a);
   }
   const auto m = static_cast<Eigen::Index>(sticking.size());
   Mat influence(m, m);
@@ -169,7 +201,7 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
     forces(phase, y, states, all);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       if (!states[i].in_touch()) continue;
-      result -= contacts_[i].B * (all[i].normal * all[i].n + all[i].friction * all[i].t());
+      push(contacts_[i], all[i], all[i].friction, result);
     }
     return;
   }
@@ -177,7 +209,7 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
     if (states[i].touch != Touch::sliding) continue;
     const ReducedContact& c = contacts_[i];
     const ContactForces f = kinematics(c, y, n);
-    result.noalias() -= c.B * (f.normal * f.n + sliding_friction(c, states[i], f) * f.t());
+    push(c, f, sliding_friction(c, states[i], f), result);
   }
 }
 
@@ -189,7 +221,7 @@ void ContactSystem::acceleration(double phase, const double* y, double* a) const
     const ContactForces f = kinematics(c, y, n);
     if (f.depth <= 0.0 || f.normal <= 0.0) continue;
     const ContactState state{Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
-    result.noalias() -= c.B * (f.normal * f.n + sliding_friction(c, state, f) * f.t());
+    push(c, f, sliding_friction(c, state, f), result);
   }
 }
 

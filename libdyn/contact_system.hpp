@@ -27,16 +27,27 @@ struct ContactState {
 };
 using ContactStates = std::vector<ContactState>;
 
+using PlaneRows = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+using PlaneColumns = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
 /// A contact in reduced coordinates eta.
+///
+/// One contact of the model is one of these, or as many as it has blades.
 struct ReducedContact {
   std::string name;
-  Eigen::Matrix<double, 2, Eigen::Dynamic> U;  ///< relative displacement u = U eta [m]
-  Eigen::Matrix<double, Eigen::Dynamic, 2> B;  ///< acceleration eta'' = -B (force on the stator)
+  PlaneRows U;  ///< relative displacement u = U eta [m]; of a face: of its tilts times the radius
+  PlaneColumns B;  ///< acceleration eta'' = -B (force on the stator)
   Vec2 offset;
   double clearance;  ///< [m]
   double rim_speed;  ///< Omega R [m/s]
   Friction friction;
   AnyContactLaw<> law;
+  int owner = 0;       ///< number of the model's contact, from 0
+  PlaneRows V{};       ///< of a face: lateral displacement, whose rate is in the slip; else empty
+  PlaneColumns B_t{};  ///< of a face: the same as B of the friction force; else empty
+
+  /// Whether friction acts elsewhere than the normal force.
+  bool is_face() const { return V.cols() > 0; }
 };
 
 /// Kinematics and forces of one contact at one instant.
@@ -78,6 +89,8 @@ class ContactSystem {
   const Vec& cosine_load() const { return fc_; }
   const Vec& sine_load() const { return fs_; }
   const std::vector<ReducedContact>& contacts() const { return contacts_; }
+  /// Contacts of the model; each owns one or several of contacts(), which follow one another.
+  int owners() const { return contacts_.empty() ? 0 : contacts_.back().owner + 1; }
 
   /// Scale of displacements for tolerances: the smallest clearance, or the motion of the loads [m].
   double length_scale() const { return length_scale_; }
@@ -125,8 +138,11 @@ double distance(const ContactSystem& system, const Vec& a, const Vec& b);
 /// Kinematics and normal force of one contact; friction is left zero.
 ContactForces kinematics(const ReducedContact& contact, const double* y, int coordinates);
 
-/// The same from d = U eta - offset [m] and its rate w [m/s].
+/// The same from d = U eta - offset [m] and its rate w [m/s], of contacts that are no faces.
 ContactForces kinematics(const ReducedContact& contact, const Vec2& d, const Vec2& w);
+
+/// Takes what the force -N n - T t of a contact adds to the accelerations from them.
+void push(const ReducedContact& contact, const ContactForces& f, double T, Eigen::Ref<Vec> a);
 
 /// Friction T of a sliding contact [N], along t.
 double sliding_friction(const ReducedContact& contact, const ContactState& state,

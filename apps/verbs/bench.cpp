@@ -80,6 +80,9 @@ Bench run_all(const Invocation& call, const Model& model) {
   MotionState start = starting_state(call, model, scene);
   if (start.phase > 0.0) options.discard = std::max(1L, options.discard);
 
+  if (!call.has("methods") && !suits_collocation(system)) {
+    std::erase(options.methods, Collocation::name);
+  }
   const auto count = static_cast<long>(options.methods.size() * options.tolerances.size());
   Progress progress("measuring", count + 1, call.shows_progress);
   // Ctrl-C stops the transient, and between runs, which an observer would slow down

@@ -9,11 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "libcontact/laws.hpp"
+#include "libdyn/batch/face_lanes-inl.h"
 #include "libdyn/batch/pattern.hpp"
 #include "libdyn/batch/series-inl.h"
 #include "libdyn/contact_system.hpp"
@@ -55,6 +57,11 @@ struct WorkOf<P, std::variant<Laws...>> {
 template <class P>
 using AnyLawWork = typename WorkOf<P, AnyContactLaw<P>>::type;
 
+/// Copies a parameter that the force of a law has in lanes; others are of its geometry.
+template <class P, class Member>
+HWY_ATTR inline void set_parameter(Member& to, int l, const auto& from) {
+  if constexpr (std::is_same_v<Member, P>) set_lane(to, l, from);
+}
 /// Copies the parameters of a law into a lane, field by field.
 template <size_t I = 0, class P>
 HWY_ATTR void set_law(AnyContactLaw<P>& to, const AnyContactLaw<>& from, int l) {
@@ -69,7 +76,7 @@ HWY_ATTR void set_law(AnyContactLaw<P>& to, const AnyContactLaw<>& from, int l) 
         [&](const auto&... of_lanes) HWY_ATTR {
           std::apply(
               [&](const auto&... of_single) HWY_ATTR {
-                (set_lane(lanes.*of_lanes.member, l, single.*of_single.member), ...);
+                (set_parameter<P>(lanes.*of_lanes.member, l, single.*of_single.member), ...);
               },
               Single::fields());
         },
@@ -122,8 +129,9 @@ struct ContactLanes {
   P force_scale{1.0}, slip_scale{1.0};
   P least_depth{0.0};  // at the start of a step, see depth()
   AnyContactLaw<P> law;
-  std::vector<P> ux, uy;  // per of_x, of_y
-  std::vector<P> bx, by;  // per pushed_by_x, pushed_by_y
+  std::vector<P> ux, uy;               // per of_x, of_y
+  std::vector<P> bx, by;               // per pushed_by_x, pushed_by_y
+  std::unique_ptr<FaceLanes<P>> face;  // of a face, whose friction it pushes by
   uint64_t continuous = 0, exact = 0, smooth = 0;
 
   // state, a bit per lane
@@ -153,7 +161,8 @@ struct ContactLanes {
         ux(of.of_x.size(), P(0.0)),
         uy(of.of_y.size(), P(0.0)),
         bx(of.pushed_by_x.size(), P(0.0)),
-        by(of.pushed_by_y.size(), P(0.0)) {}
+        by(of.pushed_by_y.size(), P(0.0)),
+        face(of.is_face ? std::make_unique<FaceLanes<P>>(of) : nullptr) {}
 
   HWY_ATTR void load(const ReducedContact& from, const ContactState& state, int l, double turn) {
     const uint64_t bit = uint64_t{1} << l;
@@ -174,6 +183,7 @@ struct ContactLanes {
     for (size_t i = 0; i < uy.size(); ++i) set_lane(uy[i], l, from.U(1, rows.of_y[i]));
     for (size_t i = 0; i < bx.size(); ++i) set_lane(bx[i], l, from.B(rows.pushed_by_x[i], 0));
     for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, from.B(rows.pushed_by_y[i], 1));
+    if (face) face->load(from, l);
     put(continuous, bit, is_continuous(from.law));
     put(exact, bit, f.is_exact());
     put(smooth, bit, f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
@@ -306,6 +316,7 @@ struct ContactLanes {
     q[k] = qk;
     px = fma(qk, dx[0], px);
     py = fma(qk, dy[0], py);
+    if (Bodies == 0 && face) return face_force(k, px, py);
     fx = fnma(share, py, px);
     fy = fma(share, px, py);
     if (Bodies > 0 || !any_has_tau) return;
@@ -316,6 +327,23 @@ struct ContactLanes {
     }
     fx = select(has_tau, px, fx);
     fy = select(has_tau, py, fy);
+  }
+
+  /// The same of a face from coefficient k of q d: normal force and friction apart.
+  HWY_ATTR void face_force(int k, const P& of_x, const P& of_y) {
+    fx = of_x;
+    fy = of_y;
+    face->fx = -(share * of_y);
+    face->fy = share * of_x;
+    if (!any_has_tau) return;
+    tau[k] = friction(k);
+    P tx(0.0), ty(0.0);
+    for (int i = 0; i <= k; ++i) {
+      tx = fnma(tau[i], dy[k - i], tx);
+      ty = fma(tau[i], dx[k - i], ty);
+    }
+    face->fx = select(has_tau, tx, face->fx);
+    face->fy = select(has_tau, ty, face->fy);
   }
 
   /// Adds coefficient k of d x d' to a sum;  d'_i = (i + 1) d_{i+1}.
@@ -331,8 +359,8 @@ struct ContactLanes {
   /// tau_k of lanes that slide smoothly; zero in sticking ones, for which it is solved later.
   HWY_ATTR P friction(int k) {
     if (smooth == 0) return P(0.0);
-    // slip velocity rim + (d x d') / r, over the width
-    P cross = add_turn(P(0.0), k);
+    // slip velocity rim + (d x d') / r, of a face rim + (d x w) / r, over the width
+    P cross = face ? face->turn(dx, dy, k) : add_turn(P(0.0), k);
     for (int i = 1; i <= k; ++i) cross = fnma(r[i], turn_rate[k - i], cross);
     turn_rate[k] = cross * inverse_r;
     slip[k] = (k == 0 ? rim + turn_rate[0] : turn_rate[k]) * inverse_width;

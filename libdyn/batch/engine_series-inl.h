@@ -85,12 +85,15 @@ HWY_ATTR void Engine<P>::series_of() {
       } else if (k > 0) {
         c.template geometry<Bodies>(term(k), k, c.is_evaluated);
       }
+      if (Bodies == 0 && c.face && c.is_ahead) c.face->velocity(term(k + 1), k);
       if (c.is_evaluated) c.template force<Bodies>(laws_[i], k);
     }
     accelerate<Bodies>(k, sine, cosine, acceleration);
     for (size_t i = 0; i < contacts; ++i) {
       const ContactLanes<P>& c = contacts_[i];
-      if (c.is_evaluated) c.template push<Bodies>(acceleration, c.fx, c.fy);
+      if (!c.is_evaluated) continue;
+      c.template push<Bodies>(acceleration, c.fx, c.fy);
+      if (Bodies == 0 && c.face) c.face->push(acceleration, c.face->fx, c.face->fy);
     }
     if (Bodies == 0 && any_sticks) stick(k);
     const P scale(twice_integrated<P>(k));

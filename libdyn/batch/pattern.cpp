@@ -14,7 +14,9 @@ void insert(std::vector<int>& sorted, int value) {
 }
 
 int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
-  if (p.contacts.size() != 1 || p.contacts[0].has_rate || p.off_diagonals > 0) return 0;
+  if (p.contacts.size() != 1 || p.contacts[0].has_rate || p.contacts[0].is_face ||
+      p.off_diagonals > 0)
+    return 0;
   for (const ContactSystem* s : systems) {
     for (int i = 2; i < p.n; ++i) {
       if (s->cosine_load()(i) != 0.0 || s->sine_load()(i) != 0.0) return 0;
@@ -30,6 +32,16 @@ int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
   const bool fits = p.n == 2 * bodies && c.of_x == of_x && c.pushed_by_x == of_x &&
                     c.of_y == of_y && c.pushed_by_y == of_y;
   return fits ? bodies : 0;
+}
+
+void insert_friction(Pattern::ContactRows& rows, const ReducedContact& face, int n) {
+  rows.is_face = true;
+  for (int j = 0; j < n; ++j) {
+    if (face.V(0, j) != 0.0) insert(rows.slips_by_x, j);
+    if (face.V(1, j) != 0.0) insert(rows.slips_by_y, j);
+    if (face.B_t(j, 0) != 0.0) insert(rows.rubbed_x, j);
+    if (face.B_t(j, 1) != 0.0) insert(rows.rubbed_y, j);
+  }
 }
 
 }  // namespace
@@ -70,6 +82,7 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
         if (contact.B(j, 0) != 0.0) insert(rows.pushed_by_x, j);
         if (contact.B(j, 1) != 0.0) insert(rows.pushed_by_y, j);
       }
+      if (contact.is_face()) insert_friction(rows, contact, p.n);
       const Friction& f = contact.friction;
       rows.has_rate = rows.has_rate || !is_continuous(contact.law);
       rows.has_friction = rows.has_friction || f.mu > 0.0;

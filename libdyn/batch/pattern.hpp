@@ -19,7 +19,10 @@ struct Pattern {
   struct ContactRows {
     std::vector<int> of_x, of_y;                ///< coordinates that move the contact in x, in y
     std::vector<int> pushed_by_x, pushed_by_y;  ///< coordinates that its force accelerates
-    bool has_rate = false;                      ///< the law depends on the rate of the depth
+    /// Of a face: coordinates whose rates are in the slip, that friction accelerates.
+    std::vector<int> slips_by_x, slips_by_y, rubbed_x, rubbed_y;
+    bool is_face = false;
+    bool has_rate = false;  ///< the law depends on the rate of the depth
     bool has_friction = false;
     bool has_smooth_friction = false;  ///< tanh of the slip
     std::size_t law = 0;               ///< index in AnyContactLaw

@@ -169,10 +169,16 @@ class Rk4Lanes {
       c.push(a, q * dx, q * dy);
       return;
     }
+    if (c.face) c.face->lateral(y + n_, vx, vy);
     const P slip = fma(fma(dx, vy, -(dy * vx)), inverse_r, c.rim);
     P share = select(both(mask_of<P>(c.exact), less(slip, P(0.0))), P(-1.0), P(1.0));
     if (c.smooth != 0) share = select(mask_of<P>(c.smooth), tanh(slip * c.inverse_width), share);
     const P tau = c.mu * share * q;
+    if (c.face) {
+      c.push(a, q * dx, q * dy);
+      c.face->push(a, -(tau * dy), tau * dx);
+      return;
+    }
     c.push(a, fnma(tau, dy, q * dx), fma(tau, dx, q * dy));
   }
 

@@ -8,6 +8,7 @@
 #include "libdyn/free_flight.hpp"
 #include "libdyn/methods/contact_step.hpp"
 #include "libdyn/methods/diagnosis.hpp"
+#include "libfe/base/error.hpp"
 
 namespace whirl {
 
@@ -273,11 +274,20 @@ Run::Result Run::finish(long last) {
 Integration Collocation::integrate(const ContactSystem& system, MotionState& state,
                                    long revolutions, const IntegrationOptions& options,
                                    const Observer& observer) {
+  if (!suits_collocation(system)) {
+    throw ModelError({}, "--method collocation",
+                     "is for contacts of rings only; take taylor for faces and blades");
+  }
   return Run(system, state, options, observer).go(state.revolution + revolutions);
 }
 
+bool suits_collocation(const ContactSystem& system) {
+  return std::all_of(system.contacts().begin(), system.contacts().end(),
+                     [](const ReducedContact& c) { return geometry_of(c.law) == Geometry::ring; });
+}
+
 bool prefers_collocation(const ContactSystem& system) {
-  return fastest_mode(system) > 10.0 * contact_frequency(system);
+  return suits_collocation(system) && fastest_mode(system) > 10.0 * contact_frequency(system);
 }
 
 }  // namespace whirl
