@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "libcontact/laws/blade_tip.hpp"
 #include "libcontact/laws/face.hpp"
 #include "libcontact/laws/hertz.hpp"
 #include "libcontact/laws/radial.hpp"
@@ -14,7 +15,8 @@ template <class R = double>
 using AnyContactLaw = std::variant<  //
     Radial<R>,                       //
     Hertz<R>,                        //
-    Face<R>>;
+    Face<R>,                         //
+    BladeTip<R>>;
 
 /// Normal force [N] of any law at a depth [m] and its rate [m/s].
 inline double normal_force(const AnyContactLaw<>& law, double depth, double rate) {

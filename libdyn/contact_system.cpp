@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libcontact/blade.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 
@@ -31,7 +32,17 @@ PlaneRows axial_rows(const DofMap& dofs, const Point& p) {
 }  // namespace
 
 ContactForces kinematics(const ReducedContact& c, const double* y, int coordinates) {
+  assert(!c.is_blade());
+  return kinematics(c, 0.0, y, coordinates);
+}
+
+ContactForces kinematics(const ReducedContact& c, double phase, const double* y, int coordinates) {
   const Eigen::Map<const Vec> eta(y, coordinates), rate(y + coordinates, coordinates);
+  if (c.is_blade()) {
+    const Vec2 e = c.direction(phase);
+    return kinematics(c, c.U * eta - c.offset + c.blade.radius * e,
+                      c.U * rate + c.blade.speed * Vec2(-e(1), e(0)));
+  }
   ContactForces f = kinematics(c, c.U * eta - c.offset, c.U * rate);
   if (c.is_face()) f.slip = c.rim_speed + f.t().dot(c.V * rate);
   return f;
@@ -41,7 +52,7 @@ ContactForces kinematics(const ReducedContact& c, const Vec2& d, const Vec2& w) 
   ContactForces f;
   f.r = d.norm();
   f.n = f.r > 0.0 ? Vec2(d / f.r) : Vec2(1.0, 0.0);
-  f.depth = f.r - c.clearance;
+  f.depth = f.r - c.circle();
   f.rate = f.n.dot(w);
   f.slip = c.rim_speed + f.t().dot(w);
   f.normal = normal_force(c.law, f.depth, f.rate);
@@ -99,7 +110,11 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
       r.U = lateral;
     }
     r.B = mass.solve(r.U.transpose());
-    contacts_.push_back(std::move(r));
+    if (std::holds_alternative<BladeTip<>>(c.law)) {
+      add_blades(r);
+    } else {
+      contacts_.push_back(std::move(r));
+    }
     clearance = std::min(clearance, c.clearance);
   }
 
@@ -130,6 +145,23 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
   }
 }
 
+void ContactSystem::add_blades(ReducedContact& r) {
+  assert(!r.friction.is_exact());
+  auto& law = std::get<BladeTip<>>(r.law);
+  law.bend = blade_shortening(law, r.friction.mu, Omega_) * law.k * law.k;
+  r.rim_speed = 0.0;  // the tip's own velocity is in that of u + R (cos, sin)
+  r.blade.radius = law.tip_radius;
+  r.blade.turns = Omega_ != 0.0 ? 1.0 : 0.0;
+  r.blade.speed = Omega_ * law.tip_radius;
+  for (int i = 0; i < law.blades; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / law.blades;
+    r.blade.number = i;
+    r.blade.cosine = std::cos(angle);
+    r.blade.sine = std::sin(angle);
+    contacts_.push_back(r);
+  }
+}
+
 double ContactSystem::period() const {
   return 2.0 * std::numbers::pi / phase_rate();
 }
@@ -153,7 +185,9 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   out.resize(contacts_.size());
   std::vector<int> sticking;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    out[i] = kinematics(contacts_[i], y, n);
+    out[i] = {};
+    if (contacts_[i].is_blade() && states[i].touch == Touch::apart) continue;  // most of many
+    out[i] = kinematics(contacts_[i], phase, y, n);
     if (states[i].touch == Touch::sticking) {
       sticking.push_back(static_cast<int>(i));
     } else if (states[i].touch == Touch::sliding) {
@@ -208,7 +242,7 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (states[i].touch != Touch::sliding) continue;
     const ReducedContact& c = contacts_[i];
-    const ContactForces f = kinematics(c, y, n);
+    const ContactForces f = kinematics(c, phase, y, n);
     push(c, f, sliding_friction(c, states[i], f), result);
   }
 }
@@ -218,7 +252,7 @@ void ContactSystem::acceleration(double phase, const double* y, double* a) const
   Eigen::Map<Vec> result(a, n);
   smooth_acceleration(phase, y, a);
   for (const ReducedContact& c : contacts_) {
-    const ContactForces f = kinematics(c, y, n);
+    const ContactForces f = kinematics(c, phase, y, n);
     if (f.depth <= 0.0 || f.normal <= 0.0) continue;
     const ContactState state{Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
     push(c, f, sliding_friction(c, state, f), result);
@@ -238,7 +272,7 @@ ContactStates ContactSystem::classify(double phase, const double* y) const {
   ContactStates states(contacts_.size());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ReducedContact& c = contacts_[i];
-    const ContactForces f = kinematics(c, y, coordinates());
+    const ContactForces f = kinematics(c, phase, y, coordinates());
     if (f.depth <= 0.0) continue;
     if (f.normal <= 0.0) {
       states[i].touch = Touch::receding;

@@ -52,6 +52,16 @@ void check_geometry(const Contact& contact, TableReader& table) {
   if (geometry == Geometry::face && table.has("offset")) {
     table.problem("offset", "a face has none: its clearance is axial");
   }
+  if (const auto* tips = std::get_if<BladeTip<>>(&contact.law)) {
+    constexpr int most = 1000;
+    if (tips->blades > most) {
+      table.problem("blades",
+                    fmt::format("found {}, expected a number up to {}", tips->blades, most));
+    }
+    if (tips->blade_length > tips->tip_radius && tips->tip_radius > 0.0) {
+      table.problem("blade_length", "is more than the tip_radius, in which it lies");
+    }
+  }
 }
 
 constexpr auto laws = std::make_index_sequence<std::variant_size_v<AnyContactLaw<>>>{};

@@ -15,7 +15,7 @@ void insert(std::vector<int>& sorted, int value) {
 
 int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
   if (p.contacts.size() != 1 || p.contacts[0].has_rate || p.contacts[0].is_face ||
-      p.off_diagonals > 0)
+      !p.blade_groups.empty() || p.off_diagonals > 0)
     return 0;
   for (const ContactSystem* s : systems) {
     for (int i = 2; i < p.n; ++i) {
@@ -57,6 +57,11 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     const AnyContactLaw<>& law = systems.front()->contacts()[c].law;
     p.contacts[c].law = law.index();
     p.contacts[c].is_analytic = is_analytic(law);
+    const ReducedContact& contact = systems.front()->contacts()[c];
+    if (!contact.is_blade()) continue;
+    if (contact.blade.number == 0) p.blade_groups.push_back({c, 0});
+    ++p.blade_groups.back().count;
+    p.contacts[c].group = static_cast<int>(p.blade_groups.size()) - 1;
   }
   for (const ContactSystem* s : systems) {
     if (s->coordinates() != p.n || s->contacts().size() != p.contacts.size()) {
@@ -73,6 +78,9 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     for (std::size_t c = 0; c < p.contacts.size(); ++c) {
       const ReducedContact& contact = s->contacts()[c];
       ContactRows& rows = p.contacts[c];
+      if (contact.owner != systems.front()->contacts()[c].owner) {
+        throw NumericalError("the systems of a batch must have as many blades at their contacts");
+      }
       if (contact.law.index() != rows.law) {
         throw NumericalError("the systems of a batch must have the same laws at their contacts");
       }

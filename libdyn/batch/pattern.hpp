@@ -22,6 +22,7 @@ struct Pattern {
     /// Of a face: coordinates whose rates are in the slip, that friction accelerates.
     std::vector<int> slips_by_x, slips_by_y, rubbed_x, rubbed_y;
     bool is_face = false;
+    int group = -1;         ///< of blades, in blade_groups
     bool has_rate = false;  ///< the law depends on the rate of the depth
     bool has_friction = false;
     bool has_smooth_friction = false;  ///< tanh of the slip
@@ -33,6 +34,12 @@ struct Pattern {
   std::vector<OffDiagonal> off_diagonal;  ///< rows that have any
   int off_diagonals = 0;                  ///< coefficients in all of them
   std::vector<ContactRows> contacts;
+
+  /// Contacts of the model that have blades: which of `contacts` these are.
+  struct BladeGroup {
+    std::size_t first = 0, count = 0;
+  };
+  std::vector<BladeGroup> blade_groups;
 
   /// How many bodies there are, where the coordinates are their (x, y), the first alone is out of
   /// balance, and nothing couples them but a contact that all are in, whose law does not know the

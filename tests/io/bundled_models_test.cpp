@@ -113,7 +113,7 @@ TEST(BundledModels, MoveAlikeByEveryMethod) {
     EXPECT_LT((end(CvodeAdams{}, 1e-11) - reference).cwiseAbs().maxCoeff(), 1e-5);
     ++models;
   }
-  EXPECT_GE(models, 8);
+  EXPECT_GE(models, 9);
 }
 
 }  // namespace whirl::bundled_models_test
