@@ -100,6 +100,11 @@ void ModelBuilder::read_contacts() {
       }
     }
     check_geometry(contact, table);
+    if (const auto* face = std::get_if<Face<>>(&contact.law)) {
+      contact.friction.radius = face->radius;
+    } else if (const auto* tips = std::get_if<BladeTip<>>(&contact.law)) {
+      contact.friction.radius = tips->tip_radius;
+    }
     if (at && at->kind == Station::Kind::body && geometry_of(contact.law) == Geometry::face) {
       const auto& bodies = model_.structure.bodies;
       const auto body = std::find_if(bodies.begin(), bodies.end(),

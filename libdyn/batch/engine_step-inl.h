@@ -26,7 +26,10 @@ HWY_ATTR P Engine<P>::step_length() {
     before = max(before, in_b);
     sum = sum + in_a + in_b;  // unlike a maximum, it never loses what is no number
   }
-  finite_ = less(sum, P(1e300));
+  // quadruple numbers reach further, and need to: with a law that has no Taylor series at a surface,
+  // the last of thirty terms gets there
+  const P huge(1e300);
+  finite_ = less(sum, P::is_double ? huge : huge * huge * huge);
   P size(0.0);
   for (int i = 0; i < n_; ++i)
     size = max(size, abs(y_[static_cast<size_t>(i)]) * scale_[static_cast<size_t>(i)]);

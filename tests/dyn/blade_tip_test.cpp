@@ -383,6 +383,66 @@ TEST(BladeTips, MoveByRk4AloneAndInLanes) {
   EXPECT_NEAR(test::order_of(number, error), 4.0, 0.1);
 }
 
+// All geometries at one disk: against quadruple precision, and the tangent against differences.
+TEST(BladeTips, RubBesideARingAndAFace) {
+  Model model;
+  model.speed = 450.0;
+  model.has_speed = true;
+  const Station end = test::node(2);
+  model.structure = test::cantilever(test::massless_cylinder(0.2, 0.02, 1));
+  model.structure.disks = {{.name = "disk", .at = end, .m = 2.0, .Id = 0.01, .Ip = 0.015}};
+  model.structure.unbalances = {{.at = end, .moment = 3e-5}};
+  model.structure.damping.stiffness = 5e-4;
+  model.structure.gravity = 30.0;
+  model.contacts = {{.name = "ring",
+                     .at = end,
+                     .clearance = 1.05e-4,
+                     .friction = {.mu = 0.1, .radius = 0.02},
+                     .law = Radial<>{.k = 1e6}},
+                    {.name = "tips",
+                     .at = end,
+                     .clearance = 1e-4,
+                     .friction = {.mu = 0.1, .slip = Slip::forward},
+                     .law = rubbing.law()},
+                    {.name = "face",
+                     .at = end,
+                     .clearance = 6e-5,
+                     .friction = {.mu = 0.1, .slip = Slip::actual, .tolerance = 10.0},
+                     .law = Face<>{.k = 1e6, .radius = 0.08}}};
+  const Scene scene = make_scene(model);
+  const ContactSystem& system = scene.contacts;
+  MotionState start = test::start_of(model, scene);
+  ContactMeter meter(system);
+  const Integration run = test::run(scene, start, 20, {.tolerance = 1e-12}, [&](const Step& step) {
+    meter.add(step);
+    return true;
+  });
+  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  for (const ContactMeasure& m : meter.measures()) EXPECT_EQ(m.regime(), Regime::intermittent);
+  const auto end_of = [&](const MotionState& from, double tolerance, bool tangent) {
+    Trajectory t{.system = &system, .state = from, .revolutions = 1};
+    integrate_single(t, {.tolerance = tolerance, .tangent = tangent});
+    return t;
+  };
+  Trajectory exact{.system = &system, .state = start, .revolutions = 1};
+  integrate_quad(exact, {.tolerance = 1e-18});
+  ASSERT_EQ(exact.outcome, Outcome::reached_end) << exact.diagnosis;
+  EXPECT_GT(exact.cost.events, 6);
+  const Trajectory t = end_of(start, 1e-13, true);
+  EXPECT_LT(distance(system, t.state.y, exact.state.y), 1e-10);
+  const Vec& scale = system.state_scale();
+  constexpr double h = 1e-7;
+  for (int i = 0; i < system.size(); ++i) {
+    MotionState up = start, down = start;
+    up.y(i) += h * scale(i);
+    down.y(i) -= h * scale(i);
+    const Vec change = end_of(up, 1e-14, false).state.y - end_of(down, 1e-14, false).state.y;
+    const Vec column = t.tangent.col(i) * scale(i);
+    const Vec left = (change / (2.0 * h) - column).cwiseQuotient(scale);
+    EXPECT_LT(left.cwiseAbs().maxCoeff(), 1e-5 * std::max(1.0, column.cwiseQuotient(scale).norm()));
+  }
+}
+
 TEST(BladeTips, AreNothingForCollocation) {
   const Scene scene = rubbing.scene();
   EXPECT_FALSE(prefers_collocation(scene.contacts));
