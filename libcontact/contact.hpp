@@ -14,7 +14,7 @@ struct Contact {
   std::string name;
   Station at;
   Station against;             ///< the ground or a body
-  double clearance = 0.0;      ///< radius of the clearance circle [m]
+  double clearance = 0.0;      ///< radius of the clearance circle, of a face: axial [m]
   Vec2 offset = Vec2::Zero();  ///< centre of the clearance circle [m]
   Friction friction;
   AnyContactLaw<> law;

@@ -19,15 +19,23 @@ double top(double a, double b, double c) {
 }  // namespace
 
 ContactMeter::ContactMeter(const ContactSystem& system)
-    : system_(system), sums_(system.contacts().size()), was_in_touch_(system.contacts().size()) {
-  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].name = system.contacts()[i].name;
+    : system_(system),
+      sums_(static_cast<std::size_t>(system.owners())),
+      was_in_touch_(system.contacts().size()) {
+  for (const ReducedContact& c : system.contacts()) {
+    sums_[static_cast<std::size_t>(c.owner)].name = c.name;
+  }
 }
 
 void ContactMeter::add(const Step& step) {
   time_ += step.h;
   const bool any = std::any_of(step.contacts.begin(), step.contacts.end(),
                                [](const ContactState& c) { return c.in_touch(); });
-  std::vector<std::array<double, points + 1>> normal(sums_.size()), friction(sums_.size());
+  const auto contacts = step.contacts.size();
+  std::vector<std::array<double, points + 1>> normal(contacts), friction(contacts);
+  const auto sum_of = [&](std::size_t i) -> ContactMeasure& {
+    return sums_[static_cast<std::size_t>(system_.contacts()[i].owner)];
+  };
   if (any) {
     Vec y(system_.size());
     std::vector<ContactForces> forces;
@@ -35,26 +43,31 @@ void ContactMeter::add(const Step& step) {
       const double s = static_cast<double>(k) / points;
       step.at(s, y.data());
       system_.forces(step.phase + s * step.turn, y.data(), step.contacts, forces);
-      for (std::size_t i = 0; i < sums_.size(); ++i) {
+      for (std::size_t i = 0; i < contacts; ++i) {
         normal[i][static_cast<std::size_t>(k)] = forces[i].normal;
         friction[i][static_cast<std::size_t>(k)] = std::abs(forces[i].friction);
         const double weight = (k == 0 || k == points ? 0.5 : 1.0) / points;
-        if (step.contacts[i].in_touch()) sums_[i].mean_slip += weight * step.h * forces[i].slip;
+        if (step.contacts[i].in_touch()) sum_of(i).mean_slip += weight * step.h * forces[i].slip;
       }
     }
   }
-  for (std::size_t i = 0; i < sums_.size(); ++i) {
+  std::vector<char> touches(sums_.size());
+  for (std::size_t i = 0; i < contacts; ++i) {
     const bool in_touch = step.contacts[i].in_touch();
     if (in_touch) {
-      sums_[i].duty += step.h;
-      if (step.contacts[i].touch == Touch::sticking) sums_[i].sticking += step.h;
+      ContactMeasure& m = sum_of(i);
+      char& touches_already = touches[static_cast<std::size_t>(system_.contacts()[i].owner)];
+      if (!touches_already) m.duty += step.h;
+      touches_already = 1;
+      m.touch_time += step.h;
+      if (step.contacts[i].touch == Touch::sticking) m.sticking += step.h;
       for (std::size_t k = 1; k < points; ++k) {
-        sums_[i].max_normal =
-            std::max(sums_[i].max_normal, top(normal[i][k - 1], normal[i][k], normal[i][k + 1]));
-        sums_[i].max_tangential = std::max(
-            sums_[i].max_tangential, top(friction[i][k - 1], friction[i][k], friction[i][k + 1]));
+        m.max_normal =
+            std::max(m.max_normal, top(normal[i][k - 1], normal[i][k], normal[i][k + 1]));
+        m.max_tangential =
+            std::max(m.max_tangential, top(friction[i][k - 1], friction[i][k], friction[i][k + 1]));
       }
-      if (has_begun_ && !was_in_touch_[i]) sums_[i].impacts += 1.0;
+      if (has_begun_ && !was_in_touch_[i]) m.impacts += 1.0;
     }
     was_in_touch_[i] = in_touch;
   }
@@ -63,7 +76,9 @@ void ContactMeter::add(const Step& step) {
 
 std::vector<ContactMeasure> ContactMeter::measures() const {
   std::vector<ContactMeasure> result = sums_;
-  for (ContactMeasure& m : result) m.mean_slip = m.duty > 0.0 ? m.mean_slip / m.duty : 0.0;
+  for (ContactMeasure& m : result) {
+    m.mean_slip = m.touch_time > 0.0 ? m.mean_slip / m.touch_time : 0.0;
+  }
   to_shares(result, time_);
   return result;
 }

@@ -17,14 +17,16 @@ constexpr auto choices(Regime) {
                     Choice<Regime>{"permanent", Regime::permanent}};
 }
 
+/// What a contact of the model does; of one with blades, what they do together.
 struct ContactMeasure {
   std::string name;
-  double duty = 0.0;            ///< share of time in touch
-  double impacts = 0.0;         ///< times it began to touch
+  double duty = 0.0;            ///< share of time in touch, with any of its blades
+  double impacts = 0.0;         ///< times it began to touch, all blades together
   double sticking = 0.0;        ///< share of time sticking
-  double max_normal = 0.0;      ///< [N]
-  double max_tangential = 0.0;  ///< [N]
+  double max_normal = 0.0;      ///< of one blade [N]
+  double max_tangential = 0.0;  ///< of one blade [N]
   double mean_slip = 0.0;       ///< mean slip velocity while in touch [m/s]
+  double touch_time = 0.0;      ///< time in touch, summed over blades [s]
 
   Regime regime() const {
     if (duty == 0.0) return Regime::none;

@@ -1,9 +1,11 @@
 #include "libdyn/contact_system.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
+#include "libcontact/blade.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 
@@ -13,26 +15,44 @@ namespace {
 
 constexpr double rest_slip = 1e-12;  ///< of the rim speed: as good as no slip
 
-/// Radius of the contact for the slip velocity: given, or that of the shaft there.
-Eigen::Matrix<double, 2, Eigen::Dynamic> rows(const DofMap& dofs, const Point& p) {
-  Eigen::Matrix<double, 2, Eigen::Dynamic> r(2, dofs.size());
+PlaneRows rows(const DofMap& dofs, const Point& p) {
+  PlaneRows r(2, dofs.size());
   r.row(0) = dofs.row(p, X).transpose();
   r.row(1) = dofs.row(p, Y).transpose();
+  return r;
+}
+/// Axial displacement, per radius, of points on the axes x and y that turn with the cross-section.
+PlaneRows axial_rows(const DofMap& dofs, const Point& p) {
+  PlaneRows r(2, dofs.size());
+  r.row(0) = -dofs.row(p, THETA_Y).transpose();
+  r.row(1) = dofs.row(p, THETA_X).transpose();
   return r;
 }
 
 }  // namespace
 
 ContactForces kinematics(const ReducedContact& c, const double* y, int coordinates) {
+  assert(!c.is_blade());
+  return kinematics(c, 0.0, y, coordinates);
+}
+
+ContactForces kinematics(const ReducedContact& c, double phase, const double* y, int coordinates) {
   const Eigen::Map<const Vec> eta(y, coordinates), rate(y + coordinates, coordinates);
-  return kinematics(c, c.U * eta - c.offset, c.U * rate);
+  if (c.is_blade()) {
+    const Vec2 e = c.direction(phase);
+    return kinematics(c, c.U * eta - c.offset + c.blade.radius * e,
+                      c.U * rate + c.blade.speed * Vec2(-e(1), e(0)));
+  }
+  ContactForces f = kinematics(c, c.U * eta - c.offset, c.U * rate);
+  if (c.is_face()) f.slip = c.rim_speed + f.t().dot(c.V * rate);
+  return f;
 }
 
 ContactForces kinematics(const ReducedContact& c, const Vec2& d, const Vec2& w) {
   ContactForces f;
   f.r = d.norm();
   f.n = f.r > 0.0 ? Vec2(d / f.r) : Vec2(1.0, 0.0);
-  f.depth = f.r - c.clearance;
+  f.depth = f.r - c.circle();
   f.rate = f.n.dot(w);
   f.slip = c.rim_speed + f.t().dot(w);
   f.normal = normal_force(c.law, f.depth, f.rate);
@@ -44,6 +64,15 @@ double sliding_friction(const ReducedContact& c, const ContactState& state,
   if (c.friction.mu == 0.0) return 0.0;
   const double share = c.friction.is_exact() ? state.sign : c.friction.smooth_share(f.slip);
   return c.friction.mu * share * f.normal;
+}
+
+void push(const ReducedContact& c, const ContactForces& f, double T, Eigen::Ref<Vec> a) {
+  if (!c.is_face()) {
+    a.noalias() -= c.B * (f.normal * f.n + T * f.t());
+    return;
+  }
+  a.noalias() -= c.B * (f.normal * f.n);
+  a.noalias() -= c.B_t * (T * f.t());
 }
 
 ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
@@ -68,10 +97,25 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
                      .clearance = c.clearance,
                      .rim_speed = Omega_ * c.friction.radius,
                      .friction = c.friction,
-                     .law = c.law};
-    r.U = (rows(reduced.dofs, at) - rows(reduced.dofs, against)) * reduced.Phi;
+                     .law = c.law,
+                     .owner = static_cast<int>(&c - contacts.data())};
+    const PlaneRows lateral = (rows(reduced.dofs, at) - rows(reduced.dofs, against)) * reduced.Phi;
+    if (const auto* face = std::get_if<Face<>>(&c.law)) {
+      assert(!c.friction.is_exact());
+      r.rim_speed = Omega_ * face->radius;
+      r.U = face->radius * (axial_rows(reduced.dofs, at) - axial_rows(reduced.dofs, against)) *
+            reduced.Phi;
+      r.V = lateral;
+      r.B_t = mass.solve(r.V.transpose());
+    } else {
+      r.U = lateral;
+    }
     r.B = mass.solve(r.U.transpose());
-    contacts_.push_back(std::move(r));
+    if (std::holds_alternative<BladeTip<>>(c.law)) {
+      add_blades(r);
+    } else {
+      contacts_.push_back(std::move(r));
+    }
     clearance = std::min(clearance, c.clearance);
   }
 
@@ -111,8 +155,28 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
         largest = std::max(largest, std::abs(back(reduced.dofs.full_index(p, component), i)));
       }
     }
+    for (const ReducedContact& c : contacts_) {
+      if (c.is_face()) largest = std::max(largest, c.U.col(i).cwiseAbs().maxCoeff());
+    }
     scale_(i) = largest > 0.0 ? clearance / largest : clearance;
     scale_(n + i) = scale_(i) * phase_rate();
+  }
+}
+
+void ContactSystem::add_blades(ReducedContact& r) {
+  assert(!r.friction.is_exact());
+  auto& law = std::get<BladeTip<>>(r.law);
+  law.bend = blade_shortening(law, r.friction.mu, Omega_) * law.k * law.k;
+  r.rim_speed = 0.0;  // the tip's own velocity is in that of u + R (cos, sin)
+  r.blade.radius = law.tip_radius;
+  r.blade.turns = Omega_ != 0.0 ? 1.0 : 0.0;
+  r.blade.speed = Omega_ * law.tip_radius;
+  for (int i = 0; i < law.blades; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / law.blades;
+    r.blade.number = i;
+    r.blade.cosine = std::cos(angle);
+    r.blade.sine = std::sin(angle);
+    contacts_.push_back(r);
   }
 }
 
@@ -147,7 +211,9 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   out.resize(contacts_.size());
   std::vector<int> sticking;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    out[i] = kinematics(contacts_[i], y, n);
+    out[i] = {};
+    if (contacts_[i].is_blade() && states[i].touch == Touch::apart) continue;  // most of many
+    out[i] = kinematics(contacts_[i], phase, y, n);
     if (states[i].touch == Touch::sticking) {
       sticking.push_back(static_cast<int>(i));
     } else if (states[i].touch == Touch::sliding) {
@@ -162,7 +228,7 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   smooth_acceleration(phase, y, a.data());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!states[i].in_touch()) continue;
-    a -= contacts_[i].B * (out[i].normal * out[i].n + out[i].friction * out[i].t());
+    push(contacts_[i], out[i], out[i].friction, a);
   }
   const auto m = static_cast<Eigen::Index>(sticking.size());
   Mat influence(m, m);
@@ -195,15 +261,15 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
     forces(phase, y, states, all);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       if (!states[i].in_touch()) continue;
-      result -= contacts_[i].B * (all[i].normal * all[i].n + all[i].friction * all[i].t());
+      push(contacts_[i], all[i], all[i].friction, result);
     }
     return;
   }
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (states[i].touch != Touch::sliding) continue;
     const ReducedContact& c = contacts_[i];
-    const ContactForces f = kinematics(c, y, n);
-    result.noalias() -= c.B * (f.normal * f.n + sliding_friction(c, states[i], f) * f.t());
+    const ContactForces f = kinematics(c, phase, y, n);
+    push(c, f, sliding_friction(c, states[i], f), result);
   }
 }
 
@@ -212,10 +278,10 @@ void ContactSystem::acceleration(double phase, const double* y, double* a) const
   Eigen::Map<Vec> result(a, n);
   smooth_acceleration(phase, y, a);
   for (const ReducedContact& c : contacts_) {
-    const ContactForces f = kinematics(c, y, n);
+    const ContactForces f = kinematics(c, phase, y, n);
     if (f.depth <= 0.0 || f.normal <= 0.0) continue;
     const ContactState state{Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
-    result.noalias() -= c.B * (f.normal * f.n + sliding_friction(c, state, f) * f.t());
+    push(c, f, sliding_friction(c, state, f), result);
   }
 }
 
@@ -232,7 +298,7 @@ ContactStates ContactSystem::classify(double phase, const double* y) const {
   ContactStates states(contacts_.size());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ReducedContact& c = contacts_[i];
-    const ContactForces f = kinematics(c, y, coordinates());
+    const ContactForces f = kinematics(c, phase, y, coordinates());
     if (f.depth <= 0.0) continue;
     if (f.normal <= 0.0) {
       states[i].touch = Touch::receding;

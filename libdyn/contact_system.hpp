@@ -1,6 +1,7 @@
 #pragma once
 /// Equations of motion of a reduced rotor with its contacts, ready for integration.
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -28,23 +29,51 @@ struct ContactState {
 };
 using ContactStates = std::vector<ContactState>;
 
+using PlaneRows = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+using PlaneColumns = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+
 /// A contact in reduced coordinates eta.
+///
+/// One contact of the model is one of these, or as many as it has blades.
 struct ReducedContact {
   std::string name;
-  Eigen::Matrix<double, 2, Eigen::Dynamic> U;  ///< relative displacement u = U eta [m]
-  Eigen::Matrix<double, Eigen::Dynamic, 2> B;  ///< acceleration eta'' = -B (force on the stator)
+  PlaneRows U;  ///< relative displacement u = U eta [m]; of a face: of its tilts times the radius
+  PlaneColumns B;  ///< acceleration eta'' = -B (force on the stator)
   Vec2 offset;
   double clearance;  ///< [m]
   double rim_speed;  ///< Omega R [m/s]
   Friction friction;
   AnyContactLaw<> law;
+  int owner = 0;       ///< number of the model's contact, from 0
+  PlaneRows V{};       ///< of a face: lateral displacement, whose rate is in the slip; else empty
+  PlaneColumns B_t{};  ///< of a face: the same as B of the friction force; else empty
+
+  /// A blade: it is its tip that touches, at u + radius (cos, sin)(turns phase + angle).
+  struct Blade {
+    int number = 0;                   ///< from 0, among those of the owner
+    double radius = 0.0;              ///< [m]
+    double cosine = 1.0, sine = 0.0;  ///< of the angle
+    double turns = 0.0;               ///< 1, or 0 without spin
+    double speed = 0.0;               ///< Omega radius [m/s]
+  } blade{};
+
+  /// Whether friction acts elsewhere than the normal force.
+  bool is_face() const { return V.cols() > 0; }
+  bool is_blade() const { return blade.radius > 0.0; }
+  /// Radius of the circle that the contact point leaves [m].
+  double circle() const { return clearance + blade.radius; }
+  /// Direction of the blade.
+  Vec2 direction(double phase) const {
+    const double c = std::cos(blade.turns * phase), s = std::sin(blade.turns * phase);
+    return {c * blade.cosine - s * blade.sine, s * blade.cosine + c * blade.sine};
+  }
 };
 
 /// Kinematics and forces of one contact at one instant.
 struct ContactForces {
   Vec2 n = Vec2::Zero();  ///< normal, from the centre of the clearance circle to the rotor
   double r = 0.0;         ///< distance from that centre [m]
-  double depth = 0.0;     ///< r - clearance [m]
+  double depth = 0.0;     ///< r - clearance (and a blade's radius) [m]
   double rate = 0.0;      ///< of the depth [m/s]
   double slip = 0.0;      ///< slip velocity v_t [m/s]
   double normal = 0.0;    ///< N of the law, whether or not in touch [N]
@@ -83,6 +112,8 @@ class ContactSystem {
   const std::vector<ReducedFilm>& films() const { return films_; }
   /// The first film whose journal is not inside its bearing; null if there is none.
   const ReducedFilm* left_bearing(const double* y) const;
+  /// Contacts of the model; each owns one or several of contacts(), which follow one another.
+  int owners() const { return contacts_.empty() ? 0 : contacts_.back().owner + 1; }
 
   /// Scale of displacements for tolerances: the smallest clearance of a contact or film, or the
   /// motion of the loads [m].
@@ -100,6 +131,7 @@ class ContactSystem {
   void acceleration(double phase, const double* y, double* a) const;
 
   /// Normal force, slip and friction of every contact; friction of sticking ones is solved for.
+  /// Of blades that are apart nothing is said.
   void forces(double phase, const double* y, const ContactStates& states,
               std::vector<ContactForces>& out) const;
 
@@ -113,6 +145,8 @@ class ContactSystem {
   void remove_slip(double* y, const ContactStates& states) const;
 
  private:
+  /// Adds a contact as many times as it has blades.
+  void add_blades(ReducedContact& contact);
   /// Without contacts.
   void smooth_acceleration(double phase, const double* y, double* a) const;
 
@@ -130,10 +164,17 @@ class ContactSystem {
 double distance(const ContactSystem& system, const Vec& a, const Vec& b);
 
 /// Kinematics and normal force of one contact; friction is left zero.
+ContactForces kinematics(const ReducedContact& contact, double phase, const double* y,
+                         int coordinates);
+
+/// The same of a contact that is no blade, which does not ask for the phase.
 ContactForces kinematics(const ReducedContact& contact, const double* y, int coordinates);
 
-/// The same from d = U eta - offset [m] and its rate w [m/s].
+/// The same from d = U eta - offset [m] and its rate w [m/s], of contacts that are no faces.
 ContactForces kinematics(const ReducedContact& contact, const Vec2& d, const Vec2& w);
+
+/// Takes what the force -N n - T t of a contact adds to the accelerations from them.
+void push(const ReducedContact& contact, const ContactForces& f, double T, Eigen::Ref<Vec> a);
 
 /// Friction T of a sliding contact [N], along t.
 double sliding_friction(const ReducedContact& contact, const ContactState& state,

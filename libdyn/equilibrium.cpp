@@ -18,7 +18,7 @@ bool imbalance(const ContactSystem& system, const Vec& eta, Vec& left) {
   left = system.constant_load() - system.K() * eta;
   bool pushes = false;
   for (const ReducedContact& c : system.contacts()) {
-    const ContactForces f = kinematics(c, y.data(), n);
+    const ContactForces f = kinematics(c, 0.0, y.data(), n);
     if (f.depth <= 0.0) continue;
     pushes = true;
     left -= c.B * (f.normal * f.n);

@@ -34,6 +34,13 @@ const Interpolation& interpolation() {
   return table;
 }
 
+/// Whether a disk may move by the clearance of its blades: none can touch before.
+bool may_reach(const ReducedContact& blade, const Step& step) {
+  PlaneRows u = blade.U * step.q;
+  u.col(0) -= blade.offset;
+  return u.colwise().norm().sum() >= (1.0 - 1e-9) * blade.clearance;
+}
+
 }  // namespace
 
 EventWatcher::EventWatcher(const ContactSystem& system)
@@ -71,7 +78,7 @@ bool EventWatcher::on_surface(int contact, EventKind kind) const {
 double EventWatcher::value(const Event& event, double phase, const double* y,
                            const ContactStates& states) const {
   const auto i = static_cast<std::size_t>(event.contact);
-  ContactForces f = kinematics(system_.contacts()[i], y, system_.coordinates());
+  ContactForces f = kinematics(system_.contacts()[i], phase, y, system_.coordinates());
   if (event.kind == EventKind::stick_limit) {
     f.friction = system_.sticking_force(phase, y, states, event.contact);
   }
@@ -82,7 +89,8 @@ double EventWatcher::value(const Event& event, const ContactForces& f,
                            const ContactState& state) const {
   const auto i = static_cast<std::size_t>(event.contact);
   const ReducedContact& c = system_.contacts()[i];
-  const double beyond = (f.r * f.r) / (c.clearance * c.clearance) - 1.0;
+  const double beyond = c.is_blade() ? f.depth * (f.r + c.circle()) / (c.clearance * c.circle())
+                                     : (f.r * f.r) / (c.clearance * c.clearance) - 1.0;
   switch (event.kind) {
     case EventKind::touch:
       return -beyond;
@@ -107,7 +115,7 @@ Polynomial EventWatcher::polynomial(const Step& step, int contact, EventKind kin
   Polynomial g;
   const bool is_distance = kind == EventKind::touch || kind == EventKind::part ||
                            (kind == EventKind::release && is_continuous(c.law));
-  if (is_distance) {  // r^2 is a polynomial: exact
+  if (is_distance && !c.is_blade()) {  // r^2 is a polynomial: exact
     Eigen::Matrix<double, 2, Eigen::Dynamic> d = c.U * step.q;
     d.col(0) -= c.offset;
     d /= c.clearance;
@@ -140,7 +148,13 @@ Polynomial EventWatcher::polynomial(const Step& step, int contact, EventKind kin
 
 std::optional<Event> EventWatcher::first(const Step& step) const {
   std::optional<Event> earliest;
+  bool comes_near = true;  // what is true of one blade's disk is true of all
   for (int i = 0; i < static_cast<int>(step.contacts.size()); ++i) {
+    const ReducedContact& c = system_.contacts()[static_cast<std::size_t>(i)];
+    if (c.is_blade()) {
+      if (c.blade.number == 0) comes_near = may_reach(c, step);
+      if (!comes_near && !step.contacts[static_cast<std::size_t>(i)].in_touch()) continue;
+    }
     for (const EventKind kind : kinds(i, step.contacts[static_cast<std::size_t>(i)])) {
       const auto s = first_fall(polynomial(step, i, kind), on_surface(i, kind));
       if (s && (!earliest || *s < earliest->s)) earliest = Event{*s, i, kind};
@@ -152,7 +166,7 @@ std::optional<Event> EventWatcher::first(const Step& step) const {
 void EventWatcher::enter_touch(int contact, double phase, const double* y, ContactStates& states) {
   const auto i = static_cast<std::size_t>(contact);
   const ReducedContact& c = system_.contacts()[i];
-  const ContactForces f = kinematics(c, y, system_.coordinates());
+  const ContactForces f = kinematics(c, phase, y, system_.coordinates());
   states[i] = {Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
   const bool is_at_rest = std::abs(f.slip) <= 1e-12 * speed_scale_[i];
   if (c.friction.is_exact() && is_at_rest) {
@@ -179,7 +193,7 @@ void EventWatcher::apply(const Event& event, double phase, const double* y, Cont
       states[i] = {Touch::apart, 1.0};
       break;
     case EventKind::release:
-      if (is_continuous(c.law) || kinematics(c, y, system_.coordinates()).depth <= 0.0) {
+      if (is_continuous(c.law) || kinematics(c, phase, y, system_.coordinates()).depth <= 0.0) {
         surface = bit(EventKind::touch);
         states[i] = {Touch::apart, 1.0};
       } else {
@@ -188,7 +202,7 @@ void EventWatcher::apply(const Event& event, double phase, const double* y, Cont
       }
       break;
     case EventKind::slip_stop: {
-      const double limit = c.friction.mu * kinematics(c, y, system_.coordinates()).normal;
+      const double limit = c.friction.mu * kinematics(c, phase, y, system_.coordinates()).normal;
       const double force = system_.sticking_force(phase, y, states, event.contact);
       if (std::abs(force) <= limit) {
         states[i] = {Touch::sticking, 1.0};

@@ -88,6 +88,7 @@ void FreeFlight::prepare() {
   Mat Q = Mat::Zero(2 * n, 2 * n);  // weights what contacts see, and everything a little
   Q.diagonal() = 1e-4 * system_.state_scale().cwiseAbs2().cwiseInverse();
   for (const ReducedContact& c : system_.contacts()) {
+    if (c.blade.number > 0) continue;
     Q.topLeftCorner(n, n) += c.U.transpose() * c.U / (c.clearance * c.clearance);
   }
   const auto P = lyapunov(first_order_matrix(system_), Q);
@@ -97,6 +98,7 @@ void FreeFlight::prepare() {
   const DenseLu<Mat> factors(P_);
   decays_ = true;
   for (const ReducedContact& c : system_.contacts()) {
+    if (c.blade.number > 0) continue;  // as for the first: none touches before u has the clearance
     Mat rows = Mat::Zero(2 * n, 2);
     rows.topRows(n) = c.U.transpose();
     const Mat spread = rows.transpose() * factors.solve(rows);

@@ -44,8 +44,11 @@ Mat first_order_matrix(const ContactSystem& system) {
 }
 
 double contact_gain(const ReducedContact& contact) {
-  const Mat G = contact.U * contact.B;
-  return std::sqrt(symmetric_modes(G.transpose() * G).values(1));
+  const auto gain = [](const Mat& G) {
+    return std::sqrt(symmetric_modes(G.transpose() * G).values(1));
+  };
+  const double normal = gain(contact.U * contact.B);
+  return contact.is_face() ? std::max(normal, gain(contact.V * contact.B_t)) : normal;
 }
 
 double contact_frequency(const ContactSystem& system) {

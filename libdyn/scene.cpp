@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "libdyn/equilibrium.hpp"
 #include "libfe/base/error.hpp"
@@ -16,8 +18,16 @@ namespace whirl {
 
 namespace {
 
-void add_rows(std::vector<Vec>& rows, const DofMap& dofs, const Point& at, const Point& against) {
-  for (const int component : {X, Y}) {
+constexpr std::array lateral{X, Y};
+constexpr std::array lateral_and_tilts{X, Y, THETA_X, THETA_Y};
+std::span<const Component> components(const Contact& c) {
+  if (geometry_of(c.law) == Geometry::face) return lateral_and_tilts;
+  return lateral;
+}
+
+void add_rows(std::vector<Vec>& rows, const DofMap& dofs, const Point& at, const Point& against,
+              std::span<const Component> components = lateral) {
+  for (const Component component : components) {
     Vec row = dofs.row(at, component) - dofs.row(against, component);
     if (row.squaredNorm() > 0.0) rows.push_back(std::move(row));
   }
@@ -26,20 +36,21 @@ void add_rows(std::vector<Vec>& rows, const DofMap& dofs, const Point& at, const
 /// Forces can only act on points that are held or have inertia: those of massless freedoms, which
 /// are condensed, would not bend the shaft there.
 void require_inertia(const Assembler& assembler, const System& system, const Station& station,
-                     const std::string& what) {
+                     const std::string& what, std::span<const Component> components = lateral) {
   if (system.dofs.condensed == 0) return;
   const Point p = assembler.point(station);
   if (p.kind == Point::Kind::ground) return;
   const System whole = assembler.uncondensed(system.Omega);
-  for (const int component : {X, Y}) {
+  for (const Component component : components) {
     const Vec row = whole.dofs.row(p, component);
     const bool is_held = row.isZero(0.0), has_inertia = row.dot(whole.M * row) > 0.0;
     if (is_held || has_inertia) continue;
     throw ModelError(
         station.where, station.key,
-        fmt::format("{} acts at a station without inertia, which cannot move by itself: "
+        fmt::format("{} acts at a station without {}inertia, which cannot {} by itself: "
                     "give the shaft a density or the station a disk",
-                    what));
+                    what, component >= THETA_X ? "rotary " : "",
+                    component >= THETA_X ? "tilt" : "move"));
   }
 }
 
@@ -50,9 +61,10 @@ Scene make_scene(const Model& model) {
   System system = assembler.at(model.speed);
   std::vector<Vec> ports, others;
   for (const Contact& c : model.contacts) {
-    require_inertia(assembler, system, c.at, "contact \"" + c.name + "\"");
-    require_inertia(assembler, system, c.against, "contact \"" + c.name + "\"");
-    add_rows(ports, system.dofs, assembler.point(c.at), assembler.point(c.against));
+    const std::string what = "contact \"" + c.name + "\"";
+    require_inertia(assembler, system, c.at, what, components(c));
+    require_inertia(assembler, system, c.against, what, components(c));
+    add_rows(ports, system.dofs, assembler.point(c.at), assembler.point(c.against), components(c));
   }
   for (const OilFilm& film : model.films) {
     require_inertia(assembler, system, film.at, "oil film \"" + film.name + "\"");

@@ -16,8 +16,8 @@ class Sampler {
       : system_(system), recording_(recording), y_(system.size()) {
     const auto total = revolutions * recording.samples;
     recording.eta.resize(system.coordinates(), total);
-    recording.normal.setZero(static_cast<Eigen::Index>(system.contacts().size()), total);
-    recording.friction.setZero(static_cast<Eigen::Index>(system.contacts().size()), total);
+    recording.normal.setZero(system.owners(), total);
+    recording.friction.setZero(system.owners(), total);
   }
 
   void add(const Step& step) {
@@ -34,8 +34,9 @@ class Sampler {
         system_.forces(phase, y_.data(), step.contacts, forces_);
         for (std::size_t i = 0; i < forces_.size(); ++i) {
           if (!step.contacts[i].in_touch()) continue;
-          recording_.normal(static_cast<Eigen::Index>(i), next_) = forces_[i].normal;
-          recording_.friction(static_cast<Eigen::Index>(i), next_) = forces_[i].friction;
+          const int owner = system_.contacts()[i].owner;
+          recording_.normal(owner, next_) += forces_[i].normal;
+          recording_.friction(owner, next_) += forces_[i].friction;
         }
       }
       ++next_;

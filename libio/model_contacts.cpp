@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "libio/model_builder.hpp"
 #include "libio/nearest.hpp"
+#include "libio/units.hpp"
 
 namespace whirl {
 
@@ -34,6 +36,34 @@ void accept_all_laws(TableReader& table, std::index_sequence<I...>) {
   const auto accept = [&](const auto&... field) { (table.node(field.name), ...); };
   (std::apply(accept, std::variant_alternative_t<I, AnyContactLaw<>>::fields()), ...);
 }
+/// What does not go with a law's geometry.
+void check_geometry(const Contact& contact, TableReader& table) {
+  const Geometry geometry = geometry_of(contact.law);
+  if (geometry == Geometry::ring) return;
+  if (table.has("radius")) {
+    table.problem("radius", "the law says where it slips: leave it out");
+  }
+  if (contact.friction.is_exact() && !can_stick(geometry)) {
+    table.problem(
+        "slip_tolerance",
+        "found none, but this law cannot stick: give a width to the sign of the slip, such "
+        "as \"1 mm/s\", or say slip = \"forward\"");
+  }
+  if (geometry == Geometry::face && table.has("offset")) {
+    table.problem("offset", "a face has none: its clearance is axial");
+  }
+  if (const auto* tips = std::get_if<BladeTip<>>(&contact.law)) {
+    constexpr int most = 1000;
+    if (tips->blades > most) {
+      table.problem("blades",
+                    fmt::format("found {}, expected a number up to {}", tips->blades, most));
+    }
+    if (tips->blade_length > tips->tip_radius && tips->tip_radius > 0.0) {
+      table.problem("blade_length", "is more than the tip_radius, in which it lies");
+    }
+  }
+}
+
 constexpr auto laws = std::make_index_sequence<std::variant_size_v<AnyContactLaw<>>>{};
 
 }  // namespace
@@ -59,7 +89,23 @@ void ModelBuilder::read_contacts() {
       accept_all_laws(table, laws);
     }
     contact.offset = center(table);
-    if (!table.has("radius")) {
+    check_geometry(contact, table);
+    if (const auto* face = std::get_if<Face<>>(&contact.law)) {
+      contact.friction.radius = face->radius;
+    } else if (const auto* tips = std::get_if<BladeTip<>>(&contact.law)) {
+      contact.friction.radius = tips->tip_radius;
+    }
+    if (at && at->kind == Station::Kind::body && geometry_of(contact.law) == Geometry::face) {
+      const auto& bodies = model_.structure.bodies;
+      const auto body = std::find_if(bodies.begin(), bodies.end(),
+                                     [&](const Body& b) { return b.name == at->body; });
+      if (body != bodies.end() && !body->tilts) {
+        table.problem("body", fmt::format("a face touches as it tilts, but {} does not: give it "
+                                          "tilts = true",
+                                          in_quotes(at->body)));
+      }
+    }
+    if (!table.has("radius") && geometry_of(contact.law) == Geometry::ring) {
       missing_radii_.push_back({model_.contacts.size(), table.where(), table.path("radius")});
     }
     if (at) model_.structure.stations.push_back(*at);

@@ -75,14 +75,14 @@ struct Bench {
 Bench run_all(const Invocation& call, const Model& model) {
   Bench bench{.options = options_of(call)};
   BenchOptions& options = bench.options;
-  if (!call.has("methods") && !model.films.empty()) {
-    std::erase(options.methods, Collocation::name);  // knows no oil films
-  }
   const Scene scene = make_scene(model);
   const ContactSystem& system = scene.contacts;
   MotionState start = starting_state(call, model, scene);
   if (start.phase > 0.0) options.discard = std::max(1L, options.discard);
 
+  if (!call.has("methods") && !suits_collocation(system)) {
+    std::erase(options.methods, Collocation::name);
+  }
   const auto count = static_cast<long>(options.methods.size() * options.tolerances.size());
   Progress progress("measuring", count + 1, call.shows_progress);
   // Ctrl-C stops the transient, and between runs, which an observer would slow down

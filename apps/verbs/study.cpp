@@ -244,7 +244,7 @@ Record StudySetup::axes_record() const {
 
 std::vector<Column> classification_columns(const Scene& scene, const std::string& group) {
   const std::vector<Eigen::Index> exponents{scene.contacts.size()};
-  const std::vector<Eigen::Index> contacts{std::ssize(scene.contacts.contacts())};
+  const std::vector<Eigen::Index> contacts{scene.contacts.owners()};
   const std::vector<std::string> per{contacts[0] > 0 ? group + "/contact" : ""};
   return {
       {"motion", "", std::string("kind of motion: ") + motion_codes, true},
@@ -266,8 +266,10 @@ std::vector<Column> classification_columns(const Scene& scene, const std::string
 }
 
 void write_classification_axes(ResultWriter& file, const Scene& scene, const std::string& group) {
-  std::vector<std::string> names;
-  for (const ReducedContact& c : scene.contacts.contacts()) names.push_back(c.name);
+  std::vector<std::string> names(static_cast<std::size_t>(scene.contacts.owners()));
+  for (const ReducedContact& c : scene.contacts.contacts()) {
+    names[static_cast<std::size_t>(c.owner)] = c.name;
+  }
   if (!names.empty()) file.dataset(group + "/contact", names, {"", "contact", {""}});
 }
 

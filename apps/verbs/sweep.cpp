@@ -35,7 +35,7 @@ struct Portraits {
 };
 
 std::vector<Column> Portraits::columns(const Scene& scene) const {
-  const Eigen::Index n = std::ssize(stations), contacts = std::ssize(scene.contacts.contacts());
+  const Eigen::Index n = std::ssize(stations), contacts = scene.contacts.owners();
   const std::string station = group + "/station", contact = group + "/contact";
   const Eigen::Index full = scene.reduced.dofs.T.rows(),
                      lines = std::max(1L, spectrum_revolutions) * 2 * highest_order + 1;
@@ -78,18 +78,22 @@ void Portraits::write_axes(ResultWriter& file) const {
                {"rad", "middle of a sector, from x to y", {""}});
 }
 
-/// Share of samples in touch, by the angle at which.
+/// Share of samples in touch, by the angle to which the rotor is displaced there.
 void add_angles(const StudyPoint& point, const Recording& recording, std::vector<double>& shares) {
-  const auto& contacts = point.scene->contacts.contacts();
-  shares.assign(contacts.size() * sectors, 0.0);
+  const ContactSystem& system = point.scene->contacts;
+  shares.assign(static_cast<std::size_t>(system.owners()) * sectors, 0.0);
   const double each = 1.0 / static_cast<double>(recording.eta.cols());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
+  int last = -1;
+  for (const ReducedContact& c : system.contacts()) {
+    if (c.owner == last) continue;  // another blade
+    last = c.owner;
     for (Eigen::Index j = 0; j < recording.eta.cols(); ++j) {
-      if (recording.normal(static_cast<Eigen::Index>(i), j) <= 0.0) continue;
-      const Vec2 d = contacts[i].U * recording.eta.col(j) - contacts[i].offset;
+      if (recording.normal(c.owner, j) <= 0.0) continue;
+      const Vec2 d = c.U * recording.eta.col(j) - c.offset;
       const double turn = std::atan2(d(1), d(0)) / (2.0 * std::numbers::pi);
       const auto sector = static_cast<std::size_t>((turn < 0.0 ? turn + 1.0 : turn) * sectors);
-      shares[i * sectors + std::min<std::size_t>(sector, sectors - 1)] += each;
+      shares[static_cast<std::size_t>(c.owner) * sectors +
+             std::min<std::size_t>(sector, sectors - 1)] += each;
     }
   }
 }

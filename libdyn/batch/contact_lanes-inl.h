@@ -9,73 +9,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <variant>
+#include <memory>
 #include <vector>
 
-#include "libcontact/laws.hpp"
+#include "libdyn/batch/blade_lanes-inl.h"
+#include "libdyn/batch/face_lanes-inl.h"
+#include "libdyn/batch/law_lanes-inl.h"
 #include "libdyn/batch/pattern.hpp"
-#include "libdyn/batch/series-inl.h"
 #include "libdyn/contact_system.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
-
-/// Calls f with the alternative that a variant holds; inlined, unlike std::visit.
-template <size_t I = 0, class Variant, class F>
-HWY_ATTR inline decltype(auto) with_alternative(Variant& v, F&& f) {
-  if constexpr (I + 1 == std::variant_size_v<std::remove_cvref_t<Variant>>) {
-    return f(*std::get_if<I>(&v));
-  } else {
-    if (v.index() == I) return f(*std::get_if<I>(&v));
-    return with_alternative<I + 1>(v, f);
-  }
-}
-
-/// A law over packs, with the series that its normal force needs.
-template <class P, class Law>
-struct LawWork {
-  using Force = decltype(std::declval<Law>().normal(Leaf<P, 0>(), Leaf<P, 1>()));
-  Force force;
-
-  explicit LawWork(const Law& law) : force(law.normal(Leaf<P, 0>(), Leaf<P, 1>())) {}
-  /// Coefficient k of the normal force from those of depth and rate; call for k = 0, 1, 2, ...
-  HWY_ATTR inline P normal(int k, const P& depth, const P& rate) {
-    return force.at(k, depth, rate);
-  }
-};
-
-template <class P, class List>
-struct WorkOf;
-template <class P, class... Laws>
-struct WorkOf<P, std::variant<Laws...>> {
-  using type = std::variant<LawWork<P, Laws>...>;
-};
-template <class P>
-using AnyLawWork = typename WorkOf<P, AnyContactLaw<P>>::type;
-
-/// Copies the parameters of a law into a lane, field by field.
-template <size_t I = 0, class P>
-HWY_ATTR void set_law(AnyContactLaw<P>& to, const AnyContactLaw<>& from, int l) {
-  if constexpr (I < std::variant_size_v<AnyContactLaw<>>) {
-    if (from.index() != I) return set_law<I + 1>(to, from, l);
-    if (to.index() != I) to.template emplace<I>();
-    auto& lanes = std::get<I>(to);
-    const auto& single = std::get<I>(from);
-    using Lanes = std::remove_cvref_t<decltype(lanes)>;
-    using Single = std::remove_cvref_t<decltype(single)>;
-    std::apply(
-        [&](const auto&... of_lanes) HWY_ATTR {
-          std::apply(
-              [&](const auto&... of_single) HWY_ATTR {
-                (set_lane(lanes.*of_lanes.member, l, single.*of_single.member), ...);
-              },
-              Single::fields());
-        },
-        Lanes::fields());
-  }
-}
 
 /// Sets or clears a lane's bit.
 inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
@@ -117,13 +62,17 @@ struct ContactLanes {
   const Pattern::ContactRows& rows;
 
   // parameters
-  P clearance{1.0}, clearance2{1.0}, offset_x{0.0}, offset_y{0.0};
+  P clearance{1.0}, clearance2{1.0}, offset_x{0.0}, offset_y{0.0};  // of the circle
+  P distance_scale{1.0};                                            // of d . d - clearance^2
   P mu{0.0}, rim{0.0}, inverse_width{1.0};  // friction, Omega R, 1 / width of a smoothed sign
   P force_scale{1.0}, slip_scale{1.0};
   P least_depth{0.0};  // at the start of a step, see depth()
   AnyContactLaw<P> law;
-  std::vector<P> ux, uy;  // per of_x, of_y
-  std::vector<P> bx, by;  // per pushed_by_x, pushed_by_y
+  std::vector<P> ux, uy;                              // per of_x, of_y
+  std::vector<P> bx, by;                              // per pushed_by_x, pushed_by_y
+  std::unique_ptr<FaceLanes<P>> face;                 // of a face, whose friction it pushes by
+  const BladeLanes<P>* disk = nullptr;                // of a blade, what it shares with the others
+  P blade_cosine{1.0}, blade_sine{0.0}, excess{0.0};  // of its angle; d . d - clearance^2 at first
   uint64_t continuous = 0, exact = 0, smooth = 0;
 
   // state, a bit per lane
@@ -153,13 +102,18 @@ struct ContactLanes {
         ux(of.of_x.size(), P(0.0)),
         uy(of.of_y.size(), P(0.0)),
         bx(of.pushed_by_x.size(), P(0.0)),
-        by(of.pushed_by_y.size(), P(0.0)) {}
+        by(of.pushed_by_y.size(), P(0.0)),
+        face(of.is_face ? std::make_unique<FaceLanes<P>>(of) : nullptr) {}
 
   HWY_ATTR void load(const ReducedContact& from, const ContactState& state, int l, double turn) {
     const uint64_t bit = uint64_t{1} << l;
     const Friction& f = from.friction;
-    set_lane(clearance, l, from.clearance);
-    set_lane(clearance2, l, Number(from.clearance) * Number(from.clearance));
+    const Number circle = Number(from.clearance) + Number(from.blade.radius);
+    set_lane(clearance, l, circle);
+    set_lane(clearance2, l, circle * circle);
+    set_lane(distance_scale, l, circle * Number(from.clearance));
+    set_lane(blade_cosine, l, from.blade.cosine);
+    set_lane(blade_sine, l, from.blade.sine);
     set_lane(offset_x, l, from.offset(0));
     set_lane(offset_y, l, from.offset(1));
     set_lane(mu, l, f.mu);
@@ -174,6 +128,7 @@ struct ContactLanes {
     for (size_t i = 0; i < uy.size(); ++i) set_lane(uy[i], l, from.U(1, rows.of_y[i]));
     for (size_t i = 0; i < bx.size(); ++i) set_lane(bx[i], l, from.B(rows.pushed_by_x[i], 0));
     for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, from.B(rows.pushed_by_y[i], 1));
+    if (face) face->load(from, l);
     put(continuous, bit, is_continuous(from.law));
     put(exact, bit, f.is_exact());
     put(smooth, bit, f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
@@ -234,6 +189,7 @@ struct ContactLanes {
   /// Coefficient 0 of displacement, distance squared, distance.
   template <int Bodies = 0>
   HWY_ATTR inline void first_geometry(const P* x) {
+    if (Bodies == 0 && disk) return blade_geometry(0, is_evaluated);
     P x0, y0;
     displacement<Bodies>(x, x0, y0);
     dx[0] = x0 = x0 - offset_x;
@@ -250,6 +206,7 @@ struct ContactLanes {
   /// Coefficient k > 0 of the same; the newest terms come last, which shortens the chain.
   template <int Bodies = 0>
   HWY_ATTR inline void geometry(const P* x, int k, bool with_distance) {
+    if (Bodies == 0 && disk) return blade_geometry(k, with_distance);
     P xk, yk;
     displacement<Bodies>(x, xk, yk);
     dx[k] = xk;
@@ -276,12 +233,40 @@ struct ContactLanes {
     r[k] = (sk - rr) * half_inverse_r;
   }
 
+  /// The same of a blade, for any k, from what its disk does.
+  HWY_ATTR void blade_geometry(int k, bool with_distance) {
+    const P turned = fma(blade_cosine, disk->along[k], blade_sine * disk->across[k]);
+    s[k] = fma(disk->radius + disk->radius, turned, disk->square[k]);
+    if (k == 0) {
+      excess = s[0] - disk->within;
+      s[0] = excess + clearance2;
+    }
+    if (!with_distance) return;
+    const P along_x = fnma(disk->sine[k], blade_sine, disk->cosine[k] * blade_cosine);
+    const P along_y = fma(disk->cosine[k], blade_sine, disk->sine[k] * blade_cosine);
+    dx[k] = fma(disk->radius, along_x, disk->ux[k]);
+    dy[k] = fma(disk->radius, along_y, disk->uy[k]);
+    if (k == 0) {
+      r[0] = sqrt(select(evaluated, s[0], clearance2));
+      inverse_r = P(1.0) / r[0];
+      half_inverse_r = P(0.5) * inverse_r;
+      return;
+    }
+    P rest = s[k];
+    for (int i = 1; i < k; ++i) rest = fnma(r[i], r[k - i], rest);
+    r[k] = rest * half_inverse_r;
+  }
+
   /// Coefficient k of the depth. A law that has no Taylor series at the surface starts its step just
   /// below it, where its force is still nothing; steps near the surface are short by themselves.
   HWY_ATTR inline P depth(int k) const {
     P d = r[k];
-    if (k == 0) d = max(d - clearance, least_depth);
+    if (k == 0) d = max(disk ? first_depth_of_blade() : d - clearance, least_depth);
     return d;
+  }
+
+  HWY_ATTR P first_depth_of_blade() const {
+    return select(evaluated, excess, P(0.0)) / (r[0] + clearance);
   }
 
   /// Rate of the distance, coefficient k; for laws that know it, geometry is one coefficient ahead.
@@ -306,6 +291,7 @@ struct ContactLanes {
     q[k] = qk;
     px = fma(qk, dx[0], px);
     py = fma(qk, dy[0], py);
+    if (Bodies == 0 && face) return face_force(k, px, py);
     fx = fnma(share, py, px);
     fy = fma(share, px, py);
     if (Bodies > 0 || !any_has_tau) return;
@@ -316,6 +302,23 @@ struct ContactLanes {
     }
     fx = select(has_tau, px, fx);
     fy = select(has_tau, py, fy);
+  }
+
+  /// The same of a face from coefficient k of q d: normal force and friction apart.
+  HWY_ATTR void face_force(int k, const P& of_x, const P& of_y) {
+    fx = of_x;
+    fy = of_y;
+    face->fx = -(share * of_y);
+    face->fy = share * of_x;
+    if (!any_has_tau) return;
+    tau[k] = friction(k);
+    P tx(0.0), ty(0.0);
+    for (int i = 0; i <= k; ++i) {
+      tx = fnma(tau[i], dy[k - i], tx);
+      ty = fma(tau[i], dx[k - i], ty);
+    }
+    face->fx = select(has_tau, tx, face->fx);
+    face->fy = select(has_tau, ty, face->fy);
   }
 
   /// Adds coefficient k of d x d' to a sum;  d'_i = (i + 1) d_{i+1}.
@@ -331,8 +334,8 @@ struct ContactLanes {
   /// tau_k of lanes that slide smoothly; zero in sticking ones, for which it is solved later.
   HWY_ATTR P friction(int k) {
     if (smooth == 0) return P(0.0);
-    // slip velocity rim + (d x d') / r, over the width
-    P cross = add_turn(P(0.0), k);
+    // slip velocity rim + (d x d') / r, of a face rim + (d x w) / r, over the width
+    P cross = face ? face->turn(dx, dy, k) : add_turn(P(0.0), k);
     for (int i = 1; i <= k; ++i) cross = fnma(r[i], turn_rate[k - i], cross);
     turn_rate[k] = cross * inverse_r;
     slip[k] = (k == 0 ? rim + turn_rate[0] : turn_rate[k]) * inverse_width;
@@ -373,6 +376,33 @@ struct ContactLanes {
     }
   }
 };
+
+/// What the blades of each contact share, known to them.
+template <class P>
+std::vector<std::unique_ptr<BladeLanes<P>>> disks_of(const Pattern& pattern,
+                                                     std::vector<ContactLanes<P>>& contacts) {
+  std::vector<std::unique_ptr<BladeLanes<P>>> disks;
+  for (const Pattern::BladeGroup& group : pattern.blade_groups) {
+    disks.push_back(std::make_unique<BladeLanes<P>>());
+    disks.back()->first = group.first;
+    disks.back()->count = group.count;
+    for (size_t i = 0; i < group.count; ++i) contacts[group.first + i].disk = disks.back().get();
+  }
+  return disks;
+}
+
+/// Coefficient k of the displacement of a disk, and what follows from it for its blades.
+template <class P>
+HWY_ATTR inline void extend(BladeLanes<P>& disk, const std::vector<ContactLanes<P>>& contacts,
+                            const P* x, int k) {
+  const ContactLanes<P>& blade = contacts[disk.first];
+  blade.displacement(x, disk.ux[k], disk.uy[k]);
+  if (k == 0) {
+    disk.ux[0] = disk.ux[0] - blade.offset_x;
+    disk.uy[0] = disk.uy[0] - blade.offset_y;
+  }
+  disk.extend(k);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace whirl

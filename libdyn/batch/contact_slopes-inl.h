@@ -48,6 +48,7 @@ struct ContactSlopes {
   SeriesMatrix<P> J, H;
   P normal_by_depth[P::most_terms], normal_by_rate[P::most_terms];
   bool has_H = false;
+  std::unique_ptr<SeriesMatrix<P>> J_t;  ///< J of a face's friction, apart; its H is all friction's
 
   HWY_ATTR void find(const ContactLanes<P>& c, int N) {
     derivatives_of_law(c, N);
@@ -78,7 +79,8 @@ struct ContactSlopes {
       J.xx[k] = J.xx[k] + c.q[k];
       J.yy[k] = J.yy[k] + c.q[k];
     }
-    if (c.rows.has_friction) add_friction(c, N);
+    if (c.rows.has_friction && !c.face) add_friction(c, N);
+    if (c.rows.has_friction && c.face) find_friction_of_face(c, N);
   }
 
  private:
@@ -116,7 +118,7 @@ struct ContactSlopes {
       }
       turn_by(J, phi, N);
       turn_by(H, phi, N);
-      add_slip(c, smooth, N);
+      add_slip(c, smooth, N, J);
     }
     if (c.sticking == 0) return;
     for (int k = 0; k <= N; ++k) {
@@ -124,6 +126,28 @@ struct ContactSlopes {
       J.xy[k] = J.xy[k] - tau;
       J.yx[k] = J.yx[k] + tau;
     }
+  }
+
+  /// phi rot J and the part of the slip, which does not act where the normal force does.
+  HWY_ATTR void find_friction_of_face(const ContactLanes<P>& c, int N) {
+    if (!J_t) J_t = std::make_unique<SeriesMatrix<P>>();
+    const auto smooth = mask_of<P>(c.smooth & c.touching);
+    P phi[P::most_terms], back_x[P::most_terms], back_y[P::most_terms];
+    for (int k = 0; k <= N; ++k) {
+      phi[k] = k == 0 ? c.share : P(0.0);
+      if (c.smooth != 0) phi[k] = select(smooth, c.mu * c.sine[k], phi[k]);
+    }
+    const auto turned = [&](const P* x, const P* y, P* to_x, P* to_y) HWY_ATTR {
+      multiply(phi, y, back_x, N);
+      multiply(phi, x, back_y, N);
+      for (int k = 0; k <= N; ++k) {
+        to_x[k] = -back_x[k];
+        to_y[k] = back_y[k];
+      }
+    };
+    turned(J.xx, J.yx, J_t->xx, J_t->yx);
+    turned(J.xy, J.yy, J_t->xy, J_t->yy);
+    if (c.smooth != 0) add_slip(c, smooth, N, *J_t);
   }
 
   /// m += share rot m, that is rows (x, y) += share (-y, x).
@@ -158,7 +182,8 @@ struct ContactSlopes {
   ///
   ///   q d(phi) = chi ((d(d) x d' + d x d(d')) / r - (d x d') / r^3 d . d(d)),  chi = mu q (1 -
   ///   tanh^2 u) / w
-  HWY_ATTR void add_slip(const ContactLanes<P>& c, const typename P::Mask& smooth, int N) {
+  HWY_ATTR void add_slip(const ContactLanes<P>& c, const typename P::Mask& smooth, int N,
+                         SeriesMatrix<P>& to_J) {
     P chi[P::most_terms], a[P::most_terms], b[P::most_terms], px[P::most_terms], py[P::most_terms];
     P vx[P::most_terms], vy[P::most_terms], back[P::most_terms];
     const P factor = c.mu * c.inverse_width;
@@ -170,11 +195,15 @@ struct ContactSlopes {
     divide(a, c.s, b, N, smooth);  // chi (d x d') / r^3
     divide(chi, c.r, a, N, smooth);
     velocity(c, vx, vy, N);
+    if (c.face) {
+      std::copy(c.face->wx, c.face->wx + N + 1, vx);
+      std::copy(c.face->wy, c.face->wy + N + 1, vy);
+    }
     for (int k = 0; k <= N; ++k) {
       px[k] = product_term(a, vy, k) - product_term(b, c.dx, k);
       py[k] = -product_term(a, vx, k) - product_term(b, c.dy, k);
     }
-    J.add(back, c.dx, px, py, N);
+    to_J.add(back, c.dx, px, py, N);
     multiply(a, back, px, N);
     multiply(a, c.dx, py, N);
     H.add(back, c.dx, px, py, N);

@@ -48,6 +48,7 @@ class Engine {
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
     falls_.resize(contacts_.size());
+    disks_ = disks_of(pattern, contacts_);
     for (const Pattern::ContactRows& rows : pattern.contacts) {
       is_analytic_ = is_analytic_ && rows.is_analytic;
     }
@@ -149,6 +150,7 @@ class Engine {
 
   // engine_events-inl.h
   HWY_ATTR uint64_t find_events(P& h);
+  HWY_ATTR bool is_out_of_reach(const BladeLanes<P>& disk, const P& h) const;
   HWY_ATTR void watch_force(size_t i, P& h);
   HWY_ATTR void watch_slip(size_t i, P& h);
   HWY_ATTR void watch_stick(size_t i, P& h);
@@ -194,8 +196,9 @@ class Engine {
   EquationLanes<P> equations_;
   std::vector<P> scale_;
   std::vector<ContactLanes<P>> contacts_;
-  bool is_analytic_ = true;  // all laws are, and there is no film
+  std::vector<std::unique_ptr<BladeLanes<P>>> disks_;  // of contacts with blades
   std::vector<std::unique_ptr<FilmLanes<P>>> films_;
+  bool is_analytic_ = true;  // all laws are, and there is no film
   std::vector<AnyLawWork<P>> laws_;
   P rate_{1.0}, period_{1.0};
 
@@ -254,6 +257,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
     contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
   }
   for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
+  for (const auto& disk : disks_) disk->load(s.contacts()[disk->first], l, rate);
   if (has_tangents()) load_tangents(l, s);
   active_ |= bit;
   if (t.revolutions <= 0) finished_ |= bit;
@@ -275,11 +279,12 @@ HWY_ATTR void Engine<P>::unload(int l) {
   t.cost.evaluations += steps * (N + 1);  // one for each coefficient
   t.cost.events += book.events;
   if (options_.measures) {
-    t.contacts.resize(contacts_.size());
+    t.contacts.resize(static_cast<size_t>(t.system->owners()));
     for (size_t c = 0; c < contacts_.size(); ++c) {
       const ContactLanes<P>& from = contacts_[c];
-      ContactMeasure& m = t.contacts[c];
-      m.name = t.system->contacts()[c].name;
+      const ReducedContact& contact = t.system->contacts()[c];
+      ContactMeasure& m = t.contacts[static_cast<size_t>(contact.owner)];
+      m.name = contact.name;
       m.duty += lane(from.duty, l);
       m.sticking += lane(from.stuck, l);
       m.impacts += book.impacts[c];

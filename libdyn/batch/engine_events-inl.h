@@ -26,16 +26,22 @@ HWY_ATTR void Engine<P>::note(size_t i, uint64_t Falls::*kind, const Mask& fell)
 template <class P>
 HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
   std::fill(falls_.begin(), falls_.end(), Falls{});
+  bool is_far = false;
   for (size_t i = 0; i < contacts_.size(); ++i) {
     ContactLanes<P>& c = contacts_[i];
+    if (c.disk) {
+      if (i == c.disk->first) is_far = is_out_of_reach(*c.disk, h);
+      if (is_far && !c.is_evaluated) continue;
+      for (int k = 0; k <= N + 2 && !c.is_evaluated; ++k) c.blade_geometry(k, false);
+    }
     // the distance: apart to touch; in touch to apart where the force vanishes with the depth;
     // beyond the circle without force to apart
     const P s0 = c.s[0];
-    c.s[0] = s0 - c.clearance2;
+    c.s[0] = c.disk ? c.excess : s0 - c.clearance2;
     const uint64_t watched = active_ & (~c.touching | c.continuous);
     const P sign = select(mask_of<P>(c.touching | c.receding), P(1.0), P(-1.0));
     note(i, &Falls::distance,
-         first_fall(c.s, N + 2, sign, c.clearance2, h, mask_of<P>(watched),
+         first_fall(c.s, N + 2, sign, c.distance_scale, h, mask_of<P>(watched),
                     mask_of<P>(c.surface_distance)));
     c.s[0] = s0;
     if (!c.is_evaluated) continue;
@@ -46,6 +52,17 @@ HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
   uint64_t fell = 0;
   for (const Falls& f : falls_) fell |= f.any();
   return fell;
+}
+
+/// Whether a disk stays within the clearance of its blades in all active lanes: a tip is never
+/// farther out than u . u = c^2 would let it be.
+template <class P>
+HWY_ATTR bool Engine<P>::is_out_of_reach(const BladeLanes<P>& disk, const P& h) const {
+  P beyond[P::most_terms], until = h;
+  std::copy(disk.square, disk.square + N + 3, beyond);
+  beyond[0] = beyond[0] - disk.clearance2;
+  const Mask active = mask_of<P>(active_);
+  return !any(h, first_fall(beyond, N + 2, P(-1.0), disk.clearance2, until, active, mask_of<P>(0)));
 }
 
 /// A damped law lets go where its force vanishes, and grips again where it would push.

@@ -49,6 +49,10 @@ HWY_ATTR void Engine<P>::series() {
   laws_.clear();
   for (ContactLanes<P>& c : contacts_) {
     c.begin(active_);
+    if (c.disk && !c.is_evaluated) {  // most of many blades: nothing is built for their force
+      laws_.emplace_back(std::in_place_type<LawWork<P, Radial<P>>>, Radial<P>{});
+      continue;
+    }
     with_alternative(c.law, [&](const auto& law) HWY_ATTR {
       using Law = std::remove_cvref_t<decltype(law)>;
       laws_.emplace_back(std::in_place_type<LawWork<P, Law>>, law);
@@ -73,24 +77,37 @@ HWY_ATTR void Engine<P>::series_of() {
   std::copy(y_.begin(), y_.end(), term(0));
   bool any_sticks = false;
   for (const ContactLanes<P>& c : contacts_) any_sticks = any_sticks || (c.sticking & active_) != 0;
+  if (Bodies == 0) {
+    for (const auto& disk : disks_) {
+      disk->start(time_);
+      extend(*disk, contacts_, term(0), 0);
+    }
+  }
   P in_registers[Bodies > 0 ? 2 * Bodies : 1];
   for (int k = 0; k <= N; ++k) {
     P* next = term(k + 2);
     P* acceleration = Bodies > 0 ? in_registers : next;
+    if (Bodies == 0) {
+      for (const auto& disk : disks_) extend(*disk, contacts_, term(k + 1), k + 1);
+    }
     for (size_t i = 0; i < contacts; ++i) {  // before all else: this takes longest
       ContactLanes<P>& c = contacts_[i];
+      if (Bodies == 0 && c.disk && !c.is_evaluated) continue;  // in find_events, if at all
       if (k == 0) c.template first_geometry<Bodies>(term(0));
       if (Bodies == 0 && c.is_ahead) {
         c.geometry(term(k + 1), k + 1, true);
       } else if (k > 0) {
         c.template geometry<Bodies>(term(k), k, c.is_evaluated);
       }
+      if (Bodies == 0 && c.face && c.is_ahead) c.face->velocity(term(k + 1), k);
       if (c.is_evaluated) c.template force<Bodies>(laws_[i], k);
     }
     accelerate<Bodies>(k, sine, cosine, acceleration);
     for (size_t i = 0; i < contacts; ++i) {
       const ContactLanes<P>& c = contacts_[i];
-      if (c.is_evaluated) c.template push<Bodies>(acceleration, c.fx, c.fy);
+      if (!c.is_evaluated) continue;
+      c.template push<Bodies>(acceleration, c.fx, c.fy);
+      if (Bodies == 0 && c.face) c.face->push(acceleration, c.face->fx, c.face->fy);
     }
     if constexpr (Bodies == 0) {
       for (const auto& film : films_) film->add(term(k), term(k + 1), k, acceleration);
@@ -104,8 +121,12 @@ HWY_ATTR void Engine<P>::series_of() {
     cosine = turned;
   }
   // to be as good as the state, the square of the distance needs two more
+  if (Bodies == 0) {
+    for (const auto& disk : disks_) extend(*disk, contacts_, term(N + 2), N + 2);
+  }
   for (size_t i = 0; i < contacts; ++i) {
     ContactLanes<P>& c = contacts_[i];
+    if (Bodies == 0 && c.disk && !c.is_evaluated) continue;
     if (!c.is_ahead) c.template geometry<Bodies>(term(N + 1), N + 1, false);
     c.template geometry<Bodies>(term(N + 2), N + 2, false);
   }

@@ -26,7 +26,10 @@ HWY_ATTR P Engine<P>::step_length() {
     before = max(before, in_b);
     sum = sum + in_a + in_b;  // unlike a maximum, it never loses what is no number
   }
-  finite_ = less(sum, P(1e300));
+  // quadruple numbers reach further, and need to: with a law that has no Taylor series at a surface,
+  // the last of thirty terms gets there
+  const P huge(1e300);
+  finite_ = less(sum, P::is_double ? huge : huge * huge * huge);
   P size(0.0);
   for (int i = 0; i < n_; ++i)
     size = max(size, abs(y_[static_cast<size_t>(i)]) * scale_[static_cast<size_t>(i)]);
@@ -210,11 +213,17 @@ HWY_ATTR inline P top(const P& a, const P& b, const P& c) {
 template <class P>
 HWY_ATTR void Engine<P>::measure(const P& h) {
   constexpr int intervals = 8;
+  for (const auto& disk : disks_) {  // with any blade
+    uint64_t touching = 0;
+    for (size_t i = 0; i < disk->count; ++i) touching |= contacts_[disk->first + i].touching;
+    P& duty = contacts_[disk->first].duty;
+    duty = duty + select(mask_of<P>(touching & active_), h, P(0.0));
+  }
   for (ContactLanes<P>& c : contacts_) {
     const uint64_t touching = c.touching & active_;
     if (touching == 0) continue;
     const Mask in_touch = mask_of<P>(touching);
-    c.duty = c.duty + select(in_touch, h, P(0.0));
+    if (!c.disk) c.duty = c.duty + select(in_touch, h, P(0.0));
     c.stuck = c.stuck + select(mask_of<P>(c.sticking & active_), h, P(0.0));
     P normal[intervals + 1], friction[intervals + 1], unused;
     for (int j = 0; j <= intervals; ++j) {

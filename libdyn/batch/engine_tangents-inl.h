@@ -25,7 +25,7 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
   t.log_sums.assign(size, P(0.0));
   t.weights.assign(size, P(1.0));
   t.weighted.assign(size, P(0.0));
-  t.forces.assign(4 * contacts_.size(), P(0.0));
+  t.forces.assign(8 * contacts_.size(), P(0.0));  // the second half: friction of faces
   t.slopes.resize(contacts_.size());
   t.film_slopes.resize(films_.size());
   for (auto& track : t.tracks) {
@@ -74,7 +74,8 @@ HWY_ATTR P Engine<P>::limit_for_tangents(const P& h) {
     if ((c.touching & active_) == 0) continue;
     t.slopes[i].find(c, N);
     const SeriesMatrix<P>&J = t.slopes[i].J, &H = t.slopes[i].H;
-    const P stiffness = J.size(0) + J.size(1) * h;
+    P stiffness = J.size(0) + J.size(1) * h;
+    if (t.slopes[i].J_t) stiffness = stiffness + t.slopes[i].J_t->size(0);
     const P damping = t.slopes[i].has_H ? t.gain[i] * H.size(0) : P(0.0);
     const P both_rates = fma(damping, damping, t.gain[i] * stiffness);
     square = square + select(c.in_touch, both_rates, P(0.0));
@@ -108,6 +109,11 @@ HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces, P* to
     if ((contact.touching & active_) == 0) continue;
     contact.template push<Bodies>(to_a, forces[0], forces[1]);
     contact.template push<Bodies>(to_b, forces[2], forces[3]);
+    if (Bodies == 0 && contact.face) {
+      const P* friction = forces + 4 * contacts;
+      contact.face->push(to_a, friction[0], friction[1]);
+      contact.face->push(to_b, friction[2], friction[3]);
+    }
   }
   if (Bodies > 0) return;
   for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
@@ -160,13 +166,19 @@ template <class P>
 HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
   const ContactLanes<P>& c = contacts_[i];
   const SeriesMatrix<P>& H = tangents_->slopes[i].H;
-  P xx(0.0), xy(0.0), yx(0.0), yy(0.0);  // of U B
-  work_.assign(static_cast<size_t>(n_), P(0.0));
-  c.push(work_.data(), P(-1.0), P(0.0));
-  c.displacement(work_.data(), xx, yx);
-  work_.assign(static_cast<size_t>(n_), P(0.0));
-  c.push(work_.data(), P(0.0), P(-1.0));
-  c.displacement(work_.data(), xy, yy);
+  P xx(0.0), xy(0.0), yx(0.0), yy(0.0);  // of U B, of a face of V B_t
+  const auto effect = [&](const P& fx, const P& fy, P& to_x, P& to_y) HWY_ATTR {
+    work_.assign(static_cast<size_t>(n_), P(0.0));
+    if (c.face) {
+      c.face->push(work_.data(), fx, fy);
+      c.face->lateral(work_.data(), to_x, to_y);
+    } else {
+      c.push(work_.data(), fx, fy);
+      c.displacement(work_.data(), to_x, to_y);
+    }
+  };
+  effect(P(-1.0), P(0.0), xx, yx);
+  effect(P(0.0), P(-1.0), xy, yy);
   P integral(0.0);
   for (int k = N; k >= 0; --k) {
     const P trace = fma(H.xx[k], xx, fma(H.xy[k], yx, fma(H.yx[k], xy, H.yy[k] * yy)));
@@ -189,7 +201,7 @@ HWY_ATTR void Engine<P>::move_columns(P* columns, bool any_sticks, const P& h) {
   P* forces = Bodies > 0 ? local_forces : t.forces.data();
   for (int k = 0; k <= N; ++k) {
     const P *now = t.term(first, k), *other = t.term(second, k);
-    std::fill(forces, forces + 4 * contacts, P(0.0));
+    std::fill(forces, forces + (Bodies > 0 ? 4 : 8 * contacts), P(0.0));
     for (size_t i = 0; i < contacts; ++i) {
       const ContactLanes<P>& c = contacts_[i];
       if ((c.touching & active_) == 0) continue;
@@ -203,11 +215,15 @@ HWY_ATTR void Engine<P>::move_columns(P* columns, bool any_sticks, const P& h) {
         const P whole(k + 1.0);
         for (auto [column, rate] : {std::pair(&u, now + n), std::pair(&w, other + n)}) {
           P vx, vy;
-          c.displacement(rate, vx, vy);
+          c.face ? c.face->lateral(rate, vx, vy) : c.displacement(rate, vx, vy);
           column->vx[k] = whole * vx;
           column->vy[k] = whole * vy;
         }
-        add_slope_forces(slopes.H, u.vx, u.vy, w.vx, w.vy, k, of_contact);
+        P* of_rate = c.face ? of_contact + 4 * contacts : of_contact;
+        add_slope_forces(slopes.H, u.vx, u.vy, w.vx, w.vy, k, of_rate);
+      }
+      if (Bodies == 0 && slopes.J_t) {
+        add_slope_forces(*slopes.J_t, u.dx, u.dy, w.dx, w.dy, k, of_contact + 4 * contacts);
       }
     }
     P *next_a = t.term(first, k + 2), *next_b = t.term(second, k + 2);

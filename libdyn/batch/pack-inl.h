@@ -95,6 +95,8 @@ struct alignas(8 * L) Pack {
 WHIRL_UNARY(operator-, hn::Neg(a))
 WHIRL_UNARY(abs, hn::Abs(a))
 WHIRL_UNARY(sqrt, hn::Sqrt(a))
+WHIRL_UNARY(sinh, hn::Sinh(typename Pack<L, B>::D(), a))
+WHIRL_UNARY(asinh, hn::Asinh(typename Pack<L, B>::D(), a))
 WHIRL_UNARY(tanh, hn::Tanh(typename Pack<L, B>::D(), a))
 WHIRL_UNARY(log, hn::Log(typename Pack<L, B>::D(), a))
 WHIRL_BINARY(operator+, hn::Add(a, c))

@@ -14,7 +14,8 @@ void insert(std::vector<int>& sorted, int value) {
 }
 
 int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
-  if (!p.films.empty() || p.contacts.size() != 1 || p.contacts[0].has_rate || p.off_diagonals > 0)
+  if (!p.films.empty() || p.contacts.size() != 1 || p.contacts[0].has_rate ||
+      p.contacts[0].is_face || !p.blade_groups.empty() || p.off_diagonals > 0)
     return 0;
   for (const ContactSystem* s : systems) {
     for (int i = 2; i < p.n; ++i) {
@@ -53,6 +54,16 @@ void add_films(Pattern& p, const ContactSystem& s) {
   }
 }
 
+void insert_friction(Pattern::ContactRows& rows, const ReducedContact& face, int n) {
+  rows.is_face = true;
+  for (int j = 0; j < n; ++j) {
+    if (face.V(0, j) != 0.0) insert(rows.slips_by_x, j);
+    if (face.V(1, j) != 0.0) insert(rows.slips_by_y, j);
+    if (face.B_t(j, 0) != 0.0) insert(rows.rubbed_x, j);
+    if (face.B_t(j, 1) != 0.0) insert(rows.rubbed_y, j);
+  }
+}
+
 }  // namespace
 
 Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
@@ -66,6 +77,11 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     const AnyContactLaw<>& law = systems.front()->contacts()[c].law;
     p.contacts[c].law = law.index();
     p.contacts[c].is_analytic = is_analytic(law);
+    const ReducedContact& contact = systems.front()->contacts()[c];
+    if (!contact.is_blade()) continue;
+    if (contact.blade.number == 0) p.blade_groups.push_back({c, 0});
+    ++p.blade_groups.back().count;
+    p.contacts[c].group = static_cast<int>(p.blade_groups.size()) - 1;
   }
   for (const ReducedFilm& film : systems.front()->films()) p.films.push_back({.law = film.law});
   for (const ContactSystem* s : systems) {
@@ -84,6 +100,9 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     for (std::size_t c = 0; c < p.contacts.size(); ++c) {
       const ReducedContact& contact = s->contacts()[c];
       ContactRows& rows = p.contacts[c];
+      if (contact.owner != systems.front()->contacts()[c].owner) {
+        throw NumericalError("the systems of a batch must have as many blades at their contacts");
+      }
       if (contact.law.index() != rows.law) {
         throw NumericalError("the systems of a batch must have the same laws at their contacts");
       }
@@ -93,6 +112,7 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
         if (contact.B(j, 0) != 0.0) insert(rows.pushed_by_x, j);
         if (contact.B(j, 1) != 0.0) insert(rows.pushed_by_y, j);
       }
+      if (contact.is_face()) insert_friction(rows, contact, p.n);
       const Friction& f = contact.friction;
       rows.has_rate = rows.has_rate || !is_continuous(contact.law);
       rows.has_friction = rows.has_friction || f.mu > 0.0;

@@ -19,7 +19,11 @@ struct Pattern {
   struct ContactRows {
     std::vector<int> of_x, of_y;                ///< coordinates that move the contact in x, in y
     std::vector<int> pushed_by_x, pushed_by_y;  ///< coordinates that its force accelerates
-    bool has_rate = false;                      ///< the law depends on the rate of the depth
+    /// Of a face: coordinates whose rates are in the slip, that friction accelerates.
+    std::vector<int> slips_by_x, slips_by_y, rubbed_x, rubbed_y;
+    bool is_face = false;
+    int group = -1;         ///< of blades, in blade_groups
+    bool has_rate = false;  ///< the law depends on the rate of the depth
     bool has_friction = false;
     bool has_smooth_friction = false;  ///< tanh of the slip
     std::size_t law = 0;               ///< index in AnyContactLaw
@@ -36,6 +40,12 @@ struct Pattern {
   int off_diagonals = 0;                  ///< coefficients in all of them
   std::vector<ContactRows> contacts;
   std::vector<FilmRows> films;
+
+  /// Contacts of the model that have blades: which of `contacts` these are.
+  struct BladeGroup {
+    std::size_t first = 0, count = 0;
+  };
+  std::vector<BladeGroup> blade_groups;
 
   /// How many bodies there are, where the coordinates are their (x, y), the first alone is out of
   /// balance, and nothing couples them but a contact that all are in, whose law does not know the

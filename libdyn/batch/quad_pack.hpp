@@ -70,6 +70,12 @@ inline QuadPack abs(const QuadPack& a) {
 inline QuadPack sqrt(const QuadPack& a) {
   return sqrtq(a.x);
 }
+inline QuadPack sinh(const QuadPack& a) {
+  return sinhq(a.x);
+}
+inline QuadPack asinh(const QuadPack& a) {
+  return asinhq(a.x);
+}
 inline QuadPack tanh(const QuadPack& a) {
   return tanhq(a.x);
 }

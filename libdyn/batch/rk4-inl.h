@@ -39,6 +39,7 @@ class Rk4Lanes {
     for (const Pattern::FilmRows& rows : pattern.films) {
       films_.push_back(std::make_unique<FilmLanes<P>>(rows, 0, false));
     }
+    disks_ = disks_of(pattern, contacts_);
   }
 
   /// Integrates at most as many trajectories as there are lanes.
@@ -93,6 +94,7 @@ class Rk4Lanes {
       contacts_[c].load(s.contacts()[c], {}, l, s.phase_rate());
     }
     for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
+    for (const auto& disk : disks_) disk->load(s.contacts()[disk->first], l, s.phase_rate());
     for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
     set_lane(rate_, l, s.phase_rate());
     set_lane(period_, l, s.period());
@@ -158,6 +160,10 @@ class Rk4Lanes {
       for (const int j : row.of_x) a[row.i] = fnma(*factor++, y[j], a[row.i]);
       for (const int j : row.of_rate) a[row.i] = fnma(*factor++, y[n_ + j], a[row.i]);
     }
+    for (const auto& disk : disks_) {
+      disk->sine[0] = disk->turns * sine;
+      disk->cosine[0] = fma(disk->turns, cosine, P(1.0) - disk->turns);
+    }
     for (const ContactLanes<P>& c : contacts_) push(c, y, a);
     for (const auto& film : films_) film->add_force(y, n_, a, thinnest_);
   }
@@ -168,10 +174,23 @@ class Rk4Lanes {
     c.displacement(y, dx, dy);
     dx = dx - c.offset_x;
     dy = dy - c.offset_y;
+    P tip_x(0.0), tip_y(0.0);  // of a blade, from the disk's centre
+    if (c.disk) {
+      const P &cosine = c.disk->cosine[0], &sine = c.disk->sine[0];
+      tip_x = c.disk->radius * fnma(sine, c.blade_sine, cosine * c.blade_cosine);
+      tip_y = c.disk->radius * fma(cosine, c.blade_sine, sine * c.blade_cosine);
+      dx = dx + tip_x;
+      dy = dy + tip_y;
+    }
     const P s = fma(dx, dx, dy * dy);
     const Mask beyond = less(c.clearance2, s);
     if (!any(s, beyond)) return;
     c.displacement(y + n_, vx, vy);
+    if (c.disk) {
+      const P spin = c.disk->turns * c.disk->rate;
+      vx = fnma(spin, tip_y, vx);
+      vy = fma(spin, tip_x, vy);
+    }
     const P r = sqrt(select(beyond, s, c.clearance2)), inverse_r = P(1.0) / r;
     const P rate = fma(dx, vx, dy * vy) * inverse_r;
     const P N = with_alternative(
@@ -181,10 +200,16 @@ class Rk4Lanes {
       c.push(a, q * dx, q * dy);
       return;
     }
+    if (c.face) c.face->lateral(y + n_, vx, vy);
     const P slip = fma(fma(dx, vy, -(dy * vx)), inverse_r, c.rim);
     P share = select(both(mask_of<P>(c.exact), less(slip, P(0.0))), P(-1.0), P(1.0));
     if (c.smooth != 0) share = select(mask_of<P>(c.smooth), tanh(slip * c.inverse_width), share);
     const P tau = c.mu * share * q;
+    if (c.face) {
+      c.push(a, q * dx, q * dy);
+      c.face->push(a, -(tau * dy), tau * dx);
+      return;
+    }
     c.push(a, fnma(tau, dy, q * dx), fma(tau, dx, q * dy));
   }
 
@@ -201,6 +226,7 @@ class Rk4Lanes {
   std::vector<ContactLanes<P>> contacts_;
   std::vector<std::unique_ptr<FilmLanes<P>>> films_;
   P thinnest_{1.0};  // gap of a film in this revolution, 1 - x^2 - y^2
+  std::vector<std::unique_ptr<BladeLanes<P>>> disks_;
   P rate_{1.0}, period_{1.0};
   std::vector<P> y_, start_;  // now, and at the start of the revolution
   P time_{0.0};               // of the start

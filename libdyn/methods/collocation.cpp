@@ -274,17 +274,23 @@ Run::Result Run::finish(long last) {
 Integration Collocation::integrate(const ContactSystem& system, MotionState& state,
                                    long revolutions, const IntegrationOptions& options,
                                    const Observer& observer) {
-  if (!system.films().empty()) {
-    throw ModelError({}, "--method",
-                     "collocation cannot compute oil films, which carry without a pause: use "
-                     "taylor, the default, or any other method");
+  if (!suits_collocation(system)) {
+    throw ModelError({}, "--method collocation",
+                     system.films().empty()
+                         ? "is for contacts of rings only; take taylor for faces and blades"
+                         : "cannot compute oil films, which carry without a pause; take taylor");
   }
   return Run(system, state, options, observer).go(state.revolution + revolutions);
 }
 
+bool suits_collocation(const ContactSystem& system) {
+  return system.films().empty() &&
+         std::all_of(system.contacts().begin(), system.contacts().end(),
+                     [](const ReducedContact& c) { return geometry_of(c.law) == Geometry::ring; });
+}
+
 bool prefers_collocation(const ContactSystem& system) {
-  if (!system.films().empty()) return false;
-  return fastest_mode(system) > 10.0 * contact_frequency(system);
+  return suits_collocation(system) && fastest_mode(system) > 10.0 * contact_frequency(system);
 }
 
 }  // namespace whirl

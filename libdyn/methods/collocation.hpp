@@ -23,9 +23,14 @@ struct Collocation {
 
   /// Integrates over whole revolutions from where the state is; see Dop853::integrate. Only with an
   /// observer is dense output made.
+  /// @throws ModelError  for other systems than suits_collocation says
   static Integration integrate(const ContactSystem& system, MotionState& state, long revolutions,
                                const IntegrationOptions& options, const Observer& observer);
 };
+
+/// Whether all contacts are of rings and there are no oil films: other forces are not among its
+/// polynomials.
+bool suits_collocation(const ContactSystem& system);
 
 /// Whether the fastest mode is so much faster than the contacts (|lambda| > 10 w_c) that the
 /// steps of Taylor series are limited by it, and collocation is the cheaper method.

@@ -2,9 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <numbers>
 
 namespace whirl {
+
+namespace {
+
+/// The blade of a contact whose tip is farthest out.
+int deepest_blade(const ContactSystem& system, const MotionState& state, int owner) {
+  int deepest = 0;
+  double depth = -std::numeric_limits<double>::infinity();
+  for (const ReducedContact& c : system.contacts()) {
+    if (c.owner != owner) continue;
+    const double d = kinematics(c, state.phase, state.y.data(), system.coordinates()).depth;
+    if (d <= depth) continue;
+    depth = d;
+    deepest = c.blade.number;
+  }
+  return deepest;
+}
+
+}  // namespace
 
 std::string diagnosis(const ContactSystem& system, const MotionState& state,
                       std::string_view what) {
@@ -12,10 +31,11 @@ std::string diagnosis(const ContactSystem& system, const MotionState& state,
   std::string contacts;
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const ReducedContact& c = system.contacts()[i];
-    const ContactForces f = kinematics(c, state.y.data(), system.coordinates());
+    if (c.is_blade() && c.blade.number != deepest_blade(system, state, c.owner)) continue;
+    const ContactForces f = kinematics(c, state.phase, state.y.data(), system.coordinates());
     contacts += fmt::format(
         "; contact \"{}\" {}, {:.4g} clearances from its centre, slip {:.3g} m/s", c.name,
-        words[static_cast<int>(state.contacts[i].touch)], f.r / c.clearance, f.slip);
+        words[static_cast<int>(state.contacts[i].touch)], 1.0 + f.depth / c.clearance, f.slip);
   }
   for (const ReducedFilm& film : system.films()) {
     contacts += fmt::format("; journal of oil film \"{}\" at {:.8g} of its clearance", film.name,

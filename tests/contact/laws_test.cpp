@@ -113,7 +113,8 @@ TYPED_TEST(EveryLaw, HasAReadableTableOfFields) {
           EXPECT_EQ(f.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_"),
                     std::string_view::npos)
               << f.name;
-          if (f.range != Range::any) {
+          using Member = std::decay_t<decltype(TypeParam().*(f.member))>;
+          if (f.range != Range::any && std::is_same_v<Member, double>) {
             EXPECT_FALSE(f.unit.empty()) << f.name;  // a number of a law has a dimension
           }
         };

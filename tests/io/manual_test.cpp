@@ -63,7 +63,7 @@ TEST(Manual, NamesNoKeyThatTheReaderDoesNotKnow) {
   const std::string text = manual();
   const std::regex section(R"(\n## `(\[{1,2})(\w+)(\.NAME)?\]{1,2}`\n)");
   const std::regex row(R"(\n\| (`\w+`(?:, `\w+`)*) \|)"), key(R"(`(\w+)`)");
-  const std::regex law(R"re(\n\| `"(\w+)"` \|[^|]*\|([^|]*)\|)re");
+  const std::regex law(R"re(\n\| `"([\w-]+)"` \|[^|]*\|([^|]*)\|)re");
   int keys = 0, laws = 0;
   for (std::sregex_iterator s(text.begin(), text.end(), section), end; s != end; ++s) {
     const auto from = static_cast<std::size_t>(s->position() + s->length());

@@ -1,0 +1,81 @@
+// What a face contact has beside other contacts: its friction acts elsewhere than its normal force.
+
+#if defined(WHIRL_FACE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_FACE_LANES_INL_H
+#undef WHIRL_FACE_LANES_INL_H
+#else
+#define WHIRL_FACE_LANES_INL_H
+#endif
+
+#include <vector>
+
+#include "libdyn/batch/pack-inl.h"
+#include "libdyn/batch/pattern.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// Friction of a face in all lanes: the lateral velocity of its slip, the coordinates it pushes.
+template <class P>
+struct FaceLanes {
+  const Pattern::ContactRows& rows;
+  std::vector<P> vx, vy;                             // per slips_by_x, slips_by_y
+  std::vector<P> bx, by;                             // per rubbed_x, rubbed_y
+  P wx[P::most_terms] = {}, wy[P::most_terms] = {};  // lateral velocity V eta'
+  P fx{0.0}, fy{0.0};  // newest coefficient of the friction on the rotor, sign reversed
+
+  explicit FaceLanes(const Pattern::ContactRows& of)
+      : rows(of),
+        vx(of.slips_by_x.size(), P(0.0)),
+        vy(of.slips_by_y.size(), P(0.0)),
+        bx(of.rubbed_x.size(), P(0.0)),
+        by(of.rubbed_y.size(), P(0.0)) {}
+
+  HWY_ATTR void load(const ReducedContact& from, int l) {
+    for (size_t i = 0; i < vx.size(); ++i) set_lane(vx[i], l, from.V(0, rows.slips_by_x[i]));
+    for (size_t i = 0; i < vy.size(); ++i) set_lane(vy[i], l, from.V(1, rows.slips_by_y[i]));
+    for (size_t i = 0; i < bx.size(); ++i) set_lane(bx[i], l, from.B_t(rows.rubbed_x[i], 0));
+    for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, from.B_t(rows.rubbed_y[i], 1));
+  }
+
+  /// V times coordinates or their rates.
+  HWY_ATTR inline void lateral(const P* x, P& to_x, P& to_y) const {
+    to_x = to_y = P(0.0);
+    for (size_t i = 0; i < vx.size(); ++i) to_x = fma(vx[i], x[rows.slips_by_x[i]], to_x);
+    for (size_t i = 0; i < vy.size(); ++i) to_y = fma(vy[i], x[rows.slips_by_y[i]], to_y);
+  }
+
+  /// Coefficient k of the velocity, from coefficient k + 1 of the coordinates.
+  HWY_ATTR inline void velocity(const P* next, int k) {
+    lateral(next, wx[k], wy[k]);
+    const P whole(k + 1.0);
+    wx[k] = whole * wx[k];
+    wy[k] = whole * wy[k];
+  }
+
+  /// Coefficient k of d x w, whose quotient by the distance is in the slip.
+  HWY_ATTR inline P turn(const P* dx, const P* dy, int k) const {
+    P sum(0.0);
+    for (int i = 0; i <= k; ++i) sum = fma(dx[i], wy[k - i], fnma(dy[i], wx[k - i], sum));
+    return sum;
+  }
+
+  /// Adds -force to the accelerations of the coordinates.
+  HWY_ATTR inline void push(P* acceleration, const P& of_x, const P& of_y) const {
+    for (size_t i = 0; i < bx.size(); ++i) {
+      P& a = acceleration[rows.rubbed_x[i]];
+      a = fnma(bx[i], of_x, a);
+    }
+    for (size_t i = 0; i < by.size(); ++i) {
+      P& a = acceleration[rows.rubbed_y[i]];
+      a = fnma(by[i], of_y, a);
+    }
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard
