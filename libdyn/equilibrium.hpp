@@ -12,8 +12,8 @@ namespace whirl {
 ///
 /// Without oil films and where no contact is reached this is the linear sag, else it is found from
 /// there by Newton's method with line search (KINSOL). Films F carry as they do at the speed: the
-/// search starts where springs in their place would let the journals sag, soft and stiff ones in
-/// turn.
+/// search starts where springs in their place would let the journals sag, and if need be with thicker
+/// oil, which is thinned step by step.
 ///
 /// @throws NumericalError  if nothing holds the rotor, or if the iteration does not converge
 Vec equilibrium(const ContactSystem& system);

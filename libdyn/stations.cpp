@@ -21,6 +21,7 @@ std::vector<Label> labels(const Model& model, const Assembler& assembler) {
   std::vector<Label> all;
   for (const Disk& d : model.structure.disks) all.push_back({assembler.point(d.at), d.name});
   for (const Contact& c : model.contacts) all.push_back({assembler.point(c.at), c.name});
+  for (const OilFilm& f : model.films) all.push_back({assembler.point(f.at), f.name});
   for (const Connection& b : model.structure.bearings)
     all.push_back({assembler.point(b.from), b.name});
   return all;

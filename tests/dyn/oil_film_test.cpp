@@ -96,6 +96,42 @@ TEST(OilFilm, CarriesAJournalWhereTheTextbookSays) {
   }
 }
 
+// A shaft of finite elements, reduced to few shapes, that nothing but two films holds: both carry half
+// of its weight, and it starts there.
+TEST(OilFilm, CarriesAReducedShaft) {
+  Model model;
+  model.speed = 300.0;
+  model.has_speed = true;
+  Structure& s = model.structure;
+  s.shaft = {test::cylinder(0.6, 0.04, 12)};
+  s.shaft[0].material = test::steel(7800.0);
+  s.disks = {{.at = test::node(7), .m = 20.0, .Id = 0.1, .Ip = 0.2}};
+  s.unbalances = {{.at = test::node(7), .moment = 4e-4}};
+  s.gravity = 9.81;
+  for (const int node : {2, 12}) {
+    model.films.push_back(
+        {.name = "film",
+         .at = test::node(node),
+         .bearing = {.radius = 0.02, .length = 0.016, .clearance = 5e-5, .viscosity = 0.02}});
+  }
+  const Scene scene = make_scene(model);
+  const ContactSystem& system = scene.contacts;
+  EXPECT_LT(system.coordinates(), 30);
+  const MotionState start = test::start_of(model, scene);
+  const double weight = 9.81 * (20.0 + 7800.0 * pi * 0.02 * 0.02 * 0.6);
+  for (const ReducedFilm& film : system.films()) {
+    const Vec2 force = film_force(film, start.y.data(), system.coordinates());
+    EXPECT_NEAR(force(0), 0.0, 1e-6 * weight);
+    EXPECT_NEAR(force(1), 0.5 * weight, 1e-6 * weight);
+  }
+  MotionState a = start, b = start;
+  const Integration taylor = test::run(scene, a, 2, {.tolerance = 1e-11}),
+                    bdf = test::run(scene, b, 2, {.tolerance = 1e-11, .method = CvodeBdf{}});
+  EXPECT_EQ(taylor.outcome, Outcome::reached_end) << taylor.diagnosis;
+  EXPECT_EQ(bdf.outcome, Outcome::reached_end) << bdf.diagnosis;
+  EXPECT_LT(distance(system, a.y, b.y), 1e-5);
+}
+
 TEST(OilFilm, SaysThatItCarriesNothingWithoutSpin) {
   const MassOnFilm rotor{.Omega = 0.0};
   const Scene scene = rotor.scene();
