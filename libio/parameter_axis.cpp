@@ -31,8 +31,12 @@ std::vector<std::string> split(std::string_view text, char at) {
 
 }  // namespace
 
-std::string ParameterAxis::assignment(std::size_t index) const {
-  return fmt::format("{}={:.17g}{}{}", path, values[index], unit.empty() ? "" : " ", unit);
+std::vector<std::string> ParameterAxis::assignments(std::size_t index) const {
+  std::vector<std::string> all;
+  for (const std::string& one : split(path, ',')) {
+    all.push_back(fmt::format("{}={:.17g}{}{}", one, values[index], unit.empty() ? "" : " ", unit));
+  }
+  return all;
 }
 
 Parsed<ParameterAxis> parse_axis(std::string_view text, int points) {

@@ -8,17 +8,17 @@
 
 namespace whirl {
 
-/// A value of the model that a study varies, and the values it takes.
+/// What a study varies in a model, and the values it takes.
 struct ParameterAxis {
-  std::string path;            ///< such as contact.seal.friction
-  std::string unit;            ///< SI unit of the values; empty: none was written
+  std::string path;  ///< such as contact.seal.friction; several with commas, for one value at all
+  std::string unit;  ///< SI unit of the values; empty: none was written
   std::vector<double> values;  ///< [SI]
 
-  /// The value at an index, as --set takes it.
-  std::string assignment(std::size_t index) const;
+  /// The value at an index, as --set takes it, for every path.
+  std::vector<std::string> assignments(std::size_t index) const;
 };
 
-/// Reads what --over says: PATH=first:last:step, PATH=first:last with a number of points, or
+/// Reads what --over says: PATH=first:last:step (or PATH,PATH,...=first:last:step), PATH=first:last with a number of points, or
 /// PATH=value,value,...
 ///
 /// A unit at the end holds for all parts that have none of their own; bare numbers are SI.

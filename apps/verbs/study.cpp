@@ -180,7 +180,9 @@ std::vector<std::size_t> StudySetup::indices_of(std::size_t number) const {
 
 Model StudySetup::model_at(const std::vector<std::size_t>& indices) const {
   std::vector<std::string> sets;
-  for (std::size_t i = 0; i < axes_.size(); ++i) sets.push_back(axes_[i].assignment(indices[i]));
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    for (std::string& set : axes_[i].assignments(indices[i])) sets.push_back(std::move(set));
+  }
   return parse_model(model_.source, file_, sets, std::filesystem::path(file_).parent_path());
 }
 

@@ -34,8 +34,10 @@ TEST(ParameterAxis, TakesRangesAndLists) {
 TEST(ParameterAxis, AssignsExactly) {
   const auto axis = parse_axis("contact.ring.friction=0:1:0.1", 0);
   ASSERT_TRUE(axis);
-  EXPECT_EQ(axis->assignment(3), "contact.ring.friction=0.30000000000000004");
-  EXPECT_EQ(parse_axis("a=1:3:1mm", 0)->assignment(1), "a=0.002 m");
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(axis->assignments(3), (Texts{"contact.ring.friction=0.30000000000000004"}));
+  EXPECT_EQ(parse_axis("a=1:3:1mm", 0)->assignments(1), (Texts{"a=0.002 m"}));
+  EXPECT_EQ(parse_axis("a.1.b,a.2.b=1:3:1", 0)->assignments(2), (Texts{"a.1.b=3", "a.2.b=3"}));
 }
 
 TEST(ParameterAxis, SaysWhatIsWrong) {
