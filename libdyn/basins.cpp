@@ -7,7 +7,8 @@ namespace whirl {
 
 namespace {
 
-constexpr double same = 1e-5;  ///< distance of sections [length scales]
+constexpr double same = 1e-5;    ///< distance of sections [length scales]
+constexpr int most_draws = 100;  ///< until a start is inside its bearings
 
 /// Whether the last section of one orbit is any of another.
 bool is_on(const ContactSystem& system, const Ending& one, const Ending& other) {
@@ -53,8 +54,12 @@ MotionState random_start(const ContactSystem& system, const MotionState& around,
   std::seed_seq sequence{seed & 0xffffffffu, seed >> 32, number & 0xffffffffu, number >> 32};
   std::mt19937_64 random(sequence);
   MotionState start = around;
-  for (Eigen::Index i = 0; i < start.y.size(); ++i) {
-    start.y(i) += size * (2.0 * share(random) - 1.0) * system.state_scale()(i);
+  for (int draw = 0; draw < most_draws; ++draw) {
+    start.y = around.y;
+    for (Eigen::Index i = 0; i < start.y.size(); ++i) {
+      start.y(i) += size * (2.0 * share(random) - 1.0) * system.state_scale()(i);
+    }
+    if (!system.left_bearing(start.y.data())) break;
   }
   return start;
 }
