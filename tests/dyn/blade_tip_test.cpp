@@ -10,6 +10,7 @@
 #include "libcontact/blade.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libfe/base/error.hpp"
+#include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::blade_tip_test {
@@ -143,37 +144,18 @@ INSTANTIATE_TEST_SUITE_P(Methods, BladesByMethod,
 
 // Through impacts of several blades, against quadruple precision.
 TEST_P(BladesByMethod, MoveAsInQuadruplePrecision) {
-  auto [name, accuracy] = GetParam();
-  std::string method = name;
-  std::replace(method.begin(), method.end(), '_', '-');
+  const auto [name, accuracy] = GetParam();
   for (const BladedDisk& p : {rubbing, smoothed(30.0), in_a_seal()}) {
     const Scene scene = p.scene();
-    const MotionState start = settled(p, scene, 30);
-    Trajectory exact{.system = &scene.contacts, .state = start, .revolutions = 1};
-    integrate_quad(exact, {.tolerance = 1e-18});
-    ASSERT_EQ(exact.outcome, Outcome::reached_end) << exact.diagnosis;
-    MotionState state = start;
-    const Integration run =
-        test::run(scene, state, 1, {.tolerance = 1e-11, .method = method_named(method)});
-    ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
-    EXPECT_GE(exact.cost.events, 4);
-    EXPECT_LT(distance(scene.contacts, state.y, exact.state.y), accuracy);
+    const test::Stretch s{scene, settled(p, scene, 30), 1, 4};
+    test::expect_end_by(name, s, test::exact_end(s, 1e-18), accuracy);
   }
 }
 
 TEST(BladeTips, ErrorFollowsTheTolerance) {
   const Scene scene = rubbing.scene();
-  const MotionState start = settled(rubbing, scene, 30);
-  Trajectory exact{.system = &scene.contacts, .state = start, .revolutions = 2};
-  integrate_quad(exact, {.tolerance = 1e-20});
-  ASSERT_EQ(exact.outcome, Outcome::reached_end) << exact.diagnosis;
-  for (const double tolerance : {1e-7, 1e-9, 1e-11, 1e-13}) {
-    Trajectory t{.system = &scene.contacts, .state = start, .revolutions = 2};
-    integrate_single(t, {.tolerance = tolerance});
-    ASSERT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
-    EXPECT_GT(t.cost.events, 6);
-    EXPECT_LT(distance(scene.contacts, t.state.y, exact.state.y), 1e3 * tolerance) << tolerance;
-  }
+  const test::Stretch s{scene, settled(rubbing, scene, 30), 2, 7};
+  test::expect_error_follows_tolerance(s, test::exact_end(s, 1e-20));
 }
 
 TEST(BladeTips, InABatchAreBitwiseTheSameAsAlone) {
@@ -188,58 +170,14 @@ TEST(BladeTips, InABatchAreBitwiseTheSameAsAlone) {
     scenes.push_back(p.scene());
     starts.push_back(test::start_of(p.model(), scenes.back()));
   }
-  std::vector<Trajectory> batch;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    batch.push_back({.system = &scenes[i].contacts,
-                     .state = starts[i],
-                     .revolutions = 8 + static_cast<long>(i % 7)});
-  }
-  std::vector<Trajectory> alone = batch;
-  for (const bool tangent : {false, true}) {
-    const BatchOptions options{
-        .tolerance = 1e-8, .threads = 2, .measures = true, .tangent = tangent};
-    integrate_batch(batch, options);
-    long events = 0;
-    for (std::size_t i = 0; i < alone.size(); ++i) {
-      integrate_single(alone[i], options);
-      EXPECT_EQ(batch[i].state.y, alone[i].state.y) << i;
-      ASSERT_EQ(batch[i].contacts.size(), 2u);
-      EXPECT_EQ(batch[i].contacts[0].duty, alone[i].contacts[0].duty) << i;
-      EXPECT_EQ(batch[i].contacts[0].max_normal, alone[i].contacts[0].max_normal) << i;
-      if (tangent) {
-        EXPECT_EQ(batch[i].tangent, alone[i].tangent) << i;
-      }
-      events += batch[i].cost.events;
-    }
-    EXPECT_GT(events, 500);
-  }
+  test::expect_same_alone(scenes, starts, 1e-8, 300);
 }
 
 TEST(BladeTangent, IsTheLimitOfDifferences) {
-  constexpr double h = 1e-7;         // of a scale
   constexpr double accurate = 1e-5;  // relative, as of other contacts that are as stiff
   for (const BladedDisk& p : {rubbing, smoothed(30.0), in_a_seal()}) {
     const Scene scene = p.scene();
-    const ContactSystem& system = scene.contacts;
-    const MotionState start = settled(p, scene, 30);
-    const auto end = [&](const MotionState& from, double tolerance, bool tangent) {
-      Trajectory t{.system = &system, .state = from, .revolutions = 1};
-      integrate_single(t, {.tolerance = tolerance, .tangent = tangent});
-      EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
-      return t;
-    };
-    const Trajectory t = end(start, 1e-13, true);
-    EXPECT_GE(t.cost.events, 4);
-    const Vec& scale = system.state_scale();
-    for (int i = 0; i < system.size(); ++i) {
-      MotionState up = start, down = start;
-      up.y(i) += h * scale(i);
-      down.y(i) -= h * scale(i);
-      const Vec change = end(up, 1e-14, false).state.y - end(down, 1e-14, false).state.y;
-      const Vec column = (t.tangent.col(i) * scale(i)).cwiseQuotient(scale);
-      const Vec left = (change / (2.0 * h)).cwiseQuotient(scale) - column;
-      EXPECT_LT(left.cwiseAbs().maxCoeff(), accurate * std::max(1.0, column.norm())) << i;
-    }
+    test::expect_tangent_of_differences({scene, settled(p, scene, 30), 1, 4}, accurate);
   }
 }
 

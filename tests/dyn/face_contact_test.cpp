@@ -8,6 +8,7 @@
 
 #include "libdyn/batch/batch.hpp"
 #include "libfe/base/error.hpp"
+#include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::face_contact_test {
@@ -160,38 +161,19 @@ INSTANTIATE_TEST_SUITE_P(Methods, FaceByMethod,
 
 // Through impacts on ring and face, against quadruple precision.
 TEST_P(FaceByMethod, MovesAsInQuadruplePrecision) {
-  auto [name, accuracy] = GetParam();
-  std::string method = name;
-  std::replace(method.begin(), method.end(), '_', '-');
+  const auto [name, accuracy] = GetParam();
   for (const OverhungDisk& p : {set_T, smoothed(5.0), with_two_faces()}) {
     const Scene scene = p.scene();
-    const MotionState start = settled(p, scene, 60);
-    Trajectory exact{.system = &scene.contacts, .state = start, .revolutions = 2};
-    integrate_quad(exact, {.tolerance = 1e-20});
-    ASSERT_EQ(exact.outcome, Outcome::reached_end) << exact.diagnosis;
-    MotionState state = start;
-    const Integration run =
-        test::run(scene, state, 2, {.tolerance = 1e-11, .method = method_named(method)});
-    ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
-    EXPECT_GE(run.cost.events, 4);
-    EXPECT_LT(distance(scene.contacts, state.y, exact.state.y), accuracy);
+    const test::Stretch s{scene, settled(p, scene, 60), 2, 4};
+    test::expect_end_by(name, s, test::exact_end(s, 1e-20), accuracy);
   }
 }
 
 TEST(FaceContact, ErrorFollowsTheTolerance) {
   for (const OverhungDisk& p : {set_T, smoothed(5.0)}) {
     const Scene scene = p.scene();
-    const MotionState start = settled(p, scene, 60);
-    Trajectory exact{.system = &scene.contacts, .state = start, .revolutions = 3};
-    integrate_quad(exact, {.tolerance = 1e-22});
-    ASSERT_EQ(exact.outcome, Outcome::reached_end) << exact.diagnosis;
-    for (const double tolerance : {1e-7, 1e-9, 1e-11, 1e-13}) {
-      Trajectory t{.system = &scene.contacts, .state = start, .revolutions = 3};
-      integrate_single(t, {.tolerance = tolerance});
-      ASSERT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
-      EXPECT_GT(t.cost.events, 6);
-      EXPECT_LT(distance(scene.contacts, t.state.y, exact.state.y), 1e3 * tolerance) << tolerance;
-    }
+    const test::Stretch s{scene, settled(p, scene, 60), 3, 7};
+    test::expect_error_follows_tolerance(s, test::exact_end(s, 1e-22));
   }
 }
 
@@ -232,60 +214,17 @@ TEST(FaceContact, InABatchIsBitwiseTheSameAsAlone) {
     scenes.push_back(p.scene());
     starts.push_back(test::start_of(p.model(), scenes.back()));
   }
-  std::vector<Trajectory> batch;
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    batch.push_back({.system = &scenes[i].contacts,
-                     .state = starts[i],
-                     .revolutions = 5 + static_cast<long>(i % 7)});
-  }
-  std::vector<Trajectory> alone = batch;
-  for (const bool tangent : {false, true}) {
-    const BatchOptions options{
-        .tolerance = 1e-9, .threads = 2, .measures = true, .tangent = tangent};
-    integrate_batch(batch, options);
-    long events = 0;
-    for (std::size_t i = 0; i < alone.size(); ++i) {
-      // a system has the pattern of its batch there: what is zero here, may not be in a neighbor
-      integrate_single(alone[i], options);
-      EXPECT_EQ(batch[i].state.y, alone[i].state.y) << i;
-      EXPECT_EQ(batch[i].contacts[1].duty, alone[i].contacts[1].duty) << i;
-      if (tangent) {
-        EXPECT_EQ(batch[i].tangent, alone[i].tangent) << i;
-      }
-      events += batch[i].cost.events;
-    }
-    EXPECT_GT(events, 500);
-  }
+  test::expect_same_alone(scenes, starts, 1e-9, 500);
 }
 
 // Through impacts: against central differences, and the determinant against the divergence.
 TEST(FaceTangent, IsTheLimitOfDifferences) {
-  constexpr double h = 1e-7;         // of a scale
   constexpr double accurate = 1e-6;  // 1e-14 / h of rounding, h^2 of curvature, tens of that
   for (const OverhungDisk& p : {set_T, smoothed(5.0), smoothed(20.0), with_two_faces()}) {
     const Scene scene = p.scene();
-    const ContactSystem& system = scene.contacts;
-    const MotionState start = settled(p, scene, 60);
-    const auto end = [&](const MotionState& from, double tolerance, bool tangent) {
-      Trajectory t{.system = &system, .state = from, .revolutions = 2};
-      integrate_single(t, {.tolerance = tolerance, .tangent = tangent});
-      EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
-      return t;
-    };
-    const Trajectory t = end(start, 1e-13, true);
-    EXPECT_GE(t.cost.events, 4);
-    const Vec& scale = system.state_scale();
-    for (int i = 0; i < system.size(); ++i) {
-      MotionState up = start, down = start;
-      up.y(i) += h * scale(i);
-      down.y(i) -= h * scale(i);
-      const Vec change = end(up, 1e-14, false).state.y - end(down, 1e-14, false).state.y;
-      const Vec left = (change / (2.0 * h) - t.tangent.col(i) * scale(i)).cwiseQuotient(scale);
-      EXPECT_LT(left.cwiseAbs().maxCoeff(), accurate) << i;
-    }
-    const Mat scaled = scale.asDiagonal().inverse() * t.tangent * scale.asDiagonal();
-    const double growth = std::log(std::abs(scaled.determinant()));
-    EXPECT_NEAR(t.divergence * 2.0 * system.period(), growth, 1e-7 * std::abs(growth));
+    const test::Stretch s{scene, settled(p, scene, 60), 2, 4};
+    test::expect_tangent_of_differences(s, accurate);
+    test::expect_divergence(s);
   }
 }
 

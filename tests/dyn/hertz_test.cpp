@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "libdyn/batch/batch.hpp"
+#include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::hertz_test {
@@ -74,16 +75,8 @@ TEST(Hertz, ErrorFollowsTheTolerance) {
   MotionState start = test::start_of(p.model(), scene);
   test::run(scene, start, 50);
   start.revolution = 0;
-  Trajectory exact{.system = &scene.contacts, .state = start, .revolutions = 3};
-  integrate_quad(exact, {.tolerance = 1e-22});
-  ASSERT_EQ(exact.outcome, Outcome::reached_end) << exact.diagnosis;
-  for (const double tolerance : {1e-7, 1e-9, 1e-11, 1e-13}) {
-    Trajectory t{.system = &scene.contacts, .state = start, .revolutions = 3};
-    integrate_single(t, {.tolerance = tolerance});
-    ASSERT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
-    EXPECT_GT(t.cost.events, 20);
-    EXPECT_LT(distance(scene.contacts, t.state.y, exact.state.y), 1e3 * tolerance) << tolerance;
-  }
+  const test::Stretch s{scene, start, 3, 21};
+  test::expect_error_follows_tolerance(s, test::exact_end(s, 1e-22));
 }
 
 }  // namespace whirl::hertz_test
