@@ -1,18 +1,12 @@
 // Wrong models: every mistake is found, at its place, with what would be right.
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <random>
-#include <sstream>
-
-#include "libio/model_file.hpp"
+#include "tests/io/problems.hpp"
 
 namespace whirl::bad_input_test {
 
-namespace fs = std::filesystem;
+using test::joined, test::problems;
 
 /// A model that is in order and has one of everything.
 constexpr const char* good = R"(format = 1
@@ -74,23 +68,6 @@ modes = 8
 from = "static"
 whirl = [ { mode = 1, amplitude = "2 mm" } ]
 )";
-
-/// All problems of a text, as people see them.
-std::vector<std::string> problems(const std::string& text) {
-  std::vector<std::string> all;
-  try {
-    parse_model(text, "m");
-  } catch (const ModelError& error) {
-    for (const Problem& p : error.problems()) all.push_back(describe(p));
-  }
-  return all;
-}
-
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
 
 /// A mistake made in the good model, and the one line that is said about it.
 struct Mistake {
@@ -433,112 +410,6 @@ TEST(BadInput, ThingsThatContradict) {
   });
 }
 
-// What a face cannot do, at the key that says so.
-TEST(BadInput, KeysThatDoNotGoWithAFace) {
-  const std::string body = R"(format = 1
-[[body]]
-name = "rotor"
-mass = 1
-spins = true
-)",
-                    tilts = R"(tilts = true
-diametral_inertia = 1
-[[contact]]
-name = "rim"
-law = "face"
-body = "rotor"
-clearance = 1
-stiffness = 1
-face_radius = 1
-)";
-  EXPECT_EQ(joined(problems(body + tilts)), "");
-  EXPECT_EQ(joined(problems(body + tilts + "friction = 0.1\nslip = \"forward\"\n")), "");
-  EXPECT_EQ(joined(problems(body + tilts + "friction = 0.1\nslip_tolerance = \"1 mm/s\"\n")), "");
-  const auto expect = [](const std::string& text, const std::string& part) {
-    const auto found = problems(text);
-    ASSERT_EQ(found.size(), 1u) << joined(found);
-    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
-  };
-  expect(
-      body + tilts + "friction = 0.1\n",
-      "m:8:1: contact.rim.slip_tolerance: found none, but this law cannot stick: give a width to "
-      "the sign of the slip, such as \"1 mm/s\", or say slip = \"forward\"");
-  expect(body + tilts + "friction = 0.1\nslip_tolerance = 0\n",
-         "m:16:18: contact.rim.slip_tolerance");
-  expect(body + tilts + "radius = 1\n", "m:15:10: contact.rim.radius: the law says where it slips");
-  expect(body + tilts + "offset = [0, 0]\n", "m:15:10: contact.rim.offset: a face has none");
-  expect(
-      body + tilts.substr(tilts.find("[[")),
-      "m:9:8: contact.rim.body: a face touches as it tilts, but \"rotor\" does not: give it tilts "
-      "= true");
-  std::string without = tilts;
-  without.erase(without.find("face_radius"));
-  expect(body + without, "m:8:1: contact.rim.face_radius: missing, expected a length (m)");
-}
-
-TEST(BadInput, KeysOfBladeTips) {
-  const std::string text = R"(format = 1
-[[body]]
-name = "rotor"
-mass = 1
-spins = true
-[[contact]]
-name = "tips"
-law = "blade-tip"
-body = "rotor"
-clearance = 1
-hertz_stiffness = 1
-blades = 3
-tip_radius = 2
-blade_length = 1
-blade_bending_stiffness = 1
-blade_line_density = 1
-)";
-  EXPECT_EQ(joined(problems(text)), "");
-  EXPECT_EQ(joined(problems(text + "friction = 0.1\nslip = \"forward\"\n")), "");
-  EXPECT_EQ(joined(problems(text + "offset = [0, 0]\n")), "");
-  const auto expect = [&](const std::string& of, const std::string& becomes,
-                          const std::string& part) {
-    std::string wrong = text;
-    wrong.replace(wrong.find(of), of.size(), becomes);
-    const auto found = problems(wrong);
-    ASSERT_EQ(found.size(), 1u) << joined(found);
-    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
-  };
-  expect("blades = 3\n", "", "m:6:1: contact.tips.blades: missing, expected a whole number");
-  expect("blades = 3", "blades = 0", "m:12:10: contact.tips.blades: found 0");
-  expect("blades = 3", "blades = 2000",
-         "m:12:10: contact.tips.blades: found 2000, expected a number up to 1000");
-  expect("blades = 3", "blades = 2.5", "m:12:10: contact.tips.blades: found 2.5");
-  expect("blade_length = 1", "blade_length = 3",
-         "m:14:16: contact.tips.blade_length: is more than the tip_radius");
-  expect("blade_length = 1\n", "", "m:6:1: contact.tips.blade_length: missing");
-  expect("clearance = 1\n", "clearance = 1\nradius = 1\n",
-         "m:11:10: contact.tips.radius: the law says where it slips");
-  expect("clearance = 1\n", "clearance = 1\nfriction = 1\n",
-         "m:6:1: contact.tips.slip_tolerance: found none");
-  expect("hertz_stiffness = 1\n", "stiffness = 1\nhertz_stiffness = 1\n",
-         "m:11:1: contact.tips.stiffness: unknown key");
-}
-
-TEST(BadInput, FrictionOnABodyNeedsARadius) {
-  const std::string text = R"(format = 1
-[[body]]
-name = "rotor"
-mass = 1
-[[contact]]
-body = "rotor"
-clearance = 1
-stiffness = 1
-)";
-  EXPECT_EQ(joined(problems(text)), "");
-  EXPECT_EQ(joined(problems(text + "friction = 0.1\nslip = \"forward\"\n")), "");
-  EXPECT_EQ(problems(text + "friction = 0.1\n"),
-            (std::vector<std::string>{"m:5:1: contact.1.radius: missing, expected a length (m): "
-                                      "friction on a body needs the radius of the contact for its "
-                                      "slip velocity"}));
-}
-
 TEST(BadInput, AModelNeedsARotorWithMass) {
   EXPECT_EQ(
       problems("format = 1\n"),
@@ -584,130 +455,6 @@ TEST(BadInput, MistakesOfTheCommandLineComeFirstAndThoseOfTablesLast) {
     EXPECT_EQ(error.problems()[2].where, (Where{"m", 10, 10}));
     EXPECT_EQ(error.problems()[3].where, (Where{"bearing.1.table", 2, 1}));
   }
-}
-
-// ---- files ----
-
-class BadFile : public testing::Test {
- protected:
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
-
-  std::string problem(const fs::path& path) const {
-    try {
-      read_model(path);
-    } catch (const ModelError& error) {
-      return error.what();
-    }
-    return "none";
-  }
-  std::string problem_of(const std::string& content) const {
-    std::ofstream(folder / "m.toml", std::ios::binary) << content;
-    const std::string found = problem(folder / "m.toml"), name = (folder / "m.toml").string();
-    return found.starts_with(name) ? found.substr(name.size()) : found;
-  }
-
-  const fs::path folder =
-      fs::path(testing::TempDir()) / ("whirl_bad_input_test_" + std::to_string(::getpid()));
-};
-
-TEST_F(BadFile, ThatCannotBeRead) {
-  EXPECT_NE(problem(folder / "nothing.toml").find("cannot read the file: No such file"),
-            std::string::npos);
-  EXPECT_NE(problem(folder).find("this is a directory; expected a model file"), std::string::npos);
-}
-
-TEST_F(BadFile, ThatHoldsNoModel) {
-  EXPECT_EQ(problem_of(""), ": the file is empty; expected a model file beginning with format = 1");
-  EXPECT_EQ(problem_of("\n \n"), problem_of(""));
-  EXPECT_EQ(problem_of(std::string("\x7f"
-                                   "ELF\x02\x01\0\0",
-                                   8)),
-            ": this is not a text file; expected a model file (TOML)");
-  EXPECT_EQ(problem_of("\x89HDF\r\n\x1a\n"), problem_of(std::string("\0", 1)));
-  EXPECT_NE(problem_of("format = 1\n\xff\xfe\n").find("invalid utf-8"), std::string::npos);
-}
-
-TEST_F(BadFile, ThatIsNestedTooDeep) {
-  EXPECT_NE(problem_of("a = " + std::string(100'000, '[')).find("exceeded maximum nested"),
-            std::string::npos);
-  std::string tables = "a = ";
-  for (int i = 0; i < 100'000; ++i) tables += "{ a = ";
-  EXPECT_NE(problem_of(tables).find("not TOML"), std::string::npos);
-}
-
-TEST_F(BadFile, WithALineOfAMegabyte) {
-  const std::string line(1'000'000, 'x');
-  EXPECT_LT(problem_of("format = 1\ntitle = \"" + line).size(), 200u);
-  EXPECT_LT(problem_of("format = 1\n" + line + " = 1\n").find("unknown key"), 1'000'100u);
-  EXPECT_EQ(problem_of("format = 1\n[[body]]\nname = \"" + line + "\"\nmass = 1\n"), "none");
-}
-
-// ---- anything ----
-
-std::string content(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-/// One random change: bytes deleted, doubled, replaced, or lines moved.
-void mutate(std::string& text, std::mt19937& random) {
-  if (text.empty()) return;
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
-  const std::size_t at = below(text.size());
-  const std::size_t size = std::min(text.size() - at, 1 + below(below(4) == 0 ? 80 : 4));
-  static const std::string signs = "\"'[]{}=.,#\n\t -+eE0123456789abcxyz_\\\x80\xc3\x01";
-  switch (below(6)) {
-    case 0:
-      text.erase(at, size);
-      break;
-    case 1:
-      text.insert(at, text.substr(at, size));
-      break;
-    case 2:
-      text[at] = signs[below(signs.size())];
-      break;
-    case 3:
-      text[at] = static_cast<char>(below(256));
-      break;
-    case 4:
-      text.insert(at, 1, signs[below(signs.size())]);
-      break;
-    default: {
-      const std::size_t from = text.rfind('\n', at), to = text.find('\n', at);
-      if (from == std::string::npos || to == std::string::npos || from == to) return;
-      const std::string line = text.substr(from, to - from);
-      text.erase(from, to - from);
-      text.insert(text.empty() ? 0 : below(text.size()), line);
-    }
-  }
-}
-
-TEST(BadInput, WhateverStandsInAFileIsReadOrReported) {
-  constexpr int texts = 1500;
-  std::vector<std::string> originals{good};
-  for (const auto& entry : fs::directory_iterator(WHIRL_SOURCE_DIR "/models")) {
-    if (entry.path().extension() == ".toml") originals.push_back(content(entry.path()));
-  }
-  std::sort(originals.begin(), originals.end());
-  std::mt19937 random(20260101);
-  int good_ones = 0, bad_ones = 0;
-  for (int i = 0; i < texts; ++i) {
-    std::string text = originals[random() % originals.size()];
-    for (auto changes = 1 + random() % 4; changes > 0; --changes) mutate(text, random);
-    try {
-      parse_model(text, "m");
-      ++good_ones;
-    } catch (const ModelError& error) {
-      ++bad_ones;
-      EXPECT_FALSE(error.problems().empty());
-    } catch (const std::exception& error) {
-      ADD_FAILURE() << error.what() << "\nin\n" << text;
-    }
-  }
-  EXPECT_GT(good_ones, texts / 20);
-  EXPECT_GT(bad_ones, texts / 5);
 }
 
 }  // namespace whirl::bad_input_test
