@@ -62,6 +62,8 @@ Parsed<ParameterAxis> parse_axis(std::string_view text, int points) {
                       "in SI without a unit",
                       in_quotes(range)));
     }
+    axis.shown_unit = last->unit;
+    axis.shown_scale = parse_quantity("1 " + last->unit)->value;
   }
   if (!is_list) {
     const auto parsed = parse_range(range, last->dimension);

@@ -13,6 +13,12 @@ struct ParameterAxis {
   std::string path;  ///< such as contact.seal.friction; several with commas, for one value at all
   std::string unit;  ///< SI unit of the values; empty: none was written
   std::vector<double> values;  ///< [SI]
+  std::string shown_unit;      ///< as it was written, for people
+  double shown_scale = 1.0;    ///< SI units in one of these
+
+  double shown(std::size_t index) const { return values[index] / shown_scale; }
+  /// "operation.speed [rpm]"
+  std::string title() const { return shown_unit.empty() ? path : path + " [" + shown_unit + "]"; }
 
   /// The value at an index, as --set takes it, for every path.
   std::vector<std::string> assignments(std::size_t index) const;

@@ -91,7 +91,7 @@ std::string shares(const PointTable& table, const StudySetup& setup) {
   const std::size_t planes = has_planes ? setup.axes()[2].values.size() : 1;
   std::vector<std::string> head{"motion"};
   for (std::size_t p = 0; p < planes; ++p) {
-    head.push_back(has_planes ? fmt::format("{:.6g}", setup.axes()[2].values[p]) : "share");
+    head.push_back(has_planes ? fmt::format("{:.6g}", setup.axes()[2].shown(p)) : "share");
   }
   std::map<std::string, std::vector<double>> counts;
   std::map<Regime, std::vector<double>> regimes;
@@ -130,7 +130,7 @@ std::string shares(const PointTable& table, const StudySetup& setup) {
     motions.row(row);
   }
   std::string text;
-  if (has_planes) text += fmt::format("  {}, across\n", setup.axes()[2].path);
+  if (has_planes) text += fmt::format("  {}, across\n", setup.axes()[2].title());
   text += motions.text();
   if (regimes.empty()) return text;
   head[0] = "contact";
@@ -144,19 +144,19 @@ std::string shares(const PointTable& table, const StudySetup& setup) {
 /// The plane as signs, the first axis to the right, the second one up.
 std::string picture(const PointTable& table, const StudySetup& setup) {
   constexpr std::size_t most_columns = 88, most_rows = 24;
-  const auto& across = setup.axes()[0].values;
-  const auto& up = setup.axes()[1].values;
-  const std::size_t columns = std::min(most_columns, across.size());
-  const std::size_t rows = std::min(most_rows, up.size());
+  const ParameterAxis &across = setup.axes()[0], &up = setup.axes()[1];
+  const std::size_t width = across.values.size(), height = up.values.size();
+  const std::size_t columns = std::min(most_columns, width);
+  const std::size_t rows = std::min(most_rows, height);
   const std::size_t planes = setup.axes().size() == 3 ? setup.axes()[2].values.size() : 1;
   std::string text;
   for (std::size_t r = rows; r-- > 0;) {
-    text += r == rows - 1 || r == 0 ? fmt::format("{:>10.4g} ", up[r == 0 ? 0 : up.size() - 1])
+    text += r == rows - 1 || r == 0 ? fmt::format("{:>10.4g} ", up.shown(r == 0 ? 0 : height - 1))
                                     : std::string(11, ' ');
     for (std::size_t c = 0; c < columns; ++c) {
-      const std::size_t i = columns == 1 ? 0 : c * (across.size() - 1) / (columns - 1);
-      const std::size_t j = rows == 1 ? 0 : r * (up.size() - 1) / (rows - 1);
-      const std::size_t point = (i * up.size() + j) * planes;
+      const std::size_t i = columns == 1 ? 0 : c * (width - 1) / (columns - 1);
+      const std::size_t j = rows == 1 ? 0 : r * (height - 1) / (rows - 1);
+      const std::size_t point = (i * height + j) * planes;
       const std::string motion = motion_name(table, point);
       const double period = table.number("period", point);
       const bool touches = regime_at(table, point) != Regime::none;
@@ -175,8 +175,8 @@ std::string picture(const PointTable& table, const StudySetup& setup) {
     }
     text += '\n';
   }
-  const std::string left = fmt::format("{:.6g}", across.front());
-  const std::string right = fmt::format("{:.6g}", across.back());
+  const std::string left = fmt::format("{:.6g}", across.shown(0));
+  const std::string right = fmt::format("{:.6g}", across.shown(width - 1));
   text += std::string(11, ' ') + left;
   if (columns > left.size() + right.size()) {
     text += std::string(columns - left.size() - right.size(), ' ') + right;
@@ -184,9 +184,9 @@ std::string picture(const PointTable& table, const StudySetup& setup) {
   return text + fmt::format(
                     "\n           to the right {}, up {}{}\n           1 to 9 period, p other "
                     "periodic, q quasi-periodic, c chaotic, H hyperchaotic, · no contact\n",
-                    setup.axes()[0].path, setup.axes()[1].path,
+                    across.title(), up.title(),
                     planes > 1 ? fmt::format(", {} = {:.6g}", setup.axes()[2].path,
-                                             setup.axes()[2].values[0])
+                                             setup.axes()[2].shown(0))
                                : "");
 }
 

@@ -254,8 +254,7 @@ Record entries(const PointTable& table, const StudySetup& setup, std::size_t fir
 std::string stretches(const PointTable& table, const StudySetup& setup, std::size_t first,
                       bool is_down) {
   const ParameterAxis& axis = setup.axes()[0];
-  const std::string unit = axis.unit.empty() ? "" : " [" + axis.unit + "]";
-  Table text({axis.path + unit, "values", "motion", "period", "impacts per revolution",
+  Table text({axis.title(), "values", "motion", "period", "impacts per revolution",
               "largest exponent per revolution"});
   const std::size_t count = axis.values.size();
   const auto row_of = [&](std::size_t k) { return first + (is_down ? count - 1 - k : k); };
@@ -277,7 +276,7 @@ std::string stretches(const PointTable& table, const StudySetup& setup, std::siz
     }
     const std::size_t row = row_of(k);
     const std::string motion = motion_name(table, row);
-    const double from = axis.values[row - first], until = axis.values[row_of(to) - first];
+    const double from = axis.shown(row - first), until = axis.shown(row_of(to) - first);
     const double period = table.number("period", row);
     text.row({to == k ? fmt::format("{:.7g}", from) : fmt::format("{:.7g} to {:.7g}", from, until),
               fmt::format("{}", to - k + 1),
