@@ -79,14 +79,26 @@ class Together {
   }
 
   void average() {
-    const std::vector<Trajectory> averaged =
-        go(options_.revolutions, {.sections = true, .measures = true, .exponents = true});
+    const long averaged = std::min(options_.revolutions, options_.exponents);
+    std::vector<Trajectory> all =
+        go(averaged, {.sections = true, .measures = true, .exponents = true});
+    const std::vector<Subject*> before = open_;
+    const std::vector<Trajectory> rest =
+        go(options_.revolutions - averaged, {.sections = options_.sections > 0, .measures = true});
+    for (std::size_t i = 0, j = 0; i < before.size(); ++i) {
+      if (j == open_.size() || before[i] != open_[j]) continue;  // it failed meanwhile
+      if (j != i) all[j] = std::move(all[i]);
+      append(rest[j], all[j]);
+      ++j;
+    }
     std::vector<Subject*> attracted;
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      const Trajectory& t = averaged[i];
+      const Trajectory& t = all[i];
       Classification& c = open_[i]->found;
+      c.revolutions = options_.revolutions;
+      take_measures(t, c);
       const double period = open_[i]->system->period();
-      const double turns = static_cast<double>(c.revolutions);
+      const double turns = static_cast<double>(averaged);
       c.exponents = t.exponents * period;
       c.resolution = (1.0 + std::log(turns)) / turns;
       c.section_dimension = dimension(t);
@@ -137,7 +149,7 @@ class Together {
     std::vector<Subject*> open;
     for (std::size_t i = 0; i < all.size(); ++i) {
       Classification& c = open_[i]->found;
-      if (how.measures) {
+      if (how.measures && all[i].outcome != Outcome::reached_end) {  // as far as it came
         c.revolutions = all[i].state.revolution - first[i];
         take_measures(all[i], c);
       }
@@ -151,6 +163,20 @@ class Together {
     done_ += revolutions * static_cast<long>(open_.size());
     open_ = std::move(open);
     return good;
+  }
+
+  /// Adds what a trajectory did after another one.
+  static void append(const Trajectory& later, Trajectory& to) {
+    to.sections.insert(to.sections.end(), later.sections.begin(), later.sections.end());
+    for (std::size_t i = 0; i < later.contacts.size(); ++i) {
+      ContactMeasure& m = to.contacts[i];
+      const ContactMeasure& add = later.contacts[i];
+      m.duty += add.duty;
+      m.impacts += add.impacts;
+      m.sticking += add.sticking;
+      m.max_normal = std::max(m.max_normal, add.max_normal);
+      m.max_tangential = std::max(m.max_tangential, add.max_tangential);
+    }
   }
 
   /// What the contacts did in so many revolutions, and the last sections.

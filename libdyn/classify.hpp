@@ -25,7 +25,8 @@ constexpr auto choices(MotionKind) {
 
 struct ClassifyOptions {
   long discard = 500;        ///< revolutions before, for the transient, at most
-  long revolutions = 1000;   ///< over which exponents are averaged
+  long revolutions = 1000;   ///< beyond it, over which contacts are measured
+  long exponents = 1000;     ///< of these, over which exponents are averaged, at most
   double tolerance = 1e-10;  ///< of a step, displacements by the length scale
   int longest_period = 32;   ///< that is looked for [revolutions]
   long sections = 0;         ///< how many of the last ones are kept

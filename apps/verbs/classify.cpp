@@ -61,6 +61,7 @@ Report run_classify(const Invocation& call) {
   ClassifyOptions options;
   options.revolutions = call.integer("revolutions", options.revolutions);
   options.discard = call.integer("discard", options.discard, 0);
+  options.exponents = options.revolutions;
   options.tolerance = call.number("tolerance", "", options.tolerance);
   require_tolerance(options.tolerance, "--tolerance " + call.text("tolerance"));
   const Scene scene = make_scene(model);

@@ -115,9 +115,9 @@ class Saver {
 
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own) {
   for (const OptionSpec& option :
-       {OptionSpec{"revolutions", "N",
-                   "revolutions over which Lyapunov exponents are averaged "
-                   "(1000)"},
+       {OptionSpec{"revolutions", "N", "revolutions that are measured (1000)"},
+        OptionSpec{"exponents", "N",
+                   "of these, over which Lyapunov exponents are averaged at most (1000)"},
         discard_option, tolerance_option, from_option,
         OptionSpec{"restart", "", "begin anew, whatever the file of --out holds"}}) {
     own.push_back(option);
@@ -143,6 +143,7 @@ StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t mo
   }
   options_.revolutions = call.integer("revolutions", options_.revolutions);
   options_.discard = call.integer("discard", options_.discard, 0);
+  options_.exponents = call.integer("exponents", options_.exponents);
   options_.tolerance = call.number("tolerance", "", options_.tolerance);
   require_tolerance(options_.tolerance, "--tolerance " + call.text("tolerance"));
   const long processors = std::max(1u, std::thread::hardware_concurrency());
