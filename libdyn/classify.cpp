@@ -72,9 +72,10 @@ class Together {
       const long to = is_last ? options_.discard : static_cast<long>(next);
       const long watched = std::min(to - done, 2L * options_.longest_period);
       go(to - done - watched, {});
-      search(go(watched, {.sections = true}), is_last);
+      const std::vector<Trajectory> sections = go(watched, {.sections = true});
       done = to;
       for (Subject* s : open_) s->found.transient = done;
+      search(sections, is_last);
     }
   }
 
