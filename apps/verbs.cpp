@@ -13,6 +13,7 @@ const OptionSpec speeds{"speeds", "A:B:STEP", "speeds, such as 0:8000:50rpm"};
 const OptionSpec over{"over", "PATH=A:B:STEP",
                       "a value of the model and what it runs over: first:last:step, first:last "
                       "with --points, or value,value,..."};
+const OptionSpec frame{"frame", "F", "in which it repeats: stationary (the default)"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
@@ -88,6 +89,17 @@ const std::vector<Verb>& verbs() {
         tolerance_option,
         from_option},
        run_classify},
+      {"orbit",
+       "Contact",
+       "one periodic orbit, stable or not, with its Floquet multipliers",
+       "MODEL",
+       "whirl orbit models/jeffcott_stator.toml --period 1",
+       {{"period", "N", "revolutions after which it repeats (1)"},
+        frame,
+        discard_option,
+        tolerance_option,
+        from_option},
+       run_orbit},
       {"sweep", "Contact", "bifurcation diagram and spectra along one parameter, up and down",
        "MODEL",
        "whirl sweep models/jeffcott_stator.toml --over operation.speed=130:140:0.5rad/s --out "
