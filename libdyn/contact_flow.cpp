@@ -36,7 +36,27 @@ std::vector<Passage> pass(const ContactSystem& system, double tolerance,
   return passages;
 }
 
+/// (Phi^T M Phi)^-1 Phi^T M Phi_first
+Mat displacements_in_basis(const Scene& scene, const Scene& first) {
+  const Mat &Phi = scene.reduced.Phi, &Phi_first = first.reduced.Phi;
+  if (Phi.rows() != Phi_first.rows() || Phi.cols() != Phi_first.cols()) {
+    throw NumericalError("the parameter changes the number of freedoms");
+  }
+  const Mat weighted = Phi.transpose() * Mat(scene.system.M);
+  const DenseLu<Mat> mass(weighted * Phi);
+  return mass.solve(weighted * Phi_first);
+}
+
 }  // namespace
+
+Vec basis_change(const Scene& scene, const Scene& first, const Vec& y) {
+  if (scene.reduced.Phi == first.reduced.Phi) return y;
+  const Mat half = displacements_in_basis(scene, first);
+  const Eigen::Index n = half.cols();
+  Vec changed(y.size());
+  changed << half * y.head(n), half * y.tail(n);
+  return changed;
+}
 
 Flow flow_of(const ContactSystem& system, double tolerance) {
   if (system.coordinates() == 0) {
@@ -52,22 +72,17 @@ Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first, double tole
   const ContactSystem& system = scene->contacts;
   Flow flow = flow_of(system, tolerance);
   flow.scale = first.contacts.state_scale();
-  const Mat &Phi = scene->reduced.Phi, &Phi_first = first.reduced.Phi;
-  if (Phi.rows() != Phi_first.rows() || Phi.cols() != Phi_first.cols()) {
-    throw NumericalError("the parameter changes the number of freedoms");
-  }
-  if (Phi == Phi_first) {
+  if (scene->reduced.Phi == first.reduced.Phi) {
     flow.go = [scene, tolerance](std::span<const Vec> starts, long revolutions, Tangents tangents) {
       return pass(scene->contacts, tolerance, starts, revolutions, tangents);
     };
     return flow;
   }
-  const Mat weighted = Phi.transpose() * Mat(scene->system.M);
-  const DenseLu<Mat> mass(weighted * Phi);
-  const Eigen::Index n = Phi.cols();
+  const Mat half = displacements_in_basis(*scene, first);
+  const Eigen::Index n = half.rows();
   Mat P = Mat::Zero(2 * n, 2 * n);
-  P.topLeftCorner(n, n) = mass.solve(weighted * Phi_first);
-  P.bottomRightCorner(n, n) = P.topLeftCorner(n, n);
+  P.topLeftCorner(n, n) = half;
+  P.bottomRightCorner(n, n) = half;
   auto back = std::make_shared<const DenseLu<Mat>>(P);
   if (!(back->rcond() > 1e-10)) {
     throw NumericalError("the parameter changes the modes too much: keep more of them");

@@ -25,4 +25,7 @@ Flow flow_of(const ContactSystem& system, double tolerance = flow_tolerance);
 Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first,
              double tolerance = flow_tolerance);
 
+/// P y_first of the above: the state of the scene itself.
+Vec basis_change(const Scene& scene, const Scene& first, const Vec& y);
+
 }  // namespace whirl

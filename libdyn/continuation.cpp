@@ -21,6 +21,8 @@ constexpr double longest = 0.1;      ///< arc length of a step
 constexpr double difference = 3e-6;  ///< of the range, for the derivative by the parameter
 constexpr double shrink = 0.4;       ///< of a step that fails
 constexpr double probed = 1e-2;      ///< arc length ahead of an end, for a grazing that causes it
+constexpr double finest = 1e-6;      ///< arc length down to which bifurcations are told apart
+constexpr double zero = 1e-3;        ///< of a test function, where it is located
 constexpr int most_refinements = 60;
 constexpr int most_grazings = 8;  ///< between two points
 
@@ -255,7 +257,12 @@ bool Continuation::advance() {
     double growth = trial.corrections <= 2 ? 1.6 : trial.corrections <= 4 ? 1.2 : 0.6;
     if (angle > 0.0) growth = std::min(growth, bend / angle);
     trial.point.step = limited(std::max(0.3, growth) * step, trial.point.tangent);
-    if (!is_first) find_bifurcations(last, trial.point);
+    const std::size_t known = branch_.bifurcations.size();
+    if (!is_first && !find_bifurcations(last, trial.point) && step > finest) {
+      branch_.bifurcations.resize(known);  // too much happens on the way
+      why = "bifurcations are too close to each other";
+      continue;
+    }
     by_parameter_ = std::move(by_parameter);
     branch_.points.push_back(std::move(trial.point));
     if (is_end) branch_.end = "the end of the range";
@@ -328,25 +335,27 @@ Continuation::Trial Continuation::between(const BranchPoint& a, const BranchPoin
   return trial;
 }
 
-void Continuation::find_bifurcations(const BranchPoint& a, const BranchPoint& b) {
+bool Continuation::find_bifurcations(const BranchPoint& a, const BranchPoint& b) {
   const std::size_t known = branch_.bifurcations.size();
   const auto changes = [&](BifurcationKind kind) {
     return (test_function(kind, a) > 0.0) != (test_function(kind, b) > 0.0);
   };
   const bool folds = changes(fold);
-  if (folds) locate(fold, a, b);
-  if (changes(period_doubling)) locate(period_doubling, a, b);
-  if (changes(pitchfork) != folds) locate(pitchfork, a, b);
-  if (changes(neimark_sacker)) locate(neimark_sacker, a, b);
-  if (!same_impacts(a.contacts, b.contacts)) locate_grazings(a, b);
+  bool all = true;
+  if (folds) all = locate(fold, a, b);
+  if (changes(period_doubling)) all = locate(period_doubling, a, b) && all;
+  if (changes(pitchfork) != folds) all = locate(pitchfork, a, b) && all;
+  if (changes(neimark_sacker)) all = locate(neimark_sacker, a, b) && all;
+  if (!same_impacts(a.contacts, b.contacts)) all = locate_grazings(a, b) && all;
   const Vec chord = b.z - a.z;
   std::stable_sort(branch_.bifurcations.begin() + static_cast<std::ptrdiff_t>(known),
                    branch_.bifurcations.end(), [&](const Bifurcation& x, const Bifurcation& y) {
                      return dot(chord, x.at.z - y.at.z) < 0.0;
                    });
+  return all;
 }
 
-void Continuation::locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b) {
+bool Continuation::locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b) {
   // false position with halved weights, within brackets all the time
   const Vec chord = b.z - a.z;
   double low = 0.0, high = std::sqrt(dot(chord, chord)), length = high;
@@ -375,12 +384,15 @@ void Continuation::locate(BifurcationKind kind, const BranchPoint& a, const Bran
     }
   }
   const Complex mu = critical_multiplier(kind, best.multipliers);
-  if (kind == neimark_sacker && std::abs(mu.imag()) < 1e-8) return;  // a real pair, 1 / mu and mu
+  if (!(std::abs(test_function(kind, best)) < zero)) return false;
+  if (kind == neimark_sacker && std::abs(mu.imag()) < 1e-8)
+    return true;  // a real pair, 1/mu and mu
   branch_.bifurcations.push_back(
       {.kind = kind, .at = std::move(best), .after = branch_.points.size() - 1, .multiplier = mu});
+  return true;
 }
 
-void Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
+bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
   const Vec chord = b.z - a.z;
   const double whole = std::sqrt(dot(chord, chord));
   double from = 0.0;
@@ -392,7 +404,7 @@ void Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
                                           before.z(before.z.size() - 1)) > options_.located) {
       const double middle = 0.5 * (low + high);
       Trial trial = between(a, b, middle);
-      if (!trial.failure.empty()) break;
+      if (!trial.failure.empty()) return false;
       if (same_impacts(trial.point.contacts, before.contacts)) {
         low = middle;
         before = std::move(trial.point);
@@ -414,6 +426,7 @@ void Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
     before = std::move(beyond);
     from = high;
   }
+  return same_impacts(before.contacts, b.contacts);
 }
 
 }  // namespace whirl

@@ -123,11 +123,12 @@ class Continuation {
   Trial correct(const Plane& plane, Vec by_parameter) const;
   /// Tangent at a point of the branch, and the derivative by the parameter.
   bool add_tangent(Trial& trial, const Vec& along, Vec& by_parameter) const;
-  void find_bifurcations(const BranchPoint& a, const BranchPoint& b);
+  /// False: one of them could not be located.
+  bool find_bifurcations(const BranchPoint& a, const BranchPoint& b);
   /// The point between two at an arc length from the first.
   Trial between(const BranchPoint& a, const BranchPoint& b, double length) const;
-  void locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b);
-  void locate_grazings(const BranchPoint& a, const BranchPoint& b);
+  bool locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b);
+  bool locate_grazings(const BranchPoint& a, const BranchPoint& b);
   /// Says why a branch ends where no step succeeds; a grazing ahead is looked for.
   void end_at_failure(const std::string& why);
   double limited(double step, const Vec& tangent) const;
