@@ -13,6 +13,7 @@ const OptionSpec speeds{"speeds", "A:B:STEP", "speeds, such as 0:8000:50rpm"};
 const OptionSpec over{"over", "PATH=A:B:STEP",
                       "a value of the model and what it runs over: first:last:step, first:last "
                       "with --points, or value,value,..."};
+const OptionSpec frame{"frame", "F", "in which it repeats: stationary (the default)"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
@@ -88,6 +89,39 @@ const std::vector<Verb>& verbs() {
         tolerance_option,
         from_option},
        run_classify},
+      {"orbit",
+       "Contact",
+       "one periodic orbit, stable or not, with its Floquet multipliers",
+       "MODEL",
+       "whirl orbit models/jeffcott_stator.toml --period 1",
+       {{"period", "N", "revolutions after which it repeats (1)"},
+        frame,
+        discard_option,
+        tolerance_option,
+        from_option},
+       run_orbit},
+      {"continue",
+       "Contact",
+       "a branch of periodic orbits along a parameter, round its folds, with its bifurcations",
+       "MODEL",
+       "whirl continue models/jeffcott_stator.toml --speed 138.4rad/s --set "
+       "contact.ring.stiffness=64e6 --over contact.ring.friction=0.1:0.15:0.002 --at 0.15",
+       {{"over", "PATH=A:B:STEP",
+         "a value of the model, from where to where, and the largest step; first:last: a "
+         "hundredth"},
+        points,
+        {"at", "VALUE", "where the first orbit is looked for, between first and last (first)"},
+        {"period", "N", "revolutions after which the first orbit repeats (1)"},
+        frame,
+        {"switch", "N",
+         "generations of branches that begin at period doublings and pitchforks (0)"},
+        {"most", "N", "points of a branch at most (2000)"},
+        {"stations", "NAME,...", "whose amplitude is said: names, node numbers, all (as sweep)"},
+        discard_option,
+        tolerance_option,
+        from_option,
+        {"restart", "", "begin anew, whatever the file of --out holds"}},
+       run_continue},
       {"sweep", "Contact", "bifurcation diagram and spectra along one parameter, up and down",
        "MODEL",
        "whirl sweep models/jeffcott_stator.toml --over operation.speed=130:140:0.5rad/s --out "

@@ -8,6 +8,7 @@
 
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/section_geometry.hpp"
+#include "libdyn/shooting.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 
@@ -21,8 +22,6 @@ constexpr int sure_repeats = 2;            ///< how many of them count before th
 constexpr double nearby = 10.0;            ///< how many of them the orbit may be away
 constexpr double same = 1e-6;              ///< of a shorter period that Newton's orbit has, too
 constexpr double exact = 1e-12;            ///< tolerance of steps for an orbit and its multipliers
-constexpr double converged = 1e-11;        ///< residual of an orbit
-constexpr double accurate = 1e-8;          ///< what rounding and events may leave of it
 constexpr double attracting = 1.0 - 1e-7;  ///< largest multiplier, whose error is below the rest
 constexpr int most_newton = 8;
 constexpr long first_search = 96;             ///< revolutions
@@ -295,7 +294,7 @@ class Together {
     const double before = c.residual;
     c.residual = distance(system, t.state.y, c.y);
     const Mat tangent = to_scale * t.tangent * unscale;
-    if (c.residual < converged || (c.residual < accurate && c.residual > 0.5 * before)) {
+    if (is_closed(c.residual, before)) {
       const Vec sizes = eigenvalues(tangent).cwiseAbs();
       if (!(sizes.maxCoeff() < attracting)) return false;
       if (distance(system, c.y, c.of->found.end.y) > c.farthest) return false;  // another one
@@ -310,10 +309,10 @@ class Together {
       return true;
     }
     if (c.residual > (is_patient ? 10.0 : 0.1) * before) return false;
-    const DenseLu<Mat> lu(Mat(tangent - Mat::Identity(tangent.rows(), tangent.cols())));
-    if (!(lu.rcond() > 1e-14)) return false;
-    c.y -= system.state_scale().cwiseProduct(
-        Vec(lu.solve((t.state.y - c.y).cwiseQuotient(system.state_scale()))));
+    const auto correction = newton_step(shooting_jacobian({&tangent, 1}),
+                                        (t.state.y - c.y).cwiseQuotient(system.state_scale()));
+    if (!correction) return false;
+    c.y -= system.state_scale().cwiseProduct(*correction);
     return true;
   }
 

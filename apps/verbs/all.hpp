@@ -14,6 +14,8 @@ Report run_unbalance(const Invocation& call);
 Report run_simulate(const Invocation& call);
 Report run_identify(const Invocation& call);
 Report run_classify(const Invocation& call);
+Report run_orbit(const Invocation& call);
+Report run_continue(const Invocation& call);
 Report run_sweep(const Invocation& call);
 Report run_map(const Invocation& call);
 Report run_basins(const Invocation& call);

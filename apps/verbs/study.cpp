@@ -45,7 +45,8 @@ std::vector<std::string> essential(const std::vector<std::string>& words) {
 }
 
 /// Takes over what an earlier run of the same line has left in its file.
-void resume(const Invocation& call, PointTable& table, const std::string& source) {
+void resume(const Invocation& call, const std::string& source,
+            const std::function<void(const ResultReader&)>& take) {
   const std::string& place = call.given.at("out");
   const ResultReader earlier(place);
   const auto refuse = [&](const std::string& why) {
@@ -62,7 +63,7 @@ void resume(const Invocation& call, PointTable& table, const std::string& source
   if (earlier.string_attribute("/", "whirl_version") != version) {
     refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
   }
-  table.read(earlier);
+  take(earlier);
 }
 
 /// Removes what killed runs have left beside a file.
@@ -82,36 +83,32 @@ void remove_leftovers(const std::filesystem::path& place) {
   }
 }
 
-/// Saves now and then: rarely enough that writing takes no more than a twentieth of the time.
-class Saver {
- public:
-  using clock = std::chrono::steady_clock;
-  Saver(const Invocation& call, PointTable& table,
-        const std::function<std::unique_ptr<ResultWriter>()>& begin)
-      : has_file_(call.has("out")), table_(table), begin_(begin) {}
-
-  void save() {
-    if (!has_file_) return;
-    const auto start = clock::now();
-    const auto file = begin_();
-    table_.write(*file);
-    file->commit();
-    last_ = clock::now();
-    next_ = last_ + std::max<clock::duration>(least, 20 * (last_ - start));
-  }
-  void save_if_due() {
-    if (clock::now() >= next_) save();
-  }
-
- private:
-  bool has_file_;
-  PointTable& table_;
-  const std::function<std::unique_ptr<ResultWriter>()>& begin_;
-  static constexpr std::chrono::milliseconds least{100};  ///< between two savings
-  clock::time_point last_ = clock::now(), next_ = last_ + least;
-};
-
 }  // namespace
+
+StudyFile::StudyFile(const Invocation& call, Begin begin, std::function<void(ResultWriter&)> write,
+                     const std::function<void(const ResultReader&)>& take)
+    : has_file_(call.has("out")), begin_(std::move(begin)), write_(std::move(write)) {
+  if (!has_file_) return;
+  remove_leftovers(call.given.at("out"));
+  begin_();  // says at once what cannot be written
+  if (!call.has("restart") && std::filesystem::exists(call.given.at("out"))) {
+    resume(call, call.model().source, take);
+  }
+}
+
+void StudyFile::save() {
+  if (!has_file_) return;
+  const auto start = clock::now();
+  const auto file = begin_();
+  write_(*file);
+  file->commit();
+  last_ = clock::now();
+  next_ = last_ + std::max<clock::duration>(least, 20 * (last_ - start));
+}
+
+void StudyFile::save_if_due() {
+  if (clock::now() >= next_) save();
+}
 
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own) {
   for (const OptionSpec& option :
@@ -316,16 +313,11 @@ std::string motion_name(const PointTable& table, std::size_t point) {
 StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable& table,
                        const std::function<std::unique_ptr<ResultWriter>()>& begin) {
   StudyOutcome outcome;
-  if (call.has("out")) {
-    remove_leftovers(call.given.at("out"));
-    begin();  // says at once what cannot be written
-    if (!call.has("restart") && std::filesystem::exists(call.given.at("out"))) {
-      resume(call, table, call.model().source);
-    }
-  }
+  StudyFile saver(
+      call, begin, [&](ResultWriter& file) { table.write(file); },
+      [&](const ResultReader& earlier) { table.read(earlier); });
   outcome.resumed = table.done();
   is_interrupted();  // from now on Ctrl-C stops with what is done
-  Saver saver(call, table, begin);
   Progress progress(work.label, static_cast<long>(table.points() - outcome.resumed),
                     call.shows_progress);
   {

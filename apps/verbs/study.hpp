@@ -2,6 +2,7 @@
 /// What the verbs share that compute many points (sweep, map, basins): points from axes, rows of
 /// results, work in threads, and a file that holds what is done at every moment.
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -15,6 +16,31 @@
 #include "libio/parameter_axis.hpp"
 
 namespace whirl {
+
+/// The file of --out of a study: it holds what is done at every moment, and an earlier run of the same
+/// line is gone on with. Without --out it does nothing.
+class StudyFile {
+ public:
+  /// Makes a file with everything in it but what is computed.
+  using Begin = std::function<std::unique_ptr<ResultWriter>()>;
+  /// @param write  adds what is computed so far
+  /// @param take   takes over what an earlier run has left; not called with --restart
+  /// @throws FileError  if the file cannot be written or is of another study
+  StudyFile(const Invocation& call, Begin begin, std::function<void(ResultWriter&)> write,
+            const std::function<void(const ResultReader&)>& take);
+
+  void save();
+  /// Saves now and then: rarely enough that writing takes no more than a twentieth of the time.
+  void save_if_due();
+
+ private:
+  using clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds least{100};  ///< between two savings
+  bool has_file_;
+  Begin begin_;
+  std::function<void(ResultWriter&)> write_;
+  clock::time_point last_ = clock::now(), next_ = last_ + least;
+};
 
 /// Options of all of them.
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);

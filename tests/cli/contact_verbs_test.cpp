@@ -374,5 +374,66 @@ TEST_F(Classify, LeavesItsEndToGoOnFrom) {
   EXPECT_EQ(r["contacts"][0]["impacts_per_rev"], 5.0);
 }
 
+// ---- orbit --------------------------------------------------------------------------------------
+
+class OrbitVerb : public Simulation {};
+
+// Reference point P1: Floquet exponents -2.944044 and -3.473444 1/s, twice each.
+TEST_F(OrbitVerb, FindsTheOrbitAndItsMultipliers) {
+  const std::string model = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
+  const json r = result({"orbit", model, "--discard", "50", "--out", "orbit.h5"});
+  EXPECT_EQ(r["period_revs"], 1);
+  EXPECT_LT(r["residual"], 1e-11);
+  EXPECT_LE(r["steps"], 4);
+  EXPECT_EQ(r["stable"], true);
+  EXPECT_EQ(r["state"].size(), 8u);
+  ASSERT_EQ(r["floquet"].size(), 8u);
+  for (const int i : {0, 1, 2, 3}) {
+    const double size =
+        std::hypot(r["floquet"][i][0].get<double>(), r["floquet"][i][1].get<double>());
+    EXPECT_NEAR(std::log(size) * 136.0 / (2.0 * pi), i < 2 ? -2.944044 : -3.473444, 1e-6);
+  }
+  EXPECT_EQ(r["contacts"][0]["impacts_per_rev"], 5.0);
+
+  // from there, nothing is left to be done, nor in two segments
+  const json again = result({"orbit", model, "--from", "orbit.h5", "--period", "2"});
+  EXPECT_LE(again["steps"], 1);
+  EXPECT_EQ(again["shortest_period_revs"], 1);
+  EXPECT_NEAR(again["exponents_1_s"][0][0], -2.944044, 1e-6);
+  const ResultReader file(folder / "orbit.h5");
+  EXPECT_EQ(file.complex_vector("/orbit/multiplier").size(), 8);
+  EXPECT_EQ(file.shape("/orbit/displacement")[1], 1);
+}
+
+// At 138.4 rad/s, 64 MN/m and friction 0.12 the orbit of period 1 is unstable beside that of period 2.
+TEST_F(OrbitVerb, FindsAnUnstableOrbit) {
+  const std::vector<std::string> point{"orbit",   WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml",
+                                       "--speed", "138.4rad/s",
+                                       "--set",   "contact.ring.stiffness=64e6",
+                                       "--set",   "contact.ring.friction=0.12"};
+  auto two = point;
+  two.insert(two.end(), {"--period", "2", "--out", "two.h5"});
+  const json stable = result(two);
+  EXPECT_EQ(stable["stable"], true);
+  EXPECT_EQ(stable["shortest_period_revs"], 2);
+  EXPECT_EQ(stable["contacts"][0]["impacts_per_rev"], 7.0);
+  auto one = point;
+  one.insert(one.end(), {"--from", "two.h5"});
+  const json saddle = result(one);
+  EXPECT_EQ(saddle["stable"], false);
+  EXPECT_LT(saddle["floquet"][0][0], -1.0);  // on its way from a period doubling
+  EXPECT_NEAR(saddle["floquet"][0][1], 0.0, 1e-12);
+}
+
+TEST_F(OrbitVerb, SaysWhatItCannotDo) {
+  const std::string model = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
+  const Outcome rotating = whirl({"orbit", model, "--frame", "rotating"});
+  EXPECT_EQ(rotating.status, 2);
+  EXPECT_TRUE(has(rotating.err, "rotating")) << rotating.err;
+  const Outcome other = whirl({"orbit", model, "--frame", "bent"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(has(other.err, "expected stationary")) << other.err;
+}
+
 }  // namespace contact_verbs_test
 }  // namespace whirl::test

@@ -168,8 +168,8 @@ class Program : public testing::Test {
 
 /// Names of all verbs that take a model.
 inline const std::vector<std::string> model_verbs{
-    "check",    "static",   "modes", "campbell", "critical", "unbalance", "simulate",
-    "identify", "classify", "sweep", "map",      "basins",   "bench"};
+    "check",    "static", "modes",    "campbell", "critical", "unbalance", "simulate", "identify",
+    "classify", "orbit",  "continue", "sweep",    "map",      "basins",    "bench"};
 
 /// The words of a call with options that keep its verb from measuring for long.
 inline std::vector<std::string> briefly(std::vector<std::string> words) {
@@ -183,6 +183,9 @@ inline std::vector<std::string> briefly(std::vector<std::string> words) {
   }
   if (verb == "sweep" || verb == "map" || verb == "basins") {
     add({"--discard", "10", "--revolutions", "5"});
+  }
+  if (verb == "continue") {
+    add({"--over", "bearing.1.damping=200:210", "--points", "3", "--discard", "10"});
   }
   if (verb == "sweep" || verb == "map") add({"--over", "gravity=9,10m/s^2"});
   if (verb == "map") add({"--over", "bearing.1.damping=200,201"});

@@ -29,7 +29,18 @@ class Study : public Program {
     EXPECT_EQ(names, other.list(group));
     for (const std::string& name : names) {
       const std::string path = group + '/' + name;
-      if (name == "contact" || name == "station" || name == "direction") {
+      if (name.ends_with("multiplier")) {
+        const CMat x =
+            name == "multiplier" ? one.complex_matrix(path) : CMat(one.complex_vector(path));
+        const CMat y =
+            name == "multiplier" ? other.complex_matrix(path) : CMat(other.complex_vector(path));
+        ASSERT_EQ(x.size(), y.size()) << path;
+        const auto bytes = static_cast<std::size_t>(x.size()) * sizeof(Complex);
+        EXPECT_EQ(std::memcmp(x.data(), y.data(), bytes), 0) << path;
+        continue;
+      }
+      if (name.ends_with("contact") || name == "station" || name == "direction" || name == "end" ||
+          name == "bifurcation_kind") {
         EXPECT_EQ(one.strings(path), other.strings(path));
         continue;
       }
@@ -338,6 +349,73 @@ TEST_F(Study, BadInput) {
   says({"basins", "rub.toml", "--set", "start.displaced=[{body=\"rotor\", z=1}]"}, "unknown key");
   says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5", "--tolerance", "1"}, "1e-15");
   says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5", "--sections", "0"}, "sections");
+}
+
+// At 138.4 rad/s and 64 MN/m, from friction 0.15 down: period 1, 2, 4, as simulations say at 0.15,
+// 0.12 and 0.11, and the orbit of period 1 goes on beside them, unstable.
+TEST_F(Study, ContinueFollowsPeriodDoublings) {
+  const json r =
+      result({"continue", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
+              "--over", "contact.ring.friction=0.1:0.15:0.002", "--at", "0.15", "--switch", "1",
+              "--out", "branch.h5"});
+  EXPECT_EQ(r["parameter"], "contact.ring.friction");
+  ASSERT_EQ(r["branches"].size(), 2u);
+  EXPECT_EQ(r["branches"][0]["period_revs"], 1);
+  EXPECT_EQ(r["branches"][1]["period_revs"], 2);
+  EXPECT_EQ(r["branches"][1]["parent"], 1);
+  ASSERT_EQ(r["bifurcations"].size(), 2u);
+  for (const int i : {0, 1}) {
+    EXPECT_EQ(r["bifurcations"][i]["kind"], "period-doubling");
+    EXPECT_NEAR(r["bifurcations"][i]["multiplier"][0], -1.0, 1e-6);
+  }
+  EXPECT_GT(r["bifurcations"][0]["value"], 0.12);
+  EXPECT_LT(r["bifurcations"][1]["value"], 0.12);
+  EXPECT_GT(r["bifurcations"][1]["value"], 0.11);
+  std::size_t of_one = 0;
+  for (const json& p : r["points"]) {
+    const double value = p["value"];
+    if (p["branch"] == 1) {
+      ++of_one;
+      EXPECT_EQ(p["stable"].get<bool>(), value > r["bifurcations"][0]["value"].get<double>());
+    }
+    EXPECT_EQ(p["impacts_per_rev"][0], 7.0);
+    EXPECT_GT(p["max_normal_n"][0], 0.0);
+    EXPECT_GT(p["duty"][0], 0.0);
+    EXPECT_GT(p["amplitude_m"], 5e-3);  // the clearance less the sag
+    EXPECT_LT(p["amplitude_m"], 8e-3);
+    EXPECT_TRUE(p["stable"].is_null() || p["floquet"].size() == 8u);
+  }
+  EXPECT_GT(of_one, 20u);
+  const ResultReader file(folder / "branch.h5");
+  EXPECT_EQ(file.number_attribute("/branch", "complete"), 1.0);
+  EXPECT_EQ(file.strings("/branch/bifurcation_kind")[1], "period-doubling");
+  EXPECT_EQ(file.numbers("/branch/value").size(), r["points"].size());
+  // a point of the branch is an orbit
+  const json orbit = result({"orbit", stator, "--speed", "138.4rad/s", "--set",
+                             "contact.ring.stiffness=64e6", "--set", "contact.ring.friction=0.15"});
+  EXPECT_NEAR(orbit["state"][0], file.numbers("/branch/state")[0], 1e-10);
+}
+
+// A branch of more than 100 points, with most kinds of bifurcations on the way.
+TEST_F(Study, ContinueGoesOnAfterKills) {
+  kill_and_compare(
+      {"continue", stator, "--over", "operation.speed=130:136:0.1rad/s", "--at", "136"}, "/branch",
+      2, 5);
+}
+
+TEST_F(Study, ContinueSaysWhatIsWrong) {
+  const auto error = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"continue", stator};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = whirl(all);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_TRUE(has(error({}), "expected one"));
+  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--at", "150"}), "within"));
+  EXPECT_TRUE(has(error({"--over", "contact.ring.stiffness=-1:150MN/m"}), "stiffness"));
+  EXPECT_TRUE(
+      has(error({"--over", "operation.speed=130:140rad/s", "--frame", "rotating"}), "frame"));
 }
 
 }  // namespace study_test

@@ -1,0 +1,40 @@
+#pragma once
+/// Branches of a continuation in a result file.
+
+#include <string>
+#include <vector>
+
+#include "libdyn/continuation.hpp"
+
+namespace whirl {
+
+class ResultReader;
+class ResultWriter;
+
+/// A branch among those of a study.
+struct TracedBranch {
+  Branch branch;
+  int parent = 0;      ///< number of the branch that it begins on, from 1; 0: none
+  int generation = 0;  ///< how many branches it is away from the first
+  double direction = 1.0;
+  std::vector<std::vector<double>> radii;  ///< per point, largest distance of the stations [m]
+};
+
+/// What all branches of a study have in common.
+struct BranchLayout {
+  Eigen::Index states = 0;            ///< of a revolution, reduced
+  Vec scale;                          ///< of the states
+  std::vector<std::string> contacts;  ///< names
+  std::vector<std::string> stations;  ///< likewise
+  std::string path, unit;             ///< of the parameter
+};
+
+/// Group /branch: all points and bifurcations, and what the walk goes on from.
+void write_branches(ResultWriter& file, const BranchLayout& layout,
+                    const std::vector<TracedBranch>& branches, bool is_complete);
+
+/// The same branches again, bit by bit.
+/// @throws FileError  if the file holds something else
+std::vector<TracedBranch> read_branches(const ResultReader& file, const BranchLayout& layout);
+
+}  // namespace whirl

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
+#include "apps/verbs/orbits.hpp"
+#include "apps/verbs/simulation.hpp"
+#include "libdyn/batch/batch.hpp"
+#include "libdyn/contact_flow.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/table.hpp"
+
+namespace whirl {
+
+namespace {
+
+std::string multipliers_table(const PeriodicOrbit& orbit) {
+  Table table({"multiplier", "real", "imaginary", "size", "exponent [1/s]", "frequency [rpm]"});
+  const CVec rates = orbit.exponents();
+  for (Eigen::Index i = 0; i < rates.size(); ++i) {
+    const Complex m = orbit.multipliers(i);
+    table.row({std::to_string(i + 1), fmt::format("{:+.8f}", m.real()),
+               fmt::format("{:+.8f}", m.imag()), fmt::format("{:.8f}", std::abs(m)),
+               fmt::format("{:+.6f}", rates(i).real()), fixed(rates(i).imag() / rpm, 2)});
+  }
+  return table.text();
+}
+
+}  // namespace
+
+void require_stationary_frame(const Invocation& call) {
+  const std::string frame = call.text("frame", "stationary");
+  if (frame == "stationary") return;
+  throw ModelError({"--frame " + frame}, "",
+                   frame == "rotating"
+                       ? "orbits that repeat in the rotating frame are not looked for yet; "
+                         "whirl classify tells a quasi-periodic motion"
+                       : "expected stationary");
+}
+
+Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene) {
+  const long discard = call.integer("discard", call.has("from") ? 0 : 500, 0);
+  const double tolerance = call.number("tolerance", "", 1e-10);
+  require_tolerance(tolerance, "--tolerance " + call.text("tolerance"));
+  Trajectory transient{.system = &scene.contacts, .state = starting_state(call, model, scene)};
+  if (scene.contacts.coordinates() == 0) {
+    throw NumericalError("nothing moves: the system has no freedoms");
+  }
+  // an orbit is shot from phase 0: what is left of a revolution is gone through first
+  transient.revolutions = transient.state.phase > 0.0 ? std::max(1L, discard) : discard;
+  Progress progress("going through the transient", transient.revolutions, call.shows_progress);
+  is_interrupted();  // from now on Ctrl-C stops between revolutions
+  if (transient.revolutions > 0) {
+    integrate_single(transient, {.tolerance = tolerance, .watch = [&](long done) {
+                                   progress.update(done);
+                                   return !is_interrupted();
+                                 }});
+  }
+  return transient;
+}
+
+Report run_orbit(const Invocation& call) {
+  const Model model = call.model();
+  require_speed(model);
+  require_stationary_frame(call);
+  const int period = static_cast<int>(call.integer("period", 1));
+  const auto file = call.result_file(model);
+  const Scene scene = make_scene(model);
+  const Trajectory transient = after_transient(call, model, scene);
+  const Flow flow = flow_of(scene.contacts);
+  PeriodicOrbit orbit{.period = period, .states = {transient.state.y}};
+  int status = status_of(transient.outcome);
+  if (status == 0) {
+    orbit = find_orbit(flow, transient.state.y, {.period = period});
+    if (!orbit.is_good()) status = 3;
+  } else {
+    orbit.failure = transient.diagnosis.empty() ? "stopped in the transient" : transient.diagnosis;
+  }
+  const int shortest = orbit.is_good() ? shortest_period(orbit, flow.scale) : period;
+
+  Report report{.record = begin_record(call, model), .failure = orbit.failure, .status = status};
+  MotionState on_it;
+  on_it.y = orbit.states.front();
+  Record floquet = Record::array(), exponents = Record::array();
+  for (const Complex& m : orbit.multipliers) floquet.add(m);
+  if (orbit.is_good()) {
+    for (const Complex& rate : orbit.exponents()) exponents.add(rate);
+  }
+  Record& r = report.record;
+  r.set("period_revs", period).set("shortest_period_revs", shortest);
+  const long steps = std::max(1L, std::ssize(orbit.residuals)) - 1;
+  r.set("residual", orbit.residuals.empty() ? Record(nullptr) : Record(orbit.residual));
+  r.set("steps", steps);
+  r.set("floquet", floquet).set("exponents_1_s", exponents);
+  r.set("stable", orbit.is_good() ? Record(orbit.is_stable()) : Record(nullptr));
+  r.set("state", on_it.y);
+  add_contacts(r, orbit.contacts, period);
+  add_reduction(r, scene);
+  if (!orbit.failure.empty()) r.set("failure", orbit.failure);
+
+  report.text = "Periodic orbit" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
+                reduction_text(scene, model);
+  if (orbit.is_good()) {
+    double impacts = 0.0;
+    for (const ContactMeasure& c : orbit.contacts) impacts += c.impacts;
+    report.text += fmt::format(
+        "  {} orbit of {} revolution{}, {:.0f}/{} impacts; residual {:.1e} length scales after {} "
+        "steps of Newton's method\n",
+        orbit.is_stable() ? "stable" : "unstable", period, period == 1 ? "" : "s", impacts, period,
+        orbit.residual, steps);
+    if (shortest != period) {
+      report.text +=
+          fmt::format("  it repeats after {} already: --period {}\n", shortest, shortest);
+    }
+    report.text += "\n" + multipliers_table(orbit);
+    if (!orbit.contacts.empty()) report.text += "\n" + contacts_table(orbit.contacts, period);
+  }
+  if (file) {
+    write_end(*file, model, scene, on_it);
+    if (orbit.is_good()) {
+      const auto n = scene.contacts.coordinates();
+      const Mat map = scene.displacement_map();
+      Mat displacements(map.rows(), std::ssize(orbit.states)), velocities = displacements;
+      for (std::size_t i = 0; i < orbit.states.size(); ++i) {
+        displacements.col(static_cast<Eigen::Index>(i)) = map * orbit.states[i].head(n);
+        velocities.col(static_cast<Eigen::Index>(i)) = map * orbit.states[i].tail(n);
+      }
+      file->dataset("/orbit/multiplier", orbit.multipliers,
+                    {"", "Floquet multipliers of the period, the largest first", {""}});
+      file->dataset("/orbit/exponent", orbit.exponents(),
+                    {"1/s", "Floquet exponents, log(multiplier) / period", {"/orbit/multiplier"}});
+      file->dataset(
+          "/orbit/displacement", displacements,
+          {"m, rad", "displacement of all points at the starts of revolutions", {"", ""}});
+      file->dataset(
+          "/orbit/velocity", velocities,
+          {"m/s, rad/s", "velocity of all points at the starts of revolutions", {"", ""}});
+      file->attribute("/orbit", "period_revolutions", period);
+      file->attribute("/orbit", "residual", orbit.residual);
+      file->attribute("/orbit", "stable", orbit.is_stable() ? 1 : 0);
+    }
+  }
+  commit(call, file.get(), report);
+  return report;
+}
+
+}  // namespace whirl

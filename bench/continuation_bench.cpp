@@ -1,0 +1,94 @@
+// 200 points of a branch with their multipliers, by event-exact tangents and by finite differences.
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+
+#include "libdyn/batch/batch.hpp"
+#include "libdyn/contact_flow.hpp"
+#include "libdyn/continuation.hpp"
+#include "libdyn/methods/rk4.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace whirl {
+namespace {
+
+constexpr int points = 200;
+
+/// P1 over the contact stiffness, from 150 MN/m on.
+struct P1Branch {
+  static test::RotorStator at(double stiffness) {
+    test::RotorStator p = test::P1;
+    p.kC = stiffness;
+    return p;
+  }
+  std::shared_ptr<const Scene> first = std::make_shared<const Scene>(at(150e6).scene());
+  Vec start = [this] {
+    Trajectory t{.system = &first->contacts,
+                 .state = test::start_of(at(150e6).model(), *first),
+                 .revolutions = 300};
+    integrate_single(t, {});
+    return t.state.y;
+  }();
+  ContinuationOptions options{
+      .low = 150e6, .high = 170e6, .first = 150e6, .largest_step = 0.1e6, .most_points = points};
+
+  void walk(benchmark::State& state, const FlowAt& flow_at) const {
+    std::size_t found = 0;
+    for (auto _ : state) {
+      Continuation walk(flow_at, start, options);
+      while (walk.advance()) {
+      }
+      found = walk.branch().points.size();
+      benchmark::DoNotOptimize(walk.branch().points.back().multipliers.data());
+    }
+    state.counters["points"] = static_cast<double>(found);
+  }
+};
+
+void BranchByTangents(benchmark::State& state) {
+  const P1Branch branch;
+  branch.walk(state, [&](double stiffness) {
+    return flow_of(std::make_shared<const Scene>(P1Branch::at(stiffness).scene()), *branch.first);
+  });
+}
+BENCHMARK(BranchByTangents)->Unit(benchmark::kMillisecond);
+
+/// Shooting as it is done without tangents: RK4, 1000 steps a revolution, a column of the tangent from
+/// each of 8 starts moved aside.
+Flow differences(const std::shared_ptr<const Scene>& scene) {
+  Flow flow = flow_of(scene, *scene);
+  flow.go = [scene, scale = flow.scale](std::span<const Vec> starts, long revolutions,
+                                        Tangents wanted) {
+    const auto end = [&](const Vec& y) {
+      MotionState state = test::state_of(y);
+      const double step = scene->contacts.period() / 1000.0;
+      integrate(AnyMethod(Rk4{}), scene->contacts, state, revolutions, {.fixed_step = step}, {});
+      return state.y;
+    };
+    std::vector<Passage> all;
+    for (const Vec& y : starts) {
+      Passage p{end(y), Mat::Identity(y.size(), y.size()), {}, {}};
+      for (Eigen::Index k = 0; wanted == Tangents::yes && k < y.size(); ++k) {
+        Vec aside = y;
+        const double h = 1e-6 * scale(k);
+        aside(k) += h;
+        p.tangent.col(k) = (end(aside) - p.end) / h;
+      }
+      all.push_back(std::move(p));
+    }
+    return all;
+  };
+  return flow;
+}
+
+void BranchByDifferences(benchmark::State& state) {
+  const P1Branch branch;
+  branch.walk(state, [](double stiffness) {
+    return differences(std::make_shared<const Scene>(P1Branch::at(stiffness).scene()));
+  });
+}
+BENCHMARK(BranchByDifferences)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace whirl

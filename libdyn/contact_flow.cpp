@@ -1,0 +1,105 @@
+#include "libdyn/contact_flow.hpp"
+
+#include "libdyn/batch/batch.hpp"
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr std::size_t few = 2;  ///< trajectories that are faster one by one than in lanes
+
+std::vector<Passage> pass(const ContactSystem& system, double tolerance,
+                          std::span<const Vec> starts, long revolutions, Tangents tangents) {
+  std::vector<Trajectory> all;
+  for (const Vec& y : starts) {
+    Trajectory t{.system = &system, .revolutions = revolutions};
+    t.state.y = y;
+    all.push_back(std::move(t));
+  }
+  const BatchOptions how{
+      .tolerance = tolerance, .threads = 1, .measures = true, .tangent = tangents == Tangents::yes};
+  if (all.size() > few) {
+    integrate_batch(all, how);
+  } else {
+    for (Trajectory& t : all) integrate_single(t, how);
+  }
+  std::vector<Passage> passages;
+  for (Trajectory& t : all) {
+    Passage p{std::move(t.state.y), std::move(t.tangent), std::move(t.contacts), {}};
+    if (t.outcome != Outcome::reached_end) {
+      p.failure = t.diagnosis.empty() ? "the motion was stopped" : t.diagnosis;
+    }
+    passages.push_back(std::move(p));
+  }
+  return passages;
+}
+
+/// (Phi^T M Phi)^-1 Phi^T M Phi_first
+Mat displacements_in_basis(const Scene& scene, const Scene& first) {
+  const Mat &Phi = scene.reduced.Phi, &Phi_first = first.reduced.Phi;
+  if (Phi.rows() != Phi_first.rows() || Phi.cols() != Phi_first.cols()) {
+    throw NumericalError("the parameter changes the number of freedoms");
+  }
+  const Mat weighted = Phi.transpose() * Mat(scene.system.M);
+  const DenseLu<Mat> mass(weighted * Phi);
+  return mass.solve(weighted * Phi_first);
+}
+
+}  // namespace
+
+Vec basis_change(const Scene& scene, const Scene& first, const Vec& y) {
+  if (scene.reduced.Phi == first.reduced.Phi) return y;
+  const Mat half = displacements_in_basis(scene, first);
+  const Eigen::Index n = half.cols();
+  Vec changed(y.size());
+  changed << half * y.head(n), half * y.tail(n);
+  return changed;
+}
+
+Flow flow_of(const ContactSystem& system, double tolerance) {
+  if (system.coordinates() == 0) {
+    throw NumericalError("nothing moves: the system has no freedoms");
+  }
+  return {system.state_scale(), system.period(),
+          [&system, tolerance](std::span<const Vec> starts, long revolutions, Tangents tangents) {
+            return pass(system, tolerance, starts, revolutions, tangents);
+          }};
+}
+
+Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first, double tolerance) {
+  const ContactSystem& system = scene->contacts;
+  Flow flow = flow_of(system, tolerance);
+  flow.scale = first.contacts.state_scale();
+  if (scene->reduced.Phi == first.reduced.Phi) {
+    flow.go = [scene, tolerance](std::span<const Vec> starts, long revolutions, Tangents tangents) {
+      return pass(scene->contacts, tolerance, starts, revolutions, tangents);
+    };
+    return flow;
+  }
+  const Mat half = displacements_in_basis(*scene, first);
+  const Eigen::Index n = half.rows();
+  Mat P = Mat::Zero(2 * n, 2 * n);
+  P.topLeftCorner(n, n) = half;
+  P.bottomRightCorner(n, n) = half;
+  auto back = std::make_shared<const DenseLu<Mat>>(P);
+  if (!(back->rcond() > 1e-10)) {
+    throw NumericalError("the parameter changes the modes too much: keep more of them");
+  }
+  flow.go = [scene, tolerance, P, back](std::span<const Vec> starts, long revolutions,
+                                        Tangents tangents) {
+    std::vector<Vec> own;
+    for (const Vec& y : starts) own.emplace_back(P * y);
+    std::vector<Passage> passages = pass(scene->contacts, tolerance, own, revolutions, tangents);
+    for (Passage& p : passages) {
+      if (!p.failure.empty()) continue;
+      p.end = back->solve(p.end);
+      if (tangents == Tangents::yes) p.tangent = back->solve(p.tangent * P);
+    }
+    return passages;
+  };
+  return flow;
+}
+
+}  // namespace whirl

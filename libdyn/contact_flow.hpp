@@ -1,0 +1,31 @@
+#pragma once
+/// The flow map of a rotor with its contacts, by the Taylor engine.
+
+#include <memory>
+
+#include "libdyn/scene.hpp"
+#include "libdyn/shooting.hpp"
+
+namespace whirl {
+
+constexpr double flow_tolerance = 1e-13;  ///< of steps for orbits and their multipliers
+
+/// From phase 0 to phase 0, with event-exact tangents; the contacts follow from the states.
+/// @param system  must live as long as the flow
+Flow flow_of(const ContactSystem& system, double tolerance = flow_tolerance);
+
+/// The same of a scene at another value of a parameter, for the states of a first scene.
+///
+///   y = P y_first,  P = (Phi^T M Phi)^-1 Phi^T M Phi_first  for displacements and velocities
+///
+/// Orbits and multipliers are exactly those of the scene; their coordinates are continuous in the
+/// parameter, whatever order and signs the modes of its basis have.
+///
+/// @throws NumericalError  if the bases have nothing in common
+Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first,
+             double tolerance = flow_tolerance);
+
+/// P y_first of the above: the state of the scene itself.
+Vec basis_change(const Scene& scene, const Scene& first, const Vec& y);
+
+}  // namespace whirl

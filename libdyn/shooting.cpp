@@ -1,0 +1,230 @@
+#include "libdyn/shooting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double reachable = 1e-8;  ///< what rounding and events may leave of a residual
+constexpr double worse = 2.0;       ///< growth of the residual that halves a step
+constexpr int most_halvings = 6;
+constexpr double same = 1e-6;  ///< of states after a shorter period
+
+/// Sums of what contacts did in the segments, as shares of the whole.
+std::vector<ContactMeasure> shares(const std::vector<Passage>& passages, double whole) {
+  std::vector<ContactMeasure> sum = passages.front().contacts;
+  for (std::size_t i = 1; i < passages.size(); ++i) {
+    for (std::size_t c = 0; c < sum.size(); ++c) {
+      const ContactMeasure& m = passages[i].contacts[c];
+      sum[c].duty += m.duty;
+      sum[c].impacts += m.impacts;
+      sum[c].sticking += m.sticking;
+      sum[c].max_normal = std::max(sum[c].max_normal, m.max_normal);
+      sum[c].max_tangential = std::max(sum[c].max_tangential, m.max_tangential);
+      sum[c].touch_time += m.touch_time;
+    }
+  }
+  for (ContactMeasure& m : sum) m.mean_slip = std::numeric_limits<double>::quiet_NaN();
+  to_shares(sum, whole);
+  return sum;
+}
+
+void sort_by_size(CVec& values) {
+  std::sort(values.begin(), values.end(), [](const Complex& a, const Complex& b) {
+    const double x = std::abs(a), y = std::abs(b);
+    // pairs stay together, whatever rounding makes of their sizes
+    if (std::abs(x - y) > 1e-12 * (x + y)) return x > y;
+    if (a.real() != b.real()) return a.real() > b.real();
+    return a.imag() > b.imag();
+  });
+}
+
+}  // namespace
+
+void ShootingOptions::check() const {
+  if (period < 1 || most_steps < 1 || segments < 0 || !(accurate > 0.0)) {
+    throw NumericalError("shooting: period, steps and accuracy must be positive");
+  }
+  if (segments > 0 && period % segments != 0) {
+    throw NumericalError(
+        fmt::format("shooting: {} segments do not divide a period of {}", segments, period));
+  }
+}
+
+bool PeriodicOrbit::is_stable() const {
+  return is_good() && multipliers.size() > 0 && multipliers.cwiseAbs().maxCoeff() < 1.0;
+}
+
+CVec PeriodicOrbit::exponents() const {
+  CVec rates = multipliers;
+  for (Complex& rate : rates) rate = std::log(rate) / (revolution * period);
+  return rates;
+}
+
+bool is_closed(double residual, double before, double accurate) {
+  return residual < accurate || (residual < reachable && residual > 0.5 * before);
+}
+
+std::optional<Vec> newton_step(const Mat& J, const Vec& r) {
+  const DenseLu<Mat> lu(J);
+  if (!(lu.rcond() > 1e-14)) return std::nullopt;
+  return Vec(lu.solve(r));
+}
+
+Mat shooting_jacobian(std::span<const Mat> tangents) {
+  const Eigen::Index n = tangents[0].rows(), m = std::ssize(tangents);
+  if (m == 1) return tangents[0] - Mat::Identity(n, n);
+  Mat J = Mat::Zero(n * m, n * m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    J.block(i * n, i * n, n, n) = tangents[static_cast<std::size_t>(i)];
+    J.block(i * n, (i + 1) % m * n, n, n).diagonal().array() -= 1.0;
+  }
+  return J;
+}
+
+CVec multipliers_of(std::span<const Mat> tangents) {
+  const Eigen::Index n = tangents[0].rows(), m = std::ssize(tangents);
+  CVec found;
+  if (m == 1) {
+    found = eigenvalues(tangents[0]);
+    sort_by_size(found);
+    return found;
+  }
+  Mat cyclic = Mat::Zero(n * m, n * m);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    cyclic.block((i + 1) % m * n, i * n, n, n) = tangents[static_cast<std::size_t>(i)];
+  }
+  const CVec roots = eigenvalues(cyclic);
+  std::vector<Complex> powers;
+  for (const Complex& root : roots) powers.push_back(std::pow(root, static_cast<int>(m)));
+  std::sort(powers.begin(), powers.end(),
+            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
+  // every multiplier is there m times, from its m roots: those nearest to each other belong together
+  found.resize(n);
+  for (Complex& value : found) {
+    const Complex first = powers.front();
+    std::partial_sort(powers.begin(), powers.begin() + m, powers.end(),
+                      [&](const Complex& a, const Complex& b) {
+                        return std::norm(a - first) < std::norm(b - first);
+                      });
+    value = 0.0;
+    for (Eigen::Index k = 0; k < m; ++k) value += powers[static_cast<std::size_t>(k)];
+    value /= static_cast<double>(m);
+    if (std::abs(value.imag()) < 1e-10 * std::abs(value)) value = value.real();
+    powers.erase(powers.begin(), powers.begin() + m);
+    std::sort(powers.begin(), powers.end(),
+              [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
+  }
+  sort_by_size(found);
+  return found;
+}
+
+Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted) {
+  const std::size_t m = orbit.states.size();
+  const Eigen::Index n = flow.scale.size();
+  const std::vector<Passage> passages =
+      flow.go(orbit.states, orbit.period / static_cast<long>(m), wanted);
+  Vec gaps(n * std::ssize(orbit.states));
+  orbit.tangents.clear();
+  orbit.revolution = flow.period;
+  for (std::size_t i = 0; i < m; ++i) {
+    const Passage& p = passages[i];
+    if (!p.failure.empty() || !p.end.allFinite() || !p.tangent.allFinite()) {
+      orbit.failure = p.failure.empty() ? "the motion or its tangent is not finite" : p.failure;
+      orbit.residual = std::numeric_limits<double>::infinity();
+      return {};
+    }
+    gaps.segment(static_cast<Eigen::Index>(i) * n, n) =
+        (p.end - orbit.states[(i + 1) % m]).cwiseQuotient(flow.scale);
+    if (wanted == Tangents::no) continue;
+    orbit.tangents.push_back(flow.scale.cwiseInverse().asDiagonal() * p.tangent *
+                             flow.scale.asDiagonal());
+  }
+  orbit.failure.clear();
+  orbit.residual = gaps.lpNorm<Eigen::Infinity>();
+  orbit.contacts = shares(passages, flow.period * orbit.period);
+  return gaps;
+}
+
+PeriodicOrbit find_orbit(const Flow& flow, std::vector<Vec> starts,
+                         const ShootingOptions& options) {
+  options.check();
+  const Eigen::Index n = flow.scale.size();
+  PeriodicOrbit orbit{.period = options.period, .states = std::move(starts)};
+  Vec gaps = shoot(flow, orbit);
+  double before = std::numeric_limits<double>::infinity();
+  for (int step = 0;; ++step) {
+    orbit.residuals.push_back(orbit.residual);
+    if (gaps.size() == 0) return orbit;
+    if (is_closed(orbit.residual, before, options.accurate)) break;
+    if (step == options.most_steps) {
+      orbit.failure =
+          fmt::format("no orbit: after {} steps of Newton's method the residual is {:.1e}", step,
+                      orbit.residual);
+      return orbit;
+    }
+    before = orbit.residual;
+    const auto correction = newton_step(shooting_jacobian(orbit.tangents), gaps);
+    if (!correction) {
+      orbit.failure = "no orbit: a multiplier is one, there the return map has no isolated orbit";
+      return orbit;
+    }
+    PeriodicOrbit next;
+    double share = 1.0;
+    for (int k = 0; k <= most_halvings; ++k, share *= 0.5) {
+      next = orbit;
+      for (std::size_t i = 0; i < next.states.size(); ++i) {
+        next.states[i] -= share * flow.scale.cwiseProduct(
+                                      correction->segment(static_cast<Eigen::Index>(i) * n, n));
+      }
+      gaps = shoot(flow, next);
+      if (gaps.size() > 0 && next.residual <= worse * before) break;
+    }
+    orbit = std::move(next);
+  }
+  orbit.multipliers = multipliers_of(orbit.tangents);
+  return orbit;
+}
+
+PeriodicOrbit find_orbit(const Flow& flow, const Vec& start, const ShootingOptions& options) {
+  options.check();
+  const int segments = options.segments > 0 ? options.segments : options.period;
+  std::vector<Vec> starts{start};
+  while (std::ssize(starts) < segments) {
+    Passage p = flow.go({&starts.back(), 1}, options.period / segments, Tangents::no).front();
+    if (!p.failure.empty()) {
+      PeriodicOrbit orbit{.period = options.period, .revolution = flow.period, .states = starts};
+      orbit.residual = std::numeric_limits<double>::infinity();
+      orbit.failure = p.failure;
+      return orbit;
+    }
+    starts.push_back(std::move(p.end));
+  }
+  return find_orbit(flow, std::move(starts), options);
+}
+
+int shortest_period(const PeriodicOrbit& orbit, const Vec& scale) {
+  const int m = static_cast<int>(orbit.states.size());
+  for (int p = 1; p < m; ++p) {
+    if (m % p != 0) continue;
+    double worst = 0.0;
+    for (int i = 0; i < m; ++i) {
+      const Vec& a = orbit.states[static_cast<std::size_t>(i)];
+      const Vec& b = orbit.states[static_cast<std::size_t>((i + p) % m)];
+      worst = std::max(worst, (a - b).cwiseQuotient(scale).lpNorm<Eigen::Infinity>());
+    }
+    if (worst < same) return orbit.period / m * p;
+  }
+  return orbit.period;
+}
+
+}  // namespace whirl

@@ -1,0 +1,102 @@
+#pragma once
+/// Periodic orbits by shooting, on any flow map.
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libdyn/contact_measures.hpp"
+#include "libfe/base/linalg.hpp"
+
+namespace whirl {
+
+/// What becomes of one start.
+struct Passage {
+  Vec end;
+  Mat tangent;                           ///< derivative of the end by the start
+  std::vector<ContactMeasure> contacts;  ///< times, not shares; empty: there are no contacts
+  std::string failure;                   ///< why there is no end; empty: there is one
+};
+
+/// Whether the derivative of the end is wanted, too.
+enum class Tangents { no, yes };
+
+/// A map from the states at the start of a revolution to those some revolutions later.
+struct Flow {
+  Vec scale;            ///< of the states: what counts as a change of one in each
+  double period = 1.0;  ///< of a revolution [s]
+  /// Moves several starts on by as many revolutions; a passage each.
+  std::function<std::vector<Passage>(std::span<const Vec> starts, long revolutions, Tangents)> go;
+};
+
+struct ShootingOptions {
+  int period = 1;           ///< of the orbit [revolutions]
+  int segments = 0;         ///< that it is shot in, a divisor of the period; 0: one a revolution
+  int most_steps = 12;      ///< of Newton's method
+  double accurate = 1e-11;  ///< residual of an orbit [scales]
+
+  /// @throws NumericalError  if segments does not divide the period, or a number is not positive
+  void check() const;
+};
+
+/// A periodic orbit, or how far the search for it got.
+struct PeriodicOrbit {
+  int period = 1;                 ///< [revolutions]
+  double revolution = 1.0;        ///< duration of a revolution [s]
+  std::vector<Vec> states;        ///< at the starts of the segments
+  std::vector<Mat> tangents;      ///< of the segments, in scales
+  double residual = 0.0;          ///< largest gap between segments [scales]
+  std::vector<double> residuals;  ///< before every step of Newton's method, and after the last
+  CVec multipliers;               ///< of the whole period, the largest first
+  std::vector<ContactMeasure> contacts;  ///< shares of the period
+  std::string failure;                   ///< empty: it is an orbit
+
+  bool is_good() const { return failure.empty(); }
+  bool is_stable() const;
+  /// log(multiplier) / period [1/s]; the imaginary part is known up to the orbit's frequency.
+  CVec exponents() const;
+};
+
+/// Finds a periodic orbit by multiple shooting with Newton's method.
+///
+///   flow(s_i) - s_(i+1) = 0,  i = 1 ... m,  s_(m+1) = s_1
+///
+/// Segments are short where the orbit is long, so that errors of an unstable one do not grow over
+/// its whole period. A step that makes the residual much larger is halved. The residual is below
+/// options.accurate, or as small as rounding and events leave it, at most 1e-8.
+///
+/// @param start  near the orbit; the other segments start on its motion
+/// @source [StoerBulirsch2002], 7.3.5
+PeriodicOrbit find_orbit(const Flow& flow, const Vec& start, const ShootingOptions& options);
+
+/// The same from the starts of all segments.
+PeriodicOrbit find_orbit(const Flow& flow, std::vector<Vec> starts, const ShootingOptions& options);
+
+/// Shortest period that an orbit has, a divisor of its own [revolutions]; its segments say it.
+int shortest_period(const PeriodicOrbit& orbit, const Vec& scale);
+
+/// Moves all segments on once; their gaps, tangents, and what contacts did, go into the orbit.
+/// @return  gaps flow(s_i) - s_(i+1) one after another [scales]; empty if the flow fails
+Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted = Tangents::yes);
+
+/// Derivative of the gaps by the starts of the segments: A - I of a single one.
+Mat shooting_jacobian(std::span<const Mat> tangents);
+
+/// J^-1 r, a step of Newton's method; nothing where J is as good as singular.
+std::optional<Vec> newton_step(const Mat& J, const Vec& r);
+
+/// Whether an orbit is found: its residual is small, or small enough and no longer falling.
+bool is_closed(double residual, double before, double accurate = 1e-11);
+
+/// Eigenvalues of the product A_m ... A_1, the largest first.
+///
+/// They are m-th powers of the eigenvalues of the cyclic matrix that has A_1 ... A_m as its blocks:
+/// the product, in which small multipliers drown beside large ones, is never made. The periodic
+/// QR method does the same to these blocks in a cleverer order.
+///
+/// @source [Kressner2005], 4.1
+CVec multipliers_of(std::span<const Mat> tangents);
+
+}  // namespace whirl

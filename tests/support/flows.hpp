@@ -1,0 +1,90 @@
+#pragma once
+// Flow maps of plain equations, to test shooting and continuation on.
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "libdyn/shooting.hpp"
+
+namespace whirl::test {
+
+/// y' = f(t, y) with its derivative by y.
+struct Equation {
+  std::function<void(double t, const Vec& y, Vec& f, Mat& J)> rates;
+};
+
+/// Moves a state and its tangent on over a time, by extrapolated midpoint rules of order 12.
+/// @source [HairerNorsettWanner1993], II.9
+inline void move_on(const Equation& equation, double t, double duration, int steps, Vec& y,
+                    Mat& Y) {
+  const Eigen::Index n = y.size();
+  Vec f(n);
+  Mat J(n, n);
+  const auto rate = [&](double at, const Mat& Z) -> Mat {  // Z = (y, Y)
+    equation.rates(at, Z.col(0), f, J);
+    Mat dZ(n, n + 1);
+    dZ << f, J * Z.rightCols(n);
+    return dZ;
+  };
+  Mat Z(n, n + 1);
+  Z << y, Y;
+  const double H = duration / steps;
+  for (int s = 0; s < steps; ++s) {
+    const double at = t + H * s;
+    std::vector<Mat> row;
+    for (int j = 0; j < 6; ++j) {
+      const int parts = 2 * (j + 1);
+      const double h = H / parts;
+      Mat before = Z, now = Z + h * rate(at, Z);
+      for (int k = 1; k < parts; ++k) {
+        Mat next = before + 2.0 * h * rate(at + h * k, now);
+        before = std::move(now);
+        now = std::move(next);
+      }
+      Mat T = 0.5 * (now + before + h * rate(at + H, now));  // Gragg's last step
+      for (int k = 1; k <= j; ++k) {
+        const double ratio = double(j + 1) / double(j + 1 - k);
+        Mat better = T + (T - row[std::size_t(k - 1)]) / (ratio * ratio - 1.0);
+        row[std::size_t(k - 1)] = std::move(T);
+        T = std::move(better);
+      }
+      row.push_back(std::move(T));
+    }
+    Z = row.back();
+  }
+  y = Z.col(0);
+  Y = Z.rightCols(n);
+}
+
+/// The flow over periods of an equation that is driven with this period.
+inline Flow flow_of(const Equation& equation, int size, double period, int steps = 40) {
+  return {Vec::Ones(size), period, [=](std::span<const Vec> starts, long revolutions, Tangents) {
+            std::vector<Passage> all;
+            for (const Vec& start : starts) {
+              Passage p{start, Mat::Identity(size, size), {}, {}};
+              for (long r = 0; r < revolutions; ++r) {
+                move_on(equation, 0.0, period, steps, p.end, p.tangent);
+              }
+              all.push_back(std::move(p));
+            }
+            return all;
+          }};
+}
+
+/// x'' + 2 zeta x' + a x + b x^3 = F cos(w t) as an equation of (x, x').
+struct Duffing {
+  double zeta = 0.05, a = 1.0, b = 1.0, F = 0.3, w = 1.0;
+
+  Equation equation() const {
+    return {[p = *this](double t, const Vec& y, Vec& f, Mat& J) {
+      f << y(1),
+          p.F * std::cos(p.w * t) - 2.0 * p.zeta * y(1) - p.a * y(0) - p.b * y(0) * y(0) * y(0);
+      J << 0.0, 1.0, -p.a - 3.0 * p.b * y(0) * y(0), -2.0 * p.zeta;
+    }};
+  }
+  Flow flow() const { return flow_of(equation(), 2, 2.0 * std::numbers::pi / w); }
+};
+
+}  // namespace whirl::test
