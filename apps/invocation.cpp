@@ -53,13 +53,20 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
          fs::equivalent(a, b, ignored);
 }
 
-/// Whether a file is there that has something in it and is not HDF5.
+/// Whether a file is there that has something in it and is not what its name's ending says: a
+/// picture or page that this program writes, else HDF5.
 bool holds_something_else(const fs::path& place) {
   std::error_code ignored;
   if (!fs::is_regular_file(place, ignored)) return false;
   char begin[4] = {};
   std::ifstream(place, std::ios::binary).read(begin, sizeof begin);
-  return begin[0] != '\0' && std::string_view(begin, sizeof begin) != "\x89HDF";
+  const std::string ending = place.extension();
+  const std::string_view expected = ending == ".svg"    ? "<?xm"
+                                    : ending == ".png"  ? "\x89PNG"
+                                    : ending == ".pdf"  ? "%PDF"
+                                    : ending == ".html" ? "<!DO"
+                                                        : "\x89HDF";
+  return begin[0] != '\0' && std::string_view(begin, sizeof begin) != expected;
 }
 
 }  // namespace

@@ -28,6 +28,7 @@ class Invocation {
  public:
   std::string verb;
   std::string file;                          ///< model or result
+  std::vector<std::string> words;            ///< after the file, of verbs that take more
   std::vector<std::string> sets;             ///< PATH=VALUE lines, --speed included
   std::vector<std::string> over;             ///< values of --over, which may be given several times
   std::map<std::string, std::string> given;  ///< options and their values; flags have an empty one
@@ -70,6 +71,8 @@ struct Verb {
   std::string_view example;  ///< a command line
   std::vector<OptionSpec> options;
   Report (*run)(const Invocation&);
+  std::string_view takes_more = "";       ///< placeholder of words after the file; empty: none
+  std::string_view takes_more_help = "";  ///< what they are
 };
 
 /// All verbs, in the order of the help.

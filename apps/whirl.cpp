@@ -170,11 +170,16 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   app.name("whirl " + word);
   app.description(fmt::format("{}\n\nExample: {}", verb->summary, verb->example));
   app.set_help_flag("-h,--help", "this help");
-  app.add_option(
-         std::string(verb->takes), call.file,
-         verb->takes == "MODEL" ? "model file (TOML)" : "result file (HDF5) or model file (TOML)")
+  app.add_option(std::string(verb->takes), call.file,
+                 verb->takes == "MODEL"       ? "model file (TOML)"
+                 : verb->takes == "RESULT.h5" ? "result file (HDF5)"
+                                              : "result file (HDF5) or model file (TOML)")
       ->type_name("")
       ->required();
+  if (!verb->takes_more.empty()) {
+    app.add_option(std::string(verb->takes_more), call.words, std::string(verb->takes_more_help))
+        ->type_name("");
+  }
   app.add_option("--set", sets, "set a value of the model by its path; may be given several times")
       ->type_name("PATH=VALUE")
       ->take_all()

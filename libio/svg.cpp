@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <unordered_set>
 
 namespace whirl {
 
@@ -35,12 +37,8 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// A coordinate to a hundredth of a pixel, without zeros that say nothing.
 std::string number(double value) {
-  std::string text = fmt::format("{:.2f}", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return text == "-0" ? "0" : text;
+  return coordinate(value);
 }
 
 std::string stroke_attributes(const Stroke& s) {
@@ -65,6 +63,13 @@ std::vector<std::string_view> exponents_apart(std::string_view text) {
 }
 
 }  // namespace
+
+std::string coordinate(double value) {
+  std::string text = fmt::format("{:.2f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
 
 Svg::Svg(double width, double height, std::string_view title)
     : head_(fmt::format(
@@ -92,6 +97,30 @@ void Svg::polyline(const std::vector<Pixel>& points, const Stroke& stroke) {
       "<polyline points=\"{}\" fill=\"none\" stroke-linejoin=\"round\" "
       "stroke-linecap=\"round\"{}/>\n",
       list, stroke_attributes(stroke));
+}
+
+void Svg::area(std::string_view outline, std::string_view fill, double opacity, bool is_crisp) {
+  body_ += fmt::format("<path d=\"{}\" fill=\"{}\"", outline, fill);
+  if (opacity < 1.0) body_ += fmt::format(" fill-opacity=\"{}\"", number(opacity));
+  if (is_crisp) body_ += " shape-rendering=\"crispEdges\"";
+  body_ += "/>\n";
+}
+
+void Svg::dots(const std::vector<Pixel>& centers, double size, std::string_view color) {
+  constexpr double grid = 0.2;  // places nearer than this look the same [pixels]
+  std::unordered_set<std::int64_t> seen;
+  std::string list;
+  for (const Pixel& p : centers) {
+    const auto i = std::llround(p.x / grid), j = std::llround(p.y / grid);
+    if (!seen.insert(i * 1'000'003 + j).second) continue;
+    list += fmt::format("M{} {}h0", number(grid * static_cast<double>(i)),
+                        number(grid * static_cast<double>(j)));
+  }
+  if (list.empty()) return;
+  body_ += fmt::format(
+      "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" "
+      "stroke-linecap=\"round\"/>\n",
+      list, color, number(size));
 }
 
 void Svg::marker(Marker shape, Pixel c, double size, std::string_view color) {
@@ -169,6 +198,15 @@ void Svg::begin_group(std::string_view name) {
 
 void Svg::end_group() {
   body_ += "</g>\n";
+}
+
+void Svg::begin_clip(Pixel corner, double width, double height) {
+  ++clips_;
+  body_ += fmt::format(
+      "<clipPath id=\"clip{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" "
+      "height=\"{4}\"/></clipPath>\n"
+      "<g clip-path=\"url(#clip{0})\">\n",
+      clips_, number(corner.x), number(corner.y), number(width), number(height));
 }
 
 std::string Svg::document() const {

@@ -21,5 +21,7 @@ Report run_map(const Invocation& call);
 Report run_basins(const Invocation& call);
 Report run_bench(const Invocation& call);
 Report run_export(const Invocation& call);
+Report run_plot(const Invocation& call);
+Report run_report(const Invocation& call);
 
 }  // namespace whirl

@@ -9,8 +9,9 @@
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/work_precision.hpp"
 #include "libfe/base/error.hpp"
+#include "libio/figure_svg.hpp"
+#include "libio/figures/work_precision.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/plot.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/table.hpp"
 #include "libio/units.hpp"
@@ -28,12 +29,6 @@ struct BenchOptions {
   std::vector<double> tolerances{1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
   long revolutions = 20, discard = 500;
 };
-
-/// "1e-6", "2.5e-7"
-std::string tolerance_text(double tolerance) {
-  const int power = static_cast<int>(std::floor(std::log10(tolerance) + 1e-9));
-  return fmt::format("{:.4g}e{}", tolerance / std::pow(10.0, power), power);
-}
 
 std::vector<std::string> parts_of(const std::string& list) {
   std::vector<std::string> parts;
@@ -211,28 +206,25 @@ void write(ResultWriter& file, const Bench& bench, const Model& model) {
   file.attribute("/bench", "growth", bench.reference.growth);
 }
 
-LinePlot plot_of(const Bench& bench, const Model& model) {
-  LinePlot plot;
-  plot.title = model.title.empty() ? "Speed against error" : model.title;
-  const auto [least, largest] =
-      std::minmax_element(bench.options.tolerances.begin(), bench.options.tolerances.end());
-  plot.subtitle = fmt::format("{:.6g} rpm, one core, tolerances from {} to {}", model.speed / rpm,
-                              tolerance_text(*largest), tolerance_text(*least));
-  plot.x = {fmt::format("error after {} revolution{} [{}]", bench.options.revolutions,
-                        bench.options.revolutions == 1 ? "" : "s",
-                        model.contacts.empty() ? "sizes of the motion" : "clearances"),
-            Scale::logarithmic};
-  plot.y = {"time per revolution [ns]", Scale::logarithmic};
-  for (const TimedRun& run : bench.runs) {
-    if (plot.series.empty() || plot.series.back().name != run.method) {
-      plot.series.push_back({run.method, {}, {}});
-    }
-    // nearer to the reference than this nothing is known
-    plot.series.back().x.push_back(std::max(run.error, bench.reference.error));
-    plot.series.back().y.push_back(1e9 * run.time);
+Figure figure_of(const Bench& bench, const Model& model) {
+  const BenchOptions& options = bench.options;
+  WorkPrecision data{.title = model.title.empty() ? "Speed against error" : model.title,
+                     .methods = options.methods,
+                     .tolerances = options.tolerances};
+  data.subtitle = fmt::format("{:.6g} rpm, one core, {}", model.speed / rpm,
+                              tolerance_range(options.tolerances));
+  data.error.assign(options.methods.size() * options.tolerances.size(),
+                    std::numeric_limits<double>::quiet_NaN());
+  data.time = data.error;
+  for (std::size_t i = 0; i < bench.runs.size(); ++i) {
+    if (bench.runs[i].has_failed()) continue;
+    data.error[i] = bench.runs[i].error;
+    data.time[i] = bench.runs[i].time;
   }
-  plot.marks.push_back({bench.reference.error, "error of the reference"});
-  return plot;
+  data.revolutions = static_cast<double>(options.revolutions);
+  data.reference_error = bench.reference.error;
+  data.unit = model.contacts.empty() ? "sizes of the motion" : "clearances";
+  return work_precision_figure(data);
 }
 
 }  // namespace
@@ -249,7 +241,7 @@ Report run_bench(const Invocation& call) {
   report.text = "Speed against error" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
                 text_of(bench, model);
   if (call.has("svg")) {
-    replace_file(call.given.at("svg"), svg_of(plot_of(bench, model)));
+    replace_file(call.given.at("svg"), svg_of(figure_of(bench, model)));
     report.text += fmt::format("\n  picture: {}\n", call.given.at("svg"));
   }
   if (file) write(*file, bench, model);

@@ -326,6 +326,10 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
   file.attribute("/trajectory", "samples_per_revolution", r.samples);
   file.attribute("/trajectory", "revolutions", static_cast<double>(r.revolutions));
   file.attribute("/trajectory", "period", r.period);
+  const Cost& cost = run.simulation.integration.cost;
+  file.attribute("/trajectory", "steps", static_cast<double>(cost.steps));
+  file.attribute("/trajectory", "evaluations", static_cast<double>(cost.evaluations));
+  file.attribute("/trajectory", "events", static_cast<double>(cost.events));
   if (!run.simulation.integration.diagnosis.empty()) {
     file.attribute("/trajectory", "failure", run.simulation.integration.diagnosis);
   }

@@ -61,6 +61,7 @@ Report run_unbalance(const Invocation& call) {
   if (const auto file = call.result_file(model)) {
     std::vector<std::string> names;
     for (const NamedPoint& p : stations) names.push_back(point_label(p));
+    write_points(*file, model, assembler);
     file->dataset("/unbalance/speed", speeds, {"rad/s", "rotor speed", {""}});
     file->dataset("/unbalance/station", names, {"", "station", {""}});
     const std::vector<std::string> axes{"/unbalance/station", "/unbalance/speed"};

@@ -9,7 +9,7 @@ namespace help_test {
 
 std::vector<std::string> all_verbs() {
   std::vector<std::string> verbs = model_verbs;
-  verbs.push_back("export");
+  verbs.insert(verbs.end(), {"export", "report", "plot"});
   return verbs;
 }
 

@@ -1,12 +1,15 @@
 // Plots: ticks and ranges of axes, labels kept apart, and pictures that hold what they are given.
 
-#include "libio/plot.hpp"
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
+#include "libio/figure_json.hpp"
+#include "libio/figure_svg.hpp"
 #include "libio/svg.hpp"
 
 namespace whirl::plot_test {
@@ -107,39 +110,183 @@ long count(const std::string& text, const std::string& pattern) {
   return std::distance(std::sregex_iterator(text.begin(), text.end(), expression), {});
 }
 
+/// A panel with two lines, on logarithmic axes.
+Panel two_lines() {
+  Panel p;
+  p.x = {.title = "error", .scale = Scale::logarithmic};
+  p.y = {.title = "time [ns]", .scale = Scale::logarithmic};
+  Curve first{.end_name = "first", .paint = Paint::series};
+  first.has_marker = true;
+  first.x = {1e-3, 1e-6, 0.0, NAN};
+  first.y = {10.0, 100.0, 1000.0, 5.0};
+  Curve second{.end_name = "second", .paint = series_paint(1)};
+  second.has_marker = true;
+  second.marker = Marker::square;
+  second.x = {1e-3, 1e-5};
+  second.y = {11.0, 200.0};
+  Curve nowhere{.end_name = "nowhere"};
+  nowhere.x = {NAN};
+  nowhere.y = {1.0};
+  p.curves = {first, second, nowhere};
+  p.rules = {{Rule::Kind::vertical, 1e-8, "limit"}};
+  return p;
+}
+
+void expect_texts_inside(const std::string& svg, const Figure& figure) {
+  const std::regex place("<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\"");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), place), end; it != end; ++it) {
+    EXPECT_GT(std::stod((*it)[1]), 0.0);
+    EXPECT_LT(std::stod((*it)[1]), figure.width);
+    EXPECT_GT(std::stod((*it)[2]), 0.0);
+  }
+}
+
 // Every line has its name, its own marker at each point that has a place, and lies in the picture.
-TEST(LinePlot, DrawsEverySeriesWithItsName) {
-  LinePlot plot;
-  plot.title = "A & B";
-  plot.x = {"error", Scale::logarithmic};
-  plot.y = {"time [ns]", Scale::logarithmic};
-  plot.series = {{"first", {1e-3, 1e-6, 0.0, NAN}, {10.0, 100.0, 1000.0, 5.0}},
-                 {"second", {1e-3, 1e-5}, {11.0, 200.0}},
-                 {"nowhere", {NAN}, {1.0}}};
-  plot.marks = {{1e-8, "limit"}};
-  const std::string svg = svg_of(plot);
+TEST(FigureSvg, DrawsEveryCurveWithItsName) {
+  const Figure figure{.title = "A & B", .panels = {two_lines()}};
+  const std::string svg = svg_of(figure);
   for (const char* text : {"A &amp; B", "error", "time [ns]", "first", "second", "limit"}) {
     EXPECT_NE(svg.find(">" + std::string(text) + "</text>"), std::string::npos) << text;
   }
-  EXPECT_EQ(svg.find("nowhere"), std::string::npos);
+  EXPECT_EQ(svg.find(">nowhere<"), std::string::npos);
   EXPECT_EQ(count(svg, "<circle "), 2);
   EXPECT_EQ(count(svg, "<polygon "), 2);
   EXPECT_EQ(count(svg, "<g "), count(svg, "</g>"));
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
-  const std::regex place("<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\"");
-  for (std::sregex_iterator it(svg.begin(), svg.end(), place), end; it != end; ++it) {
-    EXPECT_GT(std::stod((*it)[1]), 0.0);
-    EXPECT_LT(std::stod((*it)[1]), plot.width);
-    EXPECT_GT(std::stod((*it)[2]), 0.0);
-    EXPECT_LT(std::stod((*it)[2]), plot.height);
-  }
+  expect_texts_inside(svg, figure);
 }
 
-TEST(LinePlot, OfNothingIsAnEmptyFrame) {
-  const std::string svg = svg_of({.title = "empty"});
+TEST(FigureSvg, OfNothingIsAnEmptyFrame) {
+  const std::string svg = svg_of({.title = "empty", .panels = {Panel{}}});
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+// A circle of radius 1 is as wide as high on the paper, whatever the shape of the panel.
+TEST(FigureSvg, EqualScalesKeepCirclesRound) {
+  Curve c{.name = "circle"};
+  for (int i = 0; i <= 64; ++i) {
+    c.x.push_back(std::cos(i * 0.0981747704246810387));
+    c.y.push_back(std::sin(i * 0.0981747704246810387));
+  }
+  Panel p;
+  p.has_equal_scales = true;
+  p.curves = {c};
+  const std::string svg = svg_of({.panels = {p}, .width = 900.0, .height = 300.0});
+  const auto from = svg.find("<polyline points=\"") + 18;
+  std::istringstream list(svg.substr(from, svg.find('"', from) - from));
+  double low_x = 1e9, high_x = -1e9, low_y = 1e9, high_y = -1e9, x = 0.0, y = 0.0;
+  for (char comma = 0; list >> x >> comma >> y;) {
+    low_x = std::min(low_x, x), high_x = std::max(high_x, x);
+    low_y = std::min(low_y, y), high_y = std::max(high_y, y);
+  }
+  EXPECT_GT(high_x - low_x, 100.0);
+  EXPECT_NEAR(high_x - low_x, high_y - low_y, 0.05);  // places are written to 0.01 pixels
+}
+
+// Panels below each other with the same x axis show its numbers once.
+TEST(FigureSvg, StackedPanelsShareTheirAxis) {
+  const Figure one{.panels = {two_lines()}}, two{.panels = {two_lines(), two_lines()}};
+  EXPECT_EQ(count(svg_of(one), ">error</text>"), 1);
+  EXPECT_EQ(count(svg_of(two), ">error</text>"), 1);
+  EXPECT_EQ(count(svg_of(two), ">time \\[ns\\]</text>"), 2);
+}
+
+// Neighbors of one color are one shape, so that a large map is a small file; NaN is left open.
+TEST(FigureSvg, JoinsCellsOfOneColor) {
+  Panel p;
+  p.cells.x = {1.0, 2.0, 3.0, 4.0};
+  p.cells.y = {1.0, 2.0};
+  p.cells.values = {0.0, 0.0, 1.0, 1.0, 0.0, NAN, 0.0, 0.0};
+  p.cells.categories = {{"calm", Paint::rest}, {"wild", Paint::chaotic}};
+  const std::string svg = svg_of({.panels = {p}});
+  EXPECT_EQ(count(svg, "shape-rendering"), 2);  // one path a color
+  const auto from = svg.find("<path d=\"", svg.find("clip-path")) + 9;
+  const std::string paths = svg.substr(from, svg.find("</g>", from) - from);
+  EXPECT_EQ(count(paths, "M[0-9]"), 2 + 1 + 1);  // calm, wild | calm, (open), calm
+  EXPECT_NE(svg.find(">calm</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">wild</text>"), std::string::npos);
+}
+
+// Cells fill their panel to the outer edges; rules across it do not widen or hide it.
+TEST(FigureAxes, GoAroundCells) {
+  Panel p;
+  p.cells.x = {1.0, 2.0, 3.0};
+  p.cells.y = {10.0, 30.0};
+  p.cells.values.assign(6, 0.5);
+  p.rules = {{Rule::Kind::vertical, 7.0, ""}};
+  const PanelAxes axes = axes_of(p);
+  EXPECT_EQ(std::pair(axes.x.first, axes.x.last), std::pair(0.5, 3.5));
+  EXPECT_EQ(std::pair(axes.y.first, axes.y.last), std::pair(0.0, 40.0));
+}
+
+TEST(FigureSvg, WritesDotsThatHideEachOtherOnce) {
+  Curve c{.has_line = false};
+  c.has_marker = true;
+  c.size = 1.5;
+  for (int i = 0; i < 20000; ++i) {
+    c.x.push_back(i % 100);
+    c.y.push_back(0.25 * (i % 100));
+  }
+  Panel p;
+  p.curves = {c};
+  EXPECT_EQ(count(svg_of({.panels = {p}}), "h0"), 100);
+}
+
+TEST(Units, OfFiguresHavePrefixesThatFit) {
+  const auto name = [](double v, const char* unit) { return unit_for(v, unit).name; };
+  EXPECT_EQ(name(0.003, "m"), "mm");
+  EXPECT_EQ(name(3e-6, "m"), "µm");
+  EXPECT_EQ(name(2.0, "m"), "m");
+  EXPECT_EQ(name(2e6, "N/m"), "MN/m");
+  EXPECT_EQ(name(0.0, "N"), "N");
+  EXPECT_EQ(name(400.0, "rad/s"), "rpm");
+  EXPECT_NEAR(unit_for(1.0, "rad/s").factor, 9.549296585513721, 1e-12);
+  EXPECT_EQ(unit_for(0.003, "m").factor, 1e3);
+  EXPECT_EQ(name(0.5, ""), "");
+}
+
+// What the page reads back is what the figure holds; equal arrays are stored once.
+TEST(FigureJson, HoldsNumbersOfTheFigure) {
+  ArrayStore arrays;
+  Figure figure{.kind = "test", .title = "t", .panels = {two_lines(), two_lines()}};
+  const auto json = nlohmann::json::parse(record_of(figure, arrays).json());
+  const auto stored = nlohmann::json::parse(arrays.record().json());
+  EXPECT_EQ(json["kind"], "test");
+  ASSERT_EQ(json["panels"].size(), 2u);
+  const auto& curve = json["panels"][0]["curves"][1];
+  EXPECT_EQ(curve["marker"], "square");
+  EXPECT_EQ(curve["paint"], "series_2");
+  EXPECT_EQ(curve["x"], json["panels"][1]["curves"][1]["x"]);
+  EXPECT_EQ(stored.size(), 6u);
+  const double numbers[] = {1e-3, 1e-5};
+  EXPECT_EQ(stored[curve["x"].get<std::size_t>()], "f64:" + base64(numbers, sizeof numbers));
+  EXPECT_TRUE(json["panels"][0]["x"]["log"]);
+}
+
+// RFC 4648, section 10.
+TEST(FigureJson, WritesBase64) {
+  EXPECT_EQ(base64("", 0), "");
+  EXPECT_EQ(base64("f", 1), "Zg==");
+  EXPECT_EQ(base64("fo", 2), "Zm8=");
+  EXPECT_EQ(base64("foo", 3), "Zm9v");
+  EXPECT_EQ(base64("foobar", 6), "Zm9vYmFy");
+}
+
+// Colors can be told apart, on both backgrounds, and have names of their own.
+TEST(Paints, AreNamedOnce) {
+  std::vector<std::string> names;
+  for (int i = 0; i < paint_count(); ++i) {
+    const PaintColors& p = paint_colors(static_cast<Paint>(i));
+    for (const char* color : {p.light, p.light_text, p.dark}) {
+      EXPECT_TRUE(std::regex_match(color, std::regex("#[0-9a-f]{6}"))) << p.name;
+    }
+    EXPECT_EQ(std::count(names.begin(), names.end(), p.name), 0) << p.name;
+    names.emplace_back(p.name);
+  }
+  EXPECT_EQ(std::string(paint_colors(series_paint(0)).name), "series_1");
+  EXPECT_EQ(std::string(paint_colors(series_paint(9)).name), names.back());
 }
 
 }  // namespace whirl::plot_test

@@ -1,0 +1,34 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "apps/verbs/all.hpp"
+#include "apps/version.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/replace_file.hpp"
+#include "libio/report_page.hpp"
+
+namespace whirl {
+
+Report run_report(const Invocation& call) {
+  std::vector<std::unique_ptr<ResultView>> results;
+  results.push_back(std::make_unique<ResultView>(call.file));
+  for (const std::string& file : call.words) results.push_back(std::make_unique<ResultView>(file));
+  const std::string out =
+      call.text("out", std::filesystem::path(call.file).replace_extension(".html").string());
+  const ReportPage page = report_page(results, version);
+  if (page.figures == 0) {
+    throw FileError(fmt::format("{} holds nothing that can be drawn", call.file));
+  }
+  replace_file(out, page.html);
+  Report report;
+  Record files = Record::array();
+  files.add(out);
+  report.record.set("model", call.file).set("version", version).set("figures", page.figures);
+  report.record.set("files", files);
+  report.text = fmt::format("  {}: {} figures, {:.1f} MB; open it in a browser\n", out,
+                            page.figures, 1e-6 * static_cast<double>(page.html.size()));
+  return report;
+}
+
+}  // namespace whirl

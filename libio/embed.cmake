@@ -1,0 +1,17 @@
+# Writes a C++ file with texts in it: cmake -DOUT=FILE.cpp -DNAMES=a,b -DFILES_a=x.js,y.js -DFILES_b=z.css -P embed.cmake
+# Each text is an array of characters, so that no compiler's limit on string literals counts.
+set(code "#include \"libio/page_assets.hpp\"\nnamespace whirl {\nnamespace {\n")
+set(views "")
+string(REPLACE "," ";" names "${NAMES}")
+foreach(name IN LISTS names)
+  string(REPLACE "," ";" files "${FILES_${name}}")
+  string(APPEND code "constexpr unsigned char bytes_${name}[] = {")
+  foreach(file IN LISTS files)
+    file(READ "${file}" text HEX)
+    string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," text "${text}")
+    string(APPEND code "${text}0x0a,")
+  endforeach()
+  string(APPEND code "};\n")
+  string(APPEND views "const std::string_view page_${name}(reinterpret_cast<const char*>(bytes_${name}), sizeof bytes_${name});\n")
+endforeach()
+file(WRITE "${OUT}" "${code}}  // namespace\n${views}}  // namespace whirl\n")

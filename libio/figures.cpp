@@ -1,0 +1,150 @@
+#include "libio/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "libfe/base/error.hpp"
+#include "libio/figures/all.hpp"
+#include "libio/model_file.hpp"
+
+namespace whirl {
+
+ResultView::ResultView(const std::filesystem::path& file_path)
+    : path(file_path.string()), file(file_path) {
+  if (!file.has("/model")) {
+    throw FileError(fmt::format("{} is no result of whirl: it holds no model", path));
+  }
+  if (file.has_attribute("/", "title")) title = file.string_attribute("/", "title");
+  if (title.empty()) title = file_path.filename().string();
+  try {
+    if (file.has_attribute("/model", "path")) model_path = file.string_attribute("/model", "path");
+    model = parse_model(file.strings("/model").at(0), path, {},
+                        std::filesystem::path(model_path).parent_path());
+    assembler.emplace(model->structure);
+  } catch (const ModelError& error) {
+    model.reset();
+    problem = error.what();
+  }
+}
+
+const std::vector<FigureKind>& figure_kinds() {
+  static const std::vector<FigureKind> kinds{
+      {"layout", "the rotor to scale, with disks, bearings and contacts", {}, true, layout_figures},
+      {"campbell",
+       "natural frequencies over speed, with the critical speeds",
+       {"/campbell/frequency"},
+       false,
+       campbell_figures},
+      {"log_decrement",
+       "logarithmic decrements over speed, with the limit of stability",
+       {"/campbell/log_decrement"},
+       false,
+       log_decrement_figures},
+      {"critical_map",
+       "critical speeds over the stiffness of the bearings",
+       {"/critical/speed"},
+       true,
+       critical_figures},
+      {"modes", "mode shapes along the rotor", {"/modes/shape", "/points/z"}, false, mode_figures},
+      {"bode",
+       "amplitude and phase of the unbalance response",
+       {"/unbalance/x"},
+       false,
+       bode_figures},
+      {"polar",
+       "the same in the plane of its complex amplitude",
+       {"/unbalance/x"},
+       false,
+       polar_figures},
+      {"deflection",
+       "deflected shape at the peaks of the response",
+       {"/unbalance/major", "/points/z"},
+       false,
+       deflection_figures},
+      {"orbit",
+       "path of a station, seen from the ground and from the rotor",
+       {"/trajectory/x"},
+       false,
+       orbit_figures},
+      {"time_history",
+       "displacements and contact forces in time",
+       {"/trajectory/x"},
+       false,
+       time_history_figures},
+      {"spectrum",
+       "full spectrum, backward left and forward right",
+       {"/spectra/amplitude"},
+       false,
+       spectrum_figures},
+      {"poincare",
+       "where a station is once a revolution",
+       {"/trajectory/x"},
+       false,
+       poincare_figures},
+      {"contact_forces",
+       "normal and friction force of the contacts in time",
+       {"/trajectory/normal_force"},
+       false,
+       contact_force_figures},
+      {"contact_angles",
+       "where around the stator it touches, and how hard",
+       {"/trajectory/normal_force", "/trajectory/coordinates"},
+       true,
+       contact_angle_figures},
+      {"mac", "which modes make up the peaks of the response", {"/mac/mac"}, false, mac_figures},
+      {"exponents",
+       "Lyapunov exponents of the motion",
+       {"/classify/exponent"},
+       false,
+       exponent_figures},
+      {"bifurcation",
+       "bifurcation diagram, with exponents, time in touch and forces",
+       {"/sweep/poincare_x"},
+       false,
+       bifurcation_figures},
+      {"spectral_map",
+       "spectra along a parameter, as colors",
+       {"/sweep/spectrum"},
+       false,
+       spectral_map_figures},
+      {"cascade",
+       "spectra along a parameter, one above the other",
+       {"/sweep/spectrum"},
+       false,
+       cascade_figures},
+      {"map", "kinds of motion in a plane of two parameters", {"/map/motion"}, false, map_figures},
+      {"exponent_map",
+       "largest Lyapunov exponent in the plane",
+       {"/map/exponent"},
+       false,
+       exponent_map_figures},
+      {"regime_map", "contact in the plane", {"/map/regime"}, false, regime_map_figures},
+      {"basins", "which motion each start leads to", {"/basins/attractor"}, false, basin_figures},
+      {"work_precision",
+       "speed against error of the integrators",
+       {"/bench/error"},
+       false,
+       work_precision_figures},
+  };
+  return kinds;
+}
+
+bool is_in(const FigureKind& kind, const ResultView& result) {
+  if (kind.needs_model && !result.assembler) return false;
+  return std::all_of(kind.needs.begin(), kind.needs.end(), [&](std::string_view dataset) {
+    return result.file.has(std::string(dataset));
+  });
+}
+
+std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result) {
+  if (!is_in(kind, result)) return {};
+  std::vector<Figure> figures = kind.make(result);
+  for (Figure& f : figures) {
+    f.kind = kind.name;
+    if (f.title.empty()) f.title = result.title;
+  }
+  return figures;
+}
+
+}  // namespace whirl

@@ -1,0 +1,50 @@
+#pragma once
+/// The figures that a result file can be drawn as: one place knows what each looks like.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libdyn/model.hpp"
+#include "libfe/assemble.hpp"
+#include "libio/figure.hpp"
+#include "libio/hdf5.hpp"
+
+namespace whirl {
+
+/// An open result file with the model that is stored in it.
+struct ResultView {
+  /// @throws FileError  if it cannot be read, or was not written by this program
+  explicit ResultView(const std::filesystem::path& path);
+
+  std::string path;
+  ResultReader file;
+  std::string title;           ///< of the model, or the file's name
+  std::string model_path;      ///< where the model came from
+  std::optional<Model> model;  ///< none: see problem
+  std::optional<Assembler> assembler;
+  std::string problem;  ///< why there is no model, such as a bearing table that is gone
+};
+
+/// A kind of figure.
+struct FigureKind {
+  std::string_view name;
+  std::string_view summary;
+  std::vector<std::string_view> needs;  ///< datasets; without all of them there is no figure
+  bool needs_model = false;
+  std::vector<Figure> (*make)(const ResultView&);  ///< the most telling one first; may be none
+};
+
+/// All kinds, in the order of a report. A new kind is a file in figures/ and an entry here.
+const std::vector<FigureKind>& figure_kinds();
+
+/// Whether a result holds what a kind needs.
+bool is_in(const FigureKind& kind, const ResultView& result);
+
+/// The figures of a kind, with kind and title filled in.
+std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result);
+
+}  // namespace whirl

@@ -1,0 +1,94 @@
+#pragma once
+/// The functions behind the kinds of figures, and what they share.
+
+#include "libio/figures.hpp"
+
+namespace whirl {
+
+std::vector<Figure> layout_figures(const ResultView& result);
+std::vector<Figure> campbell_figures(const ResultView& result);
+std::vector<Figure> log_decrement_figures(const ResultView& result);
+std::vector<Figure> critical_figures(const ResultView& result);
+std::vector<Figure> mode_figures(const ResultView& result);
+std::vector<Figure> bode_figures(const ResultView& result);
+std::vector<Figure> polar_figures(const ResultView& result);
+std::vector<Figure> deflection_figures(const ResultView& result);
+std::vector<Figure> time_history_figures(const ResultView& result);
+std::vector<Figure> orbit_figures(const ResultView& result);
+std::vector<Figure> spectrum_figures(const ResultView& result);
+std::vector<Figure> poincare_figures(const ResultView& result);
+std::vector<Figure> contact_force_figures(const ResultView& result);
+std::vector<Figure> contact_angle_figures(const ResultView& result);
+std::vector<Figure> mac_figures(const ResultView& result);
+std::vector<Figure> exponent_figures(const ResultView& result);
+std::vector<Figure> bifurcation_figures(const ResultView& result);
+std::vector<Figure> spectral_map_figures(const ResultView& result);
+std::vector<Figure> cascade_figures(const ResultView& result);
+std::vector<Figure> map_figures(const ResultView& result);
+std::vector<Figure> exponent_map_figures(const ResultView& result);
+std::vector<Figure> regime_map_figures(const ResultView& result);
+std::vector<Figure> basin_figures(const ResultView& result);
+std::vector<Figure> work_precision_figures(const ResultView& result);
+
+namespace figures {
+
+constexpr double rpm = 3.14159265358979323846 / 30.0;  ///< [rad/s]
+constexpr double hertz = 60.0 * rpm;                   ///< [rad/s]
+
+std::vector<double> row(const Mat& m, Eigen::Index i);
+std::vector<double> numbers(const Vec& v);
+
+/// "4430 rpm"; empty for a result without a speed.
+std::string speed_text(const ResultView& result);
+/// The operating speed [rad/s], or NaN.
+double speed_of(const ResultView& result);
+
+struct WhirlStyle {
+  Paint paint;
+  Dash dash;
+  Marker marker;
+  const char *name, *letter;
+};
+/// Of "forward", "backward", "mixed", "planar".
+WhirlStyle whirl_style(const std::string& whirl);
+
+/// An axis of a study, as it is shown.
+struct ShownAxis {
+  std::string path;   ///< of the parameter, empty for numbered starts
+  std::string title;  ///< "operation.speed [rpm]"
+  std::vector<double> values;
+  double factor = 1.0;  ///< of shown numbers in SI
+};
+ShownAxis shown_axis(const ResultView& result, const std::string& path);
+
+/// Position of the first number along a title of an axis with a unit: "x [mm]".
+std::string with_unit(const std::string& what, const DisplayUnit& unit);
+
+/// The contact at a station of the trajectory ("7 ring"), as its number; -1 if there is none.
+int contact_at(const ResultView& result, const std::string& station);
+/// Numbers of stations, those with a contact first.
+std::vector<std::size_t> stations_by_interest(const ResultView& result,
+                                              const std::vector<std::string>& names);
+
+/// A circle of 181 points.
+Curve circle(const std::string& name, double radius, double x = 0.0, double y = 0.0);
+
+/// What a trajectory says beside its numbers.
+struct Motion {
+  explicit Motion(const ResultView& result);
+  Vec time;  ///< [s]
+  double period = 0.0;
+  Eigen::Index per_revolution = 1;  ///< samples
+  bool spins = false;
+  std::vector<std::string> stations;
+
+  Eigen::Index size() const { return time.size(); }
+  double phase(Eigen::Index i) const;  ///< of the rotor at a sample [rad]
+  bool ends_revolution(Eigen::Index i) const;
+  /// First sample of the last revolutions.
+  Eigen::Index last_revolutions(double revolutions) const;
+};
+
+}  // namespace figures
+
+}  // namespace whirl

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libio/figures/all.hpp"
+
+namespace whirl {
+
+namespace {
+
+using namespace figures;
+
+/// What both figures draw: branches over speed.
+struct Branches {
+  explicit Branches(const ResultView& result)
+      : speed(scaled(numbers(result.file.vector("/campbell/speed")), 1.0 / rpm)),
+        frequency(result.file.matrix("/campbell/frequency") / hertz),
+        decrement(result.file.matrix("/campbell/log_decrement")),
+        whirl(result.file.strings("/campbell/whirl")) {}
+  std::vector<double> speed;  ///< [rpm]
+  Mat frequency, decrement;   ///< [Hz], [-]
+  std::vector<std::string> whirl;
+
+  std::string name(Eigen::Index i) const {
+    return fmt::format("{}{}", i + 1, whirl_style(whirl[static_cast<std::size_t>(i)]).letter);
+  }
+};
+
+Curve curve_of(const Branches& b, Eigen::Index i, std::vector<double> y) {
+  const WhirlStyle style = whirl_style(b.whirl[static_cast<std::size_t>(i)]);
+  const std::size_t every = std::max<std::size_t>(1, b.speed.size() / 8);
+  Curve c{.name = style.name, .end_name = b.name(i), .paint = style.paint, .x = b.speed};
+  c.y = std::move(y);
+  c.width = 1.8;
+  c.dash = style.dash;
+  c.has_marker = true;
+  c.marker = style.marker;
+  c.marker_every = every;
+  for (std::size_t j = 0; j < c.x.size(); ++j) {
+    const auto k = static_cast<Eigen::Index>(j);
+    c.hover.push_back(fmt::format("branch {}: {:.5g} Hz ({:.5g} rpm), log decrement {:.4g}",
+                                  b.name(i), b.frequency(i, k), 60.0 * b.frequency(i, k),
+                                  b.decrement(i, k)));
+  }
+  return c;
+}
+
+void mark_operation(const ResultView& result, Panel& panel) {
+  const double speed = speed_of(result) / rpm;
+  if (!std::isfinite(speed) || speed < panel.x.first || speed > panel.x.last) return;
+  panel.rules.push_back(
+      {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
+}
+
+/// A number along a row at a place between its columns.
+double between(const std::vector<double>& x, const Mat& m, Eigen::Index i, double at) {
+  const auto upper = std::upper_bound(x.begin(), x.end(), at);
+  if (upper == x.begin() || upper == x.end()) return std::nan("");
+  const auto k = static_cast<Eigen::Index>(upper - x.begin());
+  const double share = (at - *(upper - 1)) / (*upper - *(upper - 1));
+  return m(i, k - 1) + share * (m(i, k) - m(i, k - 1));
+}
+
+}  // namespace
+
+std::vector<Figure> campbell_figures(const ResultView& result) {
+  const Branches b(result);
+  Figure f{.height = 520.0};
+  f.subtitle = "Campbell diagram";
+  Panel p;
+  p.x = {.title = "speed [rpm]", .first = b.speed.front(), .last = b.speed.back()};
+  p.y.title = "natural frequency [Hz]";
+  p.y.first = 0.0;
+  // branches far above the second harmonic would press the others together
+  const double twice = 2.4 * b.speed.back() / 60.0;
+  double low = 0.0, all = 0.0;
+  for (Eigen::Index i = 0; i < b.frequency.rows(); ++i) {
+    const double top = largest_of(row(b.frequency, i));
+    all = std::max(all, top);
+    if (i < 2 || top < twice) low = std::max(low, top);
+  }
+  p.y.last =
+      axis_around({0.0, std::min(all, std::max(low, 0.5 * twice)) * 1.04}, Scale::linear).last;
+  for (Eigen::Index i = 0; i < b.frequency.rows(); ++i) {
+    p.curves.push_back(curve_of(b, i, row(b.frequency, i)));
+  }
+  p.rules.push_back({Rule::Kind::slope, 1.0 / 60.0, "1X", Paint::ink, Dash::dash_dot});
+  p.rules.push_back({Rule::Kind::slope, 2.0 / 60.0, "2X", Paint::gray, Dash::dotted});
+  p.rules.push_back({Rule::Kind::slope, 0.5 / 60.0, "½X", Paint::gray, Dash::dotted});
+  mark_operation(result, p);
+  if (result.file.has("/campbell/critical_speed")) {
+    const auto speeds = numbers(result.file.vector("/campbell/critical_speed"));
+    const auto branches = result.file.integers("/campbell/critical_branch");
+    Curve c{.name = "critical speed", .paint = Paint::ink, .has_line = false};
+    c.has_marker = true;
+    c.marker = Marker::cross;
+    c.size = 9.0;
+    f.table.header = {"critical speed [rpm]", "[Hz]", "branch", "whirl", "log decrement"};
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(branches[i] - 1);
+      const double speed = speeds[i] / rpm;
+      c.x.push_back(speed);
+      c.y.push_back(speed / 60.0);
+      c.hover.push_back(fmt::format("critical speed {:.1f} rpm of branch {}", speed, b.name(k)));
+      const double decrement = between(b.speed, b.decrement, k, speed);
+      f.table.rows.push_back({fmt::format("{:.1f}", speed), fmt::format("{:.2f}", speed / 60.0),
+                              b.name(k), b.whirl[static_cast<std::size_t>(k)],
+                              fmt::format("{:.4f}", decrement)});
+    }
+    p.curves.push_back(c);
+  }
+  p.cursor = "speed";
+  f.panels.push_back(p);
+  return {f};
+}
+
+std::vector<Figure> log_decrement_figures(const ResultView& result) {
+  const Branches b(result);
+  Figure f{.height = 420.0};
+  f.subtitle = "Logarithmic decrement, stable above zero";
+  Panel p;
+  p.x = {.title = "speed [rpm]", .first = b.speed.front(), .last = b.speed.back()};
+  p.y.title = "log decrement";
+  constexpr double most = 3.0;  // heavily damped branches are left to the eye that zooms out
+  if (largest_of({b.decrement.data(), b.decrement.data() + b.decrement.size()}) > most) {
+    p.y.last = most;
+  }
+  for (Eigen::Index i = 0; i < b.decrement.rows(); ++i) {
+    p.curves.push_back(curve_of(b, i, row(b.decrement, i)));
+  }
+  p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::ink, Dash::solid});
+  mark_operation(result, p);
+  // where a branch loses its damping
+  for (Eigen::Index i = 0; i < b.decrement.rows(); ++i) {
+    for (Eigen::Index k = 1; k < b.decrement.cols(); ++k) {
+      const double before = b.decrement(i, k - 1), now = b.decrement(i, k);
+      if (!(before > 1e-9 && now < -1e-9)) continue;
+      const auto j = static_cast<std::size_t>(k);
+      const double speed = b.speed[j - 1] + (b.speed[j] - b.speed[j - 1]) * before / (before - now);
+      p.rules.push_back({Rule::Kind::vertical, speed,
+                         fmt::format("{} unstable from {:.0f} rpm", b.name(i), speed), Paint::alarm,
+                         Dash::dashed});
+    }
+  }
+  p.cursor = "speed";
+  f.panels.push_back(p);
+  return {f};
+}
+
+}  // namespace whirl

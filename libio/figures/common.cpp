@@ -1,0 +1,123 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libio/figures/all.hpp"
+
+namespace whirl::figures {
+
+std::vector<double> row(const Mat& m, Eigen::Index i) {
+  std::vector<double> values(static_cast<std::size_t>(m.cols()));
+  for (Eigen::Index j = 0; j < m.cols(); ++j) values[static_cast<std::size_t>(j)] = m(i, j);
+  return values;
+}
+
+std::vector<double> numbers(const Vec& v) {
+  return {v.begin(), v.end()};
+}
+
+double speed_of(const ResultView& result) {
+  if (result.file.has_attribute("/", "speed")) return result.file.number_attribute("/", "speed");
+  if (result.model && result.model->has_speed) return result.model->speed;
+  return std::nan("");
+}
+
+std::string speed_text(const ResultView& result) {
+  const double speed = speed_of(result);
+  return std::isfinite(speed) && speed > 0.0 ? fmt::format("{:.6g} rpm", speed / rpm) : "";
+}
+
+WhirlStyle whirl_style(const std::string& whirl) {
+  if (whirl == "forward")
+    return {Paint::forward, Dash::solid, Marker::triangle, "forward (F)", "F"};
+  if (whirl == "backward") {
+    return {Paint::backward, Dash::dashed, Marker::triangle_down, "backward (B)", "B"};
+  }
+  if (whirl == "mixed") return {Paint::mixed, Dash::dash_dot, Marker::circle, "mixed (M)", "M"};
+  return {Paint::mixed, Dash::dotted, Marker::diamond, "planar (P)", "P"};
+}
+
+std::string with_unit(const std::string& what, const DisplayUnit& unit) {
+  return unit.name.empty() ? what : fmt::format("{} [{}]", what, unit.name);
+}
+
+ShownAxis shown_axis(const ResultView& result, const std::string& path) {
+  ShownAxis axis;
+  axis.values = numbers(result.file.vector(path));
+  axis.path = result.file.string_attribute(path, "long_name");
+  const DisplayUnit unit =
+      unit_for(largest_of(axis.values), result.file.string_attribute(path, "units"));
+  axis.title = with_unit(axis.path, unit);
+  axis.factor = 1.0 / unit.factor;
+  axis.values = scaled(std::move(axis.values), unit.factor);
+  return axis;
+}
+
+int contact_at(const ResultView& result, const std::string& station) {
+  if (!result.model || !result.assembler) return -1;
+  const auto& contacts = result.model->contacts;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Point p = result.assembler->point(contacts[i].at);
+    std::string name;
+    if (p.kind == Point::Kind::body) {
+      name = result.model->structure.bodies[static_cast<std::size_t>(p.index)].name;
+      if (station == name || station.starts_with(name + " + ")) return static_cast<int>(i);
+    } else if (station == fmt::format("{}", p.index + 1) ||
+               station.starts_with(fmt::format("{} ", p.index + 1))) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+std::vector<std::size_t> stations_by_interest(const ResultView& result,
+                                              const std::vector<std::string>& names) {
+  std::vector<std::size_t> order(names.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return (contact_at(result, names[a]) >= 0) > (contact_at(result, names[b]) >= 0);
+  });
+  return order;
+}
+
+Curve circle(const std::string& name, double radius, double x, double y) {
+  Curve c{.name = name, .paint = Paint::stator, .dash = Dash::dashed};
+  constexpr int points = 180;
+  for (int i = 0; i <= points; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / points;
+    c.x.push_back(x + radius * std::cos(angle));
+    c.y.push_back(y + radius * std::sin(angle));
+  }
+  return c;
+}
+
+Motion::Motion(const ResultView& result) : time(result.file.vector("/trajectory/time")) {
+  const auto number = [&](const char* name) {
+    return result.file.number_attribute("/trajectory", name);
+  };
+  period = number("period");
+  per_revolution =
+      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(number("samples_per_revolution")));
+  const double speed = speed_of(result);
+  spins = std::isfinite(speed) && speed > 0.0;
+  stations = result.file.strings("/trajectory/station");
+}
+
+double Motion::phase(Eigen::Index i) const {
+  // times are counted in whole revolutions since phase 0
+  return spins && period > 0.0 ? 2.0 * std::numbers::pi * time(i) / period : 0.0;
+}
+
+bool Motion::ends_revolution(Eigen::Index i) const {
+  const double turns = phase(i) / (2.0 * std::numbers::pi);
+  return spins && std::abs(turns - std::round(turns)) * static_cast<double>(per_revolution) < 0.5;
+}
+
+Eigen::Index Motion::last_revolutions(double revolutions) const {
+  const auto samples = static_cast<Eigen::Index>(revolutions * static_cast<double>(per_revolution));
+  return std::max<Eigen::Index>(0, size() - 1 - samples);
+}
+
+}  // namespace whirl::figures

@@ -1,0 +1,233 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libdyn/stations.hpp"
+#include "libio/figures/all.hpp"
+#include "libio/format.hpp"
+#include "libio/vtk_scene.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double mm = 1e3;
+
+Curve area(const std::string& name, Paint paint, std::vector<double> x, std::vector<double> y,
+           const std::string& hover) {
+  Curve c{.name = name, .paint = paint};
+  c.x = std::move(x);
+  c.y = std::move(y);
+  c.width = 1.0;
+  c.fill = 0.55;
+  c.hover.assign(c.x.size(), hover);
+  return c;
+}
+
+/// Both halves of a ring of a section, seen from the side [mm].
+void add_body(Panel& p, const std::string& name, Paint paint, double from, double to, Section left,
+              Section right, const std::string& hover) {
+  if (left.inner <= 0.0 && right.inner <= 0.0) {
+    p.curves.push_back(area(name, paint, {from, to, to, from, from},
+                            {0.5 * left.outer, 0.5 * right.outer, -0.5 * right.outer,
+                             -0.5 * left.outer, 0.5 * left.outer},
+                            hover));
+    return;
+  }
+  for (const double side : {1.0, -1.0}) {
+    p.curves.push_back(
+        area(name, paint, {from, to, to, from, from},
+             {side * 0.5 * left.outer, side * 0.5 * right.outer, side * 0.5 * right.inner,
+              side * 0.5 * left.inner, side * 0.5 * left.outer},
+             hover));
+  }
+}
+
+/// A name above the rotor at a position.
+struct Name {
+  double z = 0.0, height = 0.0;
+  std::string text;
+  Paint paint = Paint::ink;
+  bool is_below = false;
+};
+
+/// Names in rows, so that those side by side do not lie on each other.
+void add_names(Panel& p, std::vector<Name> names, double length, double top, double pitch) {
+  std::stable_sort(names.begin(), names.end(),
+                   [](const Name& a, const Name& b) { return a.z < b.z; });
+  for (const bool is_below : {false, true}) {
+    std::vector<double> ends;  // of the rows so far
+    for (const Name& n : names) {
+      if (n.is_below != is_below) continue;
+      const double half = 0.5 * text_width(n.text, 11.5) / 600.0 * length;
+      std::size_t line = 0;
+      while (line < ends.size() && ends[line] > n.z - half) ++line;
+      if (line == ends.size()) ends.push_back(0.0);
+      ends[line] = n.z + half;
+      const double side = is_below ? -1.0 : 1.0;
+      const double y = side * (top + pitch * (0.9 + static_cast<double>(line)));
+      Curve leader{.paint = n.paint};
+      leader.width = 0.7;
+      leader.dash = Dash::dotted;
+      leader.x = {n.z, n.z};
+      leader.y = {side * n.height, y - side * 0.35 * pitch};
+      p.curves.push_back(leader);
+      p.labels.push_back({n.z, y, n.text, Anchor::middle, 0.0, 4.0, n.paint});
+    }
+  }
+}
+
+std::string stiffness_text(const Connection& b) {
+  if (b.is_rigid || b.is_clamped) return "rigid";
+  const BearingCoefficients c = coefficients(b.coefficients, 0.0);
+  return fmt::format("{}, {} N.s/m", format_engineering(c.K(0, 0), "N/m"), c.C(0, 0));
+}
+
+/// A rotor of bodies only: contacts seen along the axis.
+std::vector<Figure> front_view(const ResultView& result) {
+  const Model& model = *result.model;
+  if (model.contacts.empty()) return {};
+  Figure f{.subtitle = "Rotor and stators, seen along the axis; clearances enlarged"};
+  f.columns = static_cast<int>(std::min<std::size_t>(3, model.contacts.size()));
+  f.width = std::max(460.0, 360.0 * f.columns);
+  f.height = 420.0;
+  for (const Contact& c : model.contacts) {
+    Panel p;
+    p.has_equal_scales = true;
+    p.title = c.name;
+    const double radius = c.friction.radius > 0.0 ? c.friction.radius : 5.0 * c.clearance;
+    const double gap = std::max(c.clearance, 0.12 * radius);
+    p.x.title = "x [mm]";
+    p.y.title = "y [mm]";
+    Curve rotor =
+        figures::circle(c.friction.radius > 0.0 ? "rotor" : "rotor, its size unknown", mm * radius);
+    rotor.paint = Paint::disk;
+    rotor.dash = Dash::solid;
+    rotor.fill = 0.4;
+    rotor.hover.assign(rotor.x.size(),
+                       fmt::format("{} of radius {}", c.at.body, format_length(radius)));
+    Curve inner = figures::circle("stator", mm * (radius + gap)),
+          outer = figures::circle("stator", mm * (1.12 * radius + gap));
+    inner.dash = outer.dash = Dash::solid;
+    inner.width = 2.2;
+    inner.hover.assign(inner.x.size(), "clearance " + format_length(c.clearance));
+    p.curves = {outer, inner, rotor};
+    p.labels.push_back({0.0, mm * (radius + 0.5 * gap), "clearance " + format_length(c.clearance),
+                        Anchor::middle, 0.0, 4.0, Paint::stator});
+    f.panels.push_back(std::move(p));
+  }
+  return {f};
+}
+
+}  // namespace
+
+std::vector<Figure> layout_figures(const ResultView& result) {
+  const Model& model = *result.model;
+  const Assembler& assembler = *result.assembler;
+  const Structure& s = model.structure;
+  const double length = mm * s.length();
+  if (!(length > 0.0)) return front_view(result);
+  const Mesh& mesh = assembler.mesh();
+  Figure f{.subtitle = "Layout, to scale", .width = 860.0};
+  Panel p;
+  p.has_equal_scales = true;
+  p.x.title = "z [mm]";
+  p.y.title = "radius [mm]";
+  double z = 0.0, top = 0.0;
+  for (std::size_t i = 0; i < s.shaft.size(); ++i) {
+    const Segment& segment = s.shaft[i];
+    const auto shown = [](const Section& c) { return Section{mm * c.outer, mm * c.inner}; };
+    const double to = z + mm * segment.length;
+    add_body(p, "shaft", Paint::shaft, z, to, shown(segment.left), shown(segment.right),
+             fmt::format("section {}: {:g} to {:g} mm, diameter {:g}{} mm", i + 1, z, to,
+                         mm * segment.left.outer,
+                         segment.right.outer == segment.left.outer
+                             ? ""
+                             : fmt::format(" to {:g}", mm * segment.right.outer)));
+    top = std::max({top, 0.5 * mm * segment.left.outer, 0.5 * mm * segment.right.outer});
+    z = to;
+  }
+  std::vector<Name> names;
+  const auto position = [&](const Station& station) {
+    const Point point = assembler.point(station);
+    return point.kind == Point::Kind::node ? mm * mesh.z[static_cast<std::size_t>(point.index)]
+                                           : -1.0;
+  };
+  const VtkScene scene = vtk_scene(model, assembler);  // sizes of disks without one
+  for (std::size_t i = 0; i < s.disks.size(); ++i) {
+    const Disk& d = s.disks[i];
+    const double at = position(d.at), half = 0.5 * mm * scene.disks[i].width;
+    const double outer = 2.0 * mm * scene.disks[i].outer_radius;
+    const double inner = mm * shaft_diameter(s, at / mm);
+    add_body(p, "disk", Paint::disk, at - half, at + half, {outer, inner}, {outer, inner},
+             fmt::format("{}: {:.4g} kg, Ip {:.4g}, Id {:.4g} kg.m²{}", d.name, d.m, d.Ip, d.Id,
+                         d.outer_diameter > 0.0 ? "" : ", its size unknown"));
+    names.push_back({at, 0.5 * outer, d.name, Paint::disk});
+    top = std::max(top, 0.5 * outer);
+  }
+  const double symbol = 0.022 * length;
+  for (const Connection& b : s.bearings) {
+    const double at = position(b.from);
+    if (at < 0.0) continue;
+    const double radius = 0.5 * mm * shaft_diameter(s, at / mm);
+    for (const double side : {1.0, -1.0}) {
+      p.curves.push_back(
+          area("bearing", Paint::bearing, {at, at + 0.6 * symbol, at - 0.6 * symbol, at},
+               {side * radius, side * (radius + symbol), side * (radius + symbol), side * radius},
+               fmt::format("bearing {}: {}", b.name, stiffness_text(b))));
+    }
+    names.push_back({at, radius + symbol, b.name, Paint::bearing, true});
+    top = std::max(top, radius + symbol);
+  }
+  for (const Contact& c : model.contacts) {
+    const double at = position(c.at);
+    if (at < 0.0) continue;
+    const double radius =
+        mm * (c.friction.radius > 0.0 ? c.friction.radius : 0.5 * shaft_diameter(s, at / mm));
+    const double low = radius + std::max(mm * c.clearance, 0.004 * length),
+                 high = low + 0.5 * symbol;
+    for (const double side : {1.0, -1.0}) {
+      p.curves.push_back(
+          area("contact", Paint::stator,
+               {at - 0.8 * symbol, at + 0.8 * symbol, at + 0.8 * symbol, at - 0.8 * symbol,
+                at - 0.8 * symbol},
+               {side * low, side * low, side * high, side * high, side * low},
+               fmt::format("contact {}: clearance {}", c.name, format_length(c.clearance))));
+    }
+    names.push_back({at, high, c.name, Paint::stator, true});
+    top = std::max(top, high);
+  }
+  Curve nodes{.name = "node", .paint = Paint::ink, .has_line = false};
+  nodes.has_marker = true;
+  nodes.size = 3.2;
+  std::vector<std::string> what(mesh.z.size());
+  for (const NamedPoint& n : named_points(model, assembler)) {
+    if (n.node() > 0) what[static_cast<std::size_t>(n.node() - 1)] = n.name;
+  }
+  for (std::size_t i = 0; i < mesh.z.size(); ++i) {
+    nodes.x.push_back(mm * mesh.z[i]);
+    nodes.y.push_back(0.0);
+    nodes.hover.push_back(fmt::format("node {}{}{}", i + 1, what[i].empty() ? "" : ": ", what[i]));
+  }
+  Curve axis{.paint = Paint::gray};
+  axis.width = 0.8;
+  axis.dash = Dash::dash_dot;
+  axis.x = {-0.03 * length, 1.03 * length};
+  axis.y = {0.0, 0.0};
+  p.curves.push_back(axis);
+  p.curves.push_back(nodes);
+  const double pitch = 0.034 * length;
+  add_names(p, names, length, top, pitch);
+  double reach = top;
+  for (const Label& l : p.labels) reach = std::max(reach, std::abs(l.y) + 0.5 * pitch);
+  p.x.first = -0.04 * length;
+  p.x.last = 1.04 * length;
+  p.y.first = -reach;
+  p.y.last = reach;
+  f.height = std::clamp(140.0 + 2.0 * reach / (1.08 * length) * 750.0, 260.0, 760.0);
+  f.panels.push_back(std::move(p));
+  return {f};
+}
+
+}  // namespace whirl

@@ -1,0 +1,258 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libio/figures/all.hpp"
+
+namespace whirl {
+
+namespace {
+
+using namespace figures;
+
+/// The planes of a study of two or three parameters.
+struct Planes {
+  Planes(const ResultView& result, const std::string& group)
+      : x(shown_axis(result, group + "/axis_1")), y(shown_axis(result, group + "/axis_2")) {
+    if (result.file.has(group + "/axis_3")) z = shown_axis(result, group + "/axis_3");
+  }
+  ShownAxis x, y, z;
+  std::size_t count() const { return std::max<std::size_t>(1, z.values.size()); }
+  std::size_t point(std::size_t i, std::size_t j, std::size_t plane) const {
+    return (i * y.values.size() + j) * count() + plane;
+  }
+  std::string variant(std::size_t plane) const {
+    return z.values.empty() ? "" : fmt::format("{} = {:.6g}", z.title, z.values[plane]);
+  }
+  /// Cells with a value of every point.
+  template <class Value>
+  Cells cells(std::size_t plane, const Value& value) const {
+    Cells c{.x = x.values, .y = y.values};
+    for (std::size_t j = 0; j < y.values.size(); ++j) {
+      for (std::size_t i = 0; i < x.values.size(); ++i)
+        c.values.push_back(value(point(i, j, plane)));
+    }
+    return c;
+  }
+};
+
+/// A number with the words that a shell takes as one.
+std::string set(const std::string& path, const std::string& value) {
+  return fmt::format(" --set {}={}", path, value);
+}
+
+/// The command that looks at one cell, with what was set in the study's own.
+std::string command_of(const ResultView& result, const Planes& planes, std::size_t plane,
+                       const std::string& verb) {
+  std::string line = fmt::format("whirl {} {}", verb, result.model_path);
+  const auto words = result.file.strings("/arguments");
+  for (std::size_t i = 2; i + 1 < words.size(); ++i) {
+    if (words[i] == "--set" || words[i] == "--speed") {
+      line += fmt::format(" {} '{}'", words[i], words[i + 1]);
+    }
+  }
+  line += set(planes.x.path, "{x}") + set(planes.y.path, "{y}");
+  if (!planes.z.values.empty()) {
+    line += set(planes.z.path, fmt::format("{:.10g}", planes.z.values[plane] * planes.z.factor));
+  }
+  return line;
+}
+
+Figure figure_of(const ResultView& result, const Planes& planes, std::size_t plane, Cells cells,
+                 const std::string& what) {
+  Figure f{.variant = planes.variant(plane), .width = 780.0, .height = 580.0};
+  f.subtitle = what + (f.variant.empty() ? "" : ": " + f.variant);
+  Panel p;
+  p.x.title = planes.x.title;
+  p.y.title = planes.y.title;
+  p.cells = std::move(cells);
+  p.cells.command = command_of(result, planes, plane, "classify");
+  p.cells.x_factor = planes.x.factor;
+  p.cells.y_factor = planes.y.factor;
+  f.panels.push_back(std::move(p));
+  return f;
+}
+
+/// Keeps the categories that occur, with their shares.
+void keep_used(Cells& cells, const std::vector<Category>& all) {
+  std::vector<double> counts(all.size(), 0.0), renamed(all.size(), 0.0);
+  for (const double v : cells.values) {
+    if (std::isfinite(v)) counts[static_cast<std::size_t>(v)] += 1.0;
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (counts[i] == 0.0) continue;
+    renamed[i] = static_cast<double>(cells.categories.size());
+    Category c = all[i];
+    c.name +=
+        fmt::format(" ({:.3g} %)", 100.0 * counts[i] / static_cast<double>(cells.values.size()));
+    cells.categories.push_back(c);
+  }
+  for (double& v : cells.values) {
+    if (std::isfinite(v)) v = renamed[static_cast<std::size_t>(v)];
+  }
+}
+
+const std::vector<Category>& motions() {
+  static const std::vector<Category> all{{"equilibrium", Paint::rest},
+                                         {"period 1", Paint::period_1},
+                                         {"period 2", Paint::period_2},
+                                         {"period 3", Paint::period_3},
+                                         {"period 4", Paint::period_4},
+                                         {"longer period", Paint::longer},
+                                         {"quasi-periodic", Paint::quasi_periodic},
+                                         {"chaotic", Paint::chaotic},
+                                         {"hyperchaotic", Paint::hyperchaotic},
+                                         {"failed", Paint::failed}};
+  return all;
+}
+
+double motion_number(double code, double period) {
+  if (code < 0.0) return 9.0;
+  if (code == 0.0) return 0.0;
+  if (code == 1.0) return period >= 1.0 && period <= 4.0 ? period : 5.0;
+  return code + 4.0;
+}
+
+}  // namespace
+
+std::vector<Figure> map_figures(const ResultView& result) {
+  const Planes planes(result, "/map");
+  const auto motion = result.file.numbers("/map/motion"),
+             period = result.file.numbers("/map/period");
+  const std::vector<double> done =
+      result.file.has("/map/done") ? result.file.numbers("/map/done") : std::vector<double>{};
+  std::vector<Figure> figures;
+  for (std::size_t plane = 0; plane < planes.count(); ++plane) {
+    Cells cells = planes.cells(plane, [&](std::size_t i) {
+      if (!done.empty() && done[i] == 0.0) return std::nan("");
+      return motion_number(motion[i], period[i]);
+    });
+    keep_used(cells, motions());
+    cells.title = "motion";
+    figures.push_back(figure_of(result, planes, plane, std::move(cells), "Kinds of motion"));
+  }
+  return figures;
+}
+
+std::vector<Figure> exponent_map_figures(const ResultView& result) {
+  const Planes planes(result, "/map");
+  const auto exponents = result.file.numbers("/map/exponent");
+  const auto width = static_cast<std::size_t>(result.file.shape("/map/exponent").back());
+  std::vector<Figure> figures;
+  if (width == 0) return figures;
+  for (std::size_t plane = 0; plane < planes.count(); ++plane) {
+    Cells cells = planes.cells(plane, [&](std::size_t i) { return exponents[i * width]; });
+    cells.map = ColorMap::diverging;
+    cells.title = "largest exponent [1/rev]";
+    double high = 0.0;
+    for (const double v : cells.values) high = std::isfinite(v) ? std::max(high, v) : high;
+    cells.last = high > 1e-3 ? high : 0.1;  // white at zero, as far down as up
+    cells.first = -cells.last;
+    figures.push_back(figure_of(result, planes, plane, std::move(cells),
+                                "Largest Lyapunov exponent, chaotic above zero"));
+  }
+  return figures;
+}
+
+std::vector<Figure> regime_map_figures(const ResultView& result) {
+  const Planes planes(result, "/map");
+  const auto regimes = result.file.numbers("/map/regime");
+  const auto contacts = result.file.strings("/map/contact");
+  static const std::vector<Category> all{{"no contact", Paint::rest},
+                                         {"intermittent", Paint::chaotic},
+                                         {"permanent", Paint::period_3}};
+  std::vector<Figure> figures;
+  for (std::size_t plane = 0; plane < planes.count(); ++plane) {
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      Cells cells = planes.cells(plane, [&](std::size_t i) {
+        const double code = regimes[i * contacts.size() + c];
+        return code >= 0.0 && code <= 2.0 ? code : std::nan("");
+      });
+      keep_used(cells, all);
+      cells.title = contacts[c];
+      Figure f = figure_of(result, planes, plane, std::move(cells), "Contact at " + contacts[c]);
+      f.variant = contacts[c] + (f.variant.empty() ? "" : ", " + f.variant);
+      figures.push_back(std::move(f));
+    }
+  }
+  return figures;
+}
+
+std::vector<Figure> basin_figures(const ResultView& result) {
+  auto attractor = result.file.numbers("/basins/attractor");  // from 0; -1: failed
+  for (double& a : attractor) a += 1.0;
+  const auto motion = result.file.numbers("/basins/motion"),
+             period = result.file.numbers("/basins/period");
+  double count = 0.0;
+  for (const double a : attractor) count = std::max(count, a);
+  // a motion is described by the first start that led there
+  std::vector<Category> all{{"failed", Paint::failed}};
+  for (int number = 1; number <= static_cast<int>(count); ++number) {
+    const auto first = static_cast<std::size_t>(
+        std::find(attractor.begin(), attractor.end(), number) - attractor.begin());
+    if (first == attractor.size()) continue;
+    const auto kind = static_cast<std::size_t>(motion_number(motion[first], period[first]));
+    all.push_back({fmt::format("{}: {}", number, motions()[kind].name),
+                   series_paint(static_cast<std::size_t>(number - 1))});
+  }
+  const auto place = [&](std::size_t i) { return std::max(0.0, attractor[i]); };
+  if (result.file.has("/basins/axis_2")) {
+    const Planes planes(result, "/basins");
+    std::vector<Figure> figures;
+    for (std::size_t plane = 0; plane < planes.count(); ++plane) {
+      Cells cells = planes.cells(plane, place);
+      keep_used(cells, all);
+      figures.push_back(figure_of(result, planes, plane, std::move(cells), "Basins of attraction"));
+    }
+    return figures;
+  }
+  // random starts: where the point with the widest starts begins
+  const auto start = result.file.numbers("/basins/start_displacement");
+  const auto width =
+      static_cast<std::size_t>(result.file.shape("/basins/start_displacement").back());
+  std::size_t widest = 0;
+  double spread = -1.0;
+  for (std::size_t k = 0; k + 1 < width; k += 2) {
+    double low = INFINITY, high = -INFINITY;
+    for (std::size_t i = 0; i < attractor.size(); ++i) {
+      low = std::min(low, start[i * width + k]);
+      high = std::max(high, start[i * width + k]);
+    }
+    const bool is_place = width % 4 != 0 || k % 4 == 0;  // not a tilt
+    if (is_place && high - low > spread) spread = high - low, widest = k;
+  }
+  Figure f{.width = 640.0, .height = 600.0};
+  f.subtitle = fmt::format("{} random starts and the motions that they lead to", attractor.size());
+  Panel p;
+  p.has_equal_scales = true;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < attractor.size(); ++i) {
+    largest = std::max(
+        {largest, std::abs(start[i * width + widest]), std::abs(start[i * width + widest + 1])});
+  }
+  const DisplayUnit unit = unit_for(largest, "m");
+  p.x.title = with_unit("x at the start", unit);
+  p.y.title = with_unit("y at the start", unit);
+  for (std::size_t a = 0; a < all.size(); ++a) {
+    Curve c{.paint = all[a].paint, .has_line = false};
+    c.has_marker = true;
+    c.marker = static_cast<Marker>(a % markers);
+    c.size = 6.0;
+    for (std::size_t i = 0; i < attractor.size(); ++i) {
+      if (place(i) != static_cast<double>(a)) continue;
+      c.x.push_back(unit.factor * start[i * width + widest]);
+      c.y.push_back(unit.factor * start[i * width + widest + 1]);
+      c.hover.push_back(fmt::format("start {}, {}", i + 1, all[a].name));
+    }
+    if (c.x.empty()) continue;
+    c.name = fmt::format(
+        "{} ({:.3g} %)", all[a].name,
+        100.0 * static_cast<double>(c.x.size()) / static_cast<double>(attractor.size()));
+    p.curves.push_back(std::move(c));
+  }
+  f.panels.push_back(std::move(p));
+  return {f};
+}
+
+}  // namespace whirl

@@ -1,0 +1,314 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libio/figures/all.hpp"
+
+namespace whirl {
+
+namespace {
+
+using namespace figures;
+
+constexpr double seen_revolutions = 8.0;  ///< at first, of a time history
+constexpr double drawn_orbits = 48.0;     ///< revolutions, of an orbit
+
+/// Ranges of x that show the last revolutions.
+void show_end(const Motion& m, Panel& p) {
+  p.x.first = m.time(m.last_revolutions(seen_revolutions));
+  p.x.last = m.time(m.size() - 1);
+  p.x.title = "time [s]";
+  p.cursor = "time";
+}
+
+std::string revolution_text(const Motion& m, Eigen::Index i) {
+  return fmt::format("{:.2f} revolutions before the end",
+                     (m.time(m.size() - 1) - m.time(i)) / m.period);
+}
+
+/// Normal and friction forces of a contact in a panel.
+void add_forces(const ResultView& result, const Motion& m, Eigen::Index contact, Panel& p,
+                const std::string& name) {
+  const Mat normal = result.file.matrix("/trajectory/normal_force");
+  const Mat friction = result.file.matrix("/trajectory/friction_force");
+  const DisplayUnit unit = unit_for(normal.row(contact).cwiseAbs().maxCoeff(), "N");
+  p.y.title = with_unit(name.empty() ? "force" : name, unit);
+  const auto time = numbers(m.time);
+  Curve n{.name = "normal force", .paint = Paint::series, .x = time};
+  n.y = scaled(row(normal, contact), unit.factor);
+  n.width = 1.3;
+  p.curves.push_back(std::move(n));
+  if (friction.row(contact).cwiseAbs().maxCoeff() > 0.0) {
+    Curve t{.name = "friction force", .paint = series_paint(1), .x = time};
+    t.y = scaled(row(friction, contact), unit.factor);
+    t.width = 1.1;
+    p.curves.push_back(std::move(t));
+  }
+}
+
+}  // namespace
+
+std::vector<Figure> time_history_figures(const ResultView& result) {
+  const Motion m(result);
+  const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
+  const auto time = numbers(m.time);
+  std::vector<Figure> figures;
+  for (const std::size_t i : stations_by_interest(result, m.stations)) {
+    const auto k = static_cast<Eigen::Index>(i);
+    Figure f{.variant = m.stations[i], .height = 500.0};
+    f.subtitle = fmt::format("{}: time history{}{}", m.stations[i],
+                             speed_text(result).empty() ? "" : " at ", speed_text(result));
+    const DisplayUnit unit =
+        unit_for(std::max(x.row(k).cwiseAbs().maxCoeff(), y.row(k).cwiseAbs().maxCoeff()), "m");
+    for (const auto& [name, values] : {std::pair{"x", &x}, std::pair{"y", &y}}) {
+      Panel p;
+      show_end(m, p);
+      p.y.title = with_unit(name, unit);
+      Curve c{.name = name[0] == 'x' ? "x" : "y",
+              .paint = name[0] == 'x' ? Paint::series : series_paint(2),
+              .x = time};
+      c.y = scaled(row(*values, k), unit.factor);
+      c.width = 1.3;
+      p.curves.push_back(std::move(c));
+      f.panels.push_back(std::move(p));
+    }
+    const int contact = contact_at(result, m.stations[i]);
+    if (contact >= 0 && result.file.has("/trajectory/normal_force")) {
+      Panel p;
+      show_end(m, p);
+      add_forces(result, m, contact, p, "contact force");
+      f.panels.push_back(std::move(p));
+      f.height = 620.0;
+    }
+    f.notes = {fmt::format("The last {:g} revolutions.", seen_revolutions)};
+    if (static_cast<double>(m.size()) <= seen_revolutions * static_cast<double>(m.per_revolution))
+      f.notes.clear();
+    figures.push_back(std::move(f));
+  }
+  return figures;
+}
+
+std::vector<Figure> orbit_figures(const ResultView& result) {
+  const Motion m(result);
+  const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
+  const Eigen::Index from = m.last_revolutions(drawn_orbits);
+  std::vector<Figure> figures;
+  for (const std::size_t i : stations_by_interest(result, m.stations)) {
+    const auto k = static_cast<Eigen::Index>(i);
+    Figure f{.variant = m.stations[i], .width = 900.0, .height = 480.0};
+    f.columns = 2;
+    f.subtitle = fmt::format("{}: orbit{}{}", m.stations[i],
+                             speed_text(result).empty() ? "" : " at ", speed_text(result));
+    const double size = std::max(x.row(k).cwiseAbs().maxCoeff(), y.row(k).cwiseAbs().maxCoeff());
+    const DisplayUnit unit = unit_for(size, "m");
+    const int contact = contact_at(result, m.stations[i]);
+    for (const bool is_rotating : {false, true}) {
+      if (is_rotating && !m.spins) break;
+      Panel p;
+      p.title = is_rotating ? "seen from the rotor" : "seen from the ground";
+      p.has_equal_scales = true;
+      p.x.title = with_unit(is_rotating ? "ξ" : "x", unit);
+      p.y.title = with_unit(is_rotating ? "η" : "y", unit);
+      Curve c{.name = "orbit", .paint = is_rotating ? series_paint(2) : Paint::forward};
+      c.width = 1.0;
+      c.along_title = "time";
+      Curve dots{.name = "once a revolution", .paint = Paint::alarm, .has_line = false};
+      dots.has_marker = true;
+      dots.size = 4.5;
+      for (Eigen::Index j = from; j < m.size(); ++j) {
+        const Complex q =
+            Complex(x(k, j), y(k, j)) * (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
+        c.x.push_back(unit.factor * q.real());
+        c.y.push_back(unit.factor * q.imag());
+        c.along.push_back(m.time(j));
+        if (!m.ends_revolution(j)) continue;
+        dots.x.push_back(c.x.back());
+        dots.y.push_back(c.y.back());
+        dots.along.push_back(m.time(j));
+        dots.hover.push_back(revolution_text(m, j));
+      }
+      dots.along_title = "time";
+      // how it ends: the way it turns
+      const std::size_t n = c.x.size(),
+                        back = std::min<std::size_t>(
+                            n - 1, static_cast<std::size_t>(m.per_revolution / 12 + 1));
+      if (contact >= 0) {
+        const Contact& at = result.model->contacts[static_cast<std::size_t>(contact)];
+        const bool is_fixed = at.against.kind == Station::Kind::ground;
+        if (at.clearance > 0.0 && at.clearance < 20.0 * size && (is_fixed || !is_rotating)) {
+          const bool is_centered = at.offset.norm() == 0.0;
+          if (!is_rotating || is_centered) {
+            p.curves.push_back(circle(is_fixed ? "clearance" : "clearance, stator at rest",
+                                      unit.factor * at.clearance, unit.factor * at.offset(0),
+                                      unit.factor * at.offset(1)));
+          }
+        }
+      }
+      Curve end{.name = "end", .paint = Paint::ink, .has_line = false};
+      end.has_marker = true;
+      end.size = 7.0;
+      end.x = {c.x.back()};
+      end.y = {c.y.back()};
+      Curve tail{.name = "last twelfth of a revolution", .paint = Paint::ink};
+      tail.width = 2.4;
+      tail.x.assign(c.x.end() - static_cast<std::ptrdiff_t>(back), c.x.end());
+      tail.y.assign(c.y.end() - static_cast<std::ptrdiff_t>(back), c.y.end());
+      p.curves.push_back(std::move(c));
+      if (m.spins) p.curves.push_back(std::move(dots));
+      p.curves.push_back(std::move(tail));
+      p.curves.push_back(std::move(end));
+      f.panels.push_back(std::move(p));
+    }
+    if (f.panels.size() == 1) f.width = 540.0, f.columns = 1;
+    if (from > 0) f.notes = {fmt::format("The last {:g} revolutions.", drawn_orbits)};
+    figures.push_back(std::move(f));
+  }
+  return figures;
+}
+
+std::vector<Figure> poincare_figures(const ResultView& result) {
+  const Motion m(result);
+  if (!m.spins) return {};
+  const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
+  std::vector<Figure> figures;
+  for (const std::size_t i : stations_by_interest(result, m.stations)) {
+    const auto k = static_cast<Eigen::Index>(i);
+    Figure f{.variant = m.stations[i], .width = 900.0, .height = 480.0};
+    f.columns = 2;
+    f.subtitle = fmt::format("{}: Poincaré section at {}", m.stations[i], speed_text(result));
+    const DisplayUnit unit =
+        unit_for(std::max(x.row(k).cwiseAbs().maxCoeff(), y.row(k).cwiseAbs().maxCoeff()), "m");
+    Panel plane, next;
+    plane.title = "once a revolution";
+    next.title = "from one revolution to the next";
+    plane.x.title = next.x.title = with_unit("x", unit);
+    plane.y.title = with_unit("y", unit);
+    next.y.title = with_unit("x a revolution later", unit);
+    Curve c{.paint = Paint::forward, .has_line = false};
+    c.has_marker = true;
+    c.size = 4.0;
+    c.along_title = "time";
+    Curve after = c;
+    for (Eigen::Index j = 0; j < m.size(); ++j) {
+      if (!m.ends_revolution(j)) continue;
+      c.x.push_back(unit.factor * x(k, j));
+      c.y.push_back(unit.factor * y(k, j));
+      c.along.push_back(m.time(j));
+      c.hover.push_back(revolution_text(m, j));
+    }
+    for (std::size_t j = 0; j + 1 < c.x.size(); ++j) {
+      after.x.push_back(c.x[j]);
+      after.y.push_back(c.x[j + 1]);
+    }
+    const std::size_t count = c.x.size();
+    if (count == 0) return {};
+    // a motion that repeats is one point: an orbit's size is the scale then, not rounding
+    const double room = 1e-3 * unit.factor * x.row(k).cwiseAbs().maxCoeff();
+    const auto around = [&](Panel& p, const Curve& points) {
+      const auto [left, right] = std::minmax_element(points.x.begin(), points.x.end());
+      const auto [low, high] = std::minmax_element(points.y.begin(), points.y.end());
+      if (points.x.empty() || (*right - *left > room && *high - *low > room)) return;
+      if (*right - *left <= room) p.x.first = *left - room, p.x.last = *right + room;
+      if (*high - *low <= room) p.y.first = *low - room, p.y.last = *high + room;
+    };
+    around(plane, c);
+    around(next, after);
+    Curve diagonal{.paint = Paint::gray};
+    diagonal.width = 1.0;
+    diagonal.dash = Dash::dashed;
+    diagonal.is_key = false;
+    const double far = 2.0 * unit.factor * x.row(k).cwiseAbs().maxCoeff();
+    diagonal.x = {-far, far};
+    diagonal.y = {-far, far};
+    plane.curves = {std::move(c)};
+    next.curves = {std::move(diagonal), std::move(after)};
+    f.panels = {std::move(plane), std::move(next)};
+    f.notes = {fmt::format("{} revolutions.", count)};
+    figures.push_back(std::move(f));
+  }
+  return figures;
+}
+
+std::vector<Figure> spectrum_figures(const ResultView& result) {
+  const auto frequency = numbers(result.file.vector("/spectra/frequency"));
+  const Mat amplitude = result.file.matrix("/spectra/amplitude");
+  const auto stations = result.file.strings("/trajectory/station");
+  const double speed = speed_of(result);
+  const bool spins = std::isfinite(speed) && speed > 0.0;
+  std::vector<Figure> figures;
+  for (const std::size_t i : stations_by_interest(result, stations)) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double largest = amplitude.row(k).maxCoeff();
+    if (!(largest > 0.0)) continue;
+    Figure f{.variant = stations[i], .width = 860.0, .height = 430.0};
+    f.subtitle = fmt::format("{}: full spectrum{}{}, backward left, forward right", stations[i],
+                             spins ? " at " : "", speed_text(result));
+    const DisplayUnit unit = unit_for(largest, "m");
+    Panel p;
+    p.cursor = "frequency";
+    p.x.title = "whirl frequency [Hz]";
+    p.y = {.title = with_unit("radius", unit), .scale = Scale::logarithmic};
+    p.y.first = std::pow(10.0, std::floor(std::log10(1e-4 * largest * unit.factor)));
+    p.y.last = std::pow(10.0, std::ceil(std::log10(1.3 * largest * unit.factor)));
+    Curve c{.paint = Paint::forward, .x = scaled(frequency, 1.0 / hertz)};
+    c.y = scaled(row(amplitude, k), unit.factor);
+    c.width = 1.2;
+    if (spins) p.x.also_unit = "X", p.x.also_factor = hertz / speed;
+    // lines that are maxima, the strongest with their names
+    std::vector<std::size_t> peaks;
+    for (std::size_t j = 1; j + 1 < c.y.size(); ++j) {
+      if (c.y[j] > c.y[j - 1] && c.y[j] >= c.y[j + 1] && c.y[j] > 1e-3 * largest * unit.factor)
+        peaks.push_back(j);
+    }
+    std::sort(peaks.begin(), peaks.end(),
+              [&](std::size_t a, std::size_t b) { return c.y[a] > c.y[b]; });
+    double reach = 0.0;  // of what is worth seeing
+    for (const std::size_t j : peaks) reach = std::max(reach, 1.15 * std::abs(c.x[j]));
+    if (spins) reach = std::max(reach, 2.2 * speed / hertz);
+    reach = std::min(reach, c.x.empty() ? 1.0 : std::max(c.x.back(), 1e-9));
+    p.x.first = -reach;
+    p.x.last = reach;
+    std::vector<double> named;
+    for (const std::size_t j : peaks) {
+      const bool is_near = std::any_of(named.begin(), named.end(), [&](double other) {
+        return std::abs(other - c.x[j]) < 0.09 * reach;
+      });
+      if (is_near || named.size() == 7) continue;
+      named.push_back(c.x[j]);
+      p.labels.push_back({c.x[j], c.y[j],
+                          with_minus(spins ? fmt::format("{:+.3g}X", frequency[j] / speed)
+                                           : fmt::format("{:+.4g} Hz", c.x[j])),
+                          Anchor::middle, 0.0, -7.0});
+    }
+    p.rules.push_back({Rule::Kind::vertical, 0.0, "", Paint::ink, Dash::solid});
+    if (spins) {
+      p.rules.push_back({Rule::Kind::vertical, speed / hertz, "+1X", Paint::gray, Dash::dotted});
+      p.rules.push_back({Rule::Kind::vertical, -speed / hertz, "−1X", Paint::gray, Dash::dotted});
+    }
+    p.curves.push_back(std::move(c));
+    f.panels.push_back(std::move(p));
+    figures.push_back(std::move(f));
+  }
+  return figures;
+}
+
+std::vector<Figure> contact_force_figures(const ResultView& result) {
+  const Motion m(result);
+  const auto names = result.file.strings("/contacts/name");
+  Figure f{.height = 90.0 + 190.0 * static_cast<double>(names.size())};
+  f.subtitle = fmt::format("Contact forces{}{}", speed_text(result).empty() ? "" : " at ",
+                           speed_text(result));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Panel p;
+    show_end(m, p);
+    p.title = names[i];
+    add_forces(result, m, static_cast<Eigen::Index>(i), p, "");
+    if (p.curves[0].y.empty() || largest_of(p.curves[0].y) == 0.0) p.title += " (never touches)";
+    f.panels.push_back(std::move(p));
+  }
+  f.notes = {fmt::format("The last {:g} revolutions.", seen_revolutions)};
+  return f.panels.empty() ? std::vector<Figure>{} : std::vector<Figure>{f};
+}
+
+}  // namespace whirl

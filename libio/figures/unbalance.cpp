@@ -1,0 +1,242 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "libio/figures/all.hpp"
+
+namespace whirl {
+
+namespace {
+
+using namespace figures;
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+struct Response {
+  explicit Response(const ResultView& result)
+      : speed(scaled(numbers(result.file.vector("/unbalance/speed")), 1.0 / rpm)),
+        stations(result.file.strings("/unbalance/station")),
+        x(result.file.complex_matrix("/unbalance/x")),
+        y(result.file.complex_matrix("/unbalance/y")) {}
+  std::vector<double> speed;  ///< [rpm]
+  std::vector<std::string> stations;
+  CMat x, y;
+
+  /// Stations with a name (disks, bearings, contacts), or all if none has.
+  std::vector<Eigen::Index> named() const {
+    std::vector<Eigen::Index> list;
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      if (stations[i].find_first_not_of("0123456789") != std::string::npos) {
+        list.push_back(static_cast<Eigen::Index>(i));
+      }
+    }
+    for (std::size_t i = 0; list.empty() && i < stations.size(); ++i) {
+      list.push_back(static_cast<Eigen::Index>(i));
+    }
+    return list;
+  }
+};
+
+/// Phases that go on across +-180 degrees [deg].
+std::vector<double> continuous_phase(const CMat& a, Eigen::Index i) {
+  std::vector<double> phase;
+  double turns = 0.0, before = std::nan("");
+  for (Eigen::Index k = 0; k < a.cols(); ++k) {
+    double now = std::abs(a(i, k)) > 0.0 ? std::arg(a(i, k)) / degree : std::nan("");
+    if (std::isfinite(now)) {
+      now += turns;
+      while (now - before > 180.0) now -= 360.0, turns -= 360.0;
+      while (now - before < -180.0) now += 360.0, turns += 360.0;
+      before = now;
+    }
+    phase.push_back(now);
+  }
+  // at the start as near to zero as may be
+  double first = 0.0;
+  for (const double p : phase) {
+    if (std::isfinite(p)) {
+      first = p;
+      break;
+    }
+  }
+  const double shift = 360.0 * std::round(first / 360.0);
+  for (double& p : phase) p -= shift;
+  return phase;
+}
+
+void mark_operation(const ResultView& result, const Response& r, Panel& panel) {
+  const double speed = speed_of(result) / rpm;
+  if (!std::isfinite(speed) || speed < r.speed.front() || speed > r.speed.back()) return;
+  panel.rules.push_back(
+      {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
+}
+
+Figure bode(const ResultView& result, const Response& r, const CMat& a, const char* direction) {
+  Figure f{.variant = direction, .height = 560.0};
+  f.subtitle = fmt::format("Unbalance response along {}, amplitude peak to peak", direction);
+  const DisplayUnit unit = unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m");
+  Panel amplitude, phase;
+  for (Panel* p : {&amplitude, &phase}) {
+    p->x = {.title = "speed [rpm]", .first = r.speed.front(), .last = r.speed.back()};
+    p->cursor = "speed";
+    mark_operation(result, r, *p);
+  }
+  phase.rules.clear();
+  amplitude.share = 1.5;
+  amplitude.y = {.title = with_unit("amplitude p-p", unit), .first = 0.0};
+  phase.y = {.title = "phase [deg]", .step = 90.0};
+  std::size_t number = 0;
+  for (const Eigen::Index i : r.named()) {
+    Curve c{.name = r.stations[static_cast<std::size_t>(i)],
+            .paint = series_paint(number),
+            .x = r.speed};
+    c.width = 1.8;
+    constexpr Dash dashes[] = {Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
+    c.dash = dashes[number++ % 4];
+    Curve lag = c;
+    for (Eigen::Index k = 0; k < a.cols(); ++k)
+      c.y.push_back(2.0 * unit.factor * std::abs(a(i, k)));
+    lag.y = continuous_phase(a, i);
+    amplitude.curves.push_back(std::move(c));
+    phase.curves.push_back(std::move(lag));
+  }
+  double low = 0.0, high = 0.0;
+  for (const Curve& c : phase.curves) {
+    for (const double v : c.y) {
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    }
+  }
+  phase.y.first = 90.0 * std::floor(low / 90.0 - 1e-6);
+  phase.y.last = 90.0 * std::ceil(high / 90.0 + 1e-6);
+  f.panels = {amplitude, phase};
+  return f;
+}
+
+}  // namespace
+
+std::vector<Figure> bode_figures(const ResultView& result) {
+  const Response r(result);
+  std::vector<Figure> figures{bode(result, r, r.x, "x")};
+  constexpr double same = 1e-6;  // of an isotropic rotor
+  if ((r.x.cwiseAbs() - r.y.cwiseAbs()).cwiseAbs().maxCoeff() > same * r.x.cwiseAbs().maxCoeff()) {
+    figures.push_back(bode(result, r, r.y, "y"));
+  }
+  return figures;
+}
+
+std::vector<Figure> polar_figures(const ResultView& result) {
+  const Response r(result);
+  std::vector<Figure> figures;
+  auto stations = r.named();
+  std::stable_sort(stations.begin(), stations.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return r.x.row(a).cwiseAbs().maxCoeff() > r.x.row(b).cwiseAbs().maxCoeff();
+  });
+  for (const Eigen::Index i : stations) {
+    const std::string name = r.stations[static_cast<std::size_t>(i)];
+    Figure f{.variant = name, .width = 560.0, .height = 560.0};
+    f.subtitle = name + ": complex amplitude along x, peak to peak, speeds along the loop";
+    const double largest = 2.0 * r.x.row(i).cwiseAbs().maxCoeff();
+    const DisplayUnit unit = unit_for(largest, "m");
+    Panel p;
+    p.has_equal_scales = true;
+    p.x.title = with_unit("in phase", unit);
+    p.y.title = with_unit("90° ahead", unit);
+    Curve c{.paint = Paint::forward};
+    c.width = 1.8;
+    for (Eigen::Index k = 0; k < r.x.cols(); ++k) {
+      c.x.push_back(2.0 * unit.factor * r.x(i, k).real());
+      c.y.push_back(2.0 * unit.factor * r.x(i, k).imag());
+      c.hover.push_back(fmt::format(
+          "{:.5g} rpm: {:.4g} {}, {:.1f}°", r.speed[static_cast<std::size_t>(k)],
+          2.0 * unit.factor * std::abs(r.x(i, k)), unit.name, std::arg(r.x(i, k)) / degree));
+    }
+    c.along = r.speed;
+    c.along_title = "speed";
+    // round speeds, where the loop has gone on by a twelfth of its size
+    Curve marks{.paint = Paint::ink, .has_line = false};
+    marks.has_marker = true;
+    marks.size = 5.0;
+    double x = 1e300, y = 1e300;
+    for (std::size_t k = 0; k < c.x.size(); ++k) {
+      if (std::hypot(c.x[k] - x, c.y[k] - y) < largest * unit.factor / 6.0) continue;
+      x = c.x[k];
+      y = c.y[k];
+      marks.x.push_back(x);
+      marks.y.push_back(y);
+      const double angle = std::atan2(y, x);
+      p.labels.push_back({x, y, fmt::format("{:.0f}", r.speed[k]),
+                          std::cos(angle) < -0.3  ? Anchor::end
+                          : std::cos(angle) > 0.3 ? Anchor::start
+                                                  : Anchor::middle,
+                          8.0 * std::cos(angle), 4.0 - 13.0 * std::sin(angle)});
+    }
+    p.rules = {{Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::solid},
+               {Rule::Kind::vertical, 0.0, "", Paint::gray, Dash::solid}};
+    p.curves = {c, marks};
+    f.panels.push_back(p);
+    f.notes = {"Numbers along the loop are speeds [rpm]."};
+    figures.push_back(f);
+    if (figures.size() == 8) break;
+  }
+  return figures;
+}
+
+std::vector<Figure> deflection_figures(const ResultView& result) {
+  const Response r(result);
+  const Mat major = result.file.matrix("/unbalance/major");
+  const auto z = numbers(result.file.vector("/points/z"));
+  // stations along the shaft
+  std::vector<std::pair<double, Eigen::Index>> places;
+  for (std::size_t i = 0; i < r.stations.size(); ++i) {
+    int node = 0;
+    const std::string& s = r.stations[i];
+    std::from_chars(s.data(), s.data() + s.size(), node);
+    if (node < 1 || static_cast<std::size_t>(node) > z.size()) continue;
+    places.emplace_back(z[static_cast<std::size_t>(node - 1)], static_cast<Eigen::Index>(i));
+  }
+  std::sort(places.begin(), places.end());
+  if (places.size() < 3) return {};
+  // speeds at which the largest response has a maximum, the highest first
+  Vec largest = major.cwiseAbs().colwise().maxCoeff().transpose();
+  std::vector<Eigen::Index> peaks;
+  for (Eigen::Index k = 1; k + 1 < largest.size(); ++k) {
+    if (largest(k) > largest(k - 1) && largest(k) >= largest(k + 1)) peaks.push_back(k);
+  }
+  std::sort(peaks.begin(), peaks.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return largest(a) > largest(b); });
+  if (peaks.size() > 4) peaks.resize(4);
+  if (peaks.empty()) peaks.push_back(largest.size() - 1);
+  std::sort(peaks.begin(), peaks.end());
+  Figure f{.height = 400.0};
+  f.subtitle = "Deflected shapes at the peaks of the response";
+  Panel p;
+  p.x.title = "position along the shaft [mm]";
+  double top = 0.0;
+  for (const Eigen::Index k : peaks) top = std::max(top, largest(k));
+  const DisplayUnit unit = unit_for(2.0 * top, "m");
+  p.y.title = with_unit("major axis p-p, signed", unit);
+  std::size_t number = 0;
+  for (const Eigen::Index k : peaks) {
+    Curve c{.name = fmt::format("{:.0f} rpm", r.speed[static_cast<std::size_t>(k)]),
+            .paint = series_paint(number++)};
+    c.has_marker = true;
+    c.marker = static_cast<Marker>(number % markers);
+    c.size = 6.0;
+    Eigen::Index reference = 0;
+    major.col(k).cwiseAbs().maxCoeff(&reference);
+    for (const auto& [at, i] : places) {
+      const double turned = std::cos(std::arg(r.x(i, k)) - std::arg(r.x(reference, k)));
+      c.x.push_back(1e3 * at);
+      c.y.push_back(2.0 * unit.factor * std::copysign(std::abs(major(i, k)), turned));
+    }
+    p.curves.push_back(c);
+  }
+  p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::dash_dot});
+  f.panels.push_back(p);
+  return {f};
+}
+
+}  // namespace whirl

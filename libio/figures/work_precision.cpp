@@ -1,0 +1,72 @@
+#include "libio/figures/work_precision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libio/figures/all.hpp"
+
+namespace whirl {
+
+std::string tolerance_text(double tolerance) {
+  const int power = static_cast<int>(std::floor(std::log10(tolerance) + 1e-9));
+  return fmt::format("{:.4g}e{}", tolerance / std::pow(10.0, power), power);
+}
+
+std::string tolerance_range(const std::vector<double>& tolerances) {
+  if (tolerances.empty()) return "";
+  const auto [least, largest] = std::minmax_element(tolerances.begin(), tolerances.end());
+  return fmt::format("tolerances from {} to {}", tolerance_text(*largest), tolerance_text(*least));
+}
+
+Figure work_precision_figure(const WorkPrecision& data) {
+  Figure f{.kind = "work_precision", .title = data.title, .subtitle = data.subtitle};
+  Panel p;
+  p.x = {.title = fmt::format("error after {:g} revolution{} [{}]", data.revolutions,
+                              data.revolutions == 1.0 ? "" : "s", data.unit),
+         .scale = Scale::logarithmic};
+  p.y = {.title = "time per revolution [ns]", .scale = Scale::logarithmic};
+  const std::size_t columns = data.tolerances.size();
+  for (std::size_t i = 0; i < data.methods.size(); ++i) {
+    Curve c{.end_name = data.methods[i], .paint = series_paint(i)};
+    c.width = 2.0;
+    c.has_marker = true;
+    c.marker = static_cast<Marker>(i % markers);
+    c.size = 8.0;
+    for (std::size_t j = 0; j < columns; ++j) {
+      const std::size_t k = i * columns + j;
+      if (!std::isfinite(data.error[k])) continue;  // it failed
+      // nearer to the reference than this nothing is known
+      c.x.push_back(std::max(data.error[k], data.reference_error));
+      c.y.push_back(1e9 * data.time[k]);
+      c.hover.push_back(
+          fmt::format("{} at {}", data.methods[i], tolerance_text(data.tolerances[j])));
+    }
+    if (!c.x.empty()) p.curves.push_back(std::move(c));
+  }
+  if (data.reference_error > 0.0) {
+    p.rules.push_back({Rule::Kind::vertical, data.reference_error, "error of the reference",
+                       Paint::gray, Dash::dashed});
+  }
+  f.panels.push_back(std::move(p));
+  return f;
+}
+
+std::vector<Figure> work_precision_figures(const ResultView& result) {
+  WorkPrecision data;
+  data.methods = result.file.strings("/bench/method");
+  data.tolerances = figures::numbers(result.file.vector("/bench/tolerance"));
+  data.error = result.file.numbers("/bench/error");
+  data.time = result.file.numbers("/bench/time");
+  data.revolutions = result.file.number_attribute("/bench", "revolutions");
+  data.reference_error = result.file.number_attribute("/bench", "reference_error");
+  data.unit =
+      !result.model || result.model->contacts.empty() ? "sizes of the motion" : "clearances";
+  data.title = result.title;
+  data.subtitle = fmt::format("{}, one core, {}", figures::speed_text(result),
+                              tolerance_range(data.tolerances));
+  return {work_precision_figure(data)};
+}
+
+}  // namespace whirl

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libio/figure.hpp"
+
+namespace whirl {
+
+/// What was measured, for its figure: tolerance by tolerance of method by method.
+struct WorkPrecision {
+  std::string title, subtitle;
+  std::vector<std::string> methods;
+  std::vector<double> tolerances;
+  std::vector<double> error, time;  ///< [-], [s]; NaN where a run failed
+  double revolutions = 0.0;
+  double reference_error = 0.0;
+  std::string unit;  ///< of errors: "clearances"
+};
+
+/// Time over error of every method, both logarithmic, its name at the end of its line.
+Figure work_precision_figure(const WorkPrecision& data);
+
+/// "tolerances from 1e-4 to 1e-12"
+std::string tolerance_range(const std::vector<double>& tolerances);
+
+/// "1e-6", "2.5e-7"
+std::string tolerance_text(double tolerance);
+
+}  // namespace whirl

@@ -1,0 +1,121 @@
+#include "libio/motion_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "libio/vtk_scene.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr Eigen::Index most_numbers = 400'000;  ///< of a motion: 1.6 MB
+constexpr double most_revolutions = 24.0;
+
+Record scene_record(const VtkScene& scene) {
+  Record shaft = Record::array(), disks = Record::array(), stators = Record::array();
+  for (const VtkShaftPiece& p : scene.shaft) {
+    Record r;
+    r.set("left", p.left).set("right", p.right);
+    shaft.add(r.set("left_radius", p.left_radius).set("right_radius", p.right_radius));
+  }
+  for (const VtkDisk& d : scene.disks) {
+    Record r;
+    r.set("name", d.name).set("point", d.point).set("outer", d.outer_radius);
+    disks.add(r.set("inner", d.inner_radius).set("width", d.width));
+  }
+  for (std::size_t i = 0; i < scene.stators.size(); ++i) {
+    const VtkStator& s = scene.stators[i];
+    Record r;
+    r.set("name", s.name).set("point", s.point).set("z", s.z);
+    r.set("x", s.offset(0)).set("y", s.offset(1)).set("radius", s.rotor_radius);
+    r.set("clearance", s.clearance).set("rotor", scene.contacts[i].point);
+    stators.add(r);
+  }
+  Record r;
+  r.set("z", scene.z).set("shaft", shaft).set("disks", disks);
+  return r.set("stators", stators);
+}
+
+/// Rows of full vectors (x, y, theta_x, theta_y of every point), -1 where there is none.
+std::vector<int> rows_of(const DofMap& dofs) {
+  std::vector<int> rows;
+  for (const Point& p : dofs.points()) {
+    for (int c = 0; c < 4; ++c) rows.push_back(dofs.full_index(p, c));
+  }
+  return rows;
+}
+
+/// The last revolutions of a trajectory.
+Record trajectory_record(const ResultView& result, const std::vector<int>& rows, int full_size,
+                         ArrayStore& arrays) {
+  Record r;
+  const Mat basis = result.file.matrix("/trajectory/basis");
+  const Mat coordinates = result.file.matrix("/trajectory/coordinates");
+  const Vec time = result.file.vector("/trajectory/time");
+  if (basis.rows() != full_size || time.size() == 0) return r;
+  const double samples = result.file.number_attribute("/trajectory", "samples_per_revolution");
+  const auto per_frame = static_cast<Eigen::Index>(rows.size());
+  const Eigen::Index count =
+      std::min({time.size(), static_cast<Eigen::Index>(most_revolutions * samples),
+                most_numbers / std::max<Eigen::Index>(1, per_frame)});
+  const Eigen::Index first = time.size() - count;
+  std::vector<double> places, times, forces;
+  Mat normal;
+  if (result.file.has("/trajectory/normal_force")) {
+    normal = result.file.matrix("/trajectory/normal_force");
+  }
+  for (Eigen::Index j = first; j < time.size(); ++j) {
+    const Vec q = basis * coordinates.col(j);
+    for (const int row : rows) places.push_back(row < 0 ? 0.0 : q(row));
+    times.push_back(time(j));
+    for (Eigen::Index c = 0; c < normal.rows(); ++c) forces.push_back(normal(c, j));
+  }
+  r.set("name", "the end of the motion").set("kind", "motion");
+  r.set("times", arrays.add(times)).set("places", arrays.add(places));
+  r.set("forces", arrays.add(forces));
+  r.set("samples", samples);
+  return r;
+}
+
+}  // namespace
+
+Record motion_record(const ResultView& result, ArrayStore& arrays) {
+  Record r, motions = Record::array();
+  if (!result.assembler) return r;
+  const DofMap dofs = result.assembler->uncondensed(0.0).dofs;
+  const std::vector<int> rows = rows_of(dofs);
+  bool moves = false;
+  if (result.file.has("/trajectory/coordinates")) {
+    motions.add(trajectory_record(result, rows, dofs.full_size, arrays));
+    moves = true;
+  }
+  if (result.file.has("/modes/shape")) {
+    const CMat shapes = result.file.complex_matrix("/modes/shape");
+    const Vec frequency = result.file.vector("/modes/frequency");
+    const Vec decrement = result.file.vector("/modes/log_decrement");
+    const auto whirl = result.file.strings("/modes/whirl");
+    constexpr double rpm = std::numbers::pi / 30.0;
+    for (Eigen::Index k = 0; k < shapes.cols() && shapes.rows() == dofs.full_size; ++k) {
+      std::vector<double> re, im;
+      for (const int row : rows) {
+        re.push_back(row < 0 ? 0.0 : shapes(row, k).real());
+        im.push_back(row < 0 ? 0.0 : shapes(row, k).imag());
+      }
+      const std::string sense = whirl[static_cast<std::size_t>(k)];
+      Record mode;
+      mode.set("kind", "mode").set("whirl", sense);
+      mode.set("name",
+               fmt::format("Mode {} | {:.2f} Hz ({:.0f} cpm) | {} | log dec {:.3f}", k + 1,
+                           frequency(k) / rpm / 60.0, frequency(k) / rpm, sense, decrement(k)));
+      motions.add(mode.set("re", arrays.add(re)).set("im", arrays.add(im)));
+      moves = true;
+    }
+  }
+  if (!moves) return r;
+  return scene_record(vtk_scene(*result.model, *result.assembler)).set("motions", motions);
+}
+
+}  // namespace whirl

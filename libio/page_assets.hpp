@@ -1,0 +1,13 @@
+#pragma once
+/// The parts of a report's page, from the folder web/, put into the program by the build.
+
+#include <string_view>
+
+namespace whirl {
+
+extern const std::string_view page_html;    ///< with places for the others
+extern const std::string_view page_style;   ///< CSS
+extern const std::string_view page_script;  ///< JavaScript
+extern const std::string_view page_three;   ///< three.js, minified
+
+}  // namespace whirl

@@ -1,0 +1,24 @@
+#pragma once
+/// The page of a report: one HTML file with everything in it.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libio/figures.hpp"
+
+namespace whirl {
+
+struct ReportPage {
+  std::string html;
+  int figures = 0;
+};
+
+/// Every figure that the results hold, their facts and what moves, in one self-contained page.
+///
+/// @param results  shown one after the other
+/// @param version  of the program that makes the page
+ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
+                       const std::string& version);
+
+}  // namespace whirl

@@ -1,0 +1,225 @@
+"""Opens reports in a headless Chromium, as a reader would: every plot drawn, hover, zoom, legend, downloads, dark, in space.
+
+    report_test.py WHIRL MODELS        exit status 77 where there is no chromium
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import chromium  # noqa: E402
+
+FIRST_PICTURE = 2.0  # [s] with 35 000 cells and 200 000 points, of the issue; measured 0.5
+
+# share of the pixels of a canvas that are drawn, and how many colors they have
+PIXELS = """(canvas => {
+  const {width, height} = canvas, data = canvas.getContext('2d').getImageData(0, 0, width, height).data;
+  const colors = new Set(); let drawn = 0;
+  for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 0) {
+    ++drawn; colors.add((data[i] >> 4) << 8 | (data[i + 1] >> 4) << 4 | data[i + 2] >> 4); }
+  return {share: drawn / (width * height), colors: colors.size}; })"""
+
+failures = []
+
+
+def check(is_true, what):
+    if not is_true:
+        failures.append(what)
+        print("FAILED:", what, flush=True)
+
+
+def check_figures(browser, name):
+    """Every figure of a page, every station of it, has ink in the colors of its curves."""
+    for i in range(browser.value("views.length")):
+        for k in range(browser.value(f"views[{i}].figures.length")):
+            browser.value(f"views[{i}].choose({k})")
+            kind, variant = browser.value(f"[views[{i}].figure.kind, views[{i}].figure.variant]")
+            what = f"{name}: {kind} {variant}"
+            pixels = browser.value(f"{PIXELS}(views[{i}].canvas)")
+            check(pixels["share"] > 0.005, f"{what} is empty: {pixels}")
+            check(pixels["colors"] >= 3, f"{what} has {pixels['colors']} colors")
+            # without its curves and cells the plot looks different
+            if "never touches" not in str(browser.value(f"views[{i}].figure.panels.map(p => p.title)")):
+                same = browser.value(f"""(() => {{ const v = views[{i}], d = v.drawing, kept = d.panels.map(p => [p.curves, p.cells]);
+                  const whole = v.canvas.toDataURL(); d.panels.forEach(p => {{ p.curves = []; p.cells = undefined; }}); v.draw();
+                  const bare = v.canvas.toDataURL(); d.panels.forEach((p, n) => {{ [p.curves, p.cells] = kept[n]; }}); v.draw();
+                  return whole === bare; }})()""")
+                check(not same, f"{what}: its curves leave no ink")
+            svg = browser.value(f"views[{i}].svg()")
+            check(svg.startswith("<?xml") and svg.endswith("</svg>\n") and "NaN" not in svg, f"{what}: SVG")
+            check(browser.value(f"views[{i}].csv().split('\\n').length") > 2, f"{what}: CSV")
+
+
+def middle_of_point(browser, view, panel=0, curve="p.curves.find(c => c.line !== undefined && c.x.length > 8)"):
+    """Where a point of a curve is in the window; the figure is scrolled there."""
+    browser.value(f"{view}.card.scrollIntoView({{block: 'center'}})")
+    return browser.value(f"""(() => {{ const v = {view}, p = v.drawing.panels[{panel}], c = {curve}, r = v.over.getBoundingClientRect();
+      const seen = [...c.x.keys()].filter(i => v.drawing.px(p, c.x[i]) > p.box.x + 0.3 * p.box.w && v.drawing.px(p, c.x[i]) < p.box.x + 0.7 * p.box.w
+        && v.drawing.py(p, c.y[i]) > p.box.y && v.drawing.py(p, c.y[i]) < p.box.y + p.box.h), i = seen[seen.length >> 1];
+      return [r.left + v.drawing.px(p, c.x[i]), r.top + v.drawing.py(p, c.y[i])]; }})()""")
+
+
+def check_hands(browser, name):
+    """Hover tells values with units, a box zooms, two clicks go back, the legend hides."""
+    view = "views.find(v => v.figure.kind === 'time_history')"
+    x, y = middle_of_point(browser, view)
+    browser.mouse("mouseMoved", x, y)
+    tip = browser.value("document.getElementById('tip').hidden ? '' : document.getElementById('tip').innerText")
+    check("time = " in tip and " s" in tip and "m" in tip.split()[-1], f"{name}: hover says {tip!r}")
+    orbit = "views.find(v => v.figure.kind === 'orbit')"
+    check(browser.value(f"{orbit}.cursor?.kind") == "time", f"{name}: the orbit does not follow the time")
+    check(browser.value(f"{PIXELS}({orbit}.over)")["share"] > 0, f"{name}: no cursor on the orbit")
+    before = browser.value(f"{view}.drawing.panels.map(p => p.view.x)")
+    browser.drag(x - 60, y - 3, x + 40, y + 3)
+    after = browser.value(f"{view}.drawing.panels.map(p => p.view.x)")
+    check(after[0][1] - after[0][0] < 0.6 * (before[0][1] - before[0][0]), f"{name}: a box does not zoom: {before} {after}")
+    check(after[0] == after[1], f"{name}: panels below do not zoom too")
+    browser.click(x, y, count=2)
+    check(browser.value(f"{view}.drawing.panels.map(p => p.view.x)") == before, f"{name}: two clicks do not go back")
+    ink = browser.value(f"{PIXELS}({view}.canvas)")["share"]
+    browser.value(f"{view}.legend.querySelector('button').click()")
+    check(browser.value(f"{PIXELS}({view}.canvas)")["share"] < ink, f"{name}: the legend hides nothing")
+    browser.value(f"{view}.legend.querySelector('button').click()")
+    # a line of the spectrum is a circle in the orbit
+    x, y = middle_of_point(browser, "views.find(v => v.figure.kind === 'spectrum')")
+    browser.mouse("mouseMoved", x, y)
+    check(browser.value(f"{orbit}.cursor?.kind") == "frequency", f"{name}: the orbit does not follow the frequency")
+    light = browser.value("getComputedStyle(document.body).backgroundColor")
+    browser.value("document.getElementById('theme').click()")
+    check(browser.value("getComputedStyle(document.body).backgroundColor") != light, f"{name}: not dark")
+    browser.value("document.getElementById('theme').click()")
+
+
+def check_space(browser, name):
+    """The canvas in space is drawn, moves, and each motion looks different."""
+    browser.value("spaces[0].card.scrollIntoView({block: 'center'})")
+    browser.wait_for("Number(document.querySelector('.space').dataset.frames || 0) > 3")
+    copy = f"""(() => {{ const from = document.querySelector('.space canvas'), to = document.createElement('canvas');
+      spaces[0].render(); to.width = from.width; to.height = from.height; to.getContext('2d').drawImage(from, 0, 0);
+      return to; }})()"""
+    pixels = browser.value(f"{PIXELS}({copy})")
+    check(pixels["share"] > 0.005 and pixels["colors"] > 10, f"{name}: space is empty: {pixels}")
+    frames = browser.value("spaces[0].frames")
+    browser.wait_for(f"spaces[0].frames > {frames} + 3")
+    browser.value("spaces[0].playButton.click()")
+    hashes = set()
+    for at in (0.0, 0.3, 0.6):
+        browser.value(f"spaces[0].scrub.value = {at}; spaces[0].scrub.dispatchEvent(new Event('input'))")
+        hashes.add(browser.value(f"{copy}.toDataURL()"))
+    check(len(hashes) == 3, f"{name}: moments in space look alike")
+
+
+def check_map(browser, name):
+    """A click on a map gives the command of that point, and the command runs."""
+    view = "views.find(v => v.figure.kind === 'map')"
+    browser.value(f"{view}.card.scrollIntoView({{block: 'center'}})")
+    x, y = browser.value(f"""(() => {{ const v = {view}, b = v.drawing.panels[0].box, r = v.over.getBoundingClientRect();
+      return [r.left + b.x + b.w / 2, r.top + b.y + b.h / 2]; }})()""")
+    browser.click(x, y)
+    command = browser.value(f"{view}.command.querySelector('code')?.textContent || ''")
+    check(command.startswith("whirl classify ") and command.count("--set") == 2, f"{name}: click says {command!r}")
+    return command
+
+
+def check_speed(browser, folder, page):
+    """35 000 cells and 200 000 points put into a page of the program are drawn in time."""
+    text = open(page).read()
+    begin = text.index('id="data">') + 10
+    end = text.index("</script>", begin)
+    data = json.loads(text[begin:end])
+    import array
+    import base64
+    import math
+
+    def stored(values):
+        data["arrays"].append("f32:" + base64.b64encode(array.array("f", values).tobytes()).decode())
+        return len(data["arrays"]) - 1
+
+    result = data["results"][0]
+    map_figure = next(f for f in result["figures"] if f["kind"] == "map")
+    cells = map_figure["panels"][0]["cells"]
+    cells.update(x=stored(range(250)), y=stored(range(140)), values=stored([(i * 7919) % len(cells["categories"]) for i in range(35000)]))
+    for axis, last in (("x", 249.5), ("y", 139.5)):
+        map_figure["panels"][0][axis].update(first=-0.5, last=last)
+    dots = {"kind": "bifurcation", "variant": "", "title": "many", "subtitle": "many", "summary": "", "columns": 1, "width": 720, "height": 480,
+            "table": {"header": [], "rows": []}, "notes": [],
+            "panels": [{"title": "", "x": {"title": "x", "log": False, "first": 0, "last": 1}, "y": {"title": "y", "log": False, "first": -1, "last": 1},
+                        "share": 1, "cursor": "", "rules": [], "labels": [],
+                        "curves": [{"name": "dots", "end_name": "", "paint": "up", "marker": "circle", "size": 1.7,
+                                    "x": stored([i / 200000 for i in range(200000)]),
+                                    "y": stored([math.sin(0.37 * i * i) for i in range(200000)])}]}]}
+    result["figures"] = [map_figure, dots]
+    path = os.path.join(folder, "many.html")
+    with open(path, "w") as file:
+        file.write(text[:begin] + json.dumps(data).replace("</", "<\\/") + text[end:])
+    start = time.time()
+    browser.open(path)
+    browser.wait_for("document.documentElement.dataset.state === 'drawn'")
+    took = time.time() - start
+    print(f"35 000 cells and 200 000 points: {took:.2f} s", flush=True)
+    check(took < FIRST_PICTURE, f"the first picture took {took:.2f} s")
+    for i in (0, 1):
+        check(browser.value(f"{PIXELS}(views[{i}].canvas)")["share"] > 0.1, "a large plot is empty")
+
+
+def main():
+    if not chromium.find():
+        print("skipped: there is no chromium (Debian package chromium)")
+        return 77
+    whirl, models = sys.argv[1:3]
+    short = ["--revolutions", "48", "--discard", "60"]
+    study = ["--discard", "20", "--revolutions", "10"]
+    model = lambda name: os.path.join(models, name + ".toml")  # noqa: E731
+    runs = {
+        "campbell": ["campbell", model("overhung_disk")],
+        "unbalance": ["unbalance", model("two_disk_mac"), "--speeds", "0:8000:20rpm"],
+        "critical": ["critical", model("two_disk_mac")],
+        "identify": ["identify", model("two_disk_mac"), *short],
+        "double_rub": ["simulate", model("two_disk_double_rub"), *short],
+        "jeffcott": ["simulate", model("jeffcott"), *short],
+        "cross": ["simulate", model("cross_coupled_bearing"), *short],
+        "dropped": ["simulate", model("dropped_rotor"), *short],
+        "stator": ["classify", model("jeffcott_stator"), *study],
+        "sweep": ["sweep", model("jeffcott_stator"), "--over", "operation.speed=130:134:0.5rad/s", *study],
+        "map": ["map", model("jeffcott_stator"), "--over", "operation.speed=130:140:2rad/s", "--over",
+                "contact.ring.stiffness=10:150:40MN/m", *study],
+        "basins": ["basins", model("jeffcott_stator"), "--starts", "40", *study],
+        "bench": ["bench", model("jeffcott"), "--methods", "dop853,rk4", "--tolerances", "1e-4,1e-6", "--revolutions", "2",
+                  "--discard", "2"],
+    }
+    with tempfile.TemporaryDirectory() as folder, chromium.Browser() as browser:
+        for name, words in runs.items():
+            result, page = (os.path.join(folder, name + ending) for ending in (".h5", ".html"))
+            for line in ([whirl, *words, "--out", result, "--quiet"], [whirl, "report", result, "--out", page, "--quiet"]):
+                done = subprocess.run(line, capture_output=True, text=True)
+                check(done.returncode in (0, 3) and os.path.exists(line[line.index("--out") + 1]), f"{' '.join(line)}: {done.stderr}")
+            browser.problems.clear(), browser.requests.clear()
+            browser.open(page)
+            browser.wait_for("document.documentElement.dataset.state === 'drawn'")
+            check(browser.value("views.length") > 0, f"{name}: no figure")
+            check_figures(browser, name)
+            if browser.value("spaces.length"):
+                check_space(browser, name)
+            if name == "identify":
+                check_hands(browser, name)
+            if name == "map":
+                command = check_map(browser, name).split()
+                done = subprocess.run([whirl, *command[1:], *study, "--quiet"], capture_output=True, text=True)
+                check(done.returncode == 0, f"{' '.join(command)}: {done.stderr}")
+            outside = [r for r in browser.requests if not r.startswith(("file:", "data:", "blob:"))]
+            check(not outside, f"{name} asks the network: {outside}")
+            check(not browser.problems, f"{name}: {browser.problems}")
+            print(name, flush=True)
+        browser.problems.clear()
+        check_speed(browser, folder, os.path.join(folder, "map.html"))
+        check(not browser.problems, f"many: {browser.problems}")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

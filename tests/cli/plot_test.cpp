@@ -1,0 +1,182 @@
+// plot and report: pictures and pages of results.
+
+#include <regex>
+
+#include "libio/figures.hpp"
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace plot_test {
+
+class Plot : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("rub.toml", rubbing);
+  }
+
+  void make(std::vector<std::string> words, const std::string& out) const {
+    words.insert(words.end(), {"--out", out, "--quiet"});
+    const Outcome outcome = whirl(briefly(words));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  }
+
+  /// Kinds of figures that a result holds.
+  std::vector<std::string> kinds(const std::string& file) const {
+    std::vector<std::string> names;
+    const json list = result({"plot", file});
+    for (const json& k : list["kinds"]) names.push_back(k["kind"]);
+    return names;
+  }
+};
+
+long count(const std::string& text, const std::string& part) {
+  long n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
+  return n;
+}
+
+// Every kind of figure is drawn from the result of the verb that holds its numbers.
+TEST_F(Plot, DrawsEveryKindOfFigure) {
+  const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> cases{
+      {{"campbell", disks, "--speeds", "0:8000:400rpm"}, {"layout", "campbell", "log_decrement"}},
+      {{"critical", disks}, {"layout", "critical_map"}},
+      {{"modes", disks}, {"layout", "modes"}},
+      {{"unbalance", disks, "--speeds", "0:8000:100rpm"},
+       {"layout", "bode", "polar", "deflection"}},
+      {{"identify", disks, "--revolutions", "64"},
+       {"layout", "modes", "orbit", "time_history", "spectrum", "poincare", "contact_forces",
+        "contact_angles", "mac"}},
+      {{"classify", "rub.toml", "--discard", "20"}, {"layout", "exponents"}},
+      {{"sweep", "rub.toml"}, {"layout", "bifurcation", "spectral_map", "cascade"}},
+      {{"map", "rub.toml"}, {"layout", "map", "exponent_map", "regime_map"}},
+      {{"basins", "rub.toml"}, {"layout", "basins"}},
+      {{"bench", "rub.toml"}, {"layout", "work_precision"}}};
+  std::vector<std::string> drawn;
+  for (const auto& [words, expected] : cases) {
+    SCOPED_TRACE(words[0]);
+    make(words, "r.h5");
+    EXPECT_EQ(kinds("r.h5"), expected);
+    for (const std::string& kind : expected) {
+      SCOPED_TRACE(kind);
+      const json r = result({"plot", "r.h5", kind, "--out", "picture.svg"});
+      EXPECT_EQ(r["files"], json::array({"picture.svg"}));
+      const std::string svg = content(folder / "picture.svg");
+      EXPECT_TRUE(has(svg, "<svg ") && has(svg, "</svg>"));
+      EXPECT_EQ(count(svg, "<g "), count(svg, "</g>"));
+      EXPECT_FALSE(std::regex_search(svg, std::regex("=\"-?(nan|inf)")));
+      EXPECT_GT(count(svg, "<polyline") + count(svg, "<path") + count(svg, "<circle"), 0);
+      drawn.push_back(kind);
+    }
+    std::filesystem::remove(folder / "r.h5");
+  }
+  for (const FigureKind& kind : figure_kinds()) {
+    EXPECT_NE(std::find(drawn.begin(), drawn.end(), kind.name), drawn.end()) << kind.name;
+  }
+}
+
+// Of the Campbell diagram: every branch by its name, every critical speed of the JSON.
+TEST_F(Plot, ACampbellDiagramListsItsCriticalSpeeds) {
+  const json r = result({"campbell", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--speeds",
+                         "0:8000:100rpm", "--out", "c.h5"});
+  ASSERT_EQ(whirl({"plot", "c.h5", "campbell"}).status, 0);
+  const std::string svg = content(folder / "c_campbell.svg");
+  ASSERT_GE(r["criticals_rpm"].size(), 4u);
+  for (const json& speed : r["criticals_rpm"]) {
+    char text[32];
+    std::snprintf(text, sizeof text, ">%.1f</text>", speed.get<double>());
+    EXPECT_TRUE(has(svg, text)) << text;
+  }
+  for (const char* name : {">1B</text>", ">2F</text>", ">3B</text>", ">4F</text>", ">1X</text>"}) {
+    EXPECT_TRUE(has(svg, name)) << name;
+  }
+}
+
+TEST_F(Plot, TellsWhatCanBeDrawn) {
+  make({"simulate", "rub.toml", "--revolutions", "8", "--discard", "4"}, "r.h5");
+  const std::string list = whirl({"plot", "r.h5"}).out;
+  for (const char* part : {"orbit", "spectrum", "contact_forces", "rotor"}) {
+    EXPECT_TRUE(has(list, part)) << part;
+  }
+  const auto problem = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"plot", "r.h5"});
+    const auto before = files();
+    const Outcome outcome = whirl(words);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(files(), before);
+    return outcome.err;
+  };
+  EXPECT_EQ(problem({"orbitt"}), "orbitt: unknown kind of figure, did you mean \"orbit\"?\n");
+  EXPECT_TRUE(has(problem({"xyzzy"}), "there are layout, campbell, "));
+  EXPECT_TRUE(has(problem({"campbell"}), "does not hold what this figure needs"));
+  EXPECT_TRUE(has(problem({"orbit", "--which", "moon"}), "there are rotor"));
+  EXPECT_TRUE(has(problem({"orbit", "--out", "x.jpg"}), ".svg, .png or .pdf"));
+  EXPECT_TRUE(has(problem({"orbit", "--out", "nowhere/x.svg"}), "there is no directory nowhere"));
+  EXPECT_TRUE(has(problem({"orbit", "spectrum"}), "one kind of figure at a time"));
+  EXPECT_TRUE(has(problem({"--out", "x.svg"}), "which kind of figure?"));
+  EXPECT_TRUE(has(problem({"orbit", "--out", "rub.toml"}), "would be lost"));
+  EXPECT_TRUE(has(whirl({"plot", "rub.toml"}).err, "not an HDF5 file"));
+  EXPECT_TRUE(has(whirl({"report", "nothing.h5"}).err, "there is no such file"));
+}
+
+// PNG and PDF are made by rsvg-convert; without it the package is named and nothing is left behind.
+TEST_F(Plot, WritesPngAndPdf) {
+  make({"simulate", "rub.toml", "--revolutions", "8", "--discard", "4"}, "r.h5");
+  if (wait(start("sh", {"-c", "command -v rsvg-convert"})).status == 0) {
+    ASSERT_EQ(whirl({"plot", "r.h5", "orbit", "--out", "o.png"}).status, 0);
+    ASSERT_EQ(whirl({"plot", "r.h5", "orbit", "--out", "o.pdf"}).status, 0);
+    EXPECT_EQ(content(folder / "o.png").substr(1, 3), "PNG");
+    EXPECT_EQ(content(folder / "o.pdf").substr(0, 4), "%PDF");
+    EXPECT_EQ(files(), (std::vector<std::string>{"o.pdf", "o.png", "r.h5", "rub.toml"}));
+  }
+  const Outcome without = wait(start("sh", {"-c", "PATH=/nowhere " + std::string(WHIRL_PROGRAM) +
+                                                      " plot r.h5 orbit --out p.png"}));
+  EXPECT_EQ(without.status, 2);
+  EXPECT_TRUE(has(without.err, "librsvg2-bin")) << without.err;
+  EXPECT_EQ(std::filesystem::exists(folder / "p.png"), false);
+}
+
+// A page needs nothing from outside, and holds every figure of all results with their data.
+TEST_F(Plot, AReportIsOneFile) {
+  make({"simulate", "rub.toml", "--revolutions", "8", "--discard", "4"}, "r.h5");
+  make({"campbell", "rub.toml"}, "c.h5");
+  const json r = result({"report", "r.h5", "c.h5"});
+  EXPECT_EQ(r["files"], json::array({"r.html"}));
+  const std::string page = content(folder / "r.html");
+  EXPECT_EQ(page.substr(0, 15), "<!DOCTYPE html>");
+  EXPECT_EQ(page.find("{{"), std::string::npos) << "a place that was not filled";
+  for (const char* part : {"src=\"http", "href=\"http", "@import", "fetch(", "XMLHttpRequest("}) {
+    EXPECT_FALSE(has(page.substr(0, page.find("var three=")), part)) << part;
+  }
+  const auto from = page.find("id=\"data\">") + 10;
+  const json data = json::parse(page.substr(from, page.find("</script>", from) - from));
+  ASSERT_EQ(data["results"].size(), 2u);
+  std::size_t figures = 0;
+  for (const json& one : data["results"]) figures += one["figures"].size();
+  EXPECT_EQ(figures, r["figures"]);
+  EXPECT_EQ(data["results"][0]["figures"][1]["kind"], "orbit");
+  EXPECT_TRUE(has(data["results"][0]["model"], "clearance = \"0.5 mm\""));
+  EXPECT_TRUE(data["results"][0]["motion"].contains("motions"));
+  EXPECT_FALSE(data["results"][1]["motion"].contains("motions"));
+  // program, style and libraries: below 1 MB
+  EXPECT_LT(page.size() - data.dump().size(), 1'000'000u);
+}
+
+// What a model's text says cannot leave the place where it is shown.
+TEST_F(Plot, APageHoldsTextsAsTexts) {
+  write("evil.toml", std::string("# </script><script>alert(1)</script>\n") + jeffcott);
+  make({"modes", "evil.toml", "--speed", "100"}, "e.h5");
+  write("bold.toml",
+        std::regex_replace(std::string(jeffcott), std::regex("Jeffcott rotor"), "<b>x</b>"));
+  make({"campbell", "evil.toml"}, "c.h5");
+  make({"campbell", "bold.toml"}, "b.h5");
+  ASSERT_EQ(whirl({"report", "b.h5", "c.h5"}).status, 0);
+  const std::string page = content(folder / "b.html");
+  EXPECT_FALSE(has(page, "<script>alert"));
+  EXPECT_TRUE(has(page, "<title>&lt;b&gt;x&lt;/b&gt;</title>"));
+}
+
+}  // namespace plot_test
+}  // namespace whirl::test

@@ -1,0 +1,711 @@
+// Draws a figure: the description is made by the program (libio/figure.hpp), the same as for files.
+
+// ---------------------------------------------------------------- numbers and colors
+
+/** Arrays of the page, decoded when first asked for. */
+class Arrays {
+  constructor(texts) {
+    this.texts = texts;
+    this.known = [];
+  }
+  get(number) {
+    if (this.known[number]) return this.known[number];
+    const text = this.texts[number];
+    const bytes = Uint8Array.from(atob(text.slice(4)), (c) => c.charCodeAt(0));
+    const values = text.startsWith("f64") ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
+    this.texts[number] = "";
+    return (this.known[number] = values);
+  }
+}
+
+const isDark = () => document.documentElement.dataset.theme === "dark";
+
+/** Color of a meaning; text on white pages is darker than lines. */
+function paint(name, isText = false, dark = isDark()) {
+  const colors = page.colors.paints[name] || page.colors.paints.ink;
+  return dark ? colors[2] : colors[isText ? 1 : 0];
+}
+
+function mapColor(map, place) {
+  let stops = page.colors.maps[map];
+  const at = Math.min(1, Math.max(0, place)) * (stops.length - 1);
+  const i = Math.min(Math.floor(at), stops.length - 2), share = at - i;
+  return stops[i].map((a, k) => Math.round(a + share * (stops[i + 1][k] - a)));
+}
+
+const hexToRgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+
+/** A number as people write it. */
+function shown(value, digits = 5) {
+  if (!Number.isFinite(value)) return "–";
+  if (value !== 0 && (Math.abs(value) < 1e-4 || Math.abs(value) >= 1e7)) {
+    return value.toExponential(Math.max(0, digits - 2)).replace("-", "−");
+  }
+  return String(Number(value.toPrecision(digits))).replace("-", "−");
+}
+
+const superscript = (text) =>
+  text.replace(/[-−0-9]/g, (c) => ({ "-": "⁻", "−": "⁻" })[c] || "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]);
+
+// ---------------------------------------------------------------- axes
+
+/** A range along one direction. */
+class Axis {
+  constructor(log, first, last) {
+    Object.assign(this, { log, first, last });
+  }
+  place(v) {
+    return this.log ? Math.log(v / this.first) / Math.log(this.last / this.first)
+                    : (v - this.first) / (this.last - this.first);
+  }
+  value(place) {
+    return this.log ? this.first * (this.last / this.first) ** place
+                    : this.first + place * (this.last - this.first);
+  }
+  ticks(most) {
+    return this.log && this.last / this.first >= 20 ? this.powers(most) : this.rounds(most);
+  }
+  rounds(most) {
+    const wide = (this.last - this.first) / most, power = 10 ** Math.floor(Math.log10(wide));
+    const step = [1, 2, 5, 10].find((d) => d * power >= wide * (1 - 1e-9)) * power;
+    const ticks = [];
+    for (let i = Math.ceil(this.first / step - 1e-9); i <= this.last / step + 1e-9; ++i) {
+      const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+      const value = i * step;
+      const label = Math.abs(value) >= 1e6 || (step < 1e-5 && value !== 0)
+        ? value.toExponential(2) : value.toFixed(Math.min(digits, 12));
+      ticks.push({ value, label: label.replace("-", "−") });
+    }
+    return ticks;
+  }
+  powers(most) {
+    const from = Math.floor(Math.log10(this.first) + 1e-9), to = Math.ceil(Math.log10(this.last) - 1e-9);
+    const stride = Math.max(1, Math.floor((to - from + most) / most)), ticks = [];
+    for (let p = from; p <= to; ++p) {
+      for (let digit = 1; digit <= 9; ++digit) {
+        const value = digit * 10 ** p;
+        if (value < this.first * (1 - 1e-9) || value > this.last * (1 + 1e-9)) continue;
+        if (digit === 1) ticks.push({ value, label: (p - from) % stride ? "" : "10" + superscript(String(p)) });
+        else if (stride === 1) ticks.push({ value, label: "" });
+      }
+    }
+    return ticks;
+  }
+}
+
+// ---------------------------------------------------------------- drawing as SVG
+
+/** Takes the calls of a canvas and writes SVG; only what figures use. */
+class SvgContext {
+  constructor(width, height) {
+    Object.assign(this, { width, height, body: [], path: "", depth: 0, clips: 0, stack: [],
+      fillStyle: "#000", strokeStyle: "#000", lineWidth: 1, globalAlpha: 1, font: "12px sans-serif",
+      textAlign: "start", dash: [], lineCap: "butt", lineJoin: "miter" });
+    this.measure = document.createElement("canvas").getContext("2d");
+  }
+  n(v) { return String(Math.round(v * 100) / 100); }
+  esc(t) { return t.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;").replace(/"/g, "&quot;"); }
+  save() {
+    const { fillStyle, strokeStyle, lineWidth, globalAlpha, font, textAlign, dash, lineCap } = this;
+    this.stack.push({ fillStyle, strokeStyle, lineWidth, globalAlpha, font, textAlign, dash, lineCap, groups: 0 });
+  }
+  restore() {
+    const { groups, ...state } = this.stack.pop();
+    for (let i = 0; i < groups; ++i) this.body.push("</g>");
+    Object.assign(this, state);
+  }
+  open(attributes) {
+    this.body.push(`<g ${attributes}>`);
+    this.stack[this.stack.length - 1].groups++;
+  }
+  translate(x, y) { this.open(`transform="translate(${this.n(x)} ${this.n(y)})"`); }
+  rotate(a) { this.open(`transform="rotate(${this.n((a * 180) / Math.PI)})"`); }
+  beginPath() { this.path = ""; }
+  moveTo(x, y) { this.path += `M${this.n(x)} ${this.n(y)}`; }
+  lineTo(x, y) { this.path += `L${this.n(x)} ${this.n(y)}`; }
+  closePath() { this.path += "z"; }
+  rect(x, y, w, h) { this.path += `M${this.n(x)} ${this.n(y)}h${this.n(w)}v${this.n(h)}h${this.n(-w)}z`; }
+  arc(x, y, r) {
+    this.path += `M${this.n(x - r)} ${this.n(y)}a${this.n(r)} ${this.n(r)} 0 1 0 ${this.n(2 * r)} 0` +
+      `a${this.n(r)} ${this.n(r)} 0 1 0 ${this.n(-2 * r)} 0z`;
+  }
+  setLineDash(dash) { this.dash = dash; }
+  alpha(kind) { return this.globalAlpha < 1 ? ` ${kind}-opacity="${this.n(this.globalAlpha)}"` : ""; }
+  stroke() {
+    if (!this.path) return;
+    const dash = this.dash.length ? ` stroke-dasharray="${this.dash.join(" ")}"` : "";
+    this.body.push(`<path d="${this.path}" fill="none" stroke="${this.strokeStyle}" stroke-width="${
+      this.n(this.lineWidth)}" stroke-linejoin="round" stroke-linecap="${this.lineCap}"${dash}${this.alpha("stroke")}/>`);
+  }
+  fill() { if (this.path) this.body.push(`<path d="${this.path}" fill="${this.fillStyle}"${this.alpha("fill")}/>`); }
+  fillRect(x, y, w, h) {
+    this.body.push(`<rect x="${this.n(x)}" y="${this.n(y)}" width="${this.n(w)}" height="${this.n(h)}" fill="${
+      this.fillStyle}"${this.alpha("fill")}/>`);
+  }
+  clip() {
+    const id = `c${++this.clips}`;
+    this.body.push(`<clipPath id="${id}"><path d="${this.path}"/></clipPath>`);
+    this.open(`clip-path="url(#${id})"`);
+  }
+  measureText(t) {
+    this.measure.font = this.font;
+    return this.measure.measureText(t);
+  }
+  text(t, x, y, more) {
+    const bold = this.font.startsWith("bold") ? ' font-weight="bold"' : "";
+    const size = this.font.match(/([\d.]+)px/)[1];
+    const anchor = { center: "middle", right: "end", end: "end" }[this.textAlign] || "start";
+    this.body.push(`<text x="${this.n(x)}" y="${this.n(y)}" font-size="${size}"${bold} text-anchor="${anchor}" ${more}>${this.esc(t)}</text>`);
+  }
+  fillText(t, x, y) { this.text(t, x, y, `fill="${this.fillStyle}"`); }
+  strokeText(t, x, y) {
+    this.text(t, x, y, `fill="none" stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}" stroke-linejoin="round"`);
+  }
+  drawImage(image, x, y, w, h) {
+    this.body.push(`<image x="${this.n(x)}" y="${this.n(y)}" width="${this.n(w)}" height="${this.n(h)}" preserveAspectRatio="none" style="image-rendering:pixelated" href="${image.toDataURL()}"/>`);
+  }
+  document() {
+    return `<?xml version="1.0" encoding="UTF-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" width="${this.width}" height="${
+      this.height}" viewBox="0 0 ${this.width} ${this.height}" font-family="Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif">\n${
+      this.body.join("\n")}\n</svg>\n`;
+  }
+}
+
+// ---------------------------------------------------------------- figures
+
+const FONT = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+const DASHES = { solid: [], dashed: [6, 4], dotted: [1.5, 3.5], dash_dot: [8, 3, 2, 3] };
+const LEFT = 80, UNDER = 50;
+
+function drawMarker(ctx, shape, x, y, size) {
+  const r = 0.5 * size;
+  ctx.beginPath();
+  if (shape === "circle") {
+    ctx.arc(x, y, r, 0, 2 * Math.PI);
+  } else {
+    const a = 0.88 * r, t = 1.25 * r, o = 1.1 * r, w = 0.4 * r;
+    const corners = {
+      square: [[-a, -a], [a, -a], [a, a], [-a, a]],
+      diamond: [[0, -t], [t, 0], [0, t], [-t, 0]],
+      triangle: [[0, -t], [1.1 * r, 0.75 * r], [-1.1 * r, 0.75 * r]],
+      triangle_down: [[0, t], [1.1 * r, -0.75 * r], [-1.1 * r, -0.75 * r]],
+      cross: [[-w, -o], [w, -o], [w, -w], [o, -w], [o, w], [w, w], [w, o], [-w, o], [-w, w], [-o, w], [-o, -w], [-w, -w]],
+    }[shape];
+    corners.forEach(([dx, dy], i) => (i ? ctx.lineTo(x + dx, y + dy) : ctx.moveTo(x + dx, y + dy)));
+    ctx.closePath();
+  }
+  ctx.fill();
+}
+
+/** Places as near as possible to those wanted (ascending), some distance apart. */
+function spread(wanted, distance, low, high) {
+  const groups = [];
+  for (const place of wanted) {
+    groups.push({ sum: place, count: 1 });
+    while (groups.length > 1) {
+      const last = groups[groups.length - 1], before = groups[groups.length - 2];
+      if (before.sum / before.count + before.count * distance <= last.sum / last.count) break;
+      before.sum += last.sum - last.count * before.count * distance;
+      before.count += last.count;
+      groups.pop();
+    }
+  }
+  const places = groups.flatMap((g) => Array.from({ length: g.count }, (_, i) => g.sum / g.count + i * distance));
+  places.forEach((p, i) => (places[i] = Math.max(p, low + i * distance)));
+  for (let i = places.length; i-- > 0; ) places[i] = Math.min(places[i], high - (places.length - 1 - i) * distance);
+  return places;
+}
+
+/** Edges between middles, and half a step beyond the outermost. */
+function edgesOf(middles) {
+  const n = middles.length, edges = new Float64Array(n + 1);
+  for (let i = 1; i < n; ++i) edges[i] = 0.5 * (middles[i - 1] + middles[i]);
+  edges[0] = middles[0] - 0.5 * (n > 1 ? middles[1] - middles[0] : 1);
+  edges[n] = middles[n - 1] + 0.5 * (n > 1 ? middles[n - 1] - middles[n - 2] : 1);
+  return edges;
+}
+
+const isEven = (edges) => {
+  const step = (edges[edges.length - 1] - edges[0]) / (edges.length - 1);
+  return edges.every((e, i) => Math.abs(e - edges[0] - i * step) < 0.02 * Math.abs(step));
+};
+
+/** What a figure looks like at a size: places of its panels, and how to draw them. */
+class Drawing {
+  constructor(figure, arrays) {
+    this.figure = figure;
+    this.hidden = new Set();
+    this.dark = null;
+    this.panels = figure.panels.map((p) => ({
+      ...p,
+      view: { x: [p.x.first, p.x.last], y: [p.y.first, p.y.last] },
+      curves: p.curves.map((c) => ({ ...c, x: arrays.get(c.x), y: arrays.get(c.y),
+        along: c.along === undefined ? null : arrays.get(c.along) })),
+      cells: p.cells && { ...p.cells, x: arrays.get(p.cells.x), y: arrays.get(p.cells.y), values: arrays.get(p.cells.values) },
+    }));
+  }
+
+  color(name, isText) { return paint(name, isText, this.dark ?? isDark()); }
+
+  reset() {
+    for (const p of this.panels) p.view = { x: [p.x.first, p.x.last], y: [p.y.first, p.y.last] };
+  }
+
+  sharesBelow(i) {
+    const below = this.panels[i + this.figure.columns];
+    return below && this.panels[i].x.title !== "" && below.x.title === this.panels[i].x.title;
+  }
+
+  roomRight(ctx, p) {
+    let room = 22;
+    ctx.font = `bold 13px ${FONT}`;
+    for (const c of p.curves) if (c.end_name) room = Math.max(room, 40 + ctx.measureText(c.end_name).width);
+    ctx.font = `12px ${FONT}`;
+    for (const r of p.rules) if (r.kind !== "vertical" && r.name) room = Math.max(room, 12 + ctx.measureText(r.name).width);
+    if (p.cells && !p.cells.categories) room = Math.max(room, 84);
+    return room;
+  }
+
+  layout(ctx, width, height, top = 4) {
+    const { columns } = this.figure, count = this.panels.length, rows = Math.ceil(count / columns);
+    const right = Math.max(...this.panels.map((p) => this.roomRight(ctx, p)));
+    let shares = 0, rooms = 0;
+    for (let r = 0; r < rows; ++r) {
+      const p = this.panels[r * columns];
+      shares += p.share;
+      rooms += (p.title ? 24 : 8) + (this.sharesBelow(r * columns) ? 10 : UNDER);
+    }
+    let y = top;
+    for (let r = 0; r < rows; ++r) {
+      const first = this.panels[r * columns], h = ((height - top - rooms) * first.share) / shares;
+      y += first.title ? 24 : 8;
+      for (let c = 0; c < columns && r * columns + c < count; ++c) {
+        const p = this.panels[r * columns + c];
+        p.box = { x: (width * c) / columns + LEFT, y, w: width / columns - LEFT - right, h };
+        p.lowest = !this.sharesBelow(r * columns + c);
+        this.place(p);
+      }
+      y += h + (this.sharesBelow(r * columns) ? 10 : UNDER);
+    }
+  }
+
+  /** Axes of a panel in its box. */
+  place(p) {
+    p.ax = new Axis(p.x.log, ...p.view.x);
+    p.ay = new Axis(p.y.log, ...p.view.y);
+    if (p.equal) {
+      const ratio = (p.ax.last - p.ax.first) / p.box.w / ((p.ay.last - p.ay.first) / p.box.h);
+      const widen = (a, f) => {
+        const m = 0.5 * (a.first + a.last), half = 0.5 * (a.last - a.first);
+        a.first = m - f * half;
+        a.last = m + f * half;
+      };
+      if (ratio < 1) widen(p.ax, 1 / ratio);
+      else widen(p.ay, ratio);
+    }
+  }
+
+  px(p, v) { return p.box.x + p.box.w * p.ax.place(v); }
+  py(p, v) { return p.box.y + p.box.h * (1 - p.ay.place(v)); }
+  isShown(c) { return !this.hidden.has(c.name || c.end_name); }
+
+  draw(ctx, width, height, top) {
+    this.layout(ctx, width, height, top);
+    for (const p of this.panels) {
+      const { x, y, w, h } = p.box;
+      ctx.save();
+      ctx.beginPath();
+      ctx.rect(x, y, w, h);
+      ctx.clip();
+      if (p.cells) this.drawCells(ctx, p);
+      ctx.restore();
+      this.drawAxes(ctx, p);
+      if (p.cells && !p.cells.categories) this.drawColorBar(ctx, p);
+      this.drawRules(ctx, p);
+      ctx.save();
+      ctx.beginPath();
+      ctx.rect(x - 1, y - 1, w + 2, h + 2);
+      ctx.clip();
+      for (const c of p.curves) if (this.isShown(c)) this.drawLine(ctx, p, c);
+      ctx.restore();
+      ctx.save();  // markers at the edge are whole
+      ctx.beginPath();
+      ctx.rect(x - 5, y - 5, w + 10, h + 10);
+      ctx.clip();
+      for (const c of p.curves) if (this.isShown(c)) this.drawMarkers(ctx, p, c);
+      ctx.restore();
+      this.drawEndNames(ctx, p);
+      for (const l of p.labels) this.drawLabel(ctx, p, l);
+    }
+  }
+
+  halo(ctx, text, x, y, color) {
+    ctx.lineWidth = 3;
+    ctx.lineJoin = "round";
+    ctx.setLineDash([]);
+    ctx.strokeStyle = this.dark ?? isDark() ? "#16191d" : "#ffffff";
+    ctx.strokeText(text, x, y);
+    ctx.fillStyle = color;
+    ctx.fillText(text, x, y);
+  }
+
+  drawAxes(ctx, p) {
+    const { x, y, w, h } = p.box, ink = this.color("ink"), faint = this.color("faint");
+    ctx.setLineDash([]);
+    ctx.lineWidth = 1;
+    if (p.title) {
+      ctx.font = `bold 13px ${FONT}`;
+      ctx.textAlign = "center";
+      ctx.fillStyle = ink;
+      ctx.fillText(p.title, x + w / 2, y - 8);
+    }
+    if (p.frame === false) return;
+    const named = (middles, names, length, room) => {
+      const pitch = length / names.length, every = Math.ceil(room / pitch);
+      return names.map((label, i) => ({ value: middles[i], label })).filter((_, i) => i % every === 0);
+    };
+    let along = p.ax.ticks(Math.max(2, Math.floor(w / 62))), up = p.ay.ticks(Math.max(2, Math.floor(h / 40)));
+    const every = (axis, step) => {
+      while ((axis.last - axis.first) / step > 8) step *= 2;
+      const ticks = [];
+      for (let i = Math.ceil(axis.first / step); i * step <= axis.last; ++i) ticks.push({ value: i * step, label: shown(i * step) });
+      return ticks;
+    };
+    if (p.x.step && p.ax.last - p.ax.first > 2 * p.x.step) along = every(p.ax, p.x.step);
+    if (p.y.step && p.ay.last - p.ay.first > 2 * p.y.step) up = every(p.ay, p.y.step);
+    if (p.cells?.x_names) along = named(p.cells.x, p.cells.x_names, w, 66);
+    if (p.cells?.y_names) up = named(p.cells.y, p.cells.y_names, h, 15);
+    along = along.filter((t) => t.value >= p.ax.first - 1e-12 && t.value <= p.ax.last * (1 + 1e-12) + 1e-12 || p.cells?.x_names);
+    ctx.font = `12px ${FONT}`;
+    for (const [ticks, isX] of [[along, true], [up, false]]) {
+      for (const t of ticks) {
+        const at = isX ? this.px(p, t.value) : this.py(p, t.value), long = t.label ? 6 : 3;
+        if (isX ? at < x - 1 || at > x + w + 1 : at < y - 1 || at > y + h + 1) continue;
+        if (t.label && !p.cells) {
+          ctx.strokeStyle = faint;
+          ctx.beginPath();
+          if (isX) { ctx.moveTo(at, y); ctx.lineTo(at, y + h); } else { ctx.moveTo(x, at); ctx.lineTo(x + w, at); }
+          ctx.stroke();
+        }
+        ctx.strokeStyle = ink;
+        ctx.fillStyle = ink;
+        ctx.beginPath();
+        if (isX) { ctx.moveTo(at, y + h); ctx.lineTo(at, y + h + long); } else { ctx.moveTo(x - long, at); ctx.lineTo(x, at); }
+        ctx.stroke();
+        ctx.textAlign = isX ? "center" : "right";
+        if (isX && p.lowest) ctx.fillText(t.label, at, y + h + 20);
+        if (!isX) ctx.fillText(t.label, x - 9, at + 4);
+      }
+    }
+    ctx.strokeStyle = ink;
+    ctx.beginPath();
+    ctx.moveTo(x, y);
+    ctx.lineTo(x, y + h);
+    ctx.lineTo(x + w, y + h);
+    ctx.stroke();
+    ctx.font = `13px ${FONT}`;
+    ctx.textAlign = "center";
+    ctx.fillStyle = ink;
+    if (p.lowest) ctx.fillText(p.x.title, x + w / 2, y + h + 40);
+    ctx.save();
+    ctx.translate(x - 62, y + h / 2);
+    ctx.rotate(-Math.PI / 2);
+    ctx.fillText(p.y.title, 0, 0);
+    ctx.restore();
+  }
+
+  cellColor(cells, value) {
+    if (!Number.isFinite(value)) return null;
+    if (cells.categories) return hexToRgb(this.color(cells.categories[value]?.paint || "gray"));
+    return mapColor(cells.map, (value - cells.first) / (cells.last - cells.first));
+  }
+
+  isCellShown(cells, value) { return !cells.categories || !this.hidden.has(cells.categories[value]?.name); }
+
+  drawCells(ctx, p) {
+    const cells = p.cells, nx = cells.x.length, ny = cells.y.length;
+    const ex = edgesOf(cells.x), ey = edgesOf(cells.y);
+    if (isEven(ex) && isEven(ey) && !p.ax.log && !p.ay.log) {
+      const image = document.createElement("canvas");
+      image.width = nx;
+      image.height = ny;
+      const inner = image.getContext("2d"), data = inner.createImageData(nx, ny);
+      for (let j = 0; j < ny; ++j) {
+        for (let i = 0; i < nx; ++i) {
+          const value = cells.values[j * nx + i], rgb = this.isCellShown(cells, value) && this.cellColor(cells, value);
+          if (rgb) data.data.set([...rgb, 255], 4 * ((ny - 1 - j) * nx + i));
+        }
+      }
+      inner.putImageData(data, 0, 0);
+      ctx.imageSmoothingEnabled = false;
+      const left = this.px(p, ex[0]), top = this.py(p, ey[ny]);
+      ctx.drawImage(image, left, top, this.px(p, ex[nx]) - left, this.py(p, ey[0]) - top);
+    } else {
+      for (let j = 0; j < ny; ++j) {
+        for (let i = 0; i < nx; ++i) {
+          const value = cells.values[j * nx + i], rgb = this.isCellShown(cells, value) && this.cellColor(cells, value);
+          if (!rgb) continue;
+          ctx.fillStyle = `rgb(${rgb})`;
+          const left = this.px(p, ex[i]), top = this.py(p, ey[j + 1]);
+          ctx.fillRect(left, top, this.px(p, ex[i + 1]) - left + 0.5, this.py(p, ey[j]) - top + 0.5);
+        }
+      }
+    }
+    if (!cells.prints_values) return;
+    ctx.font = `11px ${FONT}`;
+    ctx.textAlign = "center";
+    for (let j = 0; j < ny; ++j) {
+      for (let i = 0; i < nx; ++i) {
+        const value = cells.values[j * nx + i];
+        ctx.fillStyle = (value - cells.first) / (cells.last - cells.first) > 0.5 ? "#ffffff" : "#222222";
+        ctx.fillText(value.toFixed(2), this.px(p, cells.x[i]), this.py(p, cells.y[j]) + 4);
+      }
+    }
+  }
+
+  drawColorBar(ctx, p) {
+    const { x, y, w, h } = p.box, left = x + w + 14, cells = p.cells;
+    for (let i = 0; i < 64; ++i) {
+      ctx.fillStyle = `rgb(${mapColor(cells.map, (i + 0.5) / 64)})`;
+      ctx.fillRect(left, y + h * (1 - (i + 1) / 64), 14, h / 64 + 0.5);
+    }
+    const scale = new Axis(false, cells.first, cells.last);
+    ctx.font = `11px ${FONT}`;
+    ctx.textAlign = "left";
+    ctx.fillStyle = ctx.strokeStyle = this.color("ink");
+    for (const t of scale.ticks(5)) ctx.fillText(t.label, left + 20, y + h * (1 - scale.place(t.value)) + 4);
+    ctx.save();
+    ctx.translate(left + 66, y + h / 2);
+    ctx.rotate(-Math.PI / 2);
+    ctx.textAlign = "center";
+    ctx.font = `12px ${FONT}`;
+    ctx.fillText(cells.title, 0, 0);
+    ctx.restore();
+  }
+
+  drawRules(ctx, p) {
+    const { x, y, w, h } = p.box;
+    for (const r of p.rules) {
+      ctx.save();
+      ctx.beginPath();
+      ctx.rect(x, y, w, h);
+      ctx.clip();
+      ctx.strokeStyle = this.color(r.paint);
+      ctx.lineWidth = 1.1;
+      ctx.setLineDash(DASHES[r.dash]);
+      ctx.beginPath();
+      let end = null, align = "left";
+      if (r.kind === "vertical") {
+        const at = this.px(p, r.at);
+        ctx.moveTo(at, y);
+        ctx.lineTo(at, y + h);
+        if (at >= x - 1 && at <= x + w + 1) end = [at + 5, y + h - 8];
+      } else if (r.kind === "horizontal") {
+        const at = this.py(p, r.at);
+        ctx.moveTo(x, at);
+        ctx.lineTo(x + w, at);
+        if (at >= y - 1 && at <= y + h + 1) end = [x + w + 5, at + 4];
+      } else {
+        ctx.moveTo(this.px(p, p.ax.first), this.py(p, r.at * p.ax.first));
+        ctx.lineTo(this.px(p, p.ax.last), this.py(p, r.at * p.ax.last));
+        const right = r.at * p.ax.last;
+        if (right <= p.ay.last && right >= p.ay.first) end = [x + w + 5, this.py(p, right) + 4];
+        else if (p.ay.last / r.at > p.ax.first && right > p.ay.last) end = [this.px(p, p.ay.last / r.at) - 4, y + 14], align = "right";
+      }
+      ctx.stroke();
+      ctx.restore();
+      if (!end || !r.name) continue;
+      ctx.font = `12px ${FONT}`;
+      ctx.textAlign = align;
+      this.halo(ctx, r.name, ...end, this.color(r.paint, true));
+    }
+  }
+
+  drawLine(ctx, p, c) {
+    const color = this.color(c.paint), n = c.x.length;
+    ctx.setLineDash([]);
+    ctx.globalAlpha = 1;
+    const isFree = (v, log) => Number.isFinite(v) && (!log || v > 0);
+    const { x: bx, y: by, w, h } = p.box, far = w + h;
+    if (c.line !== undefined || c.fill) {
+      const isSorted = (c.sorted ??= c.x.every((v, i) => i === 0 || !(v < c.x[i - 1])));
+      let from = 0, to = n;
+      if (isSorted && !c.fill) {  // only what is seen
+        while (from < n && c.x[from] < p.ax.first) ++from;
+        while (to > from && c.x[to - 1] > p.ax.last) --to;
+        from = Math.max(0, from - 1);
+        to = Math.min(n, to + 1);
+      }
+      ctx.beginPath();
+      let isDown = false, lastX = 0, lastY = 0;
+      for (let i = from; i < to; ++i) {
+        if (!isFree(c.x[i], p.ax.log) || !isFree(c.y[i], p.ay.log)) { isDown = false; continue; }
+        const X = this.px(p, c.x[i]), Y = Math.min(by + h + far, Math.max(by - far, this.py(p, c.y[i])));
+        if (X < bx - 50 * far || X > bx + w + 50 * far) { isDown = false; continue; }
+        if (isDown && i + 1 < to && Math.abs(X - lastX) < 0.3 && Math.abs(Y - lastY) < 0.3) continue;
+        if (isDown) ctx.lineTo(X, Y); else ctx.moveTo(X, Y);
+        isDown = true;
+        lastX = X;
+        lastY = Y;
+      }
+      if (c.fill) {
+        ctx.globalAlpha = c.fill;
+        ctx.fillStyle = color;
+        ctx.fill();
+        ctx.globalAlpha = 1;
+      }
+      if (c.line !== undefined) {
+        ctx.strokeStyle = color;
+        ctx.lineWidth = c.line;
+        ctx.lineJoin = "round";
+        ctx.setLineDash(DASHES[c.dash]);
+        ctx.stroke();
+        ctx.setLineDash([]);
+      }
+    }
+  }
+
+  drawMarkers(ctx, p, c) {
+    if (!c.marker) return;
+    const color = this.color(c.paint), n = c.x.length, { x: bx, y: by, w, h } = p.box;
+    const isFree = (v, log) => Number.isFinite(v) && (!log || v > 0);
+    ctx.setLineDash([]);
+    ctx.fillStyle = color;
+    if (c.size < 3 && ctx instanceof SvgContext) {
+      const seen = new Set();
+      ctx.beginPath();
+      for (let i = 0; i < n; ++i) {
+        const X = Math.round(this.px(p, c.x[i]) * 4) / 4, Y = Math.round(this.py(p, c.y[i]) * 4) / 4;
+        const key = X * 1e5 + Y;
+        if (!(X >= bx && X <= bx + w && Y >= by && Y <= by + h) || seen.has(key)) continue;
+        seen.add(key);
+        ctx.path += `M${X} ${Y}h0`;
+      }
+      ctx.lineCap = "round";
+      ctx.strokeStyle = color;
+      ctx.lineWidth = c.size;
+      ctx.stroke();
+      ctx.lineCap = "butt";
+    } else if (c.size < 3) {  // many dots
+      const s = Math.max(1, c.size), half = s / 2;
+      for (let i = 0; i < n; ++i) {
+        const X = this.px(p, c.x[i]), Y = this.py(p, c.y[i]);
+        if (X >= bx && X <= bx + w && Y >= by && Y <= by + h) ctx.fillRect(X - half, Y - half, s, s);
+      }
+    } else {
+      const every = c.every || 1;
+      for (let i = Math.floor(every / 2); i < n; i += every) {
+        if (!isFree(c.x[i], p.ax.log) || !isFree(c.y[i], p.ay.log)) continue;
+        const X = this.px(p, c.x[i]), Y = this.py(p, c.y[i]);
+        if (X >= bx - 9 && X <= bx + w + 9 && Y >= by - 9 && Y <= by + h + 9) drawMarker(ctx, c.marker, X, Y, c.size);
+      }
+    }
+  }
+
+  drawEndNames(ctx, p) {
+    const { x, y, w, h } = p.box, ends = [];
+    for (const c of p.curves) {
+      if (!c.end_name || !this.isShown(c)) continue;
+      let end = null;
+      for (let i = 0; i < c.x.length; ++i) {
+        const X = this.px(p, c.x[i]), Y = this.py(p, c.y[i]);
+        if (X >= x - 1 && X <= x + w + 1 && Y >= y - 1 && Y <= y + h + 1 && (!end || X > end[0])) end = [X, Y];
+      }
+      if (!end) continue;
+      let leaves = false;  // up or down: the name is where it leaves
+      for (let i = 0; i < c.x.length && c.line !== undefined; ++i) {
+        const X = this.px(p, c.x[i]);
+        leaves ||= Number.isFinite(c.y[i]) && X > end[0] + 1 && X <= x + w + 1;
+      }
+      if (leaves) {
+        ctx.font = `bold 13px ${FONT}`;
+        ctx.textAlign = "right";
+        this.halo(ctx, c.end_name, end[0] - 7, end[1] + (end[1] < y + h / 2 ? 16 : -8), this.color(c.paint, true));
+        continue;
+      }
+      ends.push({ c, end });
+    }
+    ends.sort((a, b) => a.end[1] - b.end[1]);
+    const places = spread(ends.map((e) => e.end[1]), 17, y, y + h);
+    ends.forEach(({ c, end }, i) => {
+      const X = x + w + 30, Y = places[i];
+      ctx.strokeStyle = this.color(c.paint);
+      ctx.lineWidth = 0.8;
+      ctx.setLineDash([1, 3]);
+      ctx.beginPath();
+      ctx.moveTo(...end);
+      ctx.lineTo(X - 22, Y);
+      ctx.lineTo(X - 5, Y);
+      ctx.stroke();
+      ctx.font = `bold 13px ${FONT}`;
+      ctx.textAlign = "left";
+      this.halo(ctx, c.end_name, X, Y + 4.5, this.color(c.paint, true));
+    });
+  }
+
+  drawLabel(ctx, p, l) {
+    const { x, y, w, h } = p.box, X = this.px(p, l.x), Y = this.py(p, l.y);
+    if (!(X >= x - 1 && X <= x + w + 1 && Y >= y - 9 && Y <= y + h + 9)) return;
+    ctx.font = `11.5px ${FONT}`;
+    ctx.textAlign = { start: "left", middle: "center", end: "right" }[l.anchor];
+    this.halo(ctx, l.text, X + l.dx, Y + l.dy, this.color(l.paint, true));
+  }
+
+  /** Names of the legend, each once. */
+  legend() {
+    const entries = new Map();
+    for (const p of this.panels) {
+      for (const c of p.cells?.categories || []) entries.set(c.name, { name: c.name, category: c });
+      for (const c of p.curves) if (c.name && !entries.has(c.name)) entries.set(c.name, { name: c.name, curve: c });
+    }
+    return [...entries.values()];
+  }
+
+  drawSample(ctx, entry, x, y) {
+    const c = entry.curve;
+    ctx.setLineDash([]);
+    if (!c || c.fill) {
+      ctx.globalAlpha = c ? c.fill : 1;
+      ctx.fillStyle = this.color((c || entry.category).paint);
+      ctx.fillRect(x + 5, y - 5, 20, 11);
+      ctx.globalAlpha = 1;
+      return;
+    }
+    ctx.strokeStyle = ctx.fillStyle = this.color(c.paint);
+    if (c.line !== undefined) {
+      ctx.lineWidth = Math.max(1.3, c.line);
+      ctx.setLineDash(DASHES[c.dash]);
+      ctx.beginPath();
+      ctx.moveTo(x, y);
+      ctx.lineTo(x + 30, y);
+      ctx.stroke();
+    }
+    if (c.marker) drawMarker(ctx, c.marker, x + 15, y, Math.min(9, Math.max(4, c.size)));
+  }
+
+  /** The whole figure with its titles and legend, for a file. */
+  drawWhole(ctx, width, height) {
+    ctx.fillStyle = "#ffffff";
+    ctx.fillRect(0, 0, width, height + 40);
+    ctx.textAlign = "left";
+    ctx.fillStyle = this.color("ink");
+    ctx.font = `bold 15px ${FONT}`;
+    ctx.fillText(this.figure.title, LEFT, 24);
+    ctx.fillStyle = this.color("gray", true);
+    ctx.font = `12px ${FONT}`;
+    ctx.fillText(this.figure.subtitle, LEFT, 42);
+    this.draw(ctx, width, height, 50);
+    let x = LEFT, y = height + 12;
+    for (const e of this.legend()) {
+      if (this.hidden.has(e.name)) continue;
+      ctx.font = `12px ${FONT}`;
+      const wide = 56 + ctx.measureText(e.name).width;
+      if (x > LEFT && x + wide > width) x = LEFT, y += 18;
+      this.drawSample(ctx, e, x, y);
+      ctx.textAlign = "left";
+      ctx.fillStyle = this.color("ink");
+      ctx.fillText(e.name, x + 36, y + 4);
+      x += wide;
+    }
+  }
+}
