@@ -12,6 +12,7 @@
 #include <map>
 #include <sstream>
 
+#include "apps/completion.hpp"
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
 #include "libfe/base/error.hpp"
@@ -91,6 +92,9 @@ std::string overview() {
   }
   text += fmt::format("  {:<10} {}\n             {}\n", "rerun",
                       "runs the command that made a result again", "whirl rerun run.h5");
+  text += fmt::format("  {:<10} {}\n             {}\n", "completion",
+                      "a script that completes verbs and options in bash",
+                      "source <(whirl completion)");
   return text +
          "\nCommon options: --set PATH=VALUE, --speed S, --out FILE.h5, --json FILE, --threads N, "
          "--quiet\n"
@@ -101,7 +105,8 @@ std::string overview() {
 int unknown_verb(const std::string& word) {
   std::vector<std::string> known;
   for (const Verb& verb : verbs()) known.emplace_back(verb.name);
-  for (const char* other : {"rerun", "--help", "--version"}) known.emplace_back(other);
+  for (const char* other : {"rerun", "completion", "--help", "--version"})
+    known.emplace_back(other);
   const auto near = nearest(word, known);
   fmt::print(stderr, "whirl: there is no {} \"{}\"; {}\n",
              word.starts_with('-') ? "option" : "verb", word,
@@ -297,6 +302,10 @@ int main(int argc, char** argv) {
   if (word == "--help" || word == "-h" || (word == "help" && words.size() == 2)) {
     fmt::print("{}", overview());
     return done;
+  }
+  if (word == "completion") {
+    fmt::print("{}", bash_completion());
+    return after_printing(done);
   }
   if (word == "--version") {
     fmt::print("whirl {}\n", version);

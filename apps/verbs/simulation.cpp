@@ -209,7 +209,7 @@ std::string contacts_table(const std::vector<ContactMeasure>& contacts, long rev
     table.row({c.name, std::string(name_of(c.regime())), fmt::format("{:.4f}", c.duty),
                fmt::format("{:.3f}", c.impacts / static_cast<double>(revolutions)),
                force_text(c.max_normal), force_text(c.max_tangential),
-               fmt::format("{:.4g}", c.mean_slip)});
+               std::isnan(c.mean_slip) ? "-" : fmt::format("{:.4g}", c.mean_slip)});
   }
   return table.text();
 }

@@ -36,6 +36,26 @@ TEST_F(Help, OverviewNamesEveryVerbWithAnExample) {
   }
 }
 
+// The script, run in bash: verbs, options of a verb, file names.
+TEST_F(Help, CompletesInBash) {
+  write("rotor.toml", "");
+  const auto completes = [&](const std::string& line) {
+    const Outcome o = wait(
+        start("/bin/bash",
+              {"-c",
+               std::string("source <(\"$0\" completion); COMP_WORDS=(whirl ") + line +
+                   "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _whirl; echo \"${COMPREPLY[@]}\"",
+               WHIRL_PROGRAM}));
+    EXPECT_EQ(o.status, 0) << o.err;
+    return o.out;
+  };
+  EXPECT_EQ(completes("sw"), "sweep\n");
+  EXPECT_EQ(completes("sweep rotor.toml --sec"), "--sections\n");
+  EXPECT_EQ(completes("sweep rot"), "rotor.toml\n");
+  EXPECT_EQ(completes("modes rotor.toml --sec"), "\n");
+  EXPECT_EQ(completes("modes rotor.toml --speed ''"), "\n");
+}
+
 TEST_F(Help, Version) {
   const Outcome version = whirl({"--version"});
   EXPECT_EQ(version.status, 0);
