@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "libfe/unbalance.hpp"
+#include "libio/figures/all.hpp"
 #include "libio/vtk_scene.hpp"
 
 namespace whirl {
@@ -80,6 +82,54 @@ Record trajectory_record(const ResultView& result, const std::vector<int>& rows,
   return r;
 }
 
+/// Responses to unbalance at their peaks, of the model at all points; tilts are the slopes of the
+/// displacements from node to node.
+void add_responses(const ResultView& result, const DofMap& dofs, Record& motions,
+                   ArrayStore& arrays) {
+  const Vec speed = result.file.vector("/unbalance/speed");
+  std::vector<double> speeds;
+  for (const Eigen::Index k : figures::response_peaks(result.file.matrix("/unbalance/major"))) {
+    if (speed(k) > 0.0) speeds.push_back(speed(k));
+  }
+  const std::vector<Point> points = dofs.points();
+  const UnbalanceResponse response = unbalance_response(*result.assembler, speeds, points);
+  const Mesh& mesh = result.assembler->mesh();
+  for (std::size_t s = 0; s < speeds.size(); ++s) {
+    const auto column = static_cast<Eigen::Index>(s);
+    CMat motion = CMat::Zero(static_cast<Eigen::Index>(points.size()), 4);
+    motion.col(0) = response.x.col(column);
+    motion.col(1) = response.y.col(column);
+    const auto& order = mesh.left_to_right;
+    for (std::size_t i = 0; order.size() > 1 && i < order.size(); ++i) {
+      const auto left = static_cast<std::size_t>(order[i > 0 ? i - 1 : 0]);
+      const auto right = static_cast<std::size_t>(order[std::min(i + 1, order.size() - 1)]);
+      const double length = mesh.z[right] - mesh.z[left];
+      const auto slope = [&](int c) {
+        return (motion(static_cast<Eigen::Index>(right), c) -
+                motion(static_cast<Eigen::Index>(left), c)) /
+               length;
+      };
+      motion(order[i], 2) = -slope(1);
+      motion(order[i], 3) = slope(0);
+    }
+    std::vector<double> re, im;
+    double forward = 0.0, backward = 0.0;
+    for (Eigen::Index p = 0; p < motion.rows(); ++p) {
+      for (int c = 0; c < 4; ++c) {
+        re.push_back(motion(p, c).real());
+        im.push_back(motion(p, c).imag());
+      }
+      forward += std::norm(motion(p, 0) + Complex(0, 1) * motion(p, 1));
+      backward += std::norm(motion(p, 0) - Complex(0, 1) * motion(p, 1));
+    }
+    Record r;
+    r.set("kind", "mode").set("whirl", forward >= backward ? "forward" : "backward");
+    r.set("name", fmt::format("Unbalance response at {:.0f} rpm", speeds[s] / figures::rpm));
+    r.set("about", "One revolution of the steady motion, without contacts.");
+    motions.add(r.set("re", arrays.add(re)).set("im", arrays.add(im)));
+  }
+}
+
 }  // namespace
 
 Record motion_record(const ResultView& result, ArrayStore& arrays) {
@@ -107,12 +157,17 @@ Record motion_record(const ResultView& result, ArrayStore& arrays) {
       const std::string sense = whirl[static_cast<std::size_t>(k)];
       Record mode;
       mode.set("kind", "mode").set("whirl", sense);
+      mode.set("about", "One cycle of the mode, damping left out; it has no amplitude of its own.");
       mode.set("name",
                fmt::format("Mode {} | {:.2f} Hz ({:.0f} cpm) | {} | log dec {:.3f}", k + 1,
                            frequency(k) / rpm / 60.0, frequency(k) / rpm, sense, decrement(k)));
       motions.add(mode.set("re", arrays.add(re)).set("im", arrays.add(im)));
       moves = true;
     }
+  }
+  if (result.file.has("/unbalance/major")) {
+    add_responses(result, dofs, motions, arrays);
+    moves = true;
   }
   if (!moves) return r;
   return scene_record(vtk_scene(*result.model, *result.assembler)).set("motions", motions);

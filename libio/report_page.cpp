@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "libfe/base/error.hpp"
 #include "libio/figure_json.hpp"
 #include "libio/format.hpp"
@@ -123,10 +125,17 @@ std::string for_html(const std::string& text) {
   return out;
 }
 
-/// Puts a text in its place in the page.
-void put(std::string& page, const std::string& place, std::string_view text) {
-  const auto at = page.find(place);
-  if (at != std::string::npos) page.replace(at, place.size(), text);
+/// The page with its parts in their places, "{{name}}"; what the parts hold is left as it is.
+std::string filled(std::string_view page,
+                   const std::map<std::string_view, std::string_view>& parts) {
+  std::string out;
+  for (auto at = page.find("{{"); at != std::string_view::npos; at = page.find("{{")) {
+    const auto end = page.find("}}", at);
+    out += page.substr(0, at);
+    out += parts.at(page.substr(at + 2, end - at - 2));
+    page.remove_prefix(end + 2);
+  }
+  return out.append(page);
 }
 
 }  // namespace
@@ -163,13 +172,13 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
   Record data;
   data.set("version", version).set("colors", color_record()).set("results", list);
   data.set("arrays", arrays.record());
-  std::string& page = made.html;
-  page = page_html;
-  put(page, "{{title}}", for_html(results.empty() ? "whirl" : results.front()->title));
-  put(page, "{{style}}", page_style);
-  put(page, "{{three}}", moves ? page_three : std::string_view{});
-  put(page, "{{data}}", for_script(data.json()));
-  put(page, "{{script}}", page_script);
+  const std::string title = for_html(results.empty() ? "whirl" : results.front()->title);
+  const std::string json = for_script(data.json());
+  made.html = filled(page_html, {{"title", title},
+                                 {"style", page_style},
+                                 {"three", moves ? page_three : std::string_view{}},
+                                 {"data", json},
+                                 {"script", page_script}});
   return made;
 }
 

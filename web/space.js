@@ -225,7 +225,7 @@ class SpaceView {
     if (m.kind === "motion") this.fit = Math.max(1, this.fit);
     this.message.textContent = m.kind === "motion"
       ? "Drag to turn, wheel to zoom, right button to move. The line after each disk and contact is its path; a stator lights up while it is touched."
-      : "One cycle of the mode, damping left out; it has no amplitude of its own. Paths are its orbits. Drag to turn, wheel to zoom, right button to move.";
+      : `${m.about} Paths are its orbits. Drag to turn, wheel to zoom, right button to move.`;
     this.trails = null;
     this.show();
     this.wake();

@@ -83,8 +83,9 @@ class FigureView {
   choose(number) {
     this.figure = this.figures[number];
     this.over.setAttribute("aria-label", this.figure.subtitle);
-    this.title.textContent = this.figure.subtitle || this.figure.title;
-    this.about.textContent = this.figure.summary;
+    this.title.textContent = NAMES[this.figure.kind] || this.figure.kind;
+    this.title.title = this.figure.summary;
+    this.about.textContent = this.figure.subtitle || this.figure.summary;
     this.cursor = null;
     this.makeLegend();
     this.makeExtra();
@@ -137,7 +138,7 @@ class FigureView {
     // wide pages make wide plots, but circles need height too
     const isSquare = this.figure.panels.some((p) => p.equal || p.cells);
     this.height = Math.round(Math.min(isSquare ? height * scale : height * Math.min(1.15, scale), 900) - 40);
-    this.height = Math.max(this.height, Math.min(260, height));
+    this.height = Math.max(this.height, isSquare ? Math.min(260, height) : 0.8 * height - 40);
     const dots = devicePixelRatio || 1;
     for (const c of [this.canvas, this.over]) {
       c.width = this.width * dots;

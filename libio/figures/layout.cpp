@@ -113,8 +113,11 @@ std::vector<Figure> front_view(const ResultView& result) {
     inner.width = 2.2;
     inner.hover.assign(inner.x.size(), "clearance " + format_length(c.clearance));
     p.curves = {outer, inner, rotor};
-    p.labels.push_back({0.0, mm * (radius + 0.5 * gap), "clearance " + format_length(c.clearance),
-                        Anchor::middle, 0.0, 4.0, Paint::stator});
+    const double reach = mm * (1.12 * radius + gap);
+    p.labels.push_back({0.0, reach, "clearance " + format_length(c.clearance), Anchor::middle, 0.0,
+                        -7.0, Paint::stator});
+    p.x.first = p.y.first = -1.2 * reach;
+    p.x.last = p.y.last = 1.2 * reach;
     f.panels.push_back(std::move(p));
   }
   return {f};

@@ -35,12 +35,12 @@ void add_forces(const ResultView& result, const Motion& m, Eigen::Index contact,
   const DisplayUnit unit = unit_for(normal.row(contact).cwiseAbs().maxCoeff(), "N");
   p.y.title = with_unit(name.empty() ? "force" : name, unit);
   const auto time = numbers(m.time);
-  Curve n{.name = "normal force", .paint = Paint::series, .x = time};
+  Curve n{.name = "normal force", .paint = series_paint(1), .x = time};
   n.y = scaled(row(normal, contact), unit.factor);
   n.width = 1.3;
   p.curves.push_back(std::move(n));
   if (friction.row(contact).cwiseAbs().maxCoeff() > 0.0) {
-    Curve t{.name = "friction force", .paint = series_paint(1), .x = time};
+    Curve t{.name = "friction force", .paint = series_paint(4), .x = time};
     t.y = scaled(row(friction, contact), unit.factor);
     t.width = 1.1;
     p.curves.push_back(std::move(t));

@@ -74,6 +74,45 @@ void mark_operation(const ResultView& result, const Response& r, Panel& panel) {
       {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
 }
 
+/// Speeds where a response falls to 0.707 of a peak, below and above [rpm]; NaN if it does not.
+std::pair<double, double> half_power(const Response& r, const Vec& amplitude, Eigen::Index peak) {
+  const double limit = amplitude(peak) / std::numbers::sqrt2;
+  std::pair<double, double> sides{std::nan(""), std::nan("")};
+  for (const int step : {-1, 1}) {
+    for (Eigen::Index k = peak; k + step >= 0 && k + step < amplitude.size(); k += step) {
+      if (amplitude(k + step) > limit) continue;
+      const double share = (amplitude(k) - limit) / (amplitude(k) - amplitude(k + step));
+      const double a = r.speed[static_cast<std::size_t>(k)],
+                   b = r.speed[static_cast<std::size_t>(k + step)];
+      (step < 0 ? sides.first : sides.second) = a + share * (b - a);
+      break;
+    }
+  }
+  return sides;
+}
+
+/// Peaks with amplification factors, N / (N2 - N1), and their margin to the operating speed.
+FigureTable peaks_of(const ResultView& result, const Response& r, const CMat& a,
+                     const DisplayUnit& unit) {
+  FigureTable t{.header = {"peak [rpm]", "largest at", with_unit("p-p", unit),
+                           "amplification factor", "margin to operation"}};
+  const double operation = speed_of(result) / rpm;
+  for (const Eigen::Index k : response_peaks(a.cwiseAbs())) {
+    Eigen::Index station = 0;
+    const double top = a.cwiseAbs().col(k).maxCoeff(&station);
+    const double speed = r.speed[static_cast<std::size_t>(k)];
+    const auto [below, above] = half_power(r, a.row(station).cwiseAbs().transpose(), k);
+    const double factor = speed / (above - below), margin = (operation - speed) / operation;
+    t.rows.push_back({fmt::format("{:.0f}", speed), r.stations[static_cast<std::size_t>(station)],
+                      fmt::format("{:.4g}", 2.0 * unit.factor * top),
+                      std::isfinite(factor) ? fmt::format("{:.3g}", factor) : "–",
+                      std::isfinite(margin) ? fmt::format("{:.1f} % {}", 100.0 * std::abs(margin),
+                                                          margin > 0.0 ? "below" : "above")
+                                            : "–"});
+  }
+  return t;
+}
+
 Figure bode(const ResultView& result, const Response& r, const CMat& a, const char* direction) {
   Figure f{.variant = direction, .height = 560.0};
   f.subtitle = fmt::format("Unbalance response along {}, amplitude peak to peak", direction);
@@ -112,10 +151,26 @@ Figure bode(const ResultView& result, const Response& r, const CMat& a, const ch
   phase.y.first = 90.0 * std::floor(low / 90.0 - 1e-6);
   phase.y.last = 90.0 * std::ceil(high / 90.0 + 1e-6);
   f.panels = {amplitude, phase};
+  f.table = peaks_of(result, r, a, unit);
   return f;
 }
 
 }  // namespace
+
+std::vector<Eigen::Index> figures::response_peaks(const Mat& magnitude) {
+  const Vec largest = magnitude.colwise().maxCoeff().transpose();
+  std::vector<Eigen::Index> peaks;
+  for (Eigen::Index k = 1; k + 1 < largest.size(); ++k) {
+    if (largest(k) > largest(k - 1) && largest(k) >= largest(k + 1)) peaks.push_back(k);
+  }
+  constexpr std::size_t most = 4;
+  std::sort(peaks.begin(), peaks.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return largest(a) > largest(b); });
+  if (peaks.size() > most) peaks.resize(most);
+  if (peaks.empty()) peaks.push_back(largest.size() - 1);
+  std::sort(peaks.begin(), peaks.end());
+  return peaks;
+}
 
 std::vector<Figure> bode_figures(const ResultView& result) {
   const Response r(result);
@@ -179,7 +234,8 @@ std::vector<Figure> polar_figures(const ResultView& result) {
     f.panels.push_back(p);
     f.notes = {"Numbers along the loop are speeds [rpm]."};
     figures.push_back(f);
-    if (figures.size() == 8) break;
+    constexpr std::size_t most = 8;
+    if (figures.size() == most) break;
   }
   return figures;
 }
@@ -199,17 +255,8 @@ std::vector<Figure> deflection_figures(const ResultView& result) {
   }
   std::sort(places.begin(), places.end());
   if (places.size() < 3) return {};
-  // speeds at which the largest response has a maximum, the highest first
-  Vec largest = major.cwiseAbs().colwise().maxCoeff().transpose();
-  std::vector<Eigen::Index> peaks;
-  for (Eigen::Index k = 1; k + 1 < largest.size(); ++k) {
-    if (largest(k) > largest(k - 1) && largest(k) >= largest(k + 1)) peaks.push_back(k);
-  }
-  std::sort(peaks.begin(), peaks.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return largest(a) > largest(b); });
-  if (peaks.size() > 4) peaks.resize(4);
-  if (peaks.empty()) peaks.push_back(largest.size() - 1);
-  std::sort(peaks.begin(), peaks.end());
+  const Vec largest = major.cwiseAbs().colwise().maxCoeff().transpose();
+  const std::vector<Eigen::Index> peaks = response_peaks(major.cwiseAbs());
   Figure f{.height = 400.0};
   f.subtitle = "Deflected shapes at the peaks of the response";
   Panel p;

@@ -66,7 +66,9 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       EXPECT_TRUE(has(svg, "<svg ") && has(svg, "</svg>"));
       EXPECT_EQ(count(svg, "<g "), count(svg, "</g>"));
       EXPECT_FALSE(std::regex_search(svg, std::regex("=\"-?(nan|inf)")));
-      EXPECT_GT(count(svg, "<polyline") + count(svg, "<path") + count(svg, "<circle"), 0);
+      EXPECT_GT(count(svg, "<polyline") + count(svg, "<path") + count(svg, "<circle") +
+                    count(svg, "<polygon"),
+                0);
       drawn.push_back(kind);
     }
     std::filesystem::remove(folder / "r.h5");
@@ -146,7 +148,9 @@ TEST_F(Plot, AReportIsOneFile) {
   EXPECT_EQ(r["files"], json::array({"r.html"}));
   const std::string page = content(folder / "r.html");
   EXPECT_EQ(page.substr(0, 15), "<!DOCTYPE html>");
-  EXPECT_EQ(page.find("{{"), std::string::npos) << "a place that was not filled";
+  for (const char* place : {"{{title}}", "{{style}}", "{{three}}", "{{data}}", "{{script}}"}) {
+    EXPECT_FALSE(has(page, place)) << "not filled";
+  }
   for (const char* part : {"src=\"http", "href=\"http", "@import", "fetch(", "XMLHttpRequest("}) {
     EXPECT_FALSE(has(page.substr(0, page.find("var three=")), part)) << part;
   }
@@ -157,6 +161,10 @@ TEST_F(Plot, AReportIsOneFile) {
   for (const json& one : data["results"]) figures += one["figures"].size();
   EXPECT_EQ(figures, r["figures"]);
   EXPECT_EQ(data["results"][0]["figures"][1]["kind"], "orbit");
+  std::vector<std::string> facts;
+  for (const json& fact : data["results"][0]["facts"]) facts.push_back(fact[0]);
+  EXPECT_EQ(facts, (std::vector<std::string>{"result", "model", "command", "made by", "made at",
+                                             "speed", "recorded", "cost", "rotor"}));
   EXPECT_TRUE(has(data["results"][0]["model"], "clearance = \"0.5 mm\""));
   EXPECT_TRUE(data["results"][0]["motion"].contains("motions"));
   EXPECT_FALSE(data["results"][1]["motion"].contains("motions"));
@@ -166,7 +174,8 @@ TEST_F(Plot, AReportIsOneFile) {
 
 // What a model's text says cannot leave the place where it is shown.
 TEST_F(Plot, APageHoldsTextsAsTexts) {
-  write("evil.toml", std::string("# </script><script>alert(1)</script>\n") + jeffcott);
+  write("evil.toml",
+        std::string("# </script><script>alert(1)</script> <!-- {{script}} {{x\n") + jeffcott);
   make({"modes", "evil.toml", "--speed", "100"}, "e.h5");
   write("bold.toml",
         std::regex_replace(std::string(jeffcott), std::regex("Jeffcott rotor"), "<b>x</b>"));
@@ -175,6 +184,8 @@ TEST_F(Plot, APageHoldsTextsAsTexts) {
   ASSERT_EQ(whirl({"report", "b.h5", "c.h5"}).status, 0);
   const std::string page = content(folder / "b.html");
   EXPECT_FALSE(has(page, "<script>alert"));
+  EXPECT_TRUE(has(page, "\\u003c!-- {{script}} {{x"));  // no place of the page
+  EXPECT_TRUE(has(page, "\nbuild();\n"));               // where the script's end is
   EXPECT_TRUE(has(page, "<title>&lt;b&gt;x&lt;/b&gt;</title>"));
 }
 
