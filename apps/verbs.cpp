@@ -13,7 +13,8 @@ const OptionSpec speeds{"speeds", "A:B:STEP", "speeds, such as 0:8000:50rpm"};
 const OptionSpec over{"over", "PATH=A:B:STEP",
                       "a value of the model and what it runs over: first:last:step, first:last "
                       "with --points, or value,value,..."};
-const OptionSpec frame{"frame", "F", "in which it repeats: stationary (the default)"};
+const OptionSpec frame{"frame", "F",
+                       "in which it repeats: stationary (the default), or rotating (orbit)"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {

@@ -116,7 +116,7 @@ double Continuation::limited(double step, const Vec& tangent) const {
 
 Vec Continuation::gaps(const Vec& z, PeriodicOrbit& orbit, Tangents wanted) const {
   const Eigen::Index n = scale_.size(), size = z.size() - 1;
-  orbit.period = branch_.period > 0 ? static_cast<int>(size / n) : 1;
+  orbit.period = static_cast<int>(size / n);
   orbit.states.clear();
   for (Eigen::Index i = 0; i < size; i += n) {
     orbit.states.emplace_back(scale_.cwiseProduct(z.segment(i, n)));

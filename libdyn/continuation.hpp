@@ -45,7 +45,9 @@ struct BranchPoint {
   double residual = 0.0;
   std::vector<ContactMeasure> contacts;  ///< shares of the period
 
-  bool is_stable() const { return multipliers.cwiseAbs().maxCoeff() < 1.0; }
+  bool is_stable() const {
+    return multipliers.size() > 0 && multipliers.cwiseAbs().maxCoeff() < 1.0;
+  }
   /// State at phase 0 of revolution i of the period.
   Vec state(const Vec& scale, int i = 0) const {
     return scale.cwiseProduct(z.segment(i * scale.size(), scale.size()));

@@ -6,6 +6,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_flow.hpp"
+#include "libdyn/cycle.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
@@ -13,6 +14,8 @@
 namespace whirl {
 
 namespace {
+
+constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
 
 std::string multipliers_table(const PeriodicOrbit& orbit) {
   Table table({"multiplier", "real", "imaginary", "size", "exponent [1/s]", "frequency [rpm]"});
@@ -28,14 +31,17 @@ std::string multipliers_table(const PeriodicOrbit& orbit) {
 
 }  // namespace
 
-void require_stationary_frame(const Invocation& call) {
+bool is_rotating_frame(const Invocation& call) {
   const std::string frame = call.text("frame", "stationary");
-  if (frame == "stationary") return;
-  throw ModelError({"--frame " + frame}, "",
-                   frame == "rotating"
-                       ? "orbits that repeat in the rotating frame are not looked for yet; "
-                         "whirl classify tells a quasi-periodic motion"
-                       : "expected stationary");
+  if (frame == "stationary" || frame == "rotating") return frame == "rotating";
+  throw ModelError({"--frame " + frame}, "", "expected stationary or rotating");
+}
+
+void require_stationary_frame(const Invocation& call) {
+  if (!is_rotating_frame(call)) return;
+  throw ModelError({"--frame rotating"}, "",
+                   "branches are followed in the stationary frame only; whirl orbit finds single "
+                   "orbits in the rotating one");
 }
 
 Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene) {
@@ -59,10 +65,79 @@ Trajectory after_transient(const Invocation& call, const Model& model, const Sce
   return transient;
 }
 
+namespace {
+
+/// An orbit that repeats as seen from the rotor, whose period is any.
+Report rotating_orbit(const Invocation& call, const Model& model) {
+  const auto file = call.result_file(model);
+  const Scene scene = make_scene(model);
+  const FreeFlow flow = rotating_flow(scene);
+  const Trajectory transient = after_transient(call, model, scene);
+  if (transient.outcome == Outcome::stopped_by_observer) {
+    return {.record = begin_record(call, model), .failure = "stopped", .status = 130};
+  }
+  if (transient.outcome != Outcome::reached_end) throw NumericalError(transient.diagnosis);
+  const auto guess = recurrence(scene, transient.state.y, most_recurrence);
+  if (!guess) {
+    throw NumericalError(fmt::format(
+        "the motion does not come back within {} revolutions as seen from the rotor, or "
+        "stands still there",
+        most_recurrence));
+  }
+  const Cycle cycle = shorten(flow, find_cycle(flow, transient.state.y, *guess));
+  const double turns = cycle.period / scene.contacts.period();
+  Report report{.record = begin_record(call, model),
+                .failure = cycle.failure,
+                .status = cycle.is_good() ? 0 : 3};
+  MotionState on_it;
+  on_it.y = cycle.state;
+  Record floquet = Record::array();
+  for (const Complex& m : cycle.multipliers) floquet.add(m);
+  const long steps = std::max(1L, std::ssize(cycle.residuals)) - 1;
+  Record& r = report.record;
+  r.set("frame", "rotating").set("period_revs", turns).set("period_s", cycle.period);
+  r.set("residual", cycle.residual).set("steps", steps).set("floquet", floquet);
+  r.set("stable", cycle.is_good() ? Record(cycle.is_stable()) : Record(nullptr));
+  r.set("state", on_it.y);
+  add_reduction(r, scene);
+  if (!cycle.failure.empty()) r.set("failure", cycle.failure);
+  report.text = "Periodic orbit in the rotating frame" +
+                (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
+                reduction_text(scene, model);
+  if (cycle.is_good()) {
+    report.text += fmt::format(
+        "  {} orbit of {:.9g} revolutions, {:.6g} rpm seen from the rotor; residual {:.1e} length "
+        "scales after {} steps of Newton's method\n\n",
+        cycle.is_stable() ? "stable" : "unstable", turns,
+        2.0 * std::numbers::pi / cycle.period / rpm, cycle.residual, steps);
+    Table table({"multiplier", "real", "imaginary", "size"});
+    for (Eigen::Index i = 0; i < cycle.multipliers.size(); ++i) {
+      const Complex m = cycle.multipliers(i);
+      table.row({std::to_string(i + 1), fmt::format("{:+.8f}", m.real()),
+                 fmt::format("{:+.8f}", m.imag()), fmt::format("{:.8f}", std::abs(m))});
+    }
+    report.text += table.text();
+  }
+  if (file) {
+    write_end(*file, model, scene, on_it);
+    if (cycle.is_good()) {
+      file->dataset("/orbit/multiplier", cycle.multipliers,
+                    {"", "Floquet multipliers of the period, the largest first", {""}});
+      file->attribute("/orbit", "period_revolutions", turns);
+      file->attribute("/orbit", "residual", cycle.residual);
+      file->attribute("/orbit", "stable", cycle.is_stable() ? 1 : 0);
+    }
+  }
+  commit(call, file.get(), report);
+  return report;
+}
+
+}  // namespace
+
 Report run_orbit(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
-  require_stationary_frame(call);
+  if (is_rotating_frame(call)) return rotating_orbit(call, model);
   const int period = static_cast<int>(call.integer("period", 1));
   const auto file = call.result_file(model);
   const Scene scene = make_scene(model);
@@ -87,7 +162,7 @@ Report run_orbit(const Invocation& call) {
     for (const Complex& rate : orbit.exponents()) exponents.add(rate);
   }
   Record& r = report.record;
-  r.set("period_revs", period).set("shortest_period_revs", shortest);
+  r.set("frame", "stationary").set("period_revs", period).set("shortest_period_revs", shortest);
   const long steps = std::max(1L, std::ssize(orbit.residuals)) - 1;
   r.set("residual", orbit.residuals.empty() ? Record(nullptr) : Record(orbit.residual));
   r.set("steps", steps);

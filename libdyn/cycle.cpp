@@ -1,0 +1,218 @@
+#include "libdyn/cycle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "libdyn/batch/batch.hpp"
+#include "libdyn/shooting.hpp"
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double isotropic = 1e-9;  ///< relative, to which rotations must not matter
+constexpr double nearby = 0.3;      ///< of the way that a motion goes, for a recurrence
+constexpr int most_parts = 128;     ///< of a period, that are tried as a shorter one
+constexpr double same = 1e-6;       ///< of states after a shorter period
+constexpr double still = 1e-7;      ///< motions below stand still [length scales]
+
+/// A quarter turn about the axis, in reduced coordinates.
+Mat quarter_turn(const Scene& scene) {
+  const Mat map = scene.displacement_map();
+  const DofMap& dofs = scene.reduced.dofs;
+  const Eigen::Index n = map.cols();
+  const std::vector<Point> points = dofs.points();
+  Mat rows(4 * std::ssize(points), n), turned = rows;
+  rows.setZero();
+  turned.setZero();
+  Eigen::Index k = 0;
+  for (const Point& p : points) {
+    for (const auto& [a, b] : {std::pair{X, Y}, {THETA_X, THETA_Y}}) {
+      const int x = dofs.full_index(p, a), y = dofs.full_index(p, b);
+      if (x < 0 || y < 0) continue;
+      rows.row(k) = map.row(x), rows.row(k + 1) = map.row(y);
+      turned.row(k) = -map.row(y), turned.row(k + 1) = map.row(x);
+      k += 2;
+    }
+  }
+  Mat S(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) S.col(j) = least_squares(rows, turned.col(j));
+  if ((rows * S - turned).norm() > isotropic * rows.norm() ||
+      (S * S + Mat::Identity(n, n)).norm() > isotropic * std::sqrt(double(n))) {
+    throw NumericalError(
+        "the rotating frame: the reduced motions are not closed under rotation, as those of "
+        "bearings "
+        "that differ along x and y");
+  }
+  return S;
+}
+
+/// (y, y') turned by an angle.
+Mat rotation(const Mat& S, double angle) {
+  const Eigen::Index n = S.rows();
+  const Mat R = std::cos(angle) * Mat::Identity(n, n) + std::sin(angle) * S;
+  Mat both = Mat::Zero(2 * n, 2 * n);
+  both.topLeftCorner(n, n) = R;
+  both.bottomRightCorner(n, n) = R;
+  return both;
+}
+
+/// Whether accelerations turn with the state and the phase, in contact and out of it.
+void require_isotropy(const ContactSystem& system, const Mat& S) {
+  const Eigen::Index n = S.rows();
+  Vec a(n), b(n);
+  for (const double size : {0.3, 3.0, 30.0}) {
+    for (const double angle : {0.7, 2.9, 4.4}) {
+      const Vec y = size * system.state_scale().cwiseProduct(
+                               Vec::LinSpaced(2 * n, -1.0, 1.0).array().sin().matrix());
+      const Mat R = rotation(S, angle);
+      const Vec turned = R * y;
+      system.acceleration(0.0, y.data(), a.data());
+      system.acceleration(angle, turned.data(), b.data());
+      if ((b - R.topLeftCorner(n, n) * a).norm() > isotropic * a.norm()) {
+        throw NumericalError(
+            "the rotating frame: gravity, bearings or contacts tell directions apart, so that "
+            "nothing repeats there");
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most_steps) {
+  const Eigen::Index n = start.size();
+  Cycle cycle{.state = start, .period = period};
+  double before = std::numeric_limits<double>::infinity();
+  for (int step = 0;; ++step) {
+    if (!(cycle.period > 0.1 * period && cycle.period < 10.0 * period)) {
+      cycle.failure = "no closed motion: the period runs away";
+      return cycle;
+    }
+    const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period);
+    if (!at.failure.empty() || !at.tangent.allFinite()) {
+      cycle.failure = at.failure.empty() ? "the tangent is not finite" : at.failure;
+      return cycle;
+    }
+    const Vec to_scale = flow.scale.cwiseInverse();
+    const Vec gap = (at.end - cycle.state).cwiseProduct(to_scale);
+    const Mat tangent = to_scale.asDiagonal() * at.tangent * flow.scale.asDiagonal();
+    cycle.residual = gap.lpNorm<Eigen::Infinity>();
+    cycle.residuals.push_back(cycle.residual);
+    if (is_closed(cycle.residual, before)) {
+      CVec all = multipliers_of({&tangent, 1});
+      const auto along = std::min_element(all.begin(), all.end(), [](auto a, auto b) {
+        return std::abs(a - 1.0) < std::abs(b - 1.0);
+      });
+      std::rotate(along, along + 1, all.end());
+      cycle.multipliers = all.head(n - 1);
+      return cycle;
+    }
+    if (step == most_steps) {
+      cycle.failure =
+          fmt::format("no closed motion: after {} steps of Newton's method the residual is {:.1e}",
+                      step, cycle.residual);
+      return cycle;
+    }
+    before = cycle.residual;
+    const Vec rate = flow.rate(cycle.state).cwiseProduct(to_scale) * cycle.period;
+    Mat J(n + 1, n + 1);
+    J << shooting_jacobian({&tangent, 1}), flow.rate(at.end).cwiseProduct(to_scale) * cycle.period,
+        rate.transpose(), 0.0;
+    Vec r(n + 1);
+    r << gap, 0.0;
+    const auto correction = newton_step(J, r);
+    if (!correction) {
+      cycle.failure = "no closed motion: the equations for state and period are singular";
+      return cycle;
+    }
+    cycle.state -= flow.scale.cwiseProduct(correction->head(n));
+    cycle.period *= 1.0 - (*correction)(n);
+  }
+}
+
+Cycle shorten(const FreeFlow& flow, const Cycle& cycle) {
+  if (!cycle.is_good()) return cycle;
+  for (int parts = most_parts; parts > 1; --parts) {
+    const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period / parts);
+    if (!at.failure.empty()) continue;
+    const Vec gap = (at.end - cycle.state).cwiseQuotient(flow.scale);
+    if (gap.lpNorm<Eigen::Infinity>() > same) continue;
+    Cycle shorter = find_cycle(flow, cycle.state, cycle.period / parts);
+    if (shorter.is_good()) return shorter;
+  }
+  return cycle;
+}
+
+FreeFlow rotating_flow(const Scene& scene, double tolerance) {
+  const ContactSystem& system = scene.contacts;
+  if (!(system.Omega() > 0.0) || system.coordinates() == 0) {
+    throw NumericalError("the rotating frame: the rotor does not spin forward");
+  }
+  const Mat S = quarter_turn(scene);
+  require_isotropy(system, S);
+  const double Omega = system.Omega();
+  const Eigen::Index n = S.rows();
+  return {system.state_scale(),
+          [&system, S, Omega, tolerance](const Vec& z, double time) -> FreeFlow::Arrival {
+            // it ends at phase 0, where both frames are the same, so it begins at another phase
+            const double phases = Omega * time;
+            const double revolutions = std::ceil(phases / turn);
+            Trajectory t{.system = &system, .revolutions = static_cast<long>(revolutions)};
+            t.state.phase = std::clamp(revolutions * turn - phases, 0.0, std::nextafter(turn, 0.0));
+            const Mat R = rotation(S, t.state.phase);
+            t.state.y = R * z;
+            integrate_single(t, {.tolerance = tolerance, .tangent = true});
+            if (t.outcome != Outcome::reached_end) return {{}, {}, t.diagnosis};
+            return {t.state.y, t.tangent * R, {}};
+          },
+          [&system, S, Omega, n](const Vec& z) -> Vec {
+            Vec rate(2 * n), a(n);
+            system.acceleration(0.0, z.data(), a.data());
+            rate << z.tail(n) - Omega * (S * z.head(n)), a - Omega * (S * z.tail(n));
+            return rate;
+          }};
+}
+
+std::optional<double> recurrence(const Scene& scene, const Vec& start, long revolutions) {
+  const ContactSystem& system = scene.contacts;
+  const Mat S = quarter_turn(scene);
+  Trajectory t{.system = &system, .revolutions = revolutions};
+  t.state.y = start;
+  std::vector<double> times, distances;
+  Vec y(system.size());
+  integrate_single(t, {}, [&](const Step& step) {
+    for (int k = 1; k <= 4; ++k) {
+      step.at(k / 4.0, y.data());
+      const double phase = step.phase + step.turn * k / 4.0;
+      const Vec z = rotation(S, -phase) * y;
+      times.push_back((static_cast<double>(step.revolution) + phase / turn) * system.period());
+      distances.push_back(distance(system, z, start));
+    }
+    return true;
+  });
+  if (t.outcome != Outcome::reached_end || distances.empty()) return std::nullopt;
+  const double farthest = *std::max_element(distances.begin(), distances.end());
+  if (farthest < still) return std::nullopt;
+  double nearest = nearby * farthest;
+  std::optional<double> found;
+  bool has_left = false;
+  for (std::size_t i = 1; i + 1 < times.size(); ++i) {
+    has_left = has_left || distances[i] > nearby * farthest;
+    if (!has_left || distances[i] > distances[i - 1] || distances[i] > distances[i + 1]) continue;
+    if (distances[i] < 0.5 * nearest) {  // a later one must be much nearer
+      nearest = distances[i];
+      found = times[i];
+    }
+  }
+  return found;
+}
+
+}  // namespace whirl

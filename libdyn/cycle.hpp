@@ -1,0 +1,61 @@
+#pragma once
+/// Closed motions whose period is not known: of equations in which time does not occur.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libdyn/scene.hpp"
+#include "libfe/base/linalg.hpp"
+
+namespace whirl {
+
+/// The flow of an equation y' = f(y).
+struct FreeFlow {
+  struct Arrival {
+    Vec end;
+    Mat tangent;          ///< derivative of the end by the start
+    std::string failure;  ///< why there is no end; empty: there is one
+  };
+  Vec scale;                                             ///< of the states
+  std::function<Arrival(const Vec& y, double time)> go;  ///< time > 0 [s]
+  std::function<Vec(const Vec& y)> rate;                 ///< f(y) [1/s]
+};
+
+struct Cycle {
+  Vec state;
+  double period = 0.0;  ///< [s]
+  double residual = 0.0;
+  std::vector<double> residuals;  ///< before every step of Newton's method, and after the last
+  CVec multipliers;               ///< the largest first, without the one that is 1 along the motion
+  std::string failure;            ///< empty: it is closed
+
+  bool is_good() const { return failure.empty(); }
+  bool is_stable() const { return is_good() && multipliers.cwiseAbs().maxCoeff() < 1.0; }
+};
+
+/// Finds a closed motion by Newton's method on state and period, moving across the flow only:
+///
+///   flow(y, T) - y = 0,   <f(y), dy> = 0
+///
+/// @param start, period  near it
+/// @source [Kuznetsov2004], 10.1.4
+Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most_steps = 12);
+
+/// The same motion with the shortest period it has, a part of the given one.
+Cycle shorten(const FreeFlow& flow, const Cycle& cycle);
+
+/// The rotor as it is seen from its own frame, where unbalance stands still: states are turned back
+/// by the phase. Time does not occur there if nothing but the unbalance tells directions apart.
+///
+/// @param scene  must live as long as the flow
+/// @throws NumericalError  for gravity, anisotropic bearings, contacts off the axis, or a basis that
+///                         is not closed under rotation
+FreeFlow rotating_flow(const Scene& scene, double tolerance = 1e-13);
+
+/// Time after which a motion from a start comes back to it nearest, as a first guess [s]; nothing if
+/// it does not come near, or stands still.
+std::optional<double> recurrence(const Scene& scene, const Vec& start, long revolutions);
+
+}  // namespace whirl
