@@ -50,6 +50,7 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
         "contact_angles", "mac"}},
       {{"classify", "rub.toml", "--discard", "20"}, {"layout", "exponents"}},
       {{"sweep", "rub.toml"}, {"layout", "bifurcation", "spectral_map", "cascade"}},
+      {{"continue", "rub.toml"}, {"layout", "branches"}},
       {{"map", "rub.toml"}, {"layout", "map", "exponent_map", "regime_map"}},
       {{"basins", "rub.toml"}, {"layout", "basins"}},
       {{"bench", "rub.toml"}, {"layout", "work_precision"}}};
