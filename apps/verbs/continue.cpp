@@ -32,7 +32,7 @@ struct Parameter {
   Model model(double value) const {
     ParameterAxis at = axis;
     at.values = {value};
-    return parse_model(source, file, {at.assignment(0)}, std::filesystem::path(file).parent_path());
+    return parse_model(source, file, at.assignments(0), std::filesystem::path(file).parent_path());
   }
   std::string text(double value) const {
     return fmt::format("{} = {:.8g}{}{}", axis.path, value, axis.unit.empty() ? "" : " ",
