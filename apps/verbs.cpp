@@ -168,7 +168,9 @@ const std::vector<Verb>& verbs() {
        "a result or a model to other programs",
        "FILE",
        "whirl export run.h5 --format vtk --out run",
-       {{"format", "F", "vtk: series for ParaView (the default)"},
+       {{"format", "F",
+         "vtk: series for ParaView (the default); vtu; with meshio abaqus, nastran, gmsh, exodus, "
+         "med, stl, ..."},
         {"out", "NAME", "where the files go, without an ending; left out: beside FILE"},
         {"revolutions", "N", "last revolutions of a motion (4)"},
         {"frames", "N", "frames of a motion at most (128)"},

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/mesh_formats.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
+#include "libio/nearest.hpp"
+#include "libio/rotor_mesh.hpp"
 #include "libio/vtk_scene.hpp"
 
 namespace whirl {
@@ -17,8 +21,10 @@ namespace fs = std::filesystem;
 constexpr int mode_frames = 36;
 
 /// A name without the ending of a file that this program knows; other points in it stay.
-fs::path without_ending(fs::path file) {
-  for (const char* ending : {".pvd", ".vtp", ".vtk", ".h5", ".hdf5", ".toml"}) {
+fs::path without_ending(fs::path file, const std::string& of_format) {
+  for (const std::string& ending :
+       {of_format, std::string(".vtp"), std::string(".vtk"), std::string(".h5"),
+        std::string(".hdf5"), std::string(".toml")}) {
     if (file.extension() == ending) return file.replace_extension("");
   }
   return file;
@@ -62,51 +68,135 @@ std::vector<VtkFrame> trajectory_frames(const ResultReader& result, const Model&
   return list;
 }
 
-}  // namespace
+std::string told(int number, const Mode& mode) {
+  return fmt::format("mode {} at {:.1f} rpm, {}", number, mode.frequency() / rpm,
+                     name_of(mode.whirl));
+}
 
-Report run_export(const Invocation& call) {
-  const std::string format = call.text("format", "vtk");
-  if (format != "vtk") {
-    throw ModelError({"--format " + format}, "", "unknown format, expected vtk");
+/// Every format that is known, ours first.
+std::vector<std::string> known_formats() {
+  std::vector<std::string> names{"vtk"};
+  for (const MeshFormat& format : mesh_formats()) names.emplace_back(format.name);
+  return names;
+}
+
+ModelError unknown_format(const std::string& name) {
+  const auto known = known_formats();
+  const auto near = nearest(name, known);
+  return ModelError({"--format " + name}, "",
+                    fmt::format("unknown format{}; there are {}",
+                                near ? fmt::format(", did you mean \"{}\"?", *near) : "",
+                                fmt::join(known, ", ")));
+}
+
+/// What is exported: the motion at the end of a result, and modes.
+struct Source {
+  std::unique_ptr<ResultReader> result;  ///< none: a model
+  Model model;
+  Assembler assembler;
+  VtkScene scene;
+
+  explicit Source(const Invocation& call)
+      : result(is_result(call.file) ? std::make_unique<ResultReader>(call.file) : nullptr),
+        model(result ? parse_model(result->strings("/model").at(0), call.file, call.sets)
+                     : call.model()),
+        assembler(model.structure),
+        scene(vtk_scene(model, assembler)) {}
+
+  bool has_motion() const { return result && result->has("/trajectory/coordinates"); }
+  bool has_modes() const { return !result || result->has("/modes"); }
+  std::vector<VtkFrame> motion(long revolutions, long most) const {
+    return trajectory_frames(*result, model, assembler, revolutions, most);
   }
-  const std::unique_ptr<ResultReader> result =
-      is_result(call.file) ? std::make_unique<ResultReader>(call.file) : nullptr;
-  const Model model =
-      result ? parse_model(result->strings("/model").at(0), call.file, call.sets) : call.model();
-  const Assembler assembler(model.structure);
-  const VtkScene scene = vtk_scene(model, assembler);
-  const fs::path stem = without_ending(call.text("out", call.file));
-  std::vector<fs::path> files;
-  std::string text;
-  const auto write = [&](const std::string& suffix, const std::vector<VtkFrame>& frames,
-                         const std::string& what) {
-    const fs::path pvd = stem.string() + suffix + ".pvd";
-    const auto written = write_vtk_series(pvd, scene, frames);
-    files.insert(files.end(), written.begin(), written.end());
-    text += fmt::format("  {}: {} frames, {}\n", pvd.string(), frames.size(), what);
-  };
-  if (result && result->has("/trajectory/coordinates")) {
-    const auto frames = trajectory_frames(*result, model, assembler, call.integer("revolutions", 4),
-                                          call.integer("frames", 128));
-    write("", frames, "the end of the motion");
-  }
-  const bool with_modes = !result || result->has("/modes");
-  if (with_modes) {
+  /// Calls for every mode with its number, itself and a cycle of it.
+  template <class Function>
+  void each_mode(long count, int frames, Function function) const {
     const System system = assembler.at(model.speed);
-    const Modes modes = complex_modes(system, static_cast<int>(call.integer("modes", 4)));
+    const Modes modes = complex_modes(system, static_cast<int>(count));
     int number = 0;
     for (const Mode& mode : modes.oscillatory) {
       ++number;
-      write(fmt::format("_mode{}", number), vtk_mode_frames(mode, system.dofs, scene, mode_frames),
-            fmt::format("mode {} at {:.1f} rpm, {}", number, mode.frequency() / rpm,
-                        name_of(mode.whirl)));
+      function(number, mode, vtk_mode_frames(mode, system.dofs, scene, frames));
     }
   }
-  Report report{.record = begin_record(call, model)};
+};
+
+/// What an export wrote.
+struct Written {
+  std::vector<fs::path> files;
+  std::string text;
+};
+
+Written export_vtk(const Invocation& call, const Source& source, const fs::path& stem) {
+  Written written{{}, "Written for ParaView (open the .pvd files)\n\n"};
+  const auto write = [&](const std::string& suffix, const std::vector<VtkFrame>& frames,
+                         const std::string& what) {
+    const fs::path pvd = stem.string() + suffix + ".pvd";
+    const auto files = write_vtk_series(pvd, source.scene, frames);
+    written.files.insert(written.files.end(), files.begin(), files.end());
+    written.text += fmt::format("  {}: {} frames, {}\n", pvd.string(), frames.size(), what);
+  };
+  if (source.has_motion()) {
+    write("", source.motion(call.integer("revolutions", 4), call.integer("frames", 128)),
+          "the end of the motion");
+  }
+  if (source.has_modes()) {
+    source.each_mode(call.integer("modes", 4), mode_frames,
+                     [&](int number, const Mode& mode, const std::vector<VtkFrame>& frames) {
+                       write(fmt::format("_mode{}", number), frames, told(number, mode));
+                     });
+  }
+  return written;
+}
+
+Written export_mesh(const Invocation& call, const Source& source, const MeshFormat& format,
+                    const fs::path& stem) {
+  std::vector<MeshField> fields;
+  std::string told_fields;
+  const auto add = [&](const std::string& name, const Mat& motion, const std::string& what) {
+    fields.push_back({name, motion});
+    told_fields += fmt::format("    {}: {}\n", name, what);
+  };
+  if (source.has_motion()) {
+    add("displacement_m", source.motion(1, 1'000'000).back().motion, "at the end of the motion");
+  }
+  if (source.has_modes()) {
+    source.each_mode(
+        call.integer("modes", 4), 4,
+        [&](int number, const Mode& mode, const std::vector<VtkFrame>& quarters) {
+          for (const int k : {0, 1}) {
+            add(fmt::format("mode{}_{}deg", number, 90 * k),
+                quarters[static_cast<std::size_t>(k)].motion,
+                fmt::format("{}, at {} degrees of its cycle", told(number, mode), 90 * k));
+          }
+        });
+  }
+  const RotorMesh mesh = format.has_lines ? line_mesh(source.model, source.assembler, fields,
+                                                      std::string(format.group))
+                                          : surface_mesh(source.scene, fields);
+  const fs::path place = stem.string() + std::string(format.ending);
+  write_mesh(place, format, mesh);
+  return {{place},
+          fmt::format("  {}: {} {} and {} points; where the format takes fields\n{}",
+                      place.string(), mesh.cells.size(), format.has_lines ? "lines" : "triangles",
+                      mesh.points.size(), told_fields)};
+}
+
+}  // namespace
+
+Report run_export(const Invocation& call) {
+  const std::string name = call.text("format", "vtk");
+  const MeshFormat* mesh = mesh_format(name);
+  if (!mesh && name != "vtk") throw unknown_format(name);
+  const Source source(call);
+  const fs::path stem =
+      without_ending(call.text("out", call.file), mesh ? std::string(mesh->ending) : ".pvd");
+  const Written written =
+      mesh ? export_mesh(call, source, *mesh, stem) : export_vtk(call, source, stem);
+  Report report{.record = begin_record(call, source.model), .text = written.text};
   Record list = Record::array();
-  for (const fs::path& f : files) list.add(f.string());
+  for (const fs::path& f : written.files) list.add(f.string());
   report.record.set("files", list);
-  report.text = "Written for ParaView (open the .pvd files)\n\n" + text;
   return report;
 }
 
