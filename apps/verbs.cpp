@@ -169,11 +169,12 @@ const std::vector<Verb>& verbs() {
        "FILE",
        "whirl export run.h5 --format vtk --out run",
        {{"format", "F",
-         "vtk: series for ParaView (the default); vtu; with meshio abaqus, nastran, gmsh, exodus, "
+         "vtk: series for ParaView (the default); xdmf: longer ones; csv: tables; vtu; with meshio "
+         "abaqus, nastran, gmsh, exodus, "
          "med, stl, ..."},
         {"out", "NAME", "where the files go, without an ending; left out: beside FILE"},
-        {"revolutions", "N", "last revolutions of a motion (4)"},
-        {"frames", "N", "frames of a motion at most (128)"},
+        {"revolutions", "N", "last revolutions of a motion (4; xdmf: 64)"},
+        {"frames", "N", "frames of a motion at most (128; xdmf: all)"},
         {"modes", "N", "mode shapes (4)"}},
        run_export},
       {"report",

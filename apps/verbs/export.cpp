@@ -6,11 +6,13 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/mesh_formats.hpp"
+#include "libio/csv_tables.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
 #include "libio/nearest.hpp"
 #include "libio/rotor_mesh.hpp"
 #include "libio/vtk_scene.hpp"
+#include "libio/xdmf.hpp"
 
 namespace whirl {
 
@@ -75,7 +77,7 @@ std::string told(int number, const Mode& mode) {
 
 /// Every format that is known, ours first.
 std::vector<std::string> known_formats() {
-  std::vector<std::string> names{"vtk"};
+  std::vector<std::string> names{"vtk", "xdmf", "csv"};
   for (const MeshFormat& format : mesh_formats()) names.emplace_back(format.name);
   return names;
 }
@@ -127,17 +129,23 @@ struct Written {
   std::string text;
 };
 
-Written export_vtk(const Invocation& call, const Source& source, const fs::path& stem) {
-  Written written{{}, "Written for ParaView (open the .pvd files)\n\n"};
+/// Series of moments for ParaView, by one of two writers.
+Written export_series(const Invocation& call, const Source& source, const fs::path& stem,
+                      bool is_xdmf) {
+  const std::string ending = is_xdmf ? ".xdmf" : ".pvd";
+  Written written{{}, fmt::format("Written for ParaView (open the {} files)\n\n", ending)};
   const auto write = [&](const std::string& suffix, const std::vector<VtkFrame>& frames,
                          const std::string& what) {
-    const fs::path pvd = stem.string() + suffix + ".pvd";
-    const auto files = write_vtk_series(pvd, source.scene, frames);
+    const fs::path place = stem.string() + suffix + ending;
+    const auto files = is_xdmf ? write_xdmf_series(place, source.scene, frames)
+                               : write_vtk_series(place, source.scene, frames);
     written.files.insert(written.files.end(), files.begin(), files.end());
-    written.text += fmt::format("  {}: {} frames, {}\n", pvd.string(), frames.size(), what);
+    written.text += fmt::format("  {}: {} frames, {}\n", place.string(), frames.size(), what);
   };
   if (source.has_motion()) {
-    write("", source.motion(call.integer("revolutions", 4), call.integer("frames", 128)),
+    write("",
+          source.motion(call.integer("revolutions", is_xdmf ? 64 : 4),
+                        call.integer("frames", is_xdmf ? 100'000 : 128)),
           "the end of the motion");
   }
   if (source.has_modes()) {
@@ -146,6 +154,16 @@ Written export_vtk(const Invocation& call, const Source& source, const fs::path&
                        write(fmt::format("_mode{}", number), frames, told(number, mode));
                      });
   }
+  return written;
+}
+
+Written export_csv(const Source& source, const fs::path& stem) {
+  if (!source.result) {
+    throw ModelError({"--format csv"}, "", "a model holds no tables; take the result of a verb");
+  }
+  Written written{write_csv_tables(*source.result, stem), ""};
+  for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
+  if (written.files.empty()) written.text = "There are no tables in this result\n";
   return written;
 }
 
@@ -187,12 +205,13 @@ Written export_mesh(const Invocation& call, const Source& source, const MeshForm
 Report run_export(const Invocation& call) {
   const std::string name = call.text("format", "vtk");
   const MeshFormat* mesh = mesh_format(name);
-  if (!mesh && name != "vtk") throw unknown_format(name);
+  if (!mesh && name != "vtk" && name != "xdmf" && name != "csv") throw unknown_format(name);
   const Source source(call);
-  const fs::path stem =
-      without_ending(call.text("out", call.file), mesh ? std::string(mesh->ending) : ".pvd");
-  const Written written =
-      mesh ? export_mesh(call, source, *mesh, stem) : export_vtk(call, source, stem);
+  const std::string ending = mesh ? std::string(mesh->ending) : name == "vtk" ? ".pvd" : "." + name;
+  const fs::path stem = without_ending(call.text("out", call.file), ending);
+  const Written written = mesh            ? export_mesh(call, source, *mesh, stem)
+                          : name == "csv" ? export_csv(source, stem)
+                                          : export_series(call, source, stem, name == "xdmf");
   Report report{.record = begin_record(call, source.model), .text = written.text};
   Record list = Record::array();
   for (const fs::path& f : written.files) list.add(f.string());

@@ -1,4 +1,4 @@
-// export to other programs: meshes by meshio.
+// export to other programs: meshes by meshio, tables, XDMF.
 
 #include "tests/cli/program.hpp"
 
@@ -100,6 +100,69 @@ TEST_F(Export, PassesOnWhatMeshioSays) {
   EXPECT_TRUE(has(outcome.err, "cannot write x.inp: meshio says: ValueError: no such day"))
       << outcome.err;
   EXPECT_EQ(files(), std::vector<std::string>{"meshio"});
+}
+
+// A row per moment, a column per station and contact, units in the head; numbers are those of the
+// result file, bit by bit.
+TEST_F(Export, ATimeHistoryIsATable) {
+  if (!has_h5py()) GTEST_SKIP() << "there is no h5py";
+  write("rub.toml", rubbing);
+  make({"simulate", "rub.toml", "--revolutions", "8", "--discard", "4", "--out", "run.h5",
+        "--quiet"});
+  const std::vector<std::string> written =
+      result({"export", "run.h5", "--format", "csv", "--out", "t"})["files"];
+  EXPECT_EQ(written,
+            (std::vector<std::string>{"t_contacts_name.csv", "t_points_body_name.csv",
+                                      "t_spectra_frequency.csv", "t_trajectory_time.csv"}));
+  EXPECT_EQ(python_says("import csv, h5py, numpy as np\n"
+                        "rows = list(csv.reader(open('t_trajectory_time.csv')))\n"
+                        "print(','.join(rows[0]))\n"
+                        "a = np.array([[float(v) for v in r] for r in rows[1:]])\n"
+                        "t = h5py.File('run.h5')['trajectory']\n"
+                        "b = np.vstack([t['time'], t['friction_force'], t['normal_force'], "
+                        "t['x'], t['y']]).T\n"
+                        "print(a.shape == b.shape and (a == b).all())"),
+            "time [s],friction_force ring [N],normal_force ring [N],x rotor [m],y rotor [m]\n"
+            "True\n");
+}
+
+// Values of a study are rows; ways and stations columns; what has two axes has a row per pair.
+// Complex numbers have two columns.
+TEST_F(Export, StudiesAndBranchesAreTables) {
+  write("rub.toml", rubbing);
+  make(briefly({"sweep", "rub.toml", "--out", "s.h5", "--quiet"}));
+  make({"campbell", disks, "--speeds", "0:1000:500rpm", "--out", "c.h5", "--quiet"});
+  make({"unbalance", disks, "--speeds", "0:1000:500rpm", "--out", "u.h5", "--quiet"});
+  for (const char* file : {"s.h5", "c.h5", "u.h5"}) {
+    make({"export", file, "--format", "csv", "--quiet"});
+  }
+  const std::string sweep = content(folder / "s_sweep_axis_1.csv");
+  EXPECT_EQ(sweep.rfind("gravity [m/s^2],", 0), 0u) << sweep;
+  EXPECT_TRUE(has(sweep, ",motion up,motion down,")) << sweep;
+  EXPECT_EQ(std::count(sweep.begin(), sweep.end(), '\n'), 3);
+  EXPECT_EQ(content(folder / "s_sweep_axis_1_order.csv").rfind("gravity [m/s^2],order,", 0), 0u);
+  const std::string branches = content(folder / "c_campbell_speed.csv");
+  EXPECT_EQ(branches.rfind("speed [rad/s],frequency 1 [rad/s],frequency 2 [rad/s],", 0), 0u);
+  EXPECT_EQ(std::count(branches.begin(), branches.end(), '\n'), 4);
+  EXPECT_TRUE(has(content(folder / "u_unbalance_speed.csv"), ",x 4 left disk im [m],"));
+  EXPECT_TRUE(has(problem({"export", "rub.toml", "--format", "csv"}), "a model holds no tables"));
+}
+
+// meshio reads the motion back: all moments, the shaft's lines, and what moves.
+TEST_F(Export, ALongMotionIsXdmfBesideHdf5) {
+  make({"simulate", disks, "--revolutions", "8", "--discard", "1", "--out", "run.h5", "--quiet"});
+  const json r = result({"export", "run.h5", "--format", "xdmf", "--out", "x"});
+  EXPECT_EQ(r["files"], (json::array({"x.xdmf", "x_xdmf.h5"})));
+  if (!has_meshio()) GTEST_SKIP() << "there is no meshio (Debian package meshio-tools)";
+  EXPECT_EQ(python_says("import meshio, h5py, numpy as np\n"
+                        "r = meshio.xdmf.TimeSeriesReader('x.xdmf').__enter__()\n"
+                        "p, c = r.read_points_cells()\n"
+                        "t, d, _ = r.read_data(511)\n"
+                        "f = h5py.File('run.h5')['trajectory']\n"
+                        "q = np.array(f['basis']) @ np.array(f['coordinates'])[:, -1]\n"
+                        "print(len(p), c[0].type, len(c[0].data), r.num_steps, "
+                        "t == f['time'][-1], abs(d['displacement [m]'][6, 0] - q[4*6]) < 1e-15)"),
+            "13 line 12 512 True True\n");
 }
 
 }  // namespace export_test
