@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 
 namespace whirl {
 
@@ -30,6 +31,17 @@ std::optional<int> run_program(std::vector<std::string> words,
     if (errno != EINTR) return std::nullopt;
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string last_words(const std::filesystem::path& output) {
+  std::ifstream file(output);
+  std::string last, error;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty()) continue;
+    last = line;
+    if (line.find("Error") != std::string::npos && line.front() != ' ') error = line;
+  }
+  return !error.empty() ? error : !last.empty() ? last : "it does not say why";
 }
 
 }  // namespace whirl

@@ -16,4 +16,8 @@ namespace whirl {
 std::optional<int> run_program(std::vector<std::string> words,
                                const std::filesystem::path& output = {});
 
+/// What a program said last, of which Python's errors are the most telling line.
+/// @param output  what it printed
+std::string last_words(const std::filesystem::path& output);
+
 }  // namespace whirl

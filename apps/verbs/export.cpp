@@ -1,17 +1,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
-
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/mesh_formats.hpp"
+#include "apps/verbs/scene_source.hpp"
 #include "libio/csv_tables.hpp"
-#include "libio/hdf5.hpp"
-#include "libio/model_file.hpp"
 #include "libio/nearest.hpp"
 #include "libio/rotor_mesh.hpp"
-#include "libio/vtk_scene.hpp"
 #include "libio/xdmf.hpp"
 
 namespace whirl {
@@ -32,49 +28,6 @@ fs::path without_ending(fs::path file, const std::string& of_format) {
   return file;
 }
 
-bool is_result(const std::string& file) {
-  return fs::path(file).extension() == ".h5" || fs::path(file).extension() == ".hdf5";
-}
-
-/// The last revolutions of a trajectory, evenly thinned to a number of frames.
-std::vector<VtkFrame> trajectory_frames(const ResultReader& result, const Model& model,
-                                        const Assembler& assembler, long revolutions, long most) {
-  const Mat basis = result.matrix("/trajectory/basis");
-  const Mat coordinates = result.matrix("/trajectory/coordinates");
-  const Vec time = result.vector("/trajectory/time");
-  const auto per_revolution =
-      static_cast<Eigen::Index>(result.number_attribute("/trajectory", "samples_per_revolution"));
-  const auto count = std::min<Eigen::Index>(time.size(), revolutions * per_revolution);
-  const auto frames = std::min<Eigen::Index>(count, most);
-  const auto contacts = static_cast<Eigen::Index>(model.contacts.size());
-  Mat normal = Mat::Zero(contacts, time.size()), friction = normal;
-  if (result.has("/trajectory/normal_force")) {
-    normal = result.matrix("/trajectory/normal_force");
-    friction = result.matrix("/trajectory/friction_force");
-  }
-  const int freedoms = assembler.uncondensed(0.0).dofs.full_size;
-  if (basis.rows() != freedoms || normal.rows() != contacts) {
-    throw ModelError(
-        {}, "",
-        fmt::format(
-            "the motion is of another rotor ({} freedoms, {} contacts) than the model as set "
-            "({}, {}): leave out --set",
-            basis.rows(), normal.rows(), freedoms, contacts));
-  }
-  std::vector<VtkFrame> list;
-  for (Eigen::Index k = 0; k < frames; ++k) {
-    const auto j = time.size() - count + k * count / frames;
-    list.push_back(vtk_frame(model, assembler, time(j), basis * coordinates.col(j), normal.col(j),
-                             friction.col(j)));
-  }
-  return list;
-}
-
-std::string told(int number, const Mode& mode) {
-  return fmt::format("mode {} at {:.1f} rpm, {}", number, mode.frequency() / rpm,
-                     name_of(mode.whirl));
-}
-
 /// Every format that is known, ours first.
 std::vector<std::string> known_formats() {
   std::vector<std::string> names{"vtk", "xdmf", "csv"};
@@ -91,38 +44,6 @@ ModelError unknown_format(const std::string& name) {
                                 fmt::join(known, ", ")));
 }
 
-/// What is exported: the motion at the end of a result, and modes.
-struct Source {
-  std::unique_ptr<ResultReader> result;  ///< none: a model
-  Model model;
-  Assembler assembler;
-  VtkScene scene;
-
-  explicit Source(const Invocation& call)
-      : result(is_result(call.file) ? std::make_unique<ResultReader>(call.file) : nullptr),
-        model(result ? parse_model(result->strings("/model").at(0), call.file, call.sets)
-                     : call.model()),
-        assembler(model.structure),
-        scene(vtk_scene(model, assembler)) {}
-
-  bool has_motion() const { return result && result->has("/trajectory/coordinates"); }
-  bool has_modes() const { return !result || result->has("/modes"); }
-  std::vector<VtkFrame> motion(long revolutions, long most) const {
-    return trajectory_frames(*result, model, assembler, revolutions, most);
-  }
-  /// Calls for every mode with its number, itself and a cycle of it.
-  template <class Function>
-  void each_mode(long count, int frames, Function function) const {
-    const System system = assembler.at(model.speed);
-    const Modes modes = complex_modes(system, static_cast<int>(count));
-    int number = 0;
-    for (const Mode& mode : modes.oscillatory) {
-      ++number;
-      function(number, mode, vtk_mode_frames(mode, system.dofs, scene, frames));
-    }
-  }
-};
-
 /// What an export wrote.
 struct Written {
   std::vector<fs::path> files;
@@ -130,7 +51,7 @@ struct Written {
 };
 
 /// Series of moments for ParaView, by one of two writers.
-Written export_series(const Invocation& call, const Source& source, const fs::path& stem,
+Written export_series(const Invocation& call, const SceneSource& source, const fs::path& stem,
                       bool is_xdmf) {
   const std::string ending = is_xdmf ? ".xdmf" : ".pvd";
   Written written{{}, fmt::format("Written for ParaView (open the {} files)\n\n", ending)};
@@ -157,7 +78,7 @@ Written export_series(const Invocation& call, const Source& source, const fs::pa
   return written;
 }
 
-Written export_csv(const Source& source, const fs::path& stem) {
+Written export_csv(const SceneSource& source, const fs::path& stem) {
   if (!source.result) {
     throw ModelError({"--format csv"}, "", "a model holds no tables; take the result of a verb");
   }
@@ -167,7 +88,7 @@ Written export_csv(const Source& source, const fs::path& stem) {
   return written;
 }
 
-Written export_mesh(const Invocation& call, const Source& source, const MeshFormat& format,
+Written export_mesh(const Invocation& call, const SceneSource& source, const MeshFormat& format,
                     const fs::path& stem) {
   std::vector<MeshField> fields;
   std::string told_fields;
@@ -206,7 +127,7 @@ Report run_export(const Invocation& call) {
   const std::string name = call.text("format", "vtk");
   const MeshFormat* mesh = mesh_format(name);
   if (!mesh && name != "vtk" && name != "xdmf" && name != "csv") throw unknown_format(name);
-  const Source source(call);
+  const SceneSource source(call);
   const std::string ending = mesh ? std::string(mesh->ending) : name == "vtk" ? ".pvd" : "." + name;
   const fs::path stem = without_ending(call.text("out", call.file), ending);
   const Written written = mesh            ? export_mesh(call, source, *mesh, stem)

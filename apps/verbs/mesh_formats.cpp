@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "apps/program.hpp"
 #include "libio/replace_file.hpp"
@@ -16,18 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr bool lines = true, surface = false;
-
-/// What a program said last, of which Python's errors are the most telling line.
-std::string last_words(const fs::path& output) {
-  std::ifstream file(output);
-  std::string last, error;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty()) continue;
-    last = line;
-    if (line.find("Error") != std::string::npos && line.front() != ' ') error = line;
-  }
-  return !error.empty() ? error : !last.empty() ? last : "it does not say why";
-}
 
 /// Files beside a place, removed at the end.
 struct Beside {
