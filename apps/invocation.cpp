@@ -65,6 +65,7 @@ bool holds_something_else(const fs::path& place) {
                                     : ending == ".png"  ? "\x89PNG"
                                     : ending == ".pdf"  ? "%PDF"
                                     : ending == ".html" ? "<!DO"
+                                    : ending == ".ogv"  ? "OggS"
                                                         : "\x89HDF";
   return begin[0] != '\0' && std::string_view(begin, sizeof begin) != expected;
 }

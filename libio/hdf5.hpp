@@ -69,6 +69,9 @@ class ResultWriter {
   std::int64_t id_ = -1;  ///< HDF5's handle; -1 once closed
 };
 
+/// What an object of a file holds.
+enum class ObjectKind { group, real, integer, complex, text, other };
+
 /// Reads a result file, or any other HDF5 file of numbers and texts.
 ///
 /// Every member but has() throws FileError, which names file and object, for what is missing,
@@ -86,6 +89,9 @@ class ResultReader {
   std::string string_attribute(const std::string& object, const std::string& name) const;
   double number_attribute(const std::string& object, const std::string& name) const;
 
+  ObjectKind kind(const std::string& object) const;
+  /// Per dimension of a dataset the path of the dataset along it, "" for none.
+  std::vector<std::string> axes(const std::string& path) const;
   /// Sizes of a dataset's dimensions.
   std::vector<Eigen::Index> shape(const std::string& path) const;
   Vec vector(const std::string& path) const;

@@ -20,6 +20,7 @@ Report run_sweep(const Invocation& call);
 Report run_map(const Invocation& call);
 Report run_basins(const Invocation& call);
 Report run_bench(const Invocation& call);
+Report run_animate(const Invocation& call);
 Report run_export(const Invocation& call);
 Report run_plot(const Invocation& call);
 Report run_report(const Invocation& call);

@@ -1,12 +1,14 @@
 #include <fmt/format.h>
-
-#include <cmath>
+#include <fmt/ranges.h>
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
-#include "libio/hdf5.hpp"
-#include "libio/model_file.hpp"
-#include "libio/vtk_scene.hpp"
+#include "apps/verbs/mesh_formats.hpp"
+#include "apps/verbs/scene_source.hpp"
+#include "libio/csv_tables.hpp"
+#include "libio/nearest.hpp"
+#include "libio/rotor_mesh.hpp"
+#include "libio/xdmf.hpp"
 
 namespace whirl {
 
@@ -17,96 +19,124 @@ namespace fs = std::filesystem;
 constexpr int mode_frames = 36;
 
 /// A name without the ending of a file that this program knows; other points in it stay.
-fs::path without_ending(fs::path file) {
-  for (const char* ending : {".pvd", ".vtp", ".vtk", ".h5", ".hdf5", ".toml"}) {
+fs::path without_ending(fs::path file, const std::string& of_format) {
+  for (const std::string& ending :
+       {of_format, std::string(".vtp"), std::string(".vtk"), std::string(".h5"),
+        std::string(".hdf5"), std::string(".toml")}) {
     if (file.extension() == ending) return file.replace_extension("");
   }
   return file;
 }
 
-bool is_result(const std::string& file) {
-  return fs::path(file).extension() == ".h5" || fs::path(file).extension() == ".hdf5";
+/// Every format that is known, ours first.
+std::vector<std::string> known_formats() {
+  std::vector<std::string> names{"vtk", "xdmf", "csv"};
+  for (const MeshFormat& format : mesh_formats()) names.emplace_back(format.name);
+  return names;
 }
 
-/// The last revolutions of a trajectory, evenly thinned to a number of frames.
-std::vector<VtkFrame> trajectory_frames(const ResultReader& result, const Model& model,
-                                        const Assembler& assembler, long revolutions, long most) {
-  const Mat basis = result.matrix("/trajectory/basis");
-  const Mat coordinates = result.matrix("/trajectory/coordinates");
-  const Vec time = result.vector("/trajectory/time");
-  const auto per_revolution =
-      static_cast<Eigen::Index>(result.number_attribute("/trajectory", "samples_per_revolution"));
-  const auto count = std::min<Eigen::Index>(time.size(), revolutions * per_revolution);
-  const auto frames = std::min<Eigen::Index>(count, most);
-  const auto contacts = static_cast<Eigen::Index>(model.contacts.size());
-  Mat normal = Mat::Zero(contacts, time.size()), friction = normal;
-  if (result.has("/trajectory/normal_force")) {
-    normal = result.matrix("/trajectory/normal_force");
-    friction = result.matrix("/trajectory/friction_force");
+ModelError unknown_format(const std::string& name) {
+  const auto known = known_formats();
+  const auto near = nearest(name, known);
+  return ModelError({"--format " + name}, "",
+                    fmt::format("unknown format{}; there are {}",
+                                near ? fmt::format(", did you mean \"{}\"?", *near) : "",
+                                fmt::join(known, ", ")));
+}
+
+/// What an export wrote.
+struct Written {
+  std::vector<fs::path> files;
+  std::string text;
+};
+
+/// Series of moments for ParaView, by one of two writers.
+Written export_series(const Invocation& call, const SceneSource& source, const fs::path& stem,
+                      bool is_xdmf) {
+  const std::string ending = is_xdmf ? ".xdmf" : ".pvd";
+  Written written{{}, fmt::format("Written for ParaView (open the {} files)\n\n", ending)};
+  const auto write = [&](const std::string& suffix, const std::vector<VtkFrame>& frames,
+                         const std::string& what) {
+    const fs::path place = stem.string() + suffix + ending;
+    const auto files = is_xdmf ? write_xdmf_series(place, source.scene, frames)
+                               : write_vtk_series(place, source.scene, frames);
+    written.files.insert(written.files.end(), files.begin(), files.end());
+    written.text += fmt::format("  {}: {} frames, {}\n", place.string(), frames.size(), what);
+  };
+  if (source.has_motion()) {
+    write("",
+          source.motion(call.integer("revolutions", is_xdmf ? 64 : 4),
+                        call.integer("frames", is_xdmf ? 100'000 : 128)),
+          "the end of the motion");
   }
-  const int freedoms = assembler.uncondensed(0.0).dofs.full_size;
-  if (basis.rows() != freedoms || normal.rows() != contacts) {
-    throw ModelError(
-        {}, "",
-        fmt::format(
-            "the motion is of another rotor ({} freedoms, {} contacts) than the model as set "
-            "({}, {}): leave out --set",
-            basis.rows(), normal.rows(), freedoms, contacts));
+  if (source.has_modes()) {
+    source.each_mode(call.integer("modes", 4), mode_frames,
+                     [&](int number, const Mode& mode, const std::vector<VtkFrame>& frames) {
+                       write(fmt::format("_mode{}", number), frames, told(number, mode));
+                     });
   }
-  std::vector<VtkFrame> list;
-  for (Eigen::Index k = 0; k < frames; ++k) {
-    const auto j = time.size() - count + k * count / frames;
-    list.push_back(vtk_frame(model, assembler, time(j), basis * coordinates.col(j), normal.col(j),
-                             friction.col(j)));
+  return written;
+}
+
+Written export_csv(const SceneSource& source, const fs::path& stem) {
+  if (!source.result) {
+    throw ModelError({"--format csv"}, "", "a model holds no tables; take the result of a verb");
   }
-  return list;
+  Written written{write_csv_tables(*source.result, stem), ""};
+  for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
+  if (written.files.empty()) written.text = "There are no tables in this result\n";
+  return written;
+}
+
+Written export_mesh(const Invocation& call, const SceneSource& source, const MeshFormat& format,
+                    const fs::path& stem) {
+  std::vector<MeshField> fields;
+  std::string told_fields;
+  const auto add = [&](const std::string& name, const Mat& motion, const std::string& what) {
+    fields.push_back({name, motion});
+    told_fields += fmt::format("    {}: {}\n", name, what);
+  };
+  if (source.has_motion()) {
+    add("displacement_m", source.motion(1, 1'000'000).back().motion, "at the end of the motion");
+  }
+  if (source.has_modes()) {
+    source.each_mode(
+        call.integer("modes", 4), 4,
+        [&](int number, const Mode& mode, const std::vector<VtkFrame>& quarters) {
+          for (const int k : {0, 1}) {
+            add(fmt::format("mode{}_{}deg", number, 90 * k),
+                quarters[static_cast<std::size_t>(k)].motion,
+                fmt::format("{}, at {} degrees of its cycle", told(number, mode), 90 * k));
+          }
+        });
+  }
+  const RotorMesh mesh = format.has_lines ? line_mesh(source.model, source.assembler, fields,
+                                                      std::string(format.group))
+                                          : surface_mesh(source.scene, fields);
+  const fs::path place = stem.string() + std::string(format.ending);
+  write_mesh(place, format, mesh);
+  return {{place},
+          fmt::format("  {}: {} {} and {} points; where the format takes fields\n{}",
+                      place.string(), mesh.cells.size(), format.has_lines ? "lines" : "triangles",
+                      mesh.points.size(), told_fields)};
 }
 
 }  // namespace
 
 Report run_export(const Invocation& call) {
-  const std::string format = call.text("format", "vtk");
-  if (format != "vtk") {
-    throw ModelError({"--format " + format}, "", "unknown format, expected vtk");
-  }
-  const std::unique_ptr<ResultReader> result =
-      is_result(call.file) ? std::make_unique<ResultReader>(call.file) : nullptr;
-  const Model model =
-      result ? parse_model(result->strings("/model").at(0), call.file, call.sets) : call.model();
-  const Assembler assembler(model.structure);
-  const VtkScene scene = vtk_scene(model, assembler);
-  const fs::path stem = without_ending(call.text("out", call.file));
-  std::vector<fs::path> files;
-  std::string text;
-  const auto write = [&](const std::string& suffix, const std::vector<VtkFrame>& frames,
-                         const std::string& what) {
-    const fs::path pvd = stem.string() + suffix + ".pvd";
-    const auto written = write_vtk_series(pvd, scene, frames);
-    files.insert(files.end(), written.begin(), written.end());
-    text += fmt::format("  {}: {} frames, {}\n", pvd.string(), frames.size(), what);
-  };
-  if (result && result->has("/trajectory/coordinates")) {
-    const auto frames = trajectory_frames(*result, model, assembler, call.integer("revolutions", 4),
-                                          call.integer("frames", 128));
-    write("", frames, "the end of the motion");
-  }
-  const bool with_modes = !result || result->has("/modes");
-  if (with_modes) {
-    const System system = assembler.at(model.speed);
-    const Modes modes = complex_modes(system, static_cast<int>(call.integer("modes", 4)));
-    int number = 0;
-    for (const Mode& mode : modes.oscillatory) {
-      ++number;
-      write(fmt::format("_mode{}", number), vtk_mode_frames(mode, system.dofs, scene, mode_frames),
-            fmt::format("mode {} at {:.1f} rpm, {}", number, mode.frequency() / rpm,
-                        name_of(mode.whirl)));
-    }
-  }
-  Report report{.record = begin_record(call, model)};
+  const std::string name = call.text("format", "vtk");
+  const MeshFormat* mesh = mesh_format(name);
+  if (!mesh && name != "vtk" && name != "xdmf" && name != "csv") throw unknown_format(name);
+  const SceneSource source(call);
+  const std::string ending = mesh ? std::string(mesh->ending) : name == "vtk" ? ".pvd" : "." + name;
+  const fs::path stem = without_ending(call.text("out", call.file), ending);
+  const Written written = mesh            ? export_mesh(call, source, *mesh, stem)
+                          : name == "csv" ? export_csv(source, stem)
+                                          : export_series(call, source, stem, name == "xdmf");
+  Report report{.record = begin_record(call, source.model), .text = written.text};
   Record list = Record::array();
-  for (const fs::path& f : files) list.add(f.string());
+  for (const fs::path& f : written.files) list.add(f.string());
   report.record.set("files", list);
-  report.text = "Written for ParaView (open the .pvd files)\n\n" + text;
   return report;
 }
 

@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
+#include "apps/program.hpp"
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/version.hpp"
@@ -109,18 +109,14 @@ void convert(const fs::path& svg, const fs::path& to, const std::string& format)
   std::vector<std::string> words{"rsvg-convert", "--format", format};
   if (format == "png") words.insert(words.end(), {"--zoom", "2"});
   words.insert(words.end(), {"--output", to.string(), svg.string()});
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  pid_t child = -1;
-  int status = 0;
-  if (posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ) != 0) {
+  const std::optional<int> status = run_program(words);
+  if (!status) {
     throw FileError(fmt::format(
         "cannot write {}: this needs rsvg-convert, of the Debian package librsvg2-bin (or write an "
         ".svg)",
         to.string()));
   }
-  if (waitpid(child, &status, 0) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+  if (*status != 0) {
     throw FileError(fmt::format("cannot write {}: rsvg-convert failed", to.string()));
   }
 }

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <hdf5_hl.h>
 
 #include <algorithm>
 
@@ -146,6 +147,37 @@ double ResultReader::number_attribute(const std::string& object, const std::stri
   double value = 0.0;
   read(attempt, source, H5T_NATIVE_DOUBLE, &value);
   return value;
+}
+
+ObjectKind ResultReader::kind(const std::string& object) const {
+  const Attempt attempt(path_, "read", object);
+  if (!has(object)) attempt.fail("there is none");
+  const Handle id(attempt(H5Oopen(id_, object.c_str(), H5P_DEFAULT)));
+  if (H5Iget_type(id) == H5I_GROUP) return ObjectKind::group;
+  if (H5Iget_type(id) != H5I_DATASET) return ObjectKind::other;
+  const Source source = open_dataset(attempt, id_);
+  if (source.is_text()) return ObjectKind::text;
+  if (source.is_complex()) return ObjectKind::complex;
+  if (!source.is_number()) return ObjectKind::other;
+  return H5Tget_class(source.type) == H5T_INTEGER ? ObjectKind::integer : ObjectKind::real;
+}
+
+std::vector<std::string> ResultReader::axes(const std::string& path) const {
+  const Attempt attempt(path_, "read dataset", path);
+  const Source source = open_dataset(attempt, id_);
+  std::vector<std::string> names(source.sizes.size());
+  const auto take = [](hid_t, unsigned, hid_t axis, void* name) -> herr_t {
+    std::string& text = *static_cast<std::string*>(name);
+    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(axis, nullptr, 0))));
+    H5Iget_name(axis, text.data(), text.size() + 1);
+    return 1;  // the first of them
+  };
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto dimension = static_cast<unsigned>(i);
+    if (H5DSget_num_scales(source.id, dimension) <= 0) continue;
+    attempt(H5DSiterate_scales(source.id, dimension, nullptr, take, &names[i]));
+  }
+  return names;
 }
 
 std::vector<Eigen::Index> ResultReader::shape(const std::string& path) const {

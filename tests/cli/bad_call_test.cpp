@@ -175,7 +175,7 @@ TEST_F(BadCall, FilesThatAreNotThereOrNotModels) {
   EXPECT_TRUE(has(problem_of_line({"rerun", "rotor.toml"}), "not an HDF5 file"));
   EXPECT_TRUE(has(problem_of_line({"rerun", "nothing.h5"}), "there is no such file"));
   EXPECT_TRUE(has(problem_of_line({"export", "nothing.h5"}), "there is no such file"));
-  EXPECT_TRUE(has(problem_of_line({"export", "rotor.toml", "--format", "stl"}), "expected vtk"));
+  EXPECT_TRUE(has(problem_of_line({"export", "rotor.toml", "--format", "stlx"}), "unknown format"));
 }
 
 TEST_F(BadCall, PlacesThatCannotBeWrittenAreSaidBeforeTheWork) {

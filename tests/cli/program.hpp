@@ -156,6 +156,13 @@ class Program : public testing::Test {
   /// Whether python has h5py.
   bool has_h5py() const { return wait(start(python, {"-c", "import h5py"})).status == 0; }
 
+  /// Whether animations can be drawn here.
+  bool can_animate() const {
+    return std::filesystem::exists(
+               std::filesystem::path(WHIRL_PROGRAM).replace_filename("whirl_render")) &&
+           wait(start("sh", {"-c", "command -v xvfb-run && command -v xauth"})).status == 0;
+  }
+
   static constexpr const char* python = "/usr/bin/python3";
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) /

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <optional>
+
+#include "apps/program.hpp"
+#include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
+#include "apps/verbs/scene_source.hpp"
+#include "libio/replace_file.hpp"
+
+namespace whirl {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+ModelError wrong(const std::string& what, std::string message) {
+  return ModelError({what}, "", std::move(message));
+}
+
+/// A folder that is removed at the end.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / fmt::format("whirl_animate_{}", ::getpid());
+  Folder() { fs::create_directories(path); }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+};
+
+/// Width and height of "960x540" [pixels].
+std::pair<int, int> size_of(const std::string& text) {
+  constexpr int least = 64, most = 8192;
+  std::pair<int, int> size;
+  const char* const end = text.data() + text.size();
+  const auto [at, first] = std::from_chars(text.data(), end, size.first);
+  if (first == std::errc{} && at != end && *at == 'x') {
+    const auto [last, second] = std::from_chars(at + 1, end, size.second);
+    const auto fits = [](int pixels) { return pixels >= least && pixels <= most; };
+    if (second == std::errc{} && last == end && fits(size.first) && fits(size.second)) return size;
+  }
+  throw wrong(
+      "--size " + text,
+      fmt::format("expected WIDTHxHEIGHT of {} to {} pixels, such as 960x540", least, most));
+}
+
+/// The program that draws, beside this one.
+fs::path renderer() {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored).replace_filename("whirl_render");
+}
+
+/// Lets the renderer draw a series, on a display of its own where there is none.
+void render(const fs::path& series, const fs::path& to, std::pair<int, int> size, long rate,
+            const std::string& title, const fs::path& output) {
+  const auto fail = [&](const std::string& why) {
+    throw FileError(fmt::format("cannot draw {}: {}", to.string(), why));
+  };
+  if (!fs::exists(renderer())) {
+    fail(
+        "this build has no whirl_render, which needs VTK's rendering; whirl export writes series "
+        "for ParaView without it");
+  }
+  std::vector<std::string> words{renderer().string(),
+                                 series.string(),
+                                 to.string(),
+                                 fmt::format("{}", size.first),
+                                 fmt::format("{}", size.second),
+                                 fmt::format("{}", rate),
+                                 title};
+  const char* display = std::getenv("DISPLAY");
+  if (!display || *display == '\0') {
+    words.insert(words.begin(), {"xvfb-run", "-a", "-s",
+                                 fmt::format("-screen 0 {}x{}x24", size.first, size.second)});
+  }
+  const std::optional<int> status = run_program(words, output);
+  if (!status) {
+    fail("there is no display, and no xvfb-run (Debian packages xvfb and xauth) to do without");
+  }
+  if (*status != 0) {
+    fail(fmt::format("VTK could not draw on {} (status {}): {}",
+                     display && *display ? fmt::format("the display {}", display) : "Xvfb", *status,
+                     last_words(output)));
+  }
+}
+
+}  // namespace
+
+Report run_animate(const Invocation& call) {
+  const SceneSource source(call);
+  const fs::path out = call.text("out", fs::path(call.file).replace_extension(".ogv").string());
+  const std::string ending = out.extension();
+  if (ending != ".ogv" && ending != ".png") {
+    throw wrong("--out " + out.string(), "expected a film .ogv, or pictures .png");
+  }
+  FileReplacement{out};  // a directory that is not there is said first
+  const auto size = size_of(call.text("size", "960x540"));
+  const long number = call.integer("mode", 0);
+  std::vector<VtkFrame> frames;
+  std::string title;
+  if (number == 0 && source.has_motion()) {
+    frames = source.motion(call.integer("revolutions", 4), call.integer("frames", 120));
+    title = source.model.title.empty() ? "the end of the motion" : source.model.title;
+  } else {
+    const long wanted = std::max(1L, number);
+    source.each_mode(wanted, static_cast<int>(call.integer("frames", 60)),
+                     [&](int n, const Mode& mode, const std::vector<VtkFrame>& cycle) {
+                       if (n != wanted) return;
+                       frames = cycle;
+                       title = told(n, mode);
+                     });
+    if (frames.empty()) throw wrong("--mode " + call.text("mode", "1"), "there is no such mode");
+  }
+
+  const Folder folder;
+  const fs::path series = folder.path / "series.pvd";
+  write_vtk_series(series, source.scene, frames);
+  const fs::path drawn = folder.path / ("film" + ending);
+  render(series, drawn, size, call.integer("rate", 25), title, folder.path / "output.txt");
+
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder.path)) {
+    const std::string name = entry.path().filename();
+    if (entry.path().extension() != ending || name.rfind("film", 0) != 0) continue;
+    const fs::path place = fs::path(out).replace_filename(out.stem().string() + name.substr(4));
+    FileReplacement file(place);
+    fs::copy_file(entry.path(), file.temporary());
+    file.commit();
+    files.push_back(place);
+  }
+  if (files.empty()) throw FileError("cannot draw " + out.string() + ": VTK drew nothing");
+  std::sort(files.begin(), files.end());
+  Report report{.record = begin_record(call, source.model)};
+  Record list = Record::array();
+  for (const fs::path& f : files) list.add(f.string());
+  report.record.set("files", list);
+  report.record.set("frames", static_cast<int>(frames.size()));
+  report.text = fmt::format("  {}: {} frames, {}\n", files.front().string(), frames.size(), title);
+  return report;
+}
+
+}  // namespace whirl

@@ -1,0 +1,32 @@
+#pragma once
+/// Formats of finite element programs, which meshio writes.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libio/rotor_mesh.hpp"
+
+namespace whirl {
+
+/// A format that a mesh of the rotor is written in.
+struct MeshFormat {
+  std::string_view name;        ///< as meshio calls it
+  std::string_view ending;      ///< of its files
+  bool has_lines = true;        ///< takes elements of a shaft; else its surface is written
+  std::string_view group = "";  ///< integer cell data that it makes properties or groups of
+};
+
+/// All of them; VTU needs no meshio.
+const std::vector<MeshFormat>& mesh_formats();
+
+/// The format of a name, or null.
+const MeshFormat* mesh_format(std::string_view name);
+
+/// Writes a mesh: whole, or not at all.
+/// @throws FileError  with what meshio says, or which package it is of
+void write_mesh(const std::filesystem::path& place, const MeshFormat& format,
+                const RotorMesh& mesh);
+
+}  // namespace whirl

@@ -1,0 +1,78 @@
+#include "apps/verbs/scene_source.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "apps/verbs/common.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/model_file.hpp"
+
+namespace whirl {
+
+namespace {
+
+bool is_result(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".h5" ||
+         std::filesystem::path(file).extension() == ".hdf5";
+}
+
+}  // namespace
+
+SceneSource::SceneSource(const Invocation& call)
+    : result(is_result(call.file) ? std::make_unique<ResultReader>(call.file) : nullptr),
+      model(result ? parse_model(result->strings("/model").at(0), call.file, call.sets)
+                   : call.model()),
+      assembler(model.structure),
+      scene(vtk_scene(model, assembler)) {}
+
+std::vector<VtkFrame> SceneSource::motion(long revolutions, long most) const {
+  const Mat basis = result->matrix("/trajectory/basis");
+  const Mat coordinates = result->matrix("/trajectory/coordinates");
+  const Vec time = result->vector("/trajectory/time");
+  const auto per_revolution =
+      static_cast<Eigen::Index>(result->number_attribute("/trajectory", "samples_per_revolution"));
+  const auto count = std::min<Eigen::Index>(time.size(), revolutions * per_revolution);
+  const auto frames = std::min<Eigen::Index>(count, most);
+  const auto contacts = static_cast<Eigen::Index>(model.contacts.size());
+  Mat normal = Mat::Zero(contacts, time.size()), friction = normal;
+  if (result->has("/trajectory/normal_force")) {
+    normal = result->matrix("/trajectory/normal_force");
+    friction = result->matrix("/trajectory/friction_force");
+  }
+  const int freedoms = assembler.uncondensed(0.0).dofs.full_size;
+  if (basis.rows() != freedoms || normal.rows() != contacts) {
+    throw ModelError(
+        {}, "",
+        fmt::format(
+            "the motion is of another rotor ({} freedoms, {} contacts) than the model as set "
+            "({}, {}): leave out --set",
+            basis.rows(), normal.rows(), freedoms, contacts));
+  }
+  std::vector<VtkFrame> list;
+  for (Eigen::Index k = 0; k < frames; ++k) {
+    const auto j = time.size() - count + k * count / frames;
+    list.push_back(vtk_frame(model, assembler, time(j), basis * coordinates.col(j), normal.col(j),
+                             friction.col(j)));
+  }
+  return list;
+}
+
+void SceneSource::each_mode(
+    long count, int frames,
+    const std::function<void(int, const Mode&, const std::vector<VtkFrame>&)>& use) const {
+  const System system = assembler.at(model.speed);
+  const Modes modes = complex_modes(system, static_cast<int>(count));
+  int number = 0;
+  for (const Mode& mode : modes.oscillatory) {
+    ++number;
+    use(number, mode, vtk_mode_frames(mode, system.dofs, scene, frames));
+  }
+}
+
+std::string told(int number, const Mode& mode) {
+  return fmt::format("mode {} at {:.1f} rpm, {}", number, mode.frequency() / rpm,
+                     name_of(mode.whirl));
+}
+
+}  // namespace whirl

@@ -1,0 +1,42 @@
+#pragma once
+/// What is drawn or exported of a model or a result: its motion, its modes.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/verb.hpp"
+#include "libfe/assemble.hpp"
+#include "libfe/modes.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/vtk_scene.hpp"
+
+namespace whirl {
+
+/// The model or result of a call, as a scene.
+struct SceneSource {
+  std::unique_ptr<ResultReader> result;  ///< none: a model
+  Model model;
+  Assembler assembler;
+  VtkScene scene;
+
+  explicit SceneSource(const Invocation& call);
+
+  bool has_motion() const { return result && result->has("/trajectory/coordinates"); }
+  bool has_modes() const { return !result || result->has("/modes"); }
+
+  /// The last revolutions of a motion, evenly thinned to a number of frames.
+  /// @throws ModelError  if the motion is of another rotor than the model as set
+  std::vector<VtkFrame> motion(long revolutions, long most) const;
+
+  /// Calls for every mode at the operating speed with its number from 1, itself and a cycle of it.
+  void each_mode(
+      long count, int frames,
+      const std::function<void(int, const Mode&, const std::vector<VtkFrame>&)>& use) const;
+};
+
+/// "mode 1 at 1664.6 rpm, backward"
+std::string told(int number, const Mode& mode);
+
+}  // namespace whirl

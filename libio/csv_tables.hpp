@@ -1,0 +1,24 @@
+#pragma once
+/// A result as tables for spreadsheets.
+
+#include <filesystem>
+#include <vector>
+
+#include "libio/hdf5.hpp"
+
+namespace whirl {
+
+/// Writes the groups of a result as "<stem>_<group>_<rows>.csv".
+///
+/// Datasets of a group that have the same axes of numbers (time, speed, the values of a study) are
+/// one table, a row per point of these axes; names and counters along other axes (stations,
+/// contacts, modes) become columns, as do the parts of complex numbers. The first line says what
+/// stands in each column, with its SI unit: "x left disk [m]". Numbers are as exact as in the file;
+/// what is not a number is left empty. Left out are datasets that only this program goes on from.
+///
+/// @return  the files, in the order of the groups
+/// @throws FileError  if one cannot be read or written
+std::vector<std::filesystem::path> write_csv_tables(const ResultReader& result,
+                                                    const std::filesystem::path& stem);
+
+}  // namespace whirl

@@ -1,0 +1,167 @@
+// Draws a series that write_vtk_series() wrote, off the screen. A program of its own: VTK ends the
+// process where it finds no X server, and its rendering libraries would slow down every start.
+//
+//   whirl_render SERIES.pvd OUT.ogv|OUT.png WIDTH HEIGHT FRAMES_PER_SECOND TITLE
+
+#include <vtkActor.h>
+#include <vtkAutoInit.h>
+#include <vtkCamera.h>
+#include <vtkColorTransferFunction.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkOggTheoraWriter.h>
+#include <vtkPNGWriter.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+#include <vtkWindowToImageFilter.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+VTK_MODULE_INIT(vtkRenderingOpenGL2);
+VTK_MODULE_INIT(vtkRenderingFreeType);
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Files of the frames, in order.
+std::vector<fs::path> frames_of(const fs::path& pvd) {
+  std::vector<fs::path> frames;
+  for (const auto& entry : fs::directory_iterator(fs::path(pvd).replace_extension(""))) {
+    if (entry.path().extension() == ".vtp") frames.push_back(entry.path());
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
+}
+
+/// Colors of shaft, disks, stators and contact forces, as "part" numbers them.
+void color_parts(vtkColorTransferFunction* colors) {
+  colors->AddRGBPoint(0.0, 0.62, 0.66, 0.72);
+  colors->AddRGBPoint(1.0, 0.27, 0.45, 0.69);
+  colors->AddRGBPoint(2.0, 0.80, 0.72, 0.55);
+  colors->AddRGBPoint(3.0, 0.84, 0.15, 0.16);
+}
+
+void look_at(vtkRenderer* renderer, const double bounds[6]) {
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double z = 0.5 * (bounds[4] + bounds[5]);
+  camera->SetFocalPoint(0.0, 0.0, z);
+  camera->SetPosition(-1.6, 0.9, z - 1.0);
+  camera->SetViewUp(0.0, 1.0, 0.0);
+  renderer->ResetCamera(bounds);
+  camera->Zoom(1.5);
+  renderer->ResetCameraClippingRange(bounds);
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  if (count != 7) {
+    std::fputs("whirl_render: not for people, see whirl animate\n", stderr);
+    return 2;
+  }
+  if (!std::getenv("DISPLAY")) {  // VTK would end the process
+    std::fputs("there is no X server\n", stderr);
+    return 3;
+  }
+  const fs::path out = words[2];
+  const auto frames = frames_of(words[1]);
+  if (frames.empty()) return 2;
+
+  vtkNew<vtkRenderer> renderer;
+  renderer->SetBackground(1.0, 1.0, 1.0);
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetMultiSamples(4);
+  window->SetSize(std::atoi(words[3]), std::atoi(words[4]));
+  window->AddRenderer(renderer);
+
+  vtkNew<vtkXMLPolyDataReader> reader;
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputConnection(reader->GetOutputPort());
+  normals->SetFeatureAngle(40.0);
+  vtkNew<vtkColorTransferFunction> colors;
+  color_parts(colors);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  mapper->SetScalarModeToUseCellFieldData();
+  mapper->SelectColorArray("part");
+  mapper->SetLookupTable(colors);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetLineWidth(4.0F);
+  actor->GetProperty()->SetSpecular(0.3);
+  actor->GetProperty()->SetSpecularPower(30.0);
+  renderer->AddActor(actor);
+
+  vtkNew<vtkTextActor> title;
+  title->GetTextProperty()->SetFontSize(std::max(12, std::atoi(words[4]) / 28));
+  title->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
+  title->SetPosition(12.0, 10.0);
+  renderer->AddActor2D(title);
+
+  // a camera that all frames fit in
+  double bounds[6] = {1e30, -1e30, 1e30, -1e30, 1e30, -1e30};
+  for (const fs::path& frame : frames) {
+    reader->SetFileName(frame.c_str());
+    reader->Update();
+    double own[6];
+    reader->GetOutput()->GetBounds(own);
+    for (int i = 0; i < 6; i += 2) {
+      bounds[i] = std::min(bounds[i], own[i]);
+      bounds[i + 1] = std::max(bounds[i + 1], own[i + 1]);
+    }
+  }
+  look_at(renderer, bounds);
+
+  const bool is_movie = out.extension() == ".ogv";
+  vtkNew<vtkOggTheoraWriter> movie;
+  vtkNew<vtkPNGWriter> picture;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    reader->SetFileName(frames[i].c_str());
+    reader->Update();
+    double time = 0.0;
+    if (auto* array = reader->GetOutput()->GetFieldData()->GetArray("time [s]")) {
+      time = array->GetTuple1(0);
+    }
+    char text[512];
+    std::snprintf(text, sizeof text, "%s    t = %.5g s", words[6], time);
+    title->SetInput(text);
+    window->Render();
+    vtkNew<vtkWindowToImageFilter> image;
+    image->SetInput(window);
+    image->ReadFrontBufferOff();
+    image->Update();
+    if (is_movie) {
+      movie->SetInputConnection(image->GetOutputPort());
+      if (i == 0) {
+        movie->SetFileName(out.c_str());
+        movie->SetRate(std::atoi(words[5]));
+        movie->SetQuality(2);
+        movie->Start();
+      }
+      movie->Write();
+    } else {
+      char number[16];
+      std::snprintf(number, sizeof number, "_%04zu", i + 1);
+      const fs::path place = fs::path(out).replace_filename(out.stem().string() + number + ".png");
+      picture->SetFileName(place.c_str());
+      picture->SetInputConnection(image->GetOutputPort());
+      picture->Write();
+    }
+  }
+  if (is_movie) movie->End();
+  return 0;
+}

@@ -1,0 +1,70 @@
+// animate: films and pictures, drawn without a screen.
+
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace animate_test {
+
+const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+
+class Animate : public Program {
+ protected:
+  /// Runs whirl as if there were no display.
+  Outcome without_display(const std::string& words, const std::string& before = "") const {
+    return wait(
+        start("sh", {"-c", "unset DISPLAY; " + before + " " + WHIRL_PROGRAM + " " + words}));
+  }
+};
+
+// A film is in the format that its name says and has many pictures; pictures have the size asked
+// for, and a rotor that moves: each differs from the one before.
+TEST_F(Animate, DrawsFilmsAndPicturesWithoutAScreen) {
+  if (!can_animate()) GTEST_SKIP() << "needs VTK's rendering and xvfb-run (xvfb, xauth)";
+  const Outcome film = without_display("animate " + disks +
+                                       " --out m.ogv --mode 2 --frames 6 "
+                                       "--size 320x240");
+  ASSERT_EQ(film.status, 0) << film.err;
+  EXPECT_TRUE(has(film.out, "m.ogv: 6 frames, mode 2 at ")) << film.out;
+  EXPECT_EQ(content(folder / "m.ogv").substr(0, 4), "OggS");
+
+  ASSERT_EQ(whirl({"simulate", disks, "--revolutions", "4", "--discard", "1", "--out", "run.h5",
+                   "--quiet"})
+                .status,
+            0);
+  const Outcome pictures =
+      without_display("animate run.h5 --out p.png --frames 3 --size 320x240 --json -");
+  ASSERT_EQ(pictures.status, 0) << pictures.err;
+  EXPECT_EQ(pictures.tree()["files"], (json::array({"p_0001.png", "p_0002.png", "p_0003.png"})));
+  EXPECT_EQ(pictures.tree()["frames"], 3);
+  const std::string first = content(folder / "p_0001.png");
+  EXPECT_EQ(first.substr(1, 3), "PNG");
+  EXPECT_EQ(first.substr(16, 8), std::string("\0\0\1\100\0\0\0\360", 8));  // 320 x 240
+  EXPECT_NE(first, content(folder / "p_0002.png"));
+  EXPECT_EQ(files(), (std::vector<std::string>{"m.ogv", "p_0001.png", "p_0002.png", "p_0003.png",
+                                               "run.h5"}));
+}
+
+// Where there is nothing to draw on it is said, also where VTK ends the process; nothing is written.
+TEST_F(Animate, TellsWhatIsMissing) {
+  const Outcome no_xvfb = without_display("animate " + disks + " --out m.ogv", "PATH=/nowhere");
+  EXPECT_EQ(no_xvfb.status, 2);
+  EXPECT_TRUE(has(no_xvfb.err, "xvfb") || has(no_xvfb.err, "whirl_render")) << no_xvfb.err;
+  const Outcome wrong_display =
+      without_display("animate " + disks + " --out m.ogv", "DISPLAY=:4711");
+  EXPECT_EQ(wrong_display.status, 2);
+  EXPECT_TRUE(has(wrong_display.err, "cannot draw")) << wrong_display.err;
+  for (const auto& [words, message] : std::vector<std::pair<std::string, std::string>>{
+           {"--out m.mp4", "expected a film .ogv, or pictures .png"},
+           {"--out m.ogv --size big", "expected WIDTHxHEIGHT"},
+           {"--out m.ogv --size 1x1", "expected WIDTHxHEIGHT"},
+           {"--out m.ogv --mode 4711", "there is no such mode"},
+           {"--out nowhere/m.ogv", "there is no directory nowhere"}}) {
+    const Outcome outcome = without_display("animate " + disks + " " + words);
+    EXPECT_EQ(outcome.status, 2) << words;
+    EXPECT_TRUE(has(outcome.err, message)) << outcome.err;
+  }
+  EXPECT_TRUE(files().empty());
+}
+
+}  // namespace animate_test
+}  // namespace whirl::test
