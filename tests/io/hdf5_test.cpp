@@ -37,6 +37,29 @@ TEST_F(ResultFile, IsReadBack) {
   EXPECT_EQ(in.vector("/modes/ratio")(1), 1e-300);
 }
 
+// What stands along the dimensions, and what kind of numbers there are.
+TEST_F(ResultFile, TellsAxesAndKinds) {
+  {
+    ResultWriter out(path);
+    out.dataset("/a/time", std::vector<double>{1, 2}, {"s", "time", {}});
+    out.dataset("/b/name", std::vector<std::string>{"u", "v", "w"}, {"", "name", {}});
+    out.dataset("/a/x", Mat(Mat::Zero(3, 2)), {"m", "x", {"/b/name", "/a/time"}});
+    out.dataset("/a/n", std::vector<int>{1, 2, 3}, {"", "count", {""}});
+    out.dataset("/a/z", CVec(CVec::Zero(2)), {"", "complex", {}});
+    out.commit();
+  }
+  const ResultReader in(path);
+  EXPECT_EQ(in.axes("/a/x"), (std::vector<std::string>{"/b/name", "/a/time"}));
+  EXPECT_EQ(in.axes("/a/n"), std::vector<std::string>{""});
+  EXPECT_EQ(in.kind("/a"), ObjectKind::group);
+  EXPECT_EQ(in.kind("/a/time"), ObjectKind::real);
+  EXPECT_EQ(in.kind("/a/n"), ObjectKind::integer);
+  EXPECT_EQ(in.kind("/a/z"), ObjectKind::complex);
+  EXPECT_EQ(in.kind("/b/name"), ObjectKind::text);
+  EXPECT_THROW(in.kind("/c"), FileError);
+  EXPECT_THROW(in.axes("/a"), FileError);
+}
+
 TEST_F(ResultFile, TellsWhatIsInIt) {
   write_example(path);
   const ResultReader in(path);

@@ -23,6 +23,7 @@
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -61,7 +62,6 @@ void look_at(vtkRenderer* renderer, const double bounds[6]) {
   camera->SetPosition(-1.6, 0.9, z - 1.0);
   camera->SetViewUp(0.0, 1.0, 0.0);
   renderer->ResetCamera(bounds);
-  camera->Zoom(1.5);
   renderer->ResetCameraClippingRange(bounds);
 }
 
@@ -102,7 +102,9 @@ int main(int count, char** words) {
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetLineWidth(4.0F);
-  actor->GetProperty()->SetSpecular(0.3);
+  actor->GetProperty()->SetAmbient(0.3);
+  actor->GetProperty()->SetDiffuse(0.8);
+  actor->GetProperty()->SetSpecular(0.2);
   actor->GetProperty()->SetSpecularPower(30.0);
   renderer->AddActor(actor);
 
@@ -124,7 +126,22 @@ int main(int count, char** words) {
       bounds[i + 1] = std::max(bounds[i + 1], own[i + 1]);
     }
   }
+  window->Render();  // only then the renderer knows the shape of the picture
   look_at(renderer, bounds);
+  double largest = 1e-6;  // half a picture's width or height is 1
+  for (const fs::path& frame : frames) {
+    reader->SetFileName(frame.c_str());
+    reader->Update();
+    for (vtkIdType i = 0; i < reader->GetOutput()->GetNumberOfPoints(); ++i) {
+      const double* p = reader->GetOutput()->GetPoint(i);
+      renderer->SetWorldPoint(p[0], p[1], p[2], 1.0);
+      renderer->WorldToView();
+      const double* view = renderer->GetViewPoint();
+      largest = std::max({largest, std::abs(view[0]), std::abs(view[1])});
+    }
+  }
+  constexpr double share = 0.85;  // leaves room for the title
+  renderer->GetActiveCamera()->Zoom(share / largest);
 
   const bool is_movie = out.extension() == ".ogv";
   vtkNew<vtkOggTheoraWriter> movie;
