@@ -46,25 +46,23 @@ std::vector<double> numbers(const Vec& v) {
 StudyRows compute(const Starts& starts, const std::vector<std::size_t>& piece) {
   const ClassifyOptions& options = starts.setup.options();
   std::vector<StudyPoint> points;
-  std::vector<Subject> subjects;
+  for (const std::size_t number : piece) points.push_back(starts.point(number));
+  std::vector<StudyPoint*> all;
   std::vector<FullState> begins;
-  for (const std::size_t number : piece) {
-    points.push_back(starts.point(number));
-    StudyPoint& p = points.back();
+  for (StudyPoint& p : points) {
+    all.push_back(&p);
     begins.push_back(p.scene ? full_state(*p.scene, p.subject.found.end) : FullState{});
-    if (p.is_good()) subjects.push_back(std::move(p.subject));
   }
-  settle(subjects, options);
-  average(subjects, options);
+  together(all, [&](std::span<Subject> motions) {
+    settle(motions, options);
+    average(motions, options);
+  });
   StudyRows result;
-  auto next = subjects.begin();
   for (std::size_t i = 0; i < piece.size(); ++i) {
-    StudyPoint& p = points[i];
-    if (p.is_good()) p.subject = std::move(*next++);
+    const StudyPoint& p = points[i];
     const Classification& found = p.subject.found;
     if (!p.is_good() && result.failure.empty()) {
-      result.failure = fmt::format("start {}: {}", piece[i] + 1,
-                                   p.failure.empty() ? found.diagnosis : p.failure);
+      result.failure = fmt::format("start {}: {}", piece[i] + 1, p.why());
     }
     PointRow row = classification_row(p);
     row.push_back(numbers(begins[i].displacement));

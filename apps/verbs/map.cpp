@@ -20,21 +20,18 @@ const std::string group = "/map";
 /// Points of a piece, classified in the lanes of one batch.
 StudyRows compute(const StudySetup& setup, const std::vector<std::size_t>& piece) {
   std::vector<StudyPoint> points;
-  std::vector<Subject> subjects;
-  for (const std::size_t number : piece) {
-    points.push_back(setup.point(number));
-    if (points.back().is_good()) subjects.push_back(std::move(points.back().subject));
-  }
-  settle(subjects, setup.options());
-  average(subjects, setup.options());
+  for (const std::size_t number : piece) points.push_back(setup.point(number));
+  std::vector<StudyPoint*> all;
+  for (StudyPoint& point : points) all.push_back(&point);
+  together(all, [&](std::span<Subject> motions) {
+    settle(motions, setup.options());
+    average(motions, setup.options());
+  });
   StudyRows result;
-  auto next = subjects.begin();
   for (std::size_t i = 0; i < piece.size(); ++i) {
-    StudyPoint& point = points[i];
-    if (point.is_good()) point.subject = std::move(*next++);
+    const StudyPoint& point = points[i];
     if (!point.is_good() && result.failure.empty()) {
-      result.failure = setup.describe(piece[i]) + ": " +
-                       (point.failure.empty() ? point.subject.found.diagnosis : point.failure);
+      result.failure = setup.describe(piece[i]) + ": " + point.why();
     }
     result.rows.emplace_back(piece[i], classification_row(point));
   }

@@ -122,6 +122,19 @@ std::vector<OptionSpec> study_options(std::vector<OptionSpec> own) {
   return own;
 }
 
+void together(const std::vector<StudyPoint*>& points,
+              const std::function<void(std::span<Subject>)>& f) {
+  std::vector<StudyPoint*> good;
+  std::vector<Subject> subjects;
+  for (StudyPoint* p : points) {
+    if (!p->is_good()) continue;
+    good.push_back(p);
+    subjects.push_back(std::move(p->subject));
+  }
+  f(subjects);
+  for (std::size_t i = 0; i < good.size(); ++i) good[i]->subject = std::move(subjects[i]);
+}
+
 StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t most)
     : model_(call.model()), file_(call.file) {
   const int count = static_cast<int>(call.integer("points", 0, 2));

@@ -53,7 +53,13 @@ struct StudyPoint {
   std::string failure;  ///< why there is no scene
 
   bool is_good() const { return failure.empty() && subject.found.is_good(); }
+  /// Why it is not.
+  const std::string& why() const { return failure.empty() ? subject.found.diagnosis : failure; }
 };
+
+/// Calls f with the motions of all good points together, such as settle and average take them.
+void together(const std::vector<StudyPoint*>& points,
+              const std::function<void(std::span<Subject>)>& f);
 
 /// What a study knows before its first point.
 class StudySetup {

@@ -190,23 +190,23 @@ class Chain {
   FullState end_;
 };
 
+std::vector<StudyPoint*> pointers(std::vector<std::pair<std::size_t, StudyPoint>>& points) {
+  std::vector<StudyPoint*> all;
+  for (auto& [row, point] : points) all.push_back(&point);
+  return all;
+}
+
 /// Motions of one or two ways, told apart and portrayed.
 StudyRows finish(std::vector<std::pair<std::size_t, StudyPoint>>& points,
                  const std::vector<FullState>& ends, const StudySetup& setup,
                  const Portraits& portraits) {
-  std::vector<Subject> subjects;
-  for (auto& [row, point] : points) {
-    if (point.is_good()) subjects.push_back(std::move(point.subject));
-  }
-  average(subjects, setup.options());
-  auto next = subjects.begin();
+  together(pointers(points),
+           [&](std::span<Subject> motions) { average(motions, setup.options()); });
   StudyRows result;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    auto& [row, point] = points[i];
-    if (point.is_good()) point.subject = std::move(*next++);
+    const auto& [row, point] = points[i];
     if (!point.is_good() && result.failure.empty()) {
-      result.failure = setup.describe(row % setup.points()) + ": " +
-                       (point.failure.empty() ? point.subject.found.diagnosis : point.failure);
+      result.failure = setup.describe(row % setup.points()) + ": " + point.why();
     }
     PointRow numbers = classification_row(point);
     if (point.is_good()) {
@@ -340,18 +340,9 @@ Report run_sweep(const Invocation& call) {
     work.prepare = [&](const std::vector<std::size_t>& piece) -> std::function<StudyRows()> {
       return [&, piece] {
         std::vector<std::pair<std::size_t, StudyPoint>> points;
-        std::vector<Subject> subjects;
-        for (const std::size_t row : piece) {
-          points.emplace_back(row, setup.point(row));
-          if (points.back().second.is_good()) {
-            subjects.push_back(std::move(points.back().second.subject));
-          }
-        }
-        settle(subjects, setup.options());
-        auto next = subjects.begin();
-        for (auto& [row, point] : points) {
-          if (point.is_good()) point.subject = std::move(*next++);
-        }
+        for (const std::size_t row : piece) points.emplace_back(row, setup.point(row));
+        together(pointers(points),
+                 [&](std::span<Subject> motions) { settle(motions, setup.options()); });
         return finish(points, std::vector<FullState>(points.size()), setup, portraits);
       };
     };
