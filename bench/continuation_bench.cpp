@@ -36,7 +36,7 @@ struct P1Branch {
   void walk(benchmark::State& state, const FlowAt& flow_at) const {
     std::size_t found = 0;
     for (auto _ : state) {
-      Continuation walk(flow_at, start, options);
+      Continuation walk = orbit_continuation(flow_at, start, options);
       while (walk.advance()) {
       }
       found = walk.branch().points.size();

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "libdyn/continuation.hpp"
+#include "libdyn/branch_equations.hpp"
 
 namespace whirl {
 

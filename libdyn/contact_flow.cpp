@@ -36,26 +36,34 @@ std::vector<Passage> pass(const ContactSystem& system, double tolerance,
   return passages;
 }
 
-/// (Phi^T M Phi)^-1 Phi^T M Phi_first
-Mat displacements_in_basis(const Scene& scene, const Scene& first) {
+}  // namespace
+
+BasisChange::BasisChange(const Scene& scene, const Scene& first) {
   const Mat &Phi = scene.reduced.Phi, &Phi_first = first.reduced.Phi;
+  if (Phi == Phi_first) return;
   if (Phi.rows() != Phi_first.rows() || Phi.cols() != Phi_first.cols()) {
     throw NumericalError("the parameter changes the number of freedoms");
   }
   const Mat weighted = Phi.transpose() * Mat(scene.system.M);
-  const DenseLu<Mat> mass(weighted * Phi);
-  return mass.solve(weighted * Phi_first);
+  const Mat half = DenseLu<Mat>(weighted * Phi).solve(weighted * Phi_first);
+  const Eigen::Index n = half.rows();
+  P_ = Mat::Zero(2 * n, 2 * n);
+  P_.topLeftCorner(n, n) = half;
+  P_.bottomRightCorner(n, n) = half;
+  back_ = std::make_shared<const DenseLu<Mat>>(P_);
+  if (!(back_->rcond() > 1e-10)) {
+    throw NumericalError("the parameter changes the modes too much: keep more of them");
+  }
 }
 
-}  // namespace
+Vec BasisChange::to(const Vec& y_first) const {
+  if (is_none()) return y_first;
+  return P_ * y_first;
+}
 
-Vec basis_change(const Scene& scene, const Scene& first, const Vec& y) {
-  if (scene.reduced.Phi == first.reduced.Phi) return y;
-  const Mat half = displacements_in_basis(scene, first);
-  const Eigen::Index n = half.cols();
-  Vec changed(y.size());
-  changed << half * y.head(n), half * y.tail(n);
-  return changed;
+Mat BasisChange::back(const Mat& y) const {
+  if (is_none()) return y;
+  return back_->solve(y);
 }
 
 Flow flow_of(const ContactSystem& system, double tolerance) {
@@ -78,24 +86,16 @@ Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first, double tole
     };
     return flow;
   }
-  const Mat half = displacements_in_basis(*scene, first);
-  const Eigen::Index n = half.rows();
-  Mat P = Mat::Zero(2 * n, 2 * n);
-  P.topLeftCorner(n, n) = half;
-  P.bottomRightCorner(n, n) = half;
-  auto back = std::make_shared<const DenseLu<Mat>>(P);
-  if (!(back->rcond() > 1e-10)) {
-    throw NumericalError("the parameter changes the modes too much: keep more of them");
-  }
-  flow.go = [scene, tolerance, P, back](std::span<const Vec> starts, long revolutions,
-                                        Tangents tangents) {
+  const BasisChange change(*scene, first);
+  flow.go = [scene, tolerance, change](std::span<const Vec> starts, long revolutions,
+                                       Tangents tangents) {
     std::vector<Vec> own;
-    for (const Vec& y : starts) own.emplace_back(P * y);
+    for (const Vec& y : starts) own.push_back(change.to(y));
     std::vector<Passage> passages = pass(scene->contacts, tolerance, own, revolutions, tangents);
     for (Passage& p : passages) {
       if (!p.failure.empty()) continue;
-      p.end = back->solve(p.end);
-      if (tangents == Tangents::yes) p.tangent = back->solve(p.tangent * P);
+      p.end = change.back(p.end);
+      if (tangents == Tangents::yes) p.tangent = change.back(p.tangent * change.matrix());
     }
     return passages;
   };

@@ -5,6 +5,7 @@
 
 #include "libdyn/scene.hpp"
 #include "libdyn/shooting.hpp"
+#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -14,9 +15,24 @@ constexpr double flow_tolerance = 1e-13;  ///< of steps for orbits and their mul
 /// @param system  must live as long as the flow
 Flow flow_of(const ContactSystem& system, double tolerance = flow_tolerance);
 
-/// The same of a scene at another value of a parameter, for the states of a first scene.
+/// The states of a scene for those of a first one, whose basis may be another.
 ///
 ///   y = P y_first,  P = (Phi^T M Phi)^-1 Phi^T M Phi_first  for displacements and velocities
+class BasisChange {
+ public:
+  /// @throws NumericalError  if the bases have nothing in common
+  BasisChange(const Scene& scene, const Scene& first);
+  bool is_none() const { return !back_; }
+  const Mat& matrix() const { return P_; }  ///< P
+  Vec to(const Vec& y_first) const;         ///< P y_first
+  Mat back(const Mat& y) const;             ///< P^-1 y
+
+ private:
+  Mat P_;
+  std::shared_ptr<const DenseLu<Mat>> back_;
+};
+
+/// The same of a scene at another value of a parameter, for the states of a first scene.
 ///
 /// Orbits and multipliers are exactly those of the scene; their coordinates are continuous in the
 /// parameter, whatever order and signs the modes of its basis have.
@@ -24,8 +40,5 @@ Flow flow_of(const ContactSystem& system, double tolerance = flow_tolerance);
 /// @throws NumericalError  if the bases have nothing in common
 Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first,
              double tolerance = flow_tolerance);
-
-/// P y_first of the above: the state of the scene itself.
-Vec basis_change(const Scene& scene, const Scene& first, const Vec& y);
 
 }  // namespace whirl

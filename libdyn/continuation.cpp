@@ -24,9 +24,27 @@ constexpr double probed = 1e-2;      ///< arc length ahead of an end, for a graz
 constexpr double finest = 1e-6;      ///< arc length down to which bifurcations are told apart
 constexpr double zero = 1e-3;        ///< of a test function, where it is located
 constexpr int most_refinements = 60;
-constexpr int most_grazings = 8;  ///< between two points
+constexpr int most_grazings = 8;     ///< between two points
+constexpr double recognized = 1e-6;  ///< relative, of the numbers of an orbit that is met again
 
 using enum BifurcationKind;
+
+/// Whether two points of the same value are one orbit, wherever on it their states are.
+bool is_same(const BranchPoint& a, const BranchPoint& b) {
+  const auto equal = [](double x, double y) {
+    return std::abs(x - y) <= recognized * (std::abs(x) + std::abs(y));
+  };
+  for (std::size_t c = 0; c < a.contacts.size(); ++c) {
+    if (!equal(a.contacts[c].max_normal, b.contacts[c].max_normal) ||
+        !equal(a.contacts[c].duty, b.contacts[c].duty) ||
+        a.contacts[c].impacts != b.contacts[c].impacts) {
+      return false;
+    }
+  }
+  return a.multipliers.size() == b.multipliers.size() &&
+         (a.multipliers - b.multipliers).cwiseAbs().maxCoeff() <=
+             recognized * b.multipliers.cwiseAbs().maxCoeff();
+}
 
 bool same_impacts(const std::vector<ContactMeasure>& a, const std::vector<ContactMeasure>& b) {
   for (std::size_t c = 0; c < std::min(a.size(), b.size()); ++c) {
@@ -57,32 +75,21 @@ double Continuation::dot(const Vec& a, const Vec& b) const {
   return a.cwiseProduct(weights_).dot(b);
 }
 
-Continuation::Continuation(FlowAt flow_at, const Vec& start, const ContinuationOptions& options)
-    : flow_at_(std::move(flow_at)), options_(options) {
+Continuation::Continuation(BranchEquations equations, const Vec& x,
+                           const ContinuationOptions& options)
+    : equations_(std::move(equations)), options_(options) {
   options_.check();
-  const Flow flow = flow_at_(options_.first);
-  scale_ = flow.scale;
-  PeriodicOrbit orbit = find_orbit(flow, start, {.period = options_.period});
-  if (!orbit.is_good()) {
+  const Eigen::Index size = x.size();
+  weigh(size);
+  Vec z(size + 1);
+  z << x,
+      options_.first == options_.high ? 1.0 : (options_.first - options_.low) / options_.range();
+  Trial trial = correct({Vec::Unit(size + 1, size), z}, Vec::Zero(size));
+  if (!trial.failure.empty()) {
     throw NumericalError(
-        fmt::format("at the first value, {:g}: {}", options_.first, orbit.failure));
-  }
-  const Eigen::Index n = scale_.size(), size = n * options_.period;
-  weights_ = Vec::Constant(size + 1, 1.0 / static_cast<double>(size));
-  weights_(size) = 1.0;
-  Trial trial;
-  trial.point.z.resize(size + 1);
-  for (int i = 0; i < options_.period; ++i) {
-    trial.point.z.segment(i * n, n) =
-        orbit.states[static_cast<std::size_t>(i)].cwiseQuotient(scale_);
+        fmt::format("at the first value, {:g}: {}", options_.first, trial.failure));
   }
   trial.point.value = options_.first;
-  trial.point.z(size) = (options_.first - options_.low) / options_.range();
-  if (options_.first == options_.high) trial.point.z(size) = 1.0;
-  trial.point.multipliers = orbit.multipliers;
-  trial.point.residual = orbit.residual;
-  trial.point.contacts = orbit.contacts;
-  trial.tangents = orbit.tangents;
   Vec along = Vec::Zero(size + 1);
   along(size) = options_.direction;
   if (!add_tangent(trial, along, by_parameter_)) {
@@ -93,18 +100,18 @@ Continuation::Continuation(FlowAt flow_at, const Vec& start, const ContinuationO
   branch_.points.push_back(std::move(trial.point));
 }
 
-Continuation::Continuation(FlowAt flow_at, Vec scale, Branch branch,
+Continuation::Continuation(BranchEquations equations, Branch branch,
                            const ContinuationOptions& options)
-    : flow_at_(std::move(flow_at)),
-      options_(options),
-      scale_(std::move(scale)),
-      branch_(std::move(branch)) {
-  options_.period = branch_.period;
+    : equations_(std::move(equations)), options_(options), branch_(std::move(branch)) {
   options_.check();
-  const Eigen::Index size = scale_.size() * options_.period;
-  weights_ = Vec::Constant(size + 1, 1.0 / static_cast<double>(size));
-  weights_(size) = 1.0;
-  if (branch_.end.empty()) by_parameter_ = derivative_by_parameter(branch_.points.back().z);
+  const Vec& z = branch_.points.back().z;
+  weigh(z.size() - 1);
+  if (branch_.end.empty()) by_parameter_ = derivative_by_parameter(z);
+}
+
+void Continuation::weigh(Eigen::Index unknowns) {
+  weights_ = Vec::Constant(unknowns + 1, 1.0 / static_cast<double>(unknowns));
+  weights_(unknowns) = 1.0;
 }
 
 double Continuation::limited(double step, const Vec& tangent) const {
@@ -114,20 +121,12 @@ double Continuation::limited(double step, const Vec& tangent) const {
   return share * step > most ? most / share : step;
 }
 
-Vec Continuation::gaps(const Vec& z, PeriodicOrbit& orbit, Tangents wanted) const {
-  const Eigen::Index n = scale_.size(), size = z.size() - 1;
-  orbit.period = static_cast<int>(size / n);
-  orbit.states.clear();
-  for (Eigen::Index i = 0; i < size; i += n) {
-    orbit.states.emplace_back(scale_.cwiseProduct(z.segment(i, n)));
-  }
+BranchEquations::Value Continuation::evaluate(const Vec& z, Tangents wanted) const {
+  const Eigen::Index size = z.size() - 1;
   try {
-    Flow flow = flow_at_(value_of(z(size)));
-    flow.scale = scale_;
-    return shoot(flow, orbit, wanted);
+    return equations_.at(z.head(size), value_of(z(size)), wanted);
   } catch (const NumericalError& error) {
-    orbit.failure = error.what();
-    return {};
+    return {.failure = error.what()};
   }
 }
 
@@ -140,8 +139,7 @@ Vec Continuation::derivative_by_parameter(const Vec& z) const {
   for (int k = 0; k < (is_central ? 2 : 3); ++k) {
     Vec at = z;
     at(z.size() - 1) = std::clamp(u + shifts[is_central ? 0 : 1][k], 0.0, 1.0);
-    PeriodicOrbit orbit;
-    g[k] = gaps(at, orbit, Tangents::no);
+    g[k] = evaluate(at, Tangents::no).residual;
     if (g[k].size() == 0) return Vec::Zero(z.size() - 1);
   }
   if (is_central) return (g[1] - g[0]) / (2.0 * h);
@@ -152,7 +150,7 @@ bool Continuation::add_tangent(Trial& trial, const Vec& along, Vec& by_parameter
   const Eigen::Index size = trial.point.z.size() - 1;
   by_parameter = derivative_by_parameter(trial.point.z);
   Mat M(size + 1, size + 1);
-  M << shooting_jacobian(trial.tangents), by_parameter, along.cwiseProduct(weights_).transpose();
+  M << trial.jacobian, by_parameter, along.cwiseProduct(weights_).transpose();
   Vec unit = Vec::Zero(size + 1);
   unit(size) = 1.0;
   const auto tangent = newton_step(M, unit);
@@ -172,33 +170,31 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
       trial.failure = "outside of the range";
       return trial;
     }
-    PeriodicOrbit orbit;
-    const Vec gap = gaps(z, orbit, Tangents::yes);
-    if (gap.size() == 0) {
-      trial.failure = orbit.failure;
+    BranchEquations::Value at = evaluate(z, Tangents::yes);
+    if (at.residual.size() == 0) {
+      trial.failure = at.failure;
       return trial;
     }
-    trial.point.contacts = orbit.contacts;  // also of a failure, to tell why
-    if (is_closed(orbit.residual, before)) {
+    trial.point.contacts = at.contacts;  // also of a failure, to tell why
+    const double residual = at.residual.lpNorm<Eigen::Infinity>();
+    if (is_closed(residual, before)) {
       trial.point.value = value_of(z(size));
       trial.point.z = z;
-      trial.point.residual = orbit.residual;
-      trial.point.multipliers = multipliers_of(orbit.tangents);
-      trial.tangents = std::move(orbit.tangents);
+      trial.point.residual = residual;
+      trial.point.multipliers = equations_.multipliers(at);
+      trial.jacobian = std::move(at.jacobian);
       return trial;
     }
-    if (trial.corrections == most_corrections || orbit.residual > 2.0 * before ||
-        orbit.residual > 1e3) {
+    if (trial.corrections == most_corrections || residual > 2.0 * before || residual > 1e3) {
       trial.failure = "Newton's method does not converge";
       return trial;
     }
-    before = orbit.residual;
+    before = residual;
     if (trial.corrections == renewal) by_parameter = derivative_by_parameter(z);
     Mat M(size + 1, size + 1);
-    M << shooting_jacobian(orbit.tangents), by_parameter,
-        plane.normal.cwiseProduct(weights_).transpose();
+    M << at.jacobian, by_parameter, plane.normal.cwiseProduct(weights_).transpose();
     Vec r(size + 1);
-    r << gap, dot(plane.normal, z - plane.at);
+    r << at.residual, dot(plane.normal, z - plane.at);
     const auto correction = newton_step(M, r);
     if (!correction) {
       trial.failure = "the equations of the branch are singular";
@@ -253,6 +249,12 @@ bool Continuation::advance() {
       why = "the branch bends too sharply";
       continue;
     }
+    bool is_closing = false;
+    if (Trial first = closing(last, trial.point);
+        first.failure.empty() && add_tangent(first, last.tangent, by_parameter)) {
+      trial = std::move(first);
+      is_closing = true;
+    }
     const double angle = std::acos(std::min(1.0, std::abs(cosine)));
     double growth = trial.corrections <= 2 ? 1.6 : trial.corrections <= 4 ? 1.2 : 0.6;
     if (angle > 0.0) growth = std::min(growth, bend / angle);
@@ -266,6 +268,7 @@ bool Continuation::advance() {
     by_parameter_ = std::move(by_parameter);
     branch_.points.push_back(std::move(trial.point));
     if (is_end) branch_.end = "the end of the range";
+    if (is_closing) branch_.end = Branch::closed;
     return true;
   }
   if (std::abs(share) > 1e-3 && (u <= 0.0 || u >= 1.0) && std::ssize(branch_.points) > 1) {
@@ -276,16 +279,30 @@ bool Continuation::advance() {
   return false;
 }
 
+Continuation::Trial Continuation::closing(const BranchPoint& a, const BranchPoint& b) const {
+  const BranchPoint& first = branch_.points.front();
+  const Eigen::Index size = first.z.size() - 1;
+  const double from = (a.z(size) - first.z(size)) * first.tangent(size),
+               to = (b.z(size) - first.z(size)) * first.tangent(size);
+  Trial trial{.failure = "elsewhere"};
+  if (branch_.points.size() < 3 || !(from < 0.0 && to >= 0.0)) return trial;
+  Plane at{Vec::Unit(size + 1, size), a.z + from / (from - to) * (b.z - a.z)};
+  at.at(size) = first.z(size);
+  trial = correct(at, by_parameter_);
+  if (trial.failure.empty() && !is_same(trial.point, first)) trial.failure = "another orbit";
+  return trial;
+}
+
 void Continuation::end_at_failure(const std::string& why) {
   const BranchPoint& last = branch_.points.back();
   branch_.end = fmt::format("no orbit is found beyond {:.10g}: {}", last.value, why);
   // the motions that the tangent predicts: do they touch otherwise, and from where on
   const auto impacts_differ = [&](double length, std::vector<ContactMeasure>& seen) {
-    PeriodicOrbit orbit;
     Vec z = last.z + length * last.tangent;
     z(z.size() - 1) = std::clamp(z(z.size() - 1), 0.0, 1.0);
-    if (gaps(z, orbit, Tangents::no).size() == 0) return false;
-    seen = orbit.contacts;
+    BranchEquations::Value at = evaluate(z, Tangents::no);
+    if (at.residual.size() == 0) return false;
+    seen = std::move(at.contacts);
     return !same_impacts(seen, last.contacts);
   };
   std::vector<ContactMeasure> seen;

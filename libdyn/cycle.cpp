@@ -96,7 +96,7 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
       cycle.failure = "no closed motion: the period runs away";
       return cycle;
     }
-    const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period);
+    const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period, Tangents::yes);
     if (!at.failure.empty() || !at.tangent.allFinite()) {
       cycle.failure = at.failure.empty() ? "the tangent is not finite" : at.failure;
       return cycle;
@@ -107,12 +107,8 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
     cycle.residual = gap.lpNorm<Eigen::Infinity>();
     cycle.residuals.push_back(cycle.residual);
     if (is_closed(cycle.residual, before)) {
-      CVec all = multipliers_of({&tangent, 1});
-      const auto along = std::min_element(all.begin(), all.end(), [](auto a, auto b) {
-        return std::abs(a - 1.0) < std::abs(b - 1.0);
-      });
-      std::rotate(along, along + 1, all.end());
-      cycle.multipliers = all.head(n - 1);
+      cycle.multipliers = multipliers_across(tangent);
+      cycle.contacts = at.contacts;
       return cycle;
     }
     if (step == most_steps) {
@@ -122,13 +118,12 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
       return cycle;
     }
     before = cycle.residual;
-    const Vec rate = flow.rate(cycle.state).cwiseProduct(to_scale) * cycle.period;
-    Mat J(n + 1, n + 1);
-    J << shooting_jacobian({&tangent, 1}), flow.rate(at.end).cwiseProduct(to_scale) * cycle.period,
-        rate.transpose(), 0.0;
     Vec r(n + 1);
     r << gap, 0.0;
-    const auto correction = newton_step(J, r);
+    const auto correction = newton_step(
+        cycle_jacobian(tangent, flow.rate(cycle.state).cwiseProduct(to_scale) * cycle.period,
+                       flow.rate(at.end).cwiseProduct(to_scale) * cycle.period),
+        r);
     if (!correction) {
       cycle.failure = "no closed motion: the equations for state and period are singular";
       return cycle;
@@ -138,10 +133,24 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
   }
 }
 
+Mat cycle_jacobian(const Mat& tangent, const Vec& start, const Vec& end) {
+  Mat J(tangent.rows() + 1, tangent.cols() + 1);
+  J << shooting_jacobian({&tangent, 1}), end, start.transpose(), 0.0;
+  return J;
+}
+
+CVec multipliers_across(const Mat& tangent) {
+  CVec all = multipliers_of({&tangent, 1});
+  const auto along = std::min_element(
+      all.begin(), all.end(), [](auto a, auto b) { return std::abs(a - 1.0) < std::abs(b - 1.0); });
+  std::rotate(along, along + 1, all.end());
+  return all.head(all.size() - 1);
+}
+
 Cycle shorten(const FreeFlow& flow, const Cycle& cycle) {
   if (!cycle.is_good()) return cycle;
   for (int parts = most_parts; parts > 1; --parts) {
-    const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period / parts);
+    const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period / parts, Tangents::no);
     if (!at.failure.empty()) continue;
     const Vec gap = (at.end - cycle.state).cwiseQuotient(flow.scale);
     if (gap.lpNorm<Eigen::Infinity>() > same) continue;
@@ -151,34 +160,55 @@ Cycle shorten(const FreeFlow& flow, const Cycle& cycle) {
   return cycle;
 }
 
-FreeFlow rotating_flow(const Scene& scene, double tolerance) {
-  const ContactSystem& system = scene.contacts;
+FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
+  const ContactSystem& system = scene->contacts;
   if (!(system.Omega() > 0.0) || system.coordinates() == 0) {
     throw NumericalError("the rotating frame: the rotor does not spin forward");
   }
-  const Mat S = quarter_turn(scene);
+  const Mat S = quarter_turn(*scene);
   require_isotropy(system, S);
   const double Omega = system.Omega();
   const Eigen::Index n = S.rows();
-  return {system.state_scale(),
-          [&system, S, Omega, tolerance](const Vec& z, double time) -> FreeFlow::Arrival {
+  return {system.state_scale(), system.period(),
+          [scene, S, tolerance](const Vec& z, double time, Tangents wanted) -> FreeFlow::Arrival {
             // it ends at phase 0, where both frames are the same, so it begins at another phase
-            const double phases = Omega * time;
+            const double phases = scene->contacts.Omega() * time;
             const double revolutions = std::ceil(phases / turn);
-            Trajectory t{.system = &system, .revolutions = static_cast<long>(revolutions)};
+            Trajectory t{.system = &scene->contacts, .revolutions = static_cast<long>(revolutions)};
             t.state.phase = std::clamp(revolutions * turn - phases, 0.0, std::nextafter(turn, 0.0));
             const Mat R = rotation(S, t.state.phase);
             t.state.y = R * z;
-            integrate_single(t, {.tolerance = tolerance, .tangent = true});
-            if (t.outcome != Outcome::reached_end) return {{}, {}, t.diagnosis};
-            return {t.state.y, t.tangent * R, {}};
+            integrate_single(
+                t, {.tolerance = tolerance, .measures = true, .tangent = wanted == Tangents::yes});
+            if (t.outcome != Outcome::reached_end) return {.failure = t.diagnosis};
+            to_shares(t.contacts, time);
+            FreeFlow::Arrival at{.end = t.state.y, .contacts = std::move(t.contacts)};
+            if (wanted == Tangents::yes) at.tangent = t.tangent * R;
+            return at;
           },
-          [&system, S, Omega, n](const Vec& z) -> Vec {
+          [scene, S, Omega, n](const Vec& z) -> Vec {
             Vec rate(2 * n), a(n);
-            system.acceleration(0.0, z.data(), a.data());
+            scene->contacts.acceleration(0.0, z.data(), a.data());
             rate << z.tail(n) - Omega * (S * z.head(n)), a - Omega * (S * z.tail(n));
             return rate;
           }};
+}
+
+FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first, double tolerance) {
+  const FreeFlow own = rotating_flow(scene, tolerance);
+  FreeFlow flow = own;
+  flow.scale = first.contacts.state_scale();
+  if (scene->reduced.Phi == first.reduced.Phi) return flow;
+  const BasisChange change(*scene, first);
+  flow.go = [own, change](const Vec& z, double time, Tangents wanted) {
+    FreeFlow::Arrival at = own.go(change.to(z), time, wanted);
+    if (!at.failure.empty()) return at;
+    at.end = change.back(at.end);
+    if (wanted == Tangents::yes) at.tangent = change.back(at.tangent * change.matrix());
+    return at;
+  };
+  flow.rate = [own, change](const Vec& z) -> Vec { return change.back(own.rate(change.to(z))); };
+  return flow;
 }
 
 std::optional<double> recurrence(const Scene& scene, const Vec& start, long revolutions) {

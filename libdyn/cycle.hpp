@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/scene.hpp"
-#include "libfe/base/linalg.hpp"
+#include "libdyn/contact_flow.hpp"
+#include "libdyn/shooting.hpp"
 
 namespace whirl {
 
@@ -15,12 +15,14 @@ namespace whirl {
 struct FreeFlow {
   struct Arrival {
     Vec end;
-    Mat tangent;          ///< derivative of the end by the start
-    std::string failure;  ///< why there is no end; empty: there is one
+    Mat tangent;                           ///< derivative of the end by the start
+    std::vector<ContactMeasure> contacts;  ///< shares of the time
+    std::string failure;                   ///< why there is no end; empty: there is one
   };
-  Vec scale;                                             ///< of the states
-  std::function<Arrival(const Vec& y, double time)> go;  ///< time > 0 [s]
-  std::function<Vec(const Vec& y)> rate;                 ///< f(y) [1/s]
+  Vec scale;                ///< of the states
+  double revolution = 1.0;  ///< in which periods are told [s]
+  std::function<Arrival(const Vec& y, double time, Tangents wanted)> go;  ///< time > 0 [s]
+  std::function<Vec(const Vec& y)> rate;                                  ///< f(y) [1/s]
 };
 
 struct Cycle {
@@ -29,7 +31,8 @@ struct Cycle {
   double residual = 0.0;
   std::vector<double> residuals;  ///< before every step of Newton's method, and after the last
   CVec multipliers;               ///< the largest first, without the one that is 1 along the motion
-  std::string failure;            ///< empty: it is closed
+  std::vector<ContactMeasure> contacts;  ///< shares of the period
+  std::string failure;                   ///< empty: it is closed
 
   bool is_good() const { return failure.empty(); }
   bool is_stable() const { return is_good() && multipliers.cwiseAbs().maxCoeff() < 1.0; }
@@ -43,16 +46,27 @@ struct Cycle {
 /// @source [Kuznetsov2004], 10.1.4
 Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most_steps = 12);
 
+/// Derivative of (gap, <f, dy>) by state and period, in scales.
+/// @param tangent  of the flow over the period
+/// @param start, end  rates there
+Mat cycle_jacobian(const Mat& tangent, const Vec& start, const Vec& end);
+
+/// Multipliers of a tangent over the period, the largest first, without the one nearest to 1.
+CVec multipliers_across(const Mat& tangent);
+
 /// The same motion with the shortest period it has, a part of the given one.
 Cycle shorten(const FreeFlow& flow, const Cycle& cycle);
 
 /// The rotor as it is seen from its own frame, where unbalance stands still: states are turned back
 /// by the phase. Time does not occur there if nothing but the unbalance tells directions apart.
 ///
-/// @param scene  must live as long as the flow
 /// @throws NumericalError  for gravity, anisotropic bearings, contacts off the axis, or a basis that
 ///                         is not closed under rotation
-FreeFlow rotating_flow(const Scene& scene, double tolerance = 1e-13);
+FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance = flow_tolerance);
+
+/// The same of a scene at another value of a parameter, for the states of a first scene: see flow_of.
+FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first,
+                       double tolerance = flow_tolerance);
 
 /// Time after which a motion from a start comes back to it nearest, as a first guess [s]; nothing if
 /// it does not come near, or stands still.

@@ -56,7 +56,7 @@ void require_inertia(const Assembler& assembler, const System& system, const Sta
 
 }  // namespace
 
-Scene make_scene(const Model& model) {
+Scene make_scene(const Model& model, ReductionEstimate wanted) {
   Assembler assembler(model.structure);
   System system = assembler.at(model.speed);
   std::vector<Vec> ports, others;
@@ -82,7 +82,8 @@ Scene make_scene(const Model& model) {
     }
   }
   ReductionError error;
-  ReducedSystem reduced = reduce(system, model.reduction, ports, others, &error);
+  ReducedSystem reduced = reduce(system, model.reduction, ports, others,
+                                 wanted == ReductionEstimate::yes ? &error : nullptr);
   ContactSystem contacts(assembler, reduced, model.contacts, model.films);
   return {std::move(assembler), std::move(system), std::move(reduced), error, std::move(contacts)};
 }

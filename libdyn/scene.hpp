@@ -19,11 +19,15 @@ struct Scene {
   Mat displacement_map() const { return reduced.dofs.T * reduced.Phi; }
 };
 
+/// Whether the error of the reduction is estimated where its modes are given: it takes most of the
+/// time. With `tolerance` it is, always.
+enum class ReductionEstimate { no, yes };
+
 /// Assembles and reduces a model at its operating speed.
 ///
 /// @throws ModelError      as Assembler, and for contacts or unbalances at stations without inertia
 /// @throws NumericalError  as reduce
-Scene make_scene(const Model& model);
+Scene make_scene(const Model& model, ReductionEstimate wanted = ReductionEstimate::yes);
 
 /// Motion of all points at an instant, as stored in results.
 struct FullState {

@@ -40,14 +40,14 @@ class Packed {
   BranchPoint take_point(int period) {
     BranchPoint p;
     p.value = take();
-    const Eigen::Index size = layout_.states * period + 1;
+    const Eigen::Index size = layout_.states * period + (layout_.is_rotating ? 2 : 1);
     p.z.resize(size);
     for (double& x : p.z) x = take();
     p.tangent.resize(size);
     for (double& x : p.tangent) x = take();
     p.step = take();
     p.residual = take();
-    if (take() != 0.0) p.multipliers.resize(layout_.states);
+    if (take() != 0.0) p.multipliers.resize(layout_.states - (layout_.is_rotating ? 1 : 0));
     for (Complex& m : p.multipliers) {
       const double real = take();
       m = {real, take()};
@@ -84,7 +84,8 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
   Packed walk(layout);
   std::vector<std::string> ends, kinds, grazing;
   std::vector<int> number, period, parent, of_point, stable, of_bifurcation, after;
-  std::vector<double> value, residual, radius, duty, impacts, normal, tangential, at, change;
+  std::vector<double> value, revolutions, residual, radius, duty, impacts, normal, tangential, at,
+      change;
   std::vector<Complex> multiplier, critical;
   std::vector<double> states;
   for (const TracedBranch& b : branches) {
@@ -103,17 +104,18 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
       for (const double r : b.radii[i]) walk.put(r);
       of_point.push_back(number.back());
       value.push_back(p.value);
+      revolutions.push_back(layout.period(b.branch, p));
       residual.push_back(p.residual);
       stable.push_back(p.multipliers.size() == 0 ? -1 : p.is_stable() ? 1 : 0);
       radius.insert(radius.end(), b.radii[i].begin(), b.radii[i].end());
       for (Eigen::Index k = 0; k < layout.states; ++k) {
-        multiplier.push_back(p.multipliers.size() > 0 ? p.multipliers(k) : Complex(nan, nan));
+        multiplier.push_back(k < p.multipliers.size() ? p.multipliers(k) : Complex(nan, nan));
       }
       const Vec y = p.state(layout.scale);
       states.insert(states.end(), y.begin(), y.end());
       for (const ContactMeasure& c : p.contacts) {
         duty.push_back(c.duty);
-        impacts.push_back(c.impacts / b.branch.period);
+        impacts.push_back(c.impacts / revolutions.back());
         normal.push_back(c.max_normal);
         tangential.push_back(c.max_tangential);
       }
@@ -145,6 +147,7 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
   const std::string along = path("value");
   file.dataset(path("branch"), of_point, {"", "branch of a point", {along}});
   file.dataset(path("stable"), stable, {"", "1 stable, 0 unstable, -1 not known", {along}});
+  file.dataset(path("revolutions"), revolutions, {"", "period [revolutions]", {along}});
   file.dataset(path("residual"), residual, {"", "residual of the orbit [length scales]", {along}});
   file.dataset(path("state"), states, std::vector<Eigen::Index>{n, layout.states},
                {"", "reduced state at phase 0, in the basis of the first value", {along, ""}});

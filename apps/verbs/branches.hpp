@@ -27,6 +27,12 @@ struct BranchLayout {
   std::vector<std::string> contacts;  ///< names
   std::vector<std::string> stations;  ///< likewise
   std::string path, unit;             ///< of the parameter
+  bool is_rotating = false;           ///< closed as seen from the rotor, after any period
+
+  /// Of a point of a branch [revolutions].
+  double period(const Branch& branch, const BranchPoint& point) const {
+    return is_rotating ? point.z(states) : branch.period;
+  }
 };
 
 /// Group /branch: all points and bifurcations, and what the walk goes on from.

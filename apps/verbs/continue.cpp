@@ -10,7 +10,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study.hpp"
 #include "libdyn/bifurcation.hpp"
-#include "libdyn/contact_flow.hpp"
+#include "libdyn/cycle.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
@@ -88,7 +88,8 @@ Parameter parameter_of(const Invocation& call, const Model& model) {
 class Tracing {
  public:
   Tracing(const Parameter& parameter, std::shared_ptr<const Scene> first,
-          std::vector<NamedPoint> stations, ContinuationOptions options, int generations)
+          std::vector<NamedPoint> stations, ContinuationOptions options, int generations,
+          bool is_rotating)
       : parameter_(parameter),
         first_(std::move(first)),
         stations_(std::move(stations)),
@@ -97,7 +98,8 @@ class Tracing {
     layout_ = {.states = first_->contacts.size(),
                .scale = first_->contacts.state_scale(),
                .path = parameter.axis.path,
-               .unit = parameter.axis.unit};
+               .unit = parameter.axis.unit,
+               .is_rotating = is_rotating};
     layout_.contacts.resize(static_cast<std::size_t>(first_->contacts.owners()));
     for (const ReducedContact& c : first_->contacts.contacts()) {
       layout_.contacts[static_cast<std::size_t>(c.owner)] = c.name;
@@ -115,27 +117,37 @@ class Tracing {
   FlowAt flow_at() const {
     return [this](double value) { return flow_of(scene(value), *first_); };
   }
+  FreeFlowAt free_flow_at() const {
+    return [this](double value) { return rotating_flow(scene(value), *first_); };
+  }
 
   /// The first branch, or two of them, from an orbit near a start.
   void begin(const Vec& start) {
+    const double period =
+        layout_.is_rotating ? guessed_period(*first_, start) / first_->contacts.period() : 0.0;
     for (const double direction : {-parameter_.direction, parameter_.direction}) {
       if (direction != parameter_.direction && !parameter_.goes_both) continue;
       ContinuationOptions how = options_;
       how.direction = direction;
-      const Continuation walk(flow_at(), start, how);
+      const Continuation walk = layout_.is_rotating
+                                    ? cycle_continuation(free_flow_at(), start, period, how)
+                                    : orbit_continuation(flow_at(), start, how);
       branches_.push_back({.branch = walk.branch(), .direction = direction});
-      branches_.back().radii.push_back(radii(walk.branch().points[0]));
+      branches_.back().radii.push_back(radii(walk.branch(), walk.branch().points[0]));
     }
   }
 
-  /// Walks until all branches have ended; false: interrupted.
+  /// Walks until all branches have ended; false: interrupted. Where one closes, it is not walked the
+  /// other way, too.
   /// @param added  called after each point
   bool walk(const std::function<void(std::size_t points)>& added) {
     for (std::size_t i = 0; i < branches_.size(); ++i) {
       if (branches_[i].branch.end.empty()) {
         ContinuationOptions how = options_;
         how.direction = branches_[i].direction;
-        Continuation on(flow_at(), layout_.scale, branches_[i].branch, how);
+        Continuation on(layout_.is_rotating ? cycle_equations(free_flow_at(), layout_.scale)
+                                            : shooting_equations(flow_at(), layout_.scale),
+                        branches_[i].branch, how);
         while (!is_interrupted() && on.advance()) {
           Branch& known = branches_[i].branch;  // a copy of what is new only
           known.points.push_back(on.branch().points.back());
@@ -144,11 +156,14 @@ class Tracing {
             known.bifurcations.push_back(on.branch().bifurcations[b]);
           }
           known.end = on.branch().end;
-          branches_[i].radii.push_back(radii(on.branch().points.back()));
+          branches_[i].radii.push_back(radii(on.branch(), on.branch().points.back()));
           added(++points_);
         }
         branches_[i].branch = on.branch();
         if (on.branch().end.empty()) return false;
+        if (i == 0 && on.branch().is_closed() && branches_.size() > 1) {
+          branches_.erase(branches_.begin() + 1);
+        }
         add_switched(i);
         added(points_);
       }
@@ -159,7 +174,8 @@ class Tracing {
  private:
   std::shared_ptr<const Scene> scene(double value) const {
     try {
-      return std::make_shared<const Scene>(make_scene(parameter_.model(value)));
+      return std::make_shared<const Scene>(
+          make_scene(parameter_.model(value), ReductionEstimate::no));
     } catch (const ModelError& error) {  // no model there: the branch ends
       throw NumericalError(error.what());
     }
@@ -174,13 +190,13 @@ class Tracing {
       TracedBranch branch{.branch = {.period = next->period, .points = {next->start}},
                           .parent = static_cast<int>(number) + 1,
                           .generation = from.generation + 1};
-      branch.radii.push_back(radii(next->start));
+      branch.radii.push_back(radii(branch.branch, next->start));
       branches_.push_back(std::move(branch));
     }
   }
 
   /// Largest distance of the stations from the axis over the period [m].
-  std::vector<double> radii(const BranchPoint& point) const {
+  std::vector<double> radii(const Branch& branch, const BranchPoint& point) const {
     std::vector<double> largest(stations_.size(), 0.0);
     const auto at = scene(point.value);
     const Mat map = at->displacement_map();
@@ -188,8 +204,8 @@ class Tracing {
     const auto n = at->contacts.coordinates();
     // the state in the basis of this value; in most cases the first one's
     Trajectory t{.system = &at->contacts,
-                 .revolutions = static_cast<long>((point.z.size() - 1) / layout_.states)};
-    t.state.y = basis_change(*at, *first_, point.state(layout_.scale));
+                 .revolutions = static_cast<long>(std::ceil(layout_.period(branch, point)))};
+    t.state.y = BasisChange(*at, *first_).to(point.state(layout_.scale));
     Vec y(2 * n);
     integrate_single(t, {}, [&](const Step& step) {
       for (int k = 1; k <= 8; ++k) {
@@ -215,21 +231,22 @@ class Tracing {
   std::size_t points_ = 0;
 };
 
-Record points_record(const std::vector<TracedBranch>& branches) {
+Record points_record(const std::vector<TracedBranch>& branches, const BranchLayout& layout) {
   Record list = Record::array();
   for (std::size_t k = 0; k < branches.size(); ++k) {
     for (std::size_t i = 0; i < branches[k].branch.points.size(); ++i) {
       const BranchPoint& p = branches[k].branch.points[i];
       const auto& radii = branches[k].radii[i];
+      const double period = layout.period(branches[k].branch, p);
       Record r, duty = Record::array(), impacts = Record::array(), normal = Record::array(),
                 floquet = Record::array();
       for (const ContactMeasure& c : p.contacts) {
         duty.add(c.duty);
-        impacts.add(c.impacts / branches[k].branch.period);
+        impacts.add(c.impacts / period);
         normal.add(c.max_normal);
       }
       for (const Complex& m : p.multipliers) floquet.add(m);
-      r.set("value", p.value).set("branch", static_cast<int>(k) + 1);
+      r.set("value", p.value).set("branch", static_cast<int>(k) + 1).set("period_revs", period);
       r.set("amplitude_m", radii.empty() ? Record(nullptr) : Record(radii[0]));
       r.set("stable", p.multipliers.size() == 0 ? Record(nullptr) : Record(p.is_stable()));
       r.set("duty", duty).set("impacts_per_rev", impacts).set("max_normal_n", normal);
@@ -256,7 +273,15 @@ Record bifurcations_record(const std::vector<TracedBranch>& branches) {
   return list;
 }
 
-std::string branches_text(const std::vector<TracedBranch>& branches, const Parameter& parameter) {
+std::string period_text(const Branch& branch, const BranchLayout& layout) {
+  const double first = layout.period(branch, branch.points.front()),
+               last = layout.period(branch, branch.points.back());
+  return first == last ? fmt::format("{:.6g}", first)
+                       : fmt::format("{:.6g} to {:.6g}", first, last);
+}
+
+std::string branches_text(const std::vector<TracedBranch>& branches, const BranchLayout& layout,
+                          const Parameter& parameter) {
   std::string text;
   for (std::size_t k = 0; k < branches.size(); ++k) {
     const Branch& b = branches[k].branch;
@@ -265,9 +290,9 @@ std::string branches_text(const std::vector<TracedBranch>& branches, const Param
     });
     text += fmt::format(
         "\n  branch {}: period {}, {} points, {} of them stable; from {:.8g} to {:.8g}{}\n  it "
-        "ends: "
-        "{}\n",
-        k + 1, b.period, b.points.size(), stable, b.points.front().value, b.points.back().value,
+        "ends: {}\n",
+        k + 1, period_text(b, layout), b.points.size(), stable, b.points.front().value,
+        b.points.back().value,
         branches[k].parent > 0 ? fmt::format("; begins on branch {}", branches[k].parent) : "",
         b.end.empty() ? "not yet" : b.end);
     if (b.bifurcations.empty()) continue;
@@ -290,7 +315,10 @@ std::string branches_text(const std::vector<TracedBranch>& branches, const Param
 
 Report run_continue(const Invocation& call) {
   const Model model = call.model();
-  require_stationary_frame(call);
+  const bool is_rotating = is_rotating_frame(call);
+  if (is_rotating && (call.has("switch") || call.has("period"))) {
+    throw ModelError({"--frame rotating"}, "", "expected neither --period nor --switch beside it");
+  }
   const Parameter parameter = parameter_of(call, model);
   ContinuationOptions options{.low = parameter.low,
                               .high = parameter.high,
@@ -305,7 +333,7 @@ Report run_continue(const Invocation& call) {
   const auto first = std::make_shared<const Scene>(make_scene(at_first));
   Tracing tracing(parameter, first,
                   select_points(at_first, first->assembler, call.text("stations")), options,
-                  generations);
+                  generations, is_rotating);
   StudyFile file(
       call, [&] { return call.result_file(model); },
       [&](ResultWriter& to) {
@@ -351,11 +379,11 @@ Report run_continue(const Invocation& call) {
   }
   Record& r = report.record;
   r.set("parameter", parameter.axis.path).set("unit", parameter.axis.unit);
-  r.set("branches", list).set("points", points_record(branches));
+  r.set("branches", list).set("points", points_record(branches, tracing.layout()));
   r.set("bifurcations", bifurcations_record(branches)).set("resumed", static_cast<long>(resumed));
   report.text = "Periodic orbits along " + parameter.axis.path +
                 (model.title.empty() ? "" : ": " + model.title) + "\n" +
-                branches_text(branches, parameter);
+                branches_text(branches, tracing.layout(), parameter);
   if (resumed > 0) report.text += fmt::format("\n  {} points were there already\n", resumed);
   if (status == 130) {
     report.text +=

@@ -37,11 +37,13 @@ bool is_rotating_frame(const Invocation& call) {
   throw ModelError({"--frame " + frame}, "", "expected stationary or rotating");
 }
 
-void require_stationary_frame(const Invocation& call) {
-  if (!is_rotating_frame(call)) return;
-  throw ModelError({"--frame rotating"}, "",
-                   "branches are followed in the stationary frame only; whirl orbit finds single "
-                   "orbits in the rotating one");
+double guessed_period(const Scene& scene, const Vec& start) {
+  const auto guess = recurrence(scene, start, most_recurrence);
+  if (guess) return *guess;
+  throw NumericalError(
+      fmt::format("the motion does not come back within {} revolutions as seen from the rotor, or "
+                  "stands still there",
+                  most_recurrence));
 }
 
 Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene) {
@@ -70,21 +72,16 @@ namespace {
 /// An orbit that repeats as seen from the rotor, whose period is any.
 Report rotating_orbit(const Invocation& call, const Model& model) {
   const auto file = call.result_file(model);
-  const Scene scene = make_scene(model);
-  const FreeFlow flow = rotating_flow(scene);
+  const auto shared = std::make_shared<const Scene>(make_scene(model));
+  const Scene& scene = *shared;
+  const FreeFlow flow = rotating_flow(shared);
   const Trajectory transient = after_transient(call, model, scene);
   if (transient.outcome == Outcome::stopped_by_observer) {
     return {.record = begin_record(call, model), .failure = "stopped", .status = 130};
   }
   if (transient.outcome != Outcome::reached_end) throw NumericalError(transient.diagnosis);
-  const auto guess = recurrence(scene, transient.state.y, most_recurrence);
-  if (!guess) {
-    throw NumericalError(fmt::format(
-        "the motion does not come back within {} revolutions as seen from the rotor, or "
-        "stands still there",
-        most_recurrence));
-  }
-  const Cycle cycle = shorten(flow, find_cycle(flow, transient.state.y, *guess));
+  const Cycle cycle =
+      shorten(flow, find_cycle(flow, transient.state.y, guessed_period(scene, transient.state.y)));
   const double turns = cycle.period / scene.contacts.period();
   Report report{.record = begin_record(call, model),
                 .failure = cycle.failure,

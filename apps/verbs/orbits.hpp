@@ -7,8 +7,13 @@
 
 namespace whirl {
 
-/// @throws ModelError  for a --frame that orbits are not looked for in
-void require_stationary_frame(const Invocation& call);
+/// Whether orbits are to be closed as seen from the rotor: --frame.
+/// @throws ModelError  for other frames than the stationary and the rotating one
+bool is_rotating_frame(const Invocation& call);
+
+/// Time after which a motion from a start comes back as seen from the rotor [s].
+/// @throws NumericalError  if it does not
+double guessed_period(const Scene& scene, const Vec& start);
 
 /// The motion after --discard revolutions from the model's start, or from --from (there left out: 0),
 /// at phase 0; its outcome says whether it got there.

@@ -206,7 +206,7 @@ StudyPoint StudySetup::point(std::size_t number, const FullState* from) const {
     p.model->start.whirl.clear();
   }
   try {
-    p.scene = std::make_unique<Scene>(make_scene(*p.model));
+    p.scene = std::make_unique<Scene>(make_scene(*p.model, ReductionEstimate::no));
     p.subject.system = &p.scene->contacts;
     p.subject.found.end = start_state(*p.model, *p.scene, start);
     if (start && !from) p.subject.found.end.phase = earlier_phase_;

@@ -74,8 +74,8 @@ Branch switched(const FlowAt& flow_at, const Vec& scale, int period, const Bifur
   const auto next = switch_branch(flow_at, scale, period, at);
   EXPECT_TRUE(next);
   if (!next) return {};
-  return walk_to_the_end(
-      {flow_at, scale, Branch{.period = next->period, .points = {next->start}}, options});
+  return walk_to_the_end({shooting_equations(flow_at, scale),
+                          Branch{.period = next->period, .points = {next->start}}, options});
 }
 
 // x -> x^2 + c: fixed points 1/2 +- sqrt(1/4 - c) meet at c = 1/4; the lower one doubles its period at
@@ -83,7 +83,8 @@ Branch switched(const FlowAt& flow_at, const Vec& scale, int period, const Bifur
 TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {
   const ContinuationOptions options{.low = -1.5, .high = 0.5, .first = -1.5, .largest_step = 0.05};
   const double x = 0.5 - std::sqrt(1.75);
-  const Branch branch = walk_to_the_end({quadratic, Vec(Vec::Constant(1, x + 0.01)), options});
+  const Branch branch =
+      walk_to_the_end(orbit_continuation(quadratic, Vec(Vec::Constant(1, x + 0.01)), options));
   EXPECT_EQ(branch.end, "the end of the range");
   EXPECT_EQ(branch.points.front().value, -1.5);
   EXPECT_EQ(branch.points.back().value, -1.5);  // round the fold and back
@@ -107,7 +108,8 @@ TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {
 
   const ContinuationOptions three{
       .low = -1.9, .high = -1.7, .first = -1.9, .largest_step = 0.01, .period = 3};
-  const Branch window = walk_to_the_end({quadratic, Vec(Vec::Constant(1, -1.9)), three});
+  const Branch window =
+      walk_to_the_end(orbit_continuation(quadratic, Vec(Vec::Constant(1, -1.9)), three));
   ASSERT_EQ(values(window, fold).size(), 1u);
   EXPECT_NEAR(values(window, fold)[0], -1.75, located);
 }
@@ -121,7 +123,7 @@ TEST(Continuation, SwitchesAtAPitchfork) {
     });
   };
   const ContinuationOptions options{.low = -0.5, .high = 0.5, .first = -0.5};
-  const Branch branch = walk_to_the_end({cubic, Vec(Vec::Zero(1)), options});
+  const Branch branch = walk_to_the_end(orbit_continuation(cubic, Vec(Vec::Zero(1)), options));
   ASSERT_EQ(branch.bifurcations.size(), 1u);
   EXPECT_EQ(branch.bifurcations[0].kind, pitchfork);
   EXPECT_NEAR(branch.bifurcations[0].at.value, 0.0, located);
@@ -140,8 +142,8 @@ TEST(Continuation, FindsANeimarkSackerBifurcation) {
       J << a * (1.0 - y(1)), -a * y(0), 1.0, 0.0;
     });
   };
-  const Branch branch = walk_to_the_end(
-      {logistic, Vec(Vec::Constant(2, 1.0 / 3.0)), {.low = 1.5, .high = 2.5, .first = 1.5}});
+  const Branch branch = walk_to_the_end(orbit_continuation(
+      logistic, Vec(Vec::Constant(2, 1.0 / 3.0)), {.low = 1.5, .high = 2.5, .first = 1.5}));
   ASSERT_EQ(branch.bifurcations.size(), 1u);
   EXPECT_EQ(branch.bifurcations[0].kind, neimark_sacker);
   EXPECT_NEAR(branch.bifurcations[0].at.value, 2.0, located);
@@ -176,10 +178,9 @@ TEST(Continuation, FindsTheFoldsOfDuffingsEquation) {
     const auto flow_at = [&](double w) {
       return test::flow_of(at(w).equation(), 2, 2.0 * std::numbers::pi / w, 10);
     };
-    const Branch branch = walk_to_the_end(
-        {flow_at,
-         Vec(Vec::Zero(2)),
-         {.low = 1.0 - e, .high = 1.0 + 4.0 * e, .first = 1.0 - e, .largest_step = 0.2 * e}});
+    const Branch branch = walk_to_the_end(orbit_continuation(
+        flow_at, Vec(Vec::Zero(2)),
+        {.low = 1.0 - e, .high = 1.0 + 4.0 * e, .first = 1.0 - e, .largest_step = 0.2 * e}));
     EXPECT_EQ(branch.points.back().value, 1.0 + 4.0 * e);
     const std::vector<double> folds = values(branch, fold);
     ASSERT_EQ(folds.size(), 2u) << e;
@@ -206,21 +207,22 @@ TEST(Continuation, FollowsAnImpactingOrbitRoundItsFoldToItsGrazing) {
   EXPECT_NEAR(p.trace(v_fold), 1.0 + p.r * p.r, 1e-12);  // two ways to the fold
   // from the orbit at v = 4: just after its impact, moved on to phase 0
   const double v = 4.0, A = p.amplitude(v);
-  Continuation walk(flow_at,
-                    [&] {
-                      const double c = (p.d + v * p.k()) / A,
-                                   s = -v * p.g() / A;  // of w t - 4 at the impact
-                      const double t = (std::atan2(s, c) + 4.0) / p.w;
-                      test::ImpactOscillator moving = p;
-                      moving.A = A;
-                      return moving.moved(Vec{{p.d, -p.r * v}}, t, p.period());
-                    }(),
-                    {.low = 0.05,
-                     .high = 1.6,
-                     .first = A,
-                     .direction = -1.0,
-                     .largest_step = 0.05,
-                     .smallest_step = 1e-5});
+  Continuation walk = orbit_continuation(
+      flow_at,
+      [&] {
+        const double c = (p.d + v * p.k()) / A,
+                     s = -v * p.g() / A;  // of w t - 4 at the impact
+        const double t = (std::atan2(s, c) + 4.0) / p.w;
+        test::ImpactOscillator moving = p;
+        moving.A = A;
+        return moving.moved(Vec{{p.d, -p.r * v}}, t, p.period());
+      }(),
+      {.low = 0.05,
+       .high = 1.6,
+       .first = A,
+       .direction = -1.0,
+       .largest_step = 0.05,
+       .smallest_step = 1e-5});
   while (walk.advance()) {
   }
   const Branch& branch = walk.branch();
@@ -260,8 +262,9 @@ TEST(Continuation, FindsThePeriodDoublingOfAnImpactingOrbit) {
   moving.A = A;
   const double c = (p.d + v * p.k()) / A, s = -v * p.g() / A;
   const double t = (std::atan2(s, c) + 4.0) / p.w;
-  Continuation walk(flow_at, moving.moved(Vec{{p.d, -p.r * v}}, t, p.period()),
-                    {.low = 0.5, .high = A, .first = A, .direction = -1.0, .smallest_step = 1e-5});
+  Continuation walk = orbit_continuation(
+      flow_at, moving.moved(Vec{{p.d, -p.r * v}}, t, p.period()),
+      {.low = 0.5, .high = A, .first = A, .direction = -1.0, .smallest_step = 1e-5});
   while (walk.advance()) {
   }
   const std::vector<double> doublings = values(walk.branch(), period_doubling);
@@ -294,7 +297,8 @@ struct Cascade {
 // The orbit of period 1 goes on, unstable, through chaos to no friction at all.
 TEST(Continuation, FollowsACascadeIntoChaos) {
   const Cascade rotor;
-  const Branch one = walk_to_the_end({rotor.flow_at, rotor.start(), rotor.options});
+  const Branch one =
+      walk_to_the_end(orbit_continuation(rotor.flow_at, rotor.start(), rotor.options));
   EXPECT_EQ(one.points.back().value, 0.0);
   EXPECT_FALSE(one.points.back().is_stable());
   ASSERT_EQ(one.bifurcations.size(), 1u);
@@ -335,13 +339,14 @@ TEST(Continuation, FollowsACascadeIntoChaos) {
 // A branch that is taken up again from its points goes on with the same numbers, bit by bit.
 TEST(Continuation, GoesOnBitByBit) {
   const Cascade rotor;
-  Continuation whole(rotor.flow_at, rotor.start(), rotor.options);
+  Continuation whole = orbit_continuation(rotor.flow_at, rotor.start(), rotor.options);
   while (whole.advance() && whole.branch().points.size() < 30) {
   }
   Branch part = whole.branch();
   part.points.resize(8);
   part.bifurcations.clear();
-  Continuation rest(rotor.flow_at, whole.scale(), part, rotor.options);
+  Continuation rest(shooting_equations(rotor.flow_at, rotor.first->contacts.state_scale()), part,
+                    rotor.options);
   while (rest.branch().points.size() < 30 && rest.advance()) {
   }
   ASSERT_EQ(rest.branch().points.size(), 30u);
@@ -359,12 +364,13 @@ TEST(Continuation, GoesOnBitByBit) {
 }
 
 TEST(Continuation, RefusesWrongOptions) {
-  EXPECT_THROW(Continuation(quadratic, Vec(Vec::Zero(1)), {.low = 1.0, .high = 0.0}),
+  EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.low = 1.0, .high = 0.0}),
                NumericalError);
-  EXPECT_THROW(Continuation(quadratic, Vec(Vec::Zero(1)), {.first = 2.0}), NumericalError);
-  EXPECT_THROW(Continuation(quadratic, Vec(Vec::Zero(1)), {.direction = 0.5}), NumericalError);
+  EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.first = 2.0}), NumericalError);
+  EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.direction = 0.5}),
+               NumericalError);
   // x^2 + 1 has no real fixed point
-  EXPECT_THROW(Continuation(quadratic, Vec(Vec::Zero(1)), {.first = 1.0}), NumericalError);
+  EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.first = 1.0}), NumericalError);
 }
 
 }  // namespace whirl::continuation_test

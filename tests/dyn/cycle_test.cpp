@@ -22,9 +22,9 @@ FreeFlow van_der_pol(double m) {
     f << y(1), m * (1.0 - y(0) * y(0)) * y(1) - y(0);
     J << 0.0, 1.0, -2.0 * m * y(0) * y(1) - 1.0, m * (1.0 - y(0) * y(0));
   }};
-  return {Vec::Ones(2),
-          [=](const Vec& y, double time) -> FreeFlow::Arrival {
-            FreeFlow::Arrival at{y, Mat::Identity(2, 2), {}};
+  return {Vec::Ones(2), 1.0,
+          [=](const Vec& y, double time, Tangents) -> FreeFlow::Arrival {
+            FreeFlow::Arrival at{.end = y, .tangent = Mat::Identity(2, 2)};
             test::move_on(equation, 0.0, time, 60, at.end, at.tangent);
             return at;
           },
@@ -69,8 +69,9 @@ TEST(Cycle, KnowsTheShortestPeriod) {
 
 // Gravity tells directions apart.
 TEST(Cycle, RefusesWhatIsNotIsotropic) {
-  EXPECT_THROW(rotating_flow(test::P1.scene()), NumericalError);
-  EXPECT_THROW(rotating_flow(test::MassInRing{.Omega = 0.0}.scene()), NumericalError);
+  EXPECT_THROW(rotating_flow(std::make_shared<const Scene>(test::P1.scene())), NumericalError);
+  EXPECT_THROW(rotating_flow(std::make_shared<const Scene>(test::MassInRing{.Omega = 0.0}.scene())),
+               NumericalError);
 }
 
 }  // namespace whirl::cycle_test

@@ -1,0 +1,75 @@
+#pragma once
+/// A branch of periodic motions along a parameter: its equations, its points, where it changes.
+
+#include <array>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libdyn/shooting.hpp"
+#include "libfe/base/field.hpp"
+
+namespace whirl {
+
+/// Equations for the unknowns x of a motion at a value of the parameter, as many as unknowns.
+struct BranchEquations {
+  struct Value {
+    Vec residual;                          ///< of all equations, in scales; empty: they failed
+    Mat jacobian;                          ///< by x, if it is wanted
+    std::vector<Mat> tangents;             ///< of the motion, if wanted, for its multipliers
+    std::vector<ContactMeasure> contacts;  ///< shares of the period
+    std::string failure;
+  };
+  std::function<Value(const Vec& x, double value, Tangents wanted)> at;
+  std::function<CVec(const Value& at)> multipliers;  ///< the largest first
+};
+
+enum class BifurcationKind { fold, period_doubling, neimark_sacker, pitchfork, grazing };
+constexpr auto choices(BifurcationKind) {
+  return std::array{Choice<BifurcationKind>{"fold", BifurcationKind::fold},
+                    Choice<BifurcationKind>{"period-doubling", BifurcationKind::period_doubling},
+                    Choice<BifurcationKind>{"neimark-sacker", BifurcationKind::neimark_sacker},
+                    Choice<BifurcationKind>{"pitchfork", BifurcationKind::pitchfork},
+                    Choice<BifurcationKind>{"grazing", BifurcationKind::grazing}};
+}
+
+/// A motion of a branch, and how the branch goes on from it.
+struct BranchPoint {
+  double value = 0.0;  ///< of the parameter
+  Vec z;               ///< unknowns [scales], then the parameter, 0 at low and 1 at high
+  Vec tangent;         ///< to the branch, of length 1 in its metric
+  double step = 0.0;   ///< of the arc length, to the next point
+  CVec multipliers;    ///< the largest first; empty: start of a branch that is switched to
+  double residual = 0.0;
+  std::vector<ContactMeasure> contacts;  ///< shares of the period
+
+  bool is_stable() const {
+    return multipliers.size() > 0 && multipliers.cwiseAbs().maxCoeff() < 1.0;
+  }
+  /// State at phase 0 of revolution i of the period.
+  Vec state(const Vec& scale, int i = 0) const {
+    return scale.cwiseProduct(z.segment(i * scale.size(), scale.size()));
+  }
+};
+
+struct Bifurcation {
+  BifurcationKind kind = BifurcationKind::fold;
+  BranchPoint at;
+  std::size_t after = 0;    ///< number of the point before it
+  std::string contact;      ///< of a grazing: which
+  double change = 0.0;      ///< of a grazing: in its impacts a period, along the branch
+  Complex multiplier{1.0};  ///< the critical one; of a grazing NaN
+};
+
+struct Branch {
+  int period = 1;
+  std::vector<BranchPoint> points;
+  std::vector<Bifurcation> bifurcations;  ///< in the order of the branch
+  std::string end;                        ///< why it ended; empty: it goes on
+
+  bool is_closed() const { return end == closed; }
+  static constexpr std::string_view closed = "it closes: the first orbit again";
+};
+
+}  // namespace whirl

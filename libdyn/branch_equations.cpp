@@ -1,0 +1,83 @@
+#include "libdyn/branch_equations.hpp"
+
+#include <fmt/format.h>
+
+#include "libfe/base/error.hpp"
+
+namespace whirl {
+
+BranchEquations shooting_equations(FlowAt flow_at, Vec scale) {
+  return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
+                                                                   Tangents wanted) {
+            const Eigen::Index n = scale.size();
+            PeriodicOrbit orbit{.period = static_cast<int>(x.size() / n)};
+            for (Eigen::Index i = 0; i < x.size(); i += n) {
+              orbit.states.emplace_back(scale.cwiseProduct(x.segment(i, n)));
+            }
+            Flow flow = flow_at(value);
+            flow.scale = scale;
+            BranchEquations::Value at{.residual = shoot(flow, orbit, wanted)};
+            if (wanted == Tangents::yes && at.residual.size() > 0) {
+              at.jacobian = shooting_jacobian(orbit.tangents);
+            }
+            at.tangents = std::move(orbit.tangents);
+            at.contacts = std::move(orbit.contacts);
+            at.failure = std::move(orbit.failure);
+            return at;
+          },
+          [](const BranchEquations::Value& at) { return multipliers_of(at.tangents); }};
+}
+
+Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
+                                const ContinuationOptions& options) {
+  options.check();
+  const Flow flow = flow_at(options.first);
+  const PeriodicOrbit orbit = find_orbit(flow, start, {.period = options.period});
+  if (!orbit.is_good()) {
+    throw NumericalError(fmt::format("at the first value, {:g}: {}", options.first, orbit.failure));
+  }
+  const Eigen::Index n = flow.scale.size();
+  Vec x(n * options.period);
+  for (int i = 0; i < options.period; ++i) {
+    x.segment(i * n, n) = orbit.states[static_cast<std::size_t>(i)].cwiseQuotient(flow.scale);
+  }
+  return {shooting_equations(flow_at, flow.scale), x, options};
+}
+
+BranchEquations cycle_equations(FreeFlowAt flow_at, Vec scale) {
+  return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
+                                                                   Tangents wanted) {
+            const Eigen::Index n = scale.size();
+            FreeFlow flow = flow_at(value);
+            const Vec state = scale.cwiseProduct(x.head(n));
+            FreeFlow::Arrival end = flow.go(state, x(n) * flow.revolution, wanted);
+            BranchEquations::Value at{.contacts = std::move(end.contacts),
+                                      .failure = std::move(end.failure)};
+            if (!at.failure.empty()) return at;
+            const Vec to_scale = scale.cwiseInverse();
+            at.residual = Vec::Zero(n + 1);
+            at.residual.head(n) = (end.end - state).cwiseProduct(to_scale);
+            if (wanted == Tangents::no) return at;
+            at.tangents = {to_scale.asDiagonal() * end.tangent * scale.asDiagonal()};
+            at.jacobian = cycle_jacobian(
+                at.tangents[0], flow.rate(state).cwiseProduct(to_scale) * flow.revolution,
+                flow.rate(end.end).cwiseProduct(to_scale) * flow.revolution);
+            return at;
+          },
+          [](const BranchEquations::Value& at) { return multipliers_across(at.tangents[0]); }};
+}
+
+Continuation cycle_continuation(const FreeFlowAt& flow_at, const Vec& start, double period,
+                                const ContinuationOptions& options) {
+  options.check();
+  const FreeFlow flow = flow_at(options.first);
+  const Cycle cycle = shorten(flow, find_cycle(flow, start, period * flow.revolution));
+  if (!cycle.is_good()) {
+    throw NumericalError(fmt::format("at the first value, {:g}: {}", options.first, cycle.failure));
+  }
+  Vec x(start.size() + 1);
+  x << cycle.state.cwiseQuotient(flow.scale), cycle.period / flow.revolution;
+  return {cycle_equations(flow_at, flow.scale), x, options};
+}
+
+}  // namespace whirl

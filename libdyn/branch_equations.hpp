@@ -1,0 +1,41 @@
+#pragma once
+/// What branches of periodic motions solve: multiple shooting, and closed motions of a free period.
+
+#include "libdyn/continuation.hpp"
+#include "libdyn/cycle.hpp"
+
+namespace whirl {
+
+/// The flow at a value of the parameter; its states are the same throughout.
+/// May throw NumericalError where there is none.
+using FlowAt = std::function<Flow(double value)>;
+
+/// Those of multiple shooting, x: states at the starts of the segments, a segment a revolution.
+/// @param scale  of the states
+BranchEquations shooting_equations(FlowAt flow_at, Vec scale);
+
+/// The walk along periodic orbits of the period asked for.
+/// @param start  state near one at the first value, at phase 0
+/// @throws NumericalError  if there is none, or no tangent
+Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
+                                const ContinuationOptions& options);
+
+/// A flow whose period is free at a value of the parameter; its states are the same throughout.
+/// May throw NumericalError where there is none.
+using FreeFlowAt = std::function<FreeFlow(double value)>;
+
+/// Those of a closed motion, x: its state, then its period [revolutions].
+///
+///   flow(y, T) - y = 0,   <f(y), dy> = 0
+///
+/// Newton's method moves it across the flow only, and so does its tangent.
+/// @param scale  of the states
+BranchEquations cycle_equations(FreeFlowAt flow_at, Vec scale);
+
+/// The walk along closed motions.
+/// @param start, period  near one at the first value [states; revolutions]
+/// @throws NumericalError  if there is none, or no tangent
+Continuation cycle_continuation(const FreeFlowAt& flow_at, const Vec& start, double period,
+                                const ContinuationOptions& options);
+
+}  // namespace whirl
