@@ -13,8 +13,7 @@ const OptionSpec speeds{"speeds", "A:B:STEP", "speeds, such as 0:8000:50rpm"};
 const OptionSpec over{"over", "PATH=A:B:STEP",
                       "a value of the model and what it runs over: first:last:step, first:last "
                       "with --points, or value,value,..."};
-const OptionSpec frame{"frame", "F",
-                       "in which it repeats: stationary (the default), or rotating (orbit)"};
+const OptionSpec frame{"frame", "F", "in which it repeats: stationary (the default), or rotating"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
@@ -54,6 +53,18 @@ const std::vector<Verb>& verbs() {
        "whirl campbell models/two_disk_mac.toml --speeds 0:8000:50rpm",
        {{"modes", "N", "how many modes (8)"}, speeds},
        run_campbell},
+      {"resonances",
+       "Linear rotordynamics",
+       "speeds at which two modes are in p:q resonance seen from the rotor, where it may bounce",
+       "MODEL",
+       "whirl resonances models/two_disk_mac.toml --speeds 1000:8000:50rpm --confirm",
+       {{"modes", "N", "how many modes (4)"},
+        speeds,
+        {"largest", "N", "of p and q (4)"},
+        {"confirm", "", "look for bouncing motions near each of them"},
+        {"starts", "N", "of them at every speed that is tried (16)"},
+        {"seed", "S", "of the random starts (1)"}},
+       run_resonances},
       {"critical",
        "Linear rotordynamics",
        "critical speeds, directly",

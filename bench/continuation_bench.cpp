@@ -2,12 +2,14 @@
 
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "libdyn/batch/batch.hpp"
-#include "libdyn/contact_flow.hpp"
-#include "libdyn/continuation.hpp"
+#include "libdyn/branch_equations.hpp"
 #include "libdyn/methods/rk4.hpp"
+#include "libio/model_file.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl {
@@ -89,6 +91,87 @@ void BranchByDifferences(benchmark::State& state) {
   });
 }
 BENCHMARK(BranchByDifferences)->Unit(benchmark::kMillisecond);
+
+/// The two-disk rotor that bounces at 4430 rpm, closed as seen from the rotor, over the speed.
+struct TwoDiskBranch {
+  static constexpr double rpm = std::numbers::pi / 30.0;
+  Model model = read_model(WHIRL_MODELS "/two_disk_mac.toml");
+  std::shared_ptr<const Scene> first = at(4430.0 * rpm);
+  Vec start = [this] {
+    Trajectory t{.system = &first->contacts,
+                 .state = start_state(model, *first, nullptr),
+                 .revolutions = 500};
+    integrate_single(t, {});
+    return t.state.y;
+  }();
+  double period = recurrence(*first, start, 64).value() / first->contacts.period();
+  ContinuationOptions options{.low = 3000.0 * rpm,
+                              .high = 7000.0 * rpm,
+                              .first = 4430.0 * rpm,
+                              .largest_step = 2.0 * rpm,
+                              .most_points = points};
+
+  std::shared_ptr<const Scene> at(double speed) const {
+    Model moved = model;
+    moved.speed = speed;
+    return std::make_shared<const Scene>(make_scene(moved, ReductionEstimate::no));
+  }
+  void walk(benchmark::State& state, const FreeFlowAt& flow_at) const {
+    std::size_t found = 0;
+    for (auto _ : state) {
+      Continuation walk = cycle_continuation(flow_at, start, period, options);
+      while (walk.advance()) {
+      }
+      found = walk.branch().points.size();
+      benchmark::DoNotOptimize(walk.branch().points.back().multipliers.data());
+    }
+    state.counters["points"] = static_cast<double>(found);
+  }
+};
+
+void TwoDiskBranchByTangents(benchmark::State& state) {
+  const TwoDiskBranch branch;
+  branch.walk(state, [&](double speed) { return rotating_flow(branch.at(speed), *branch.first); });
+}
+BENCHMARK(TwoDiskBranchByTangents)->Unit(benchmark::kMillisecond);
+
+/// The same flow by RK4 with 1000 steps a revolution, its tangent by differences.
+FreeFlow differences(const FreeFlow& exact, const std::shared_ptr<const Scene>& scene) {
+  FreeFlow flow = exact;
+  flow.go = [scene, scale = flow.scale](const Vec& z, double time, Tangents wanted) {
+    const double turn = 2.0 * std::numbers::pi, phases = scene->contacts.Omega() * time;
+    const auto revolutions = static_cast<long>(std::ceil(phases / turn));
+    const double phase = static_cast<double>(revolutions) * turn - phases;
+    const Mat R = rotation(*scene, phase);
+    const auto end = [&](const Vec& from) {
+      MotionState state = test::state_of(R * from);
+      state.phase = phase;
+      const double step = scene->contacts.period() / 1000.0;
+      integrate(AnyMethod(Rk4{}), scene->contacts, state, revolutions, {.fixed_step = step}, {});
+      return state.y;
+    };
+    FreeFlow::Arrival at{.end = end(z)};
+    if (wanted == Tangents::no) return at;
+    at.tangent = Mat::Identity(z.size(), z.size());
+    for (Eigen::Index k = 0; k < z.size(); ++k) {
+      Vec aside = z;
+      const double h = 1e-6 * scale(k);
+      aside(k) += h;
+      at.tangent.col(k) = (end(aside) - at.end) / h;
+    }
+    return at;
+  };
+  return flow;
+}
+
+void TwoDiskBranchByDifferences(benchmark::State& state) {
+  const TwoDiskBranch branch;
+  branch.walk(state, [&](double speed) {
+    const auto scene = branch.at(speed);
+    return differences(rotating_flow(scene, *branch.first), scene);
+  });
+}
+BENCHMARK(TwoDiskBranchByDifferences)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace whirl

@@ -133,6 +133,10 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
   }
 }
 
+Mat rotation(const Scene& scene, double angle) {
+  return rotation(quarter_turn(scene), angle);
+}
+
 Mat cycle_jacobian(const Mat& tangent, const Vec& start, const Vec& end) {
   Mat J(tangent.rows() + 1, tangent.cols() + 1);
   J << shooting_jacobian({&tangent, 1}), end, start.transpose(), 0.0;

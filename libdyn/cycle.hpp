@@ -57,6 +57,10 @@ CVec multipliers_across(const Mat& tangent);
 /// The same motion with the shortest period it has, a part of the given one.
 Cycle shorten(const FreeFlow& flow, const Cycle& cycle);
 
+/// What turns reduced states of a scene by an angle about the axis [rad].
+/// @throws NumericalError  for a basis that is not closed under rotation
+Mat rotation(const Scene& scene, double angle);
+
 /// The rotor as it is seen from its own frame, where unbalance stands still: states are turned back
 /// by the phase. Time does not occur there if nothing but the unbalance tells directions apart.
 ///

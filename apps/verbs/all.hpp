@@ -9,6 +9,7 @@ Report run_check(const Invocation& call);
 Report run_static(const Invocation& call);
 Report run_modes(const Invocation& call);
 Report run_campbell(const Invocation& call);
+Report run_resonances(const Invocation& call);
 Report run_critical(const Invocation& call);
 Report run_unbalance(const Invocation& call);
 Report run_simulate(const Invocation& call);

@@ -11,6 +11,37 @@
 
 namespace whirl {
 
+void write_campbell(ResultWriter& file, const Campbell& diagram) {
+  const auto nb = static_cast<Eigen::Index>(diagram.branches.size());
+  const auto ns = static_cast<Eigen::Index>(diagram.speeds.size());
+  Mat frequency(nb, ns), decrement(nb, ns);
+  std::vector<std::string> whirl;
+  std::vector<int> numbers, crossing_branch;
+  std::vector<double> crossing_speed;
+  for (Eigen::Index b = 0; b < nb; ++b) {
+    const CampbellBranch& branch = diagram.branches[static_cast<std::size_t>(b)];
+    frequency.row(b) = Eigen::Map<const Eigen::RowVectorXd>(branch.frequency.data(), ns);
+    decrement.row(b) = Eigen::Map<const Eigen::RowVectorXd>(branch.log_decrement.data(), ns);
+    whirl.emplace_back(name_of(branch.whirl));
+    numbers.push_back(static_cast<int>(b) + 1);
+  }
+  for (const Crossing& c : diagram.crossings) {
+    crossing_speed.push_back(c.speed);
+    crossing_branch.push_back(c.branch + 1);
+  }
+  file.dataset("/campbell/speed", diagram.speeds, {"rad/s", "rotor speed", {""}});
+  file.dataset("/campbell/branch", numbers, {"", "branch", {""}});
+  const std::vector<std::string> axes{"/campbell/branch", "/campbell/speed"};
+  file.dataset("/campbell/frequency", frequency, {"rad/s", "damped natural frequency", axes});
+  file.dataset("/campbell/log_decrement", decrement, {"", "logarithmic decrement", axes});
+  file.dataset("/campbell/whirl", whirl, {"", "sense of whirl", {"/campbell/branch"}});
+  if (!crossing_speed.empty()) {
+    file.dataset("/campbell/critical_speed", crossing_speed, {"rad/s", "critical speed", {""}});
+    file.dataset("/campbell/critical_branch", crossing_branch,
+                 {"", "branch that is critical", {""}});
+  }
+}
+
 Report run_campbell(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
@@ -60,34 +91,7 @@ Report run_campbell(const Invocation& call) {
     report.text += "\n";
   }
   if (const auto file = call.result_file(model)) {
-    const auto nb = static_cast<Eigen::Index>(diagram.branches.size());
-    const auto ns = static_cast<Eigen::Index>(speeds.size());
-    Mat frequency(nb, ns), decrement(nb, ns);
-    std::vector<std::string> whirl;
-    std::vector<int> numbers, crossing_branch;
-    std::vector<double> crossing_speed;
-    for (Eigen::Index b = 0; b < nb; ++b) {
-      const CampbellBranch& branch = diagram.branches[static_cast<std::size_t>(b)];
-      frequency.row(b) = Eigen::Map<const Eigen::RowVectorXd>(branch.frequency.data(), ns);
-      decrement.row(b) = Eigen::Map<const Eigen::RowVectorXd>(branch.log_decrement.data(), ns);
-      whirl.emplace_back(name_of(branch.whirl));
-      numbers.push_back(static_cast<int>(b) + 1);
-    }
-    for (const Crossing& c : diagram.crossings) {
-      crossing_speed.push_back(c.speed);
-      crossing_branch.push_back(c.branch + 1);
-    }
-    file->dataset("/campbell/speed", speeds, {"rad/s", "rotor speed", {""}});
-    file->dataset("/campbell/branch", numbers, {"", "branch", {""}});
-    const std::vector<std::string> axes{"/campbell/branch", "/campbell/speed"};
-    file->dataset("/campbell/frequency", frequency, {"rad/s", "damped natural frequency", axes});
-    file->dataset("/campbell/log_decrement", decrement, {"", "logarithmic decrement", axes});
-    file->dataset("/campbell/whirl", whirl, {"", "sense of whirl", {"/campbell/branch"}});
-    if (!crossing_speed.empty()) {
-      file->dataset("/campbell/critical_speed", crossing_speed, {"rad/s", "critical speed", {""}});
-      file->dataset("/campbell/critical_branch", crossing_branch,
-                    {"", "branch that is critical", {""}});
-    }
+    write_campbell(*file, diagram);
     commit(call, file.get(), report);
   }
   return report;

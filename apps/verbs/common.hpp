@@ -7,6 +7,7 @@
 
 #include "apps/verb.hpp"
 #include "libdyn/stations.hpp"
+#include "libfe/campbell.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl {
@@ -26,6 +27,9 @@ std::string modes_table(const Modes& modes);
 
 /// Group /modes of a result file: eigenvalues, shapes at all points.
 void write_modes(ResultWriter& file, const Modes& modes, const DofMap& dofs);
+
+/// Group /campbell of a result file.
+void write_campbell(ResultWriter& file, const Campbell& diagram);
 
 /// Group /points of a result file: nodes and bodies with their positions and names.
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);

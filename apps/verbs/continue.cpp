@@ -274,10 +274,13 @@ Record bifurcations_record(const std::vector<TracedBranch>& branches) {
 }
 
 std::string period_text(const Branch& branch, const BranchLayout& layout) {
-  const double first = layout.period(branch, branch.points.front()),
-               last = layout.period(branch, branch.points.back());
-  return first == last ? fmt::format("{:.6g}", first)
-                       : fmt::format("{:.6g} to {:.6g}", first, last);
+  double least = layout.period(branch, branch.points.front()), most = least;
+  for (const BranchPoint& p : branch.points) {
+    least = std::min(least, layout.period(branch, p));
+    most = std::max(most, layout.period(branch, p));
+  }
+  return least == most ? fmt::format("{:.6g}", least)
+                       : fmt::format("{:.6g} to {:.6g}", least, most);
 }
 
 std::string branches_text(const std::vector<TracedBranch>& branches, const BranchLayout& layout,

@@ -175,8 +175,8 @@ class Program : public testing::Test {
 
 /// Names of all verbs that take a model.
 inline const std::vector<std::string> model_verbs{
-    "check",    "static", "modes",    "campbell", "critical", "unbalance", "simulate", "identify",
-    "classify", "orbit",  "continue", "sweep",    "map",      "basins",    "bench"};
+    "check",    "static",   "modes", "campbell", "resonances", "critical", "unbalance", "simulate",
+    "identify", "classify", "orbit", "continue", "sweep",      "map",      "basins",    "bench"};
 
 /// The words of a call with options that keep its verb from measuring for long.
 inline std::vector<std::string> briefly(std::vector<std::string> words) {

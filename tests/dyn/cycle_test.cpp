@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "libdyn/batch/batch.hpp"
+#include "libdyn/branch_equations.hpp"
 #include "libfe/base/error.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
@@ -65,6 +66,24 @@ TEST(Cycle, KnowsTheShortestPeriod) {
   const Cycle shortest = shorten(flow, thrice);
   EXPECT_NEAR(shortest.period, once.period, 1e-9);
   EXPECT_NEAR(shortest.multipliers(0).real(), once.multipliers(0).real(), 1e-10);
+}
+
+// Along m the period leaves 2 pi as m^2 / 16, and at m = 1 it is 6.6632868593231: found by itself, and
+// at the end of a branch.
+TEST(Cycle, IsFollowedAlongAParameter) {
+  Continuation walk = cycle_continuation(van_der_pol, (Vec(2) << 2.0, 0.1).finished(), 6.3,
+                                         {.low = 0.1, .high = 1.0, .first = 0.1});
+  while (walk.advance()) {
+  }
+  const Branch& branch = walk.branch();
+  EXPECT_EQ(branch.end, "the end of the range");
+  EXPECT_TRUE(branch.bifurcations.empty());
+  constexpr double integrated = 1e-8;  // by 60 steps of order 8 in a period
+  EXPECT_NEAR(branch.points.back().z(2), 6.6632868593231, integrated);
+  for (const BranchPoint& p : branch.points) {
+    EXPECT_TRUE(p.is_stable());
+    EXPECT_LT(p.residual, 1e-11);
+  }
 }
 
 // Gravity tells directions apart.

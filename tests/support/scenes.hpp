@@ -9,6 +9,7 @@
 #include "libdyn/methods.hpp"
 #include "libdyn/scene.hpp"
 #include "libfe/elements/disk.hpp"
+#include "tests/support/convergence.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::test {
@@ -169,17 +170,6 @@ inline Integration run(const Scene& scene, MotionState& state, long revolutions,
                        const RunOptions& how = {}, const Observer& observer = {}) {
   return integrate(how.method, scene.contacts, state, revolutions,
                    {.tolerance = how.tolerance, .fixed_step = how.fixed_step}, observer);
-}
-
-/// Order of convergence: slope of the line through log(error) over log(1 / number), least squares.
-inline double order_of(const std::vector<double>& number, const std::vector<double>& error) {
-  const auto n = static_cast<double>(number.size());
-  double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t i = 0; i < number.size(); ++i) {
-    const double a = -std::log(number[i]), b = std::log(error[i]);
-    x += a, y += b, xx += a * a, xy += a * b;
-  }
-  return (n * xy - x * y) / (n * xx - x * x);
 }
 
 }  // namespace whirl::test

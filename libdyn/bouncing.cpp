@@ -1,0 +1,165 @@
+#include "libdyn/bouncing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "libdyn/batch/batch.hpp"
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr int samples = 128;          ///< of a period, for its lines
+constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
+constexpr long watched = 20;          ///< revolutions in which it is seen whether a motion bounces
+constexpr double least_share = 0.05;  ///< of the second line, to count beside the first
+constexpr int tried_orbits = 6;       ///< motions at a speed that are closed by Newton's method
+
+double share(std::mt19937_64& random) {
+  return std::ldexp(static_cast<double>(random() >> 11), -53);
+}
+
+/// Value of a branch between the speeds of its diagram.
+double frequency_at(const Campbell& diagram, int branch, double speed) {
+  const auto& speeds = diagram.speeds;
+  const auto& values = diagram.branches[static_cast<std::size_t>(branch)].frequency;
+  const auto upper = std::upper_bound(speeds.begin(), speeds.end(), speed);
+  const auto i = static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(upper - speeds.begin(), 1, std::ssize(speeds) - 1));
+  const double s = (speed - speeds[i - 1]) / (speeds[i] - speeds[i - 1]);
+  return values[i - 1] + s * (values[i] - values[i - 1]);
+}
+
+/// The states of a mode at unit amplitude of a contact's station, at two moments of its cycle.
+struct Shape {
+  Vec cosine, sine;
+};
+
+std::optional<Shape> shape_of(const Scene& scene, const Modes& modes, double frequency,
+                              Whirl whirl) {
+  const Mode* nearest = nullptr;
+  for (const Mode& m : modes.oscillatory) {
+    if (m.whirl != whirl) continue;
+    if (!nearest ||
+        std::abs(m.frequency() - frequency) < std::abs(nearest->frequency() - frequency)) {
+      nearest = &m;
+    }
+  }
+  if (!nearest) return std::nullopt;
+  const DenseLu<Mat> mass(scene.reduced.M);
+  const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
+  const auto reduced = [&](const CVec& q) {
+    CVec r(weighted.rows());
+    r.real() = mass.solve(weighted * q.real());
+    r.imag() = mass.solve(weighted * q.imag());
+    return r;
+  };
+  const CVec q = reduced(nearest->shape);
+  // radius of its circle at the contact that it reaches first, in clearances
+  double reach = 0.0;
+  for (const ReducedContact& c : scene.contacts.contacts()) {
+    reach = std::max(reach, Orbit((c.U.row(0) * q)(0), (c.U.row(1) * q)(0)).major() / c.clearance);
+  }
+  if (!(reach > 0.0)) return std::nullopt;
+  CVec y(2 * q.size());
+  y << q, nearest->lambda * q;
+  y /= reach;
+  return Shape{y.real(), y.imag()};
+}
+
+}  // namespace
+
+std::array<int, 2> strongest_lines(const Scene& scene, const FreeFlow& flow, const Cycle& cycle) {
+  const ReducedContact& contact = scene.contacts.contacts().front();
+  const Eigen::Index n = scene.contacts.coordinates();
+  std::vector<Complex> path;
+  Vec y = cycle.state;
+  for (int i = 0; i < samples; ++i) {
+    const Vec2 u = contact.U * y.head(n);
+    path.emplace_back(u(0), u(1));
+    FreeFlow::Arrival at = flow.go(y, cycle.period / samples, Tangents::no);
+    if (!at.failure.empty()) return {};
+    y = std::move(at.end);
+  }
+  std::array<int, 2> lines{};
+  std::array<double, 2> sizes{};
+  for (int k = 1; k <= samples / 4; ++k) {  // 0 stands still seen from the rotor
+    Complex forward = 0.0, backward = 0.0;
+    for (int i = 0; i < samples; ++i) {
+      const Complex turned = std::polar(1.0, turn * k * i / samples);
+      forward += path[static_cast<std::size_t>(i)] * std::conj(turned);
+      backward += path[static_cast<std::size_t>(i)] * turned;
+    }
+    const double size = std::hypot(std::abs(forward), std::abs(backward));
+    if (size > sizes[0]) {
+      lines = {k, lines[0]};
+      sizes = {size, sizes[0]};
+    } else if (size > sizes[1]) {
+      lines[1] = k;
+      sizes[1] = size;
+    }
+  }
+  if (sizes[1] < least_share * sizes[0]) lines[1] = 0;
+  if (lines[1] > lines[0]) std::swap(lines[0], lines[1]);
+  return lines;
+}
+
+std::optional<Bouncing> find_bouncing(
+    const std::function<std::shared_ptr<const Scene>(double speed)>& scene_at,
+    const Campbell& diagram, const InternalResonance& resonance, const BouncingOptions& options) {
+  std::mt19937_64 random(options.seed);
+  for (double above = 0.0; above < options.most + 0.5 * options.step; above += options.step) {
+    const double speed = (1.0 + above) * resonance.speed;
+    const std::shared_ptr<const Scene> scene = scene_at(speed);
+    if (scene->contacts.contacts().empty()) return std::nullopt;
+    const FreeFlow flow = rotating_flow(scene);
+    const Modes modes = complex_modes(scene->system, static_cast<int>(diagram.branches.size()) + 4);
+    const auto branch = [&](int number) {
+      return shape_of(*scene, modes, frequency_at(diagram, number, speed),
+                      diagram.branches[static_cast<std::size_t>(number)].whirl);
+    };
+    const auto fast = branch(resonance.fast), slow = branch(resonance.slow);
+    if (!fast || !slow) return std::nullopt;
+    std::vector<Trajectory> motions;
+    for (int i = 0; i < options.starts; ++i) {
+      Trajectory t{.system = &scene->contacts, .revolutions = options.transient};
+      t.state.y = Vec::Zero(scene->contacts.size());
+      for (const Shape* shape : {&*fast, &*slow}) {
+        const double amplitude = 0.2 * std::pow(10.0, share(random)), phase = turn * share(random);
+        t.state.y += amplitude * (std::cos(phase) * shape->cosine - std::sin(phase) * shape->sine);
+      }
+      motions.push_back(std::move(t));
+    }
+    integrate_batch(motions, {.tolerance = 1e-8, .threads = 1});
+    std::erase_if(motions, [](const Trajectory& t) { return t.outcome != Outcome::reached_end; });
+    for (Trajectory& t : motions) {
+      t.revolutions = watched;
+    }
+    integrate_batch(motions, {.tolerance = 1e-8, .threads = 1, .measures = true});
+    std::optional<Bouncing> found;
+    int tried = 0;
+    for (const Trajectory& t : motions) {
+      const bool bounces = std::any_of(t.contacts.begin(), t.contacts.end(),
+                                       [](const ContactMeasure& c) { return c.impacts > 1.0; });
+      if (t.outcome != Outcome::reached_end || !bounces || tried == tried_orbits) continue;
+      ++tried;
+      const auto guess = recurrence(*scene, t.state.y, most_recurrence);
+      if (!guess) continue;
+      Cycle cycle = shorten(flow, find_cycle(flow, t.state.y, *guess));
+      if (!cycle.is_good()) continue;
+      const auto lines = strongest_lines(*scene, flow, cycle);
+      if (lines[0] != resonance.p || lines[1] != resonance.q) continue;
+      found = Bouncing{speed, cycle.period / scene->contacts.period(), std::move(cycle), lines};
+      if (found->cycle.is_stable()) break;
+    }
+    if (found) return found;
+  }
+  return std::nullopt;
+}
+
+}  // namespace whirl
