@@ -23,6 +23,7 @@ struct BranchEquations {
   };
   std::function<Value(const Vec& x, double value, Tangents wanted)> at;
   std::function<CVec(const Value& at)> multipliers;  ///< the largest first
+  double difference = 3e-6;  ///< of the parameter's range, for the derivative by it
 };
 
 enum class BifurcationKind { fold, period_doubling, neimark_sacker, pitchfork, grazing };

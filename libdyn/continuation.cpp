@@ -15,14 +15,13 @@ namespace {
 
 constexpr int most_corrections = 8;
 constexpr int renewal = 2;  ///< corrections after which the derivative by the parameter is renewed
-constexpr double flattest = 0.9;     ///< cosine of the angle between tangents, at least
-constexpr double bend = 0.2;         ///< angle that steps aim at [rad]
-constexpr double longest = 0.1;      ///< arc length of a step
-constexpr double difference = 3e-6;  ///< of the range, for the derivative by the parameter
-constexpr double shrink = 0.4;       ///< of a step that fails
-constexpr double probed = 1e-2;      ///< arc length ahead of an end, for a grazing that causes it
-constexpr double finest = 1e-6;      ///< arc length down to which bifurcations are told apart
-constexpr double zero = 1e-3;        ///< of a test function, where it is located
+constexpr double flattest = 0.9;  ///< cosine of the angle between tangents, at least
+constexpr double bend = 0.2;      ///< angle that steps aim at [rad]
+constexpr double longest = 0.1;   ///< arc length of a step
+constexpr double shrink = 0.4;    ///< of a step that fails
+constexpr double probed = 1e-2;   ///< arc length ahead of an end, for a grazing that causes it
+constexpr double finest = 1e-6;   ///< arc length down to which bifurcations are told apart
+constexpr double zero = 1e-3;     ///< of a test function, where it is located
 constexpr int most_refinements = 60;
 constexpr int most_grazings = 8;     ///< between two points
 constexpr double recognized = 1e-6;  ///< relative, of the numbers of an orbit that is met again
@@ -132,7 +131,7 @@ BranchEquations::Value Continuation::evaluate(const Vec& z, Tangents wanted) con
 
 Vec Continuation::derivative_by_parameter(const Vec& z) const {
   // within the range, beyond which there may be no model: at its ends to one side
-  const double u = z(z.size() - 1), h = difference;
+  const double u = z(z.size() - 1), h = equations_.difference;
   const double shifts[2][3] = {{-h, h, 0.0}, {0.0, u < 0.5 ? h : -h, u < 0.5 ? 2.0 * h : -2.0 * h}};
   const bool is_central = u - h >= 0.0 && u + h <= 1.0;
   Vec g[3];

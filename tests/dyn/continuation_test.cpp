@@ -27,28 +27,9 @@ constexpr double located = 1e-6;  ///< relative, to which bifurcations are to be
 /// square of the speed of the impact, and the speed with the distance.
 constexpr double near_grazing = 5e-3;
 
-/// A map y -> f(y) as a flow.
-Flow map(int size, std::function<void(const Vec& y, Vec& f, Mat& J)> f) {
-  return {Vec::Ones(size), 1.0, [=](std::span<const Vec> starts, long n, Tangents) {
-            std::vector<Passage> all;
-            for (const Vec& start : starts) {
-              Passage p{start, Mat::Identity(size, size), {}, {}};
-              Vec next(size);
-              Mat J(size, size);
-              for (long i = 0; i < n; ++i) {
-                f(p.end, next, J);
-                p.end = next;
-                p.tangent = J * p.tangent;
-              }
-              all.push_back(std::move(p));
-            }
-            return all;
-          }};
-}
-
 /// x -> x^2 + c
 Flow quadratic(double c) {
-  return map(1, [c](const Vec& y, Vec& f, Mat& J) {
+  return test::map_flow(1, [c](const Vec& y, Vec& f, Mat& J) {
     f(0) = y(0) * y(0) + c;
     J(0, 0) = 2.0 * y(0);
   });
@@ -117,7 +98,7 @@ TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {
 // x -> (1 + c) x - x^3: the pitchfork at c = 0 bears x = +-sqrt(c).
 TEST(Continuation, SwitchesAtAPitchfork) {
   const FlowAt cubic = [](double c) {
-    return map(1, [c](const Vec& y, Vec& f, Mat& J) {
+    return test::map_flow(1, [c](const Vec& y, Vec& f, Mat& J) {
       f(0) = (1.0 + c) * y(0) - y(0) * y(0) * y(0);
       J(0, 0) = 1.0 + c - 3.0 * y(0) * y(0);
     });
@@ -137,7 +118,7 @@ TEST(Continuation, SwitchesAtAPitchfork) {
 // with the multipliers exp(+-i pi / 3).
 TEST(Continuation, FindsANeimarkSackerBifurcation) {
   const FlowAt logistic = [](double a) {
-    return map(2, [a](const Vec& y, Vec& f, Mat& J) {
+    return test::map_flow(2, [a](const Vec& y, Vec& f, Mat& J) {
       f << a * y(0) * (1.0 - y(1)), y(0);
       J << a * (1.0 - y(1)), -a * y(0), 1.0, 0.0;
     });

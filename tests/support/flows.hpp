@@ -87,4 +87,23 @@ struct Duffing {
   Flow flow() const { return flow_of(equation(), 2, 2.0 * std::numbers::pi / w); }
 };
 
+/// A map y -> f(y) as a flow.
+inline Flow map_flow(int size, std::function<void(const Vec& y, Vec& f, Mat& J)> f) {
+  return {Vec::Ones(size), 1.0, [=](std::span<const Vec> starts, long n, Tangents) {
+            std::vector<Passage> all;
+            for (const Vec& start : starts) {
+              Passage p{start, Mat::Identity(size, size), {}, {}};
+              Vec next(size);
+              Mat J(size, size);
+              for (long i = 0; i < n; ++i) {
+                f(p.end, next, J);
+                p.end = next;
+                p.tangent = J * p.tangent;
+              }
+              all.push_back(std::move(p));
+            }
+            return all;
+          }};
+}
+
 }  // namespace whirl::test

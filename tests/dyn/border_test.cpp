@@ -1,0 +1,139 @@
+// Curves of bifurcations in two parameters: maps whose borders are known exactly, and the touch of a
+// rotor in closed form.
+
+#include "libdyn/border.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "libdyn/batch/batch.hpp"
+#include "libfe/base/error.hpp"
+#include "tests/support/flows.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace whirl::border_test {
+
+using enum BifurcationKind;
+
+constexpr double located = 1e-7;  ///< of both parameters
+
+/// x' = a - x^2 + b y, y' = x
+Flow henon(double a, double b) {
+  return test::map_flow(2, [=](const Vec& y, Vec& f, Mat& J) {
+    f << a - y(0) * y(0) + b * y(1), y(0);
+    J << -2.0 * y(0), b, 1.0, 0.0;
+  });
+}
+
+/// The whole border through (x, first), along the second parameter from the first to its last value.
+Branch border(BifurcationKind kind, const FlowPlane& flows, const Vec& scale, const Vec& x,
+              double first, const ContinuationOptions& second) {
+  constexpr double low = -2.0, high = 4.0;
+  Vec start(x.size() + 1);
+  start << x, (first - low) / (high - low);
+  Continuation walk(border_equations(kind, flows, scale, low, high), start, second);
+  while (walk.advance()) {
+  }
+  Branch branch = walk.branch();
+  for (BranchPoint& p : branch.points) {  // the first parameter itself
+    double& u = p.z(x.size());
+    u = low + u * (high - low);
+  }
+  return branch;
+}
+
+// Henon's map: fold at a = -(1 - b)^2 / 4, x = -(1 - b) / 2; period doubling at a = 3 (1 - b)^2 / 4,
+// x = (1 - b) / 2; the doubled orbit doubles at a = (1 - b)^2 + (1 + b)^2 / 4.
+TEST(Border, FollowsFoldsAndPeriodDoublingsOfHenonsMap) {
+  const FlowPlane plane{henon, {}};
+  const ContinuationOptions b{.low = -0.5, .high = 0.5, .first = -0.5};
+  const Branch folds = border(fold, plane, Vec::Ones(2), Vec::Constant(2, -0.74), -0.55, b);
+  EXPECT_EQ(folds.end, "the end of the range");
+  for (const BranchPoint& p : folds.points) {
+    EXPECT_NEAR(p.z(2), -0.25 * std::pow(1.0 - p.value, 2), located);
+    EXPECT_NEAR(p.z(0), -0.5 * (1.0 - p.value), located);
+    ASSERT_EQ(p.multipliers.size(), 1);
+    EXPECT_NEAR(p.multipliers(0).real(), -p.value, located);  // mu_1 mu_2 = -b
+  }
+  const Branch doublings =
+      border(period_doubling, plane, Vec::Ones(2), Vec::Constant(2, 0.74), 1.7, b);
+  EXPECT_EQ(doublings.points.back().value, 0.5);
+  for (const BranchPoint& p : doublings.points) {
+    EXPECT_NEAR(p.z(2), 0.75 * std::pow(1.0 - p.value, 2), located);
+  }
+  const double u = 1.5, a = u * u + 0.0625;  // at b = -0.5
+  const double root = std::sqrt(a - 0.75 * u * u);
+  const Vec two{{0.5 * u + root, 0.5 * u - root, 0.5 * u - root, 0.5 * u + root}};
+  const Branch second = border(period_doubling, plane, Vec::Ones(2), two, a + 1e-3, b);
+  EXPECT_EQ(second.points.back().value, 0.5);
+  for (const BranchPoint& p : second.points) {
+    EXPECT_NEAR(p.z(4), std::pow(1.0 - p.value, 2) + 0.25 * std::pow(1.0 + p.value, 2), located);
+  }
+}
+
+// z' = (1 + a - b^2) e^i z - |z|^2 z: the fixed point z = 0 loses its stability at a = b^2.
+TEST(Border, FollowsNeimarkSackerPoints) {
+  const auto flow = [](double a, double b) {
+    return test::map_flow(2, [=](const Vec& y, Vec& f, Mat& J) {
+      const double s = 1.0 + a - b * b, c = std::cos(1.0), d = std::sin(1.0), r2 = y.squaredNorm();
+      J << s * c, -s * d, s * d, s * c;
+      f = J * y - r2 * y;
+      J -= r2 * Mat::Identity(2, 2) + 2.0 * y * y.transpose();
+    });
+  };
+  const Branch curve = border(neimark_sacker, {flow, {}}, Vec::Ones(2), Vec::Zero(2), 0.9,
+                              {.low = -1.0, .high = 1.0, .first = -1.0});
+  EXPECT_EQ(curve.end, "the end of the range");
+  for (const BranchPoint& p : curve.points) {
+    EXPECT_NEAR(p.z(2), p.value * p.value, located);
+    EXPECT_EQ(p.multipliers.size(), 0);
+  }
+  EXPECT_THROW(border_equations(pitchfork, {flow, {}}, Vec::Ones(2), 0.0, 1.0), NumericalError);
+}
+
+// Below its critical speed the rotor alone turns in a circle, r = e W^2 / |w^2 - W^2 + 2 i d W|, around
+// its sag, m g / k: it grazes the ring where both add up to the clearance. As plane: offset of the
+// unbalance e in units of 1 mm, and the speed.
+TEST(Border, FollowsGrazingsInClosedForm) {
+  const auto at = [](double e, double W) {
+    test::RotorStator p = test::P1;
+    p.e = 1e-3 * e;
+    p.Omega = W;
+    return p;
+  };
+  const auto first = std::make_shared<const Scene>(at(1.0, 125.0).scene());
+  const auto scene = [&](double e, double W) {
+    return std::make_shared<const Scene>(at(e, W).scene());
+  };
+  const FlowPlane plane{[&](double e, double W) { return flow_of(scene(e, W), *first); },
+                        [&](double e, double W, std::span<const Vec> starts) {
+                          const auto there = scene(e, W);
+                          std::vector<Vec> own;
+                          for (const Vec& y : starts)
+                            own.push_back(BasisChange(*there, *first).to(y));
+                          return nearest_graze(*there, "ring", own);
+                        }};
+  const auto touching = [&](double W) {  // [mm]
+    const test::RotorStator p = test::P1;
+    const std::complex<double> D(p.kr - p.mr * W * W, p.cr * W);
+    const double sag = p.mr * p.gravity / p.kr;  // the stator sags, too
+    const double stator = p.ms * p.gravity / p.ks;
+    return 1e3 * (p.gap - (sag - stator)) * std::abs(D) / (p.mr * W * W);
+  };
+  Trajectory t{.system = &first->contacts, .revolutions = 400};
+  t.state = test::start_of(at(0.9995 * touching(125.0), 125.0).model(), *first);
+  const Scene near = at(0.9995 * touching(125.0), 125.0).scene();
+  t.system = &near.contacts;
+  integrate_single(t, {});
+  const Vec scale = first->contacts.state_scale();
+  const Branch curve =
+      border(grazing, plane, scale, t.state.y.cwiseQuotient(scale), 0.9995 * touching(125.0),
+             {.low = 110.0, .high = 130.0, .first = 125.0, .direction = -1.0, .largest_step = 2.0});
+  EXPECT_EQ(curve.points.back().value, 110.0);
+  for (const BranchPoint& p : curve.points)
+    EXPECT_NEAR(p.z(8), touching(p.value), located) << p.value;
+}
+
+}  // namespace whirl::border_test
