@@ -30,7 +30,7 @@ std::optional<Vec> null_direction(const Mat& A) {
   const Eigen::Index n = A.rows();
   // a shift keeps an exactly singular matrix solvable and does not move its null vector
   Mat shifted = A;
-  shifted.diagonal().array() += 1e-14 * A.cwiseAbs().maxCoeff();
+  shifted.diagonal().array() += 1e-14 * std::max(1.0, A.cwiseAbs().maxCoeff());
   const DenseLu<Mat> lu(shifted);
   Vec v = Vec::LinSpaced(n, 1.0, 2.0);
   double growth = 0.0;

@@ -70,7 +70,10 @@ struct Branch {
   std::string end;                        ///< why it ended; empty: it goes on
 
   bool is_closed() const { return end == closed; }
+  /// Whether it ends where its orbits come to repeat after half their period.
+  bool is_halved() const { return end.starts_with(halved); }
   static constexpr std::string_view closed = "it closes: the first orbit again";
+  static constexpr std::string_view halved = "it has half the period from";
 };
 
 }  // namespace whirl

@@ -1,6 +1,8 @@
 #pragma once
 /// Walking along branches of periodic motions, round folds, stable or not.
 
+#include <optional>
+
 #include "libdyn/branch.hpp"
 
 namespace whirl {
@@ -71,6 +73,8 @@ class Continuation {
   bool add_tangent(Trial& trial, const Vec& along, Vec& by_parameter) const;
   /// The first point, if the branch comes to it again on the way from a to b.
   Trial closing(const BranchPoint& a, const BranchPoint& b) const;
+  /// Arc length from a at which orbits come to repeat after half their period, if they do before b.
+  std::optional<double> halving(const BranchPoint& a, const BranchPoint& b) const;
   /// False: one of them could not be located.
   bool find_bifurcations(const BranchPoint& a, const BranchPoint& b);
   /// The point between two at an arc length from the first.

@@ -21,6 +21,8 @@ namespace whirl {
 
 namespace {
 
+constexpr double same_place = 1e-5;  ///< of the range, where branches meet
+
 /// The parameter, its range, and the model at its values.
 struct Parameter {
   ParameterAxis axis;
@@ -161,6 +163,7 @@ class Tracing {
         }
         branches_[i].branch = on.branch();
         if (on.branch().end.empty()) return false;
+        if (on.branch().is_halved()) drop_same(i);
         if (i == 0 && on.branch().is_closed() && branches_.size() > 1) {
           branches_.erase(branches_.begin() + 1);
         }
@@ -178,6 +181,21 @@ class Tracing {
           make_scene(parameter_.model(value), ReductionEstimate::no));
     } catch (const ModelError& error) {  // no model there: the branch ends
       throw NumericalError(error.what());
+    }
+  }
+
+  /// A branch that ends on another one would be walked again from there.
+  void drop_same(std::size_t number) {
+    const Branch& done = branches_[number].branch;
+    const double u = done.points.back().value;
+    for (std::size_t i = number + 1; i < branches_.size(); ++i) {
+      const TracedBranch& b = branches_[i];
+      if (b.parent == branches_[number].parent && b.branch.period == done.period &&
+          b.branch.points.size() == 1 &&
+          std::abs(b.branch.points[0].value - u) < same_place * options_.range()) {
+        branches_.erase(branches_.begin() + static_cast<std::ptrdiff_t>(i));
+        return;
+      }
     }
   }
 

@@ -95,6 +95,26 @@ TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {
   EXPECT_NEAR(values(window, fold)[0], -1.75, located);
 }
 
+// x -> r x (1 - x) with r = 3.2 - p^2: period 2 lives where r > 3, and the branch that begins at
+// p = -sqrt(0.2) ends at sqrt(0.2), where it has period 1 again. It has no other bifurcation.
+TEST(Continuation, EndsWhereThePeriodIsHalved) {
+  const FlowAt logistic = [](double p) {
+    return test::map_flow(1, [r = 3.2 - p * p](const Vec& y, Vec& f, Mat& J) {
+      f(0) = r * y(0) * (1.0 - y(0));
+      J(0, 0) = r * (1.0 - 2.0 * y(0));
+    });
+  };
+  const ContinuationOptions options{.low = -0.7, .high = 0.7, .first = -0.7};
+  const Branch one =
+      walk_to_the_end(orbit_continuation(logistic, Vec(Vec::Constant(1, 0.63)), options));
+  ASSERT_EQ(values(one, period_doubling).size(), 2u);
+  const Branch two = switched(logistic, Vec::Ones(1), 1, one.bifurcations[0], options);
+  ASSERT_TRUE(two.is_halved()) << two.end;
+  EXPECT_NEAR(std::abs(two.points.back().value), std::sqrt(0.2), 1e-5);
+  EXPECT_NEAR(two.points.back().value, -two.points.front().value, 1e-5);
+  EXPECT_TRUE(two.bifurcations.empty());
+}
+
 // x -> (1 + c) x - x^3: the pitchfork at c = 0 bears x = +-sqrt(c).
 TEST(Continuation, SwitchesAtAPitchfork) {
   const FlowAt cubic = [](double c) {

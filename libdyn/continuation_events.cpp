@@ -1,0 +1,233 @@
+// What happens between two points of a branch, and where.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libdyn/bifurcation.hpp"
+#include "libdyn/continuation.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double probed = 1e-2;  ///< arc length ahead of an end, for a grazing that causes it
+constexpr double zero = 1e-3;    ///< of a test function, where it is located
+constexpr int most_refinements = 60;
+constexpr int most_grazings = 8;     ///< between two points
+constexpr double recognized = 1e-6;  ///< relative, of the numbers of an orbit that is met again
+constexpr double halved = 1e-6;      ///< share of the difference of both halves that is none
+
+using enum BifurcationKind;
+
+/// By how much the second half of an orbit differs from the first one; empty: it has no halves.
+Vec half_difference(const BranchPoint& p, int period) {
+  const Eigen::Index size = p.z.size() - 1;
+  if (period % 2 != 0 || size % period != 0) return {};
+  return p.z.segment(size / 2, size / 2) - p.z.head(size / 2);
+}
+
+/// Whether two points of the same value are one orbit, wherever on it their states are.
+bool is_same(const BranchPoint& a, const BranchPoint& b) {
+  const auto equal = [](double x, double y) {
+    return std::abs(x - y) <= recognized * (std::abs(x) + std::abs(y));
+  };
+  for (std::size_t c = 0; c < a.contacts.size(); ++c) {
+    if (!equal(a.contacts[c].max_normal, b.contacts[c].max_normal) ||
+        !equal(a.contacts[c].duty, b.contacts[c].duty) ||
+        a.contacts[c].impacts != b.contacts[c].impacts) {
+      return false;
+    }
+  }
+  return a.multipliers.size() == b.multipliers.size() &&
+         (a.multipliers - b.multipliers).cwiseAbs().maxCoeff() <=
+             recognized * b.multipliers.cwiseAbs().maxCoeff();
+}
+
+bool same_impacts(const std::vector<ContactMeasure>& a, const std::vector<ContactMeasure>& b) {
+  for (std::size_t c = 0; c < std::min(a.size(), b.size()); ++c) {
+    if (a[c].impacts != b[c].impacts) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Continuation::Trial Continuation::closing(const BranchPoint& a, const BranchPoint& b) const {
+  const BranchPoint& first = branch_.points.front();
+  const Eigen::Index size = first.z.size() - 1;
+  const double from = (a.z(size) - first.z(size)) * first.tangent(size),
+               to = (b.z(size) - first.z(size)) * first.tangent(size);
+  Trial trial{.failure = "elsewhere"};
+  if (branch_.points.size() < 3 || !(from < 0.0 && to >= 0.0)) return trial;
+  Plane at{Vec::Unit(size + 1, size), a.z + from / (from - to) * (b.z - a.z)};
+  at.at(size) = first.z(size);
+  trial = correct(at, by_parameter_);
+  if (trial.failure.empty() && !is_same(trial.point, first)) trial.failure = "another orbit";
+  return trial;
+}
+
+void Continuation::end_at_failure(const std::string& why) {
+  const BranchPoint& last = branch_.points.back();
+  branch_.end = fmt::format("no orbit is found beyond {:.10g}: {}", last.value, why);
+  // the motions that the tangent predicts: do they touch otherwise, and from where on
+  const auto impacts_differ = [&](double length, std::vector<ContactMeasure>& seen) {
+    Vec z = last.z + length * last.tangent;
+    z(z.size() - 1) = std::clamp(z(z.size() - 1), 0.0, 1.0);
+    BranchEquations::Value at = evaluate(z, Tangents::no);
+    if (at.residual.size() == 0) return false;
+    seen = std::move(at.contacts);
+    return !same_impacts(seen, last.contacts);
+  };
+  std::vector<ContactMeasure> seen;
+  double low = 0.0, high = options_.smallest_step;
+  while (high < probed && !impacts_differ(high, seen)) {
+    low = high;
+    high *= 2.0;
+  }
+  if (high >= probed) return;
+  for (std::vector<ContactMeasure> middle; high - low > 1e-3 * high;) {
+    const double half = 0.5 * (low + high);
+    if (impacts_differ(half, middle)) {
+      high = half;
+      seen = middle;
+    } else {
+      low = half;
+    }
+  }
+  for (std::size_t c = 0; c < seen.size(); ++c) {
+    const double change = seen[c].impacts - last.contacts[c].impacts;
+    if (change == 0.0) continue;
+    Bifurcation end{.kind = grazing,
+                    .at = last,
+                    .after = branch_.points.size() - 1,
+                    .contact = last.contacts[c].name,
+                    .change = change,
+                    .multiplier = critical_multiplier(grazing, {})};
+    const double u = last.z(last.z.size() - 1) + high * last.tangent(last.z.size() - 1);
+    end.at.value = value_of(std::clamp(u, 0.0, 1.0));
+    branch_.end = fmt::format("contact {} grazes at about {:.7g}, beyond {:.10g} no orbit is found",
+                              end.contact, end.at.value, last.value);
+    branch_.bifurcations.push_back(std::move(end));
+  }
+}
+
+Continuation::Trial Continuation::between(const BranchPoint& a, const BranchPoint& b,
+                                          double length) const {
+  const Vec chord = b.z - a.z;
+  Plane plane{chord / std::sqrt(dot(chord, chord)), a.z};
+  plane.at += length * plane.normal;
+  Trial trial = correct(plane, by_parameter_);
+  Vec ignored;
+  // where two branches meet there is no single tangent
+  if (trial.failure.empty() && !add_tangent(trial, plane.normal, ignored)) {
+    trial.point.tangent = plane.normal;
+  }
+  return trial;
+}
+
+std::optional<double> Continuation::halving(const BranchPoint& a, const BranchPoint& b) const {
+  const Vec before = half_difference(a, branch_.period), after = half_difference(b, branch_.period);
+  if (before.size() == 0 || a.multipliers.size() == 0) return std::nullopt;
+  const double from = before.squaredNorm(), to = before.dot(after);
+  if (to > halved * from) return std::nullopt;
+  const Vec chord = b.z - a.z;
+  return std::sqrt(dot(chord, chord)) * std::clamp(from / (from - to), 0.0, 1.0);
+}
+
+bool Continuation::find_bifurcations(const BranchPoint& a, const BranchPoint& b) {
+  const std::size_t known = branch_.bifurcations.size();
+  const auto changes = [&](BifurcationKind kind) {
+    return (test_function(kind, a) > 0.0) != (test_function(kind, b) > 0.0);
+  };
+  const bool folds = changes(fold);
+  bool all = true;
+  if (folds) all = locate(fold, a, b);
+  if (changes(period_doubling)) all = locate(period_doubling, a, b) && all;
+  if (changes(pitchfork) != folds) all = locate(pitchfork, a, b) && all;
+  if (changes(neimark_sacker)) all = locate(neimark_sacker, a, b) && all;
+  if (!same_impacts(a.contacts, b.contacts)) all = locate_grazings(a, b) && all;
+  const Vec chord = b.z - a.z;
+  std::stable_sort(branch_.bifurcations.begin() + static_cast<std::ptrdiff_t>(known),
+                   branch_.bifurcations.end(), [&](const Bifurcation& x, const Bifurcation& y) {
+                     return dot(chord, x.at.z - y.at.z) < 0.0;
+                   });
+  return all;
+}
+
+bool Continuation::locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b) {
+  // false position with halved weights, within brackets all the time
+  const Vec chord = b.z - a.z;
+  double low = 0.0, high = std::sqrt(dot(chord, chord)), length = high;
+  double f_low = test_function(kind, a), f_high = test_function(kind, b);
+  int side = 0;
+  BranchPoint best = std::abs(f_low) < std::abs(f_high) ? a : b;
+  double before = best.z(best.z.size() - 1) + 1.0;
+  for (int i = 0; i < most_refinements; ++i) {
+    const bool bisects = i % 8 == 7 || !std::isfinite(f_low) || !std::isfinite(f_high);
+    length = bisects ? 0.5 * (low + high) : (low * f_high - high * f_low) / (f_high - f_low);
+    const Trial trial = between(a, b, length);
+    if (!trial.failure.empty()) break;
+    best = trial.point;
+    const double f = test_function(kind, best), u = best.z(best.z.size() - 1);
+    const bool is_still = std::abs(u - before) < options_.located;
+    if ((is_still && (std::abs(f) < 1e-6 || high - low < 1e-12)) || std::abs(f) < 1e-12) break;
+    before = u;
+    if ((f > 0.0) == (f_high > 0.0)) {
+      high = length, f_high = f;
+      if (side == 1) f_low *= 0.5;
+      side = 1;
+    } else {
+      low = length, f_low = f;
+      if (side == -1) f_high *= 0.5;
+      side = -1;
+    }
+  }
+  const Complex mu = critical_multiplier(kind, best.multipliers);
+  if (!(std::abs(test_function(kind, best)) < zero)) return false;
+  if (kind == neimark_sacker && std::abs(mu.imag()) < 1e-8)
+    return true;  // a real pair, 1/mu and mu
+  branch_.bifurcations.push_back(
+      {.kind = kind, .at = std::move(best), .after = branch_.points.size() - 1, .multiplier = mu});
+  return true;
+}
+
+bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
+  const Vec chord = b.z - a.z;
+  const double whole = std::sqrt(dot(chord, chord));
+  double from = 0.0;
+  BranchPoint before = a;
+  for (int k = 0; k < most_grazings && !same_impacts(before.contacts, b.contacts); ++k) {
+    double low = from, high = whole;
+    BranchPoint beyond = b;
+    while (high - low > 1e-12 && std::abs(beyond.z(beyond.z.size() - 1) -
+                                          before.z(before.z.size() - 1)) > options_.located) {
+      const double middle = 0.5 * (low + high);
+      Trial trial = between(a, b, middle);
+      if (!trial.failure.empty()) return false;
+      if (same_impacts(trial.point.contacts, before.contacts)) {
+        low = middle;
+        before = std::move(trial.point);
+      } else {
+        high = middle;
+        beyond = std::move(trial.point);
+      }
+    }
+    for (std::size_t c = 0; c < beyond.contacts.size(); ++c) {
+      const double change = beyond.contacts[c].impacts - before.contacts[c].impacts;
+      if (change == 0.0) continue;
+      branch_.bifurcations.push_back({.kind = grazing,
+                                      .at = beyond,
+                                      .after = branch_.points.size() - 1,
+                                      .contact = beyond.contacts[c].name,
+                                      .change = change,
+                                      .multiplier = critical_multiplier(grazing, {})});
+    }
+    before = std::move(beyond);
+    from = high;
+  }
+  return same_impacts(before.contacts, b.contacts);
+}
+
+}  // namespace whirl
