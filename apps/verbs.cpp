@@ -120,9 +120,10 @@ const std::vector<Verb>& verbs() {
        "contact.ring.stiffness=64e6 --over contact.ring.friction=0.1:0.15:0.002 --at 0.15",
        {{"over", "PATH=A:B:STEP",
          "a value of the model, from where to where, and the largest step; first:last: a "
-         "hundredth"},
+         "hundredth; a second one: borders in the plane of both"},
         points,
-        {"at", "VALUE", "where the first orbit is looked for, between first and last (first)"},
+        {"at", "VALUE[,VALUE]",
+         "where the first orbit is looked for, between first and last (first)"},
         {"period", "N", "revolutions after which the first orbit repeats (1)"},
         frame,
         {"switch", "N",

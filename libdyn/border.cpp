@@ -97,6 +97,9 @@ BranchEquations border_equations(BifurcationKind kind, FlowPlane flows, Vec scal
   return {[=](const Vec& x, double second, Tangents wanted) {
             const Eigen::Index size = x.size() - 1, n = scale.size();
             const auto first = [&](double u) { return low + u * (high - low); };
+            if (x(size) < 0.0 || x(size) > 1.0) {
+              return BranchEquations::Value{.failure = "the range of the first parameter ends"};
+            }
             Place here = place(x.head(size), first(x(size)), second);
             BranchEquations::Value at{.residual = here.residual,
                                       .contacts = here.orbit.contacts,

@@ -19,6 +19,7 @@ struct BranchEquations {
     Mat jacobian;                          ///< by x, if it is wanted
     std::vector<Mat> tangents;             ///< of the motion, if wanted, for its multipliers
     std::vector<ContactMeasure> contacts;  ///< shares of the period
+    double rotation = 0.0;                 ///< of a circle, for its multipliers
     std::string failure;
   };
   std::function<Value(const Vec& x, double value, Tangents wanted)> at;

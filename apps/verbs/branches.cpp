@@ -17,17 +17,71 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// All numbers of points one after another.
 class Packed {
  public:
-  Packed(const BranchLayout& layout, std::vector<double> numbers = {})
-      : layout_(layout), numbers_(std::move(numbers)) {}
+  explicit Packed(const std::vector<std::string>& contacts, std::vector<double> numbers = {})
+      : contacts_(contacts), numbers_(std::move(numbers)) {}
 
+  void put(const TracedBranch& b) {
+    for (const double x :
+         {double(b.branch.period), double(b.parent), double(b.generation), b.direction,
+          double(b.kind), double(b.branch.points.size()), double(b.branch.bifurcations.size())}) {
+      put(x);
+    }
+    for (std::size_t i = 0; i < b.branch.points.size(); ++i) {
+      put(b.branch.points[i]);
+      put(static_cast<double>(b.radii[i].size()));
+      for (const double r : b.radii[i]) put(r);
+    }
+    for (const Bifurcation& x : b.branch.bifurcations) {
+      put(x.at);
+      for (const double v :
+           {double(x.kind), double(x.after), x.change, x.multiplier.real(), x.multiplier.imag()}) {
+        put(v);
+      }
+    }
+  }
+
+  TracedBranch take_branch() {
+    TracedBranch b;
+    b.branch.period = take_count();
+    b.parent = take_count();
+    b.generation = take_count();
+    b.direction = take();
+    b.kind = static_cast<BifurcationKind>(take_count());
+    const int points = take_count(), bifurcations = take_count();
+    for (int i = 0; i < points; ++i) {
+      b.branch.points.push_back(take_point());
+      b.radii.emplace_back(static_cast<std::size_t>(take_count()));
+      for (double& r : b.radii.back()) r = take();
+    }
+    for (int i = 0; i < bifurcations; ++i) {
+      Bifurcation x{.at = take_point()};
+      x.kind = static_cast<BifurcationKind>(take_count());
+      x.after = static_cast<std::size_t>(take_count());
+      x.change = take();
+      const double real = take();
+      x.multiplier = {real, take()};
+      b.branch.bifurcations.push_back(std::move(x));
+    }
+    return b;
+  }
+
+  const std::vector<double>& numbers() const { return numbers_; }
+
+ private:
+  void put(double x) { numbers_.push_back(x); }
+  void put(const Vec& v) {
+    put(static_cast<double>(v.size()));
+    numbers_.insert(numbers_.end(), v.begin(), v.end());
+  }
   void put(const BranchPoint& p) {
     put(p.value);
-    for (const double x : p.z) put(x);
-    for (const double x : p.tangent) put(x);
+    put(p.z);
+    put(p.tangent);
     put(p.step);
     put(p.residual);
-    put(p.multipliers.size() > 0 ? 1.0 : 0.0);
+    put(static_cast<double>(p.multipliers.size()));
     for (const Complex& m : p.multipliers) put(m.real()), put(m.imag());
+    put(static_cast<double>(p.contacts.size()));
     for (const ContactMeasure& c : p.contacts) {
       for (const double x :
            {c.duty, c.impacts, c.sticking, c.max_normal, c.max_tangential, c.touch_time}) {
@@ -35,53 +89,75 @@ class Packed {
       }
     }
   }
-  void put(double x) { numbers_.push_back(x); }
 
-  BranchPoint take_point(int period) {
+  BranchPoint take_point() {
     BranchPoint p;
     p.value = take();
-    const Eigen::Index size = layout_.states * period + (layout_.is_rotating ? 2 : 1);
-    p.z.resize(size);
-    for (double& x : p.z) x = take();
-    p.tangent.resize(size);
-    for (double& x : p.tangent) x = take();
+    p.z = take_vector();
+    p.tangent = take_vector();
     p.step = take();
     p.residual = take();
-    if (take() != 0.0) p.multipliers.resize(layout_.states - (layout_.is_rotating ? 1 : 0));
+    p.multipliers.resize(take_count());
     for (Complex& m : p.multipliers) {
       const double real = take();
       m = {real, take()};
     }
-    for (const std::string& name : layout_.contacts) {
-      ContactMeasure c{.name = name, .mean_slip = nan};
+    p.contacts.resize(static_cast<std::size_t>(take_count()));
+    for (std::size_t i = 0; i < p.contacts.size(); ++i) {
+      ContactMeasure& c = p.contacts[i];
+      if (i < contacts_.size()) c.name = contacts_[i];
+      c.mean_slip = nan;
       for (double* x :
            {&c.duty, &c.impacts, &c.sticking, &c.max_normal, &c.max_tangential, &c.touch_time}) {
         *x = take();
       }
-      p.contacts.push_back(std::move(c));
     }
     return p;
   }
+  Vec take_vector() {
+    Vec v(take_count());
+    for (double& x : v) x = take();
+    return v;
+  }
   double take() {
-    if (next_ == numbers_.size())
-      throw FileError(group + "/walk is too short: it is of another study");
+    if (next_ == numbers_.size()) throw FileError("the walk is too short: it is of another study");
     return numbers_[next_++];
   }
-  int take_count() { return static_cast<int>(take()); }
+  int take_count() {
+    const double x = take();
+    if (!(x >= 0.0 && x < 1e8)) throw FileError("the walk is damaged, or of another version");
+    return static_cast<int>(x);
+  }
 
-  const std::vector<double>& numbers() const { return numbers_; }
-
- private:
-  const BranchLayout& layout_;
+  const std::vector<std::string>& contacts_;
   std::vector<double> numbers_;
   std::size_t next_ = 0;
 };
+
+/// The branches of a walk, with the ends and the names of contacts that stand beside it.
+std::vector<TracedBranch> read_walk(const ResultReader& file, const std::string& of,
+                                    const BranchLayout& layout) {
+  Packed walk(layout.contacts, file.numbers(of + "/walk"));
+  std::vector<std::string> grazing;
+  if (file.has(of + "/bifurcation_contact")) grazing = file.strings(of + "/bifurcation_contact");
+  std::size_t known = 0;
+  std::vector<TracedBranch> branches;
+  for (const std::string& end : file.strings(of + "/end")) {
+    branches.push_back(walk.take_branch());
+    branches.back().branch.end = end;
+    for (Bifurcation& x : branches.back().branch.bifurcations) {
+      x.contact = known < grazing.size() ? grazing[known] : "";
+      ++known;
+    }
+  }
+  return branches;
+}
 
 }  // namespace
 
 void write_branches(ResultWriter& file, const BranchLayout& layout,
                     const std::vector<TracedBranch>& branches, bool is_complete) {
-  Packed walk(layout);
+  Packed walk(layout.contacts);
   std::vector<std::string> ends, kinds, grazing;
   std::vector<int> number, period, parent, of_point, stable, of_bifurcation, after;
   std::vector<double> value, revolutions, residual, radius, duty, impacts, normal, tangential, at,
@@ -93,15 +169,9 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
     period.push_back(b.branch.period);
     parent.push_back(b.parent);
     ends.push_back(b.branch.end);
-    for (const double x :
-         {double(b.branch.period), double(b.parent), double(b.generation), b.direction,
-          double(b.branch.points.size()), double(b.branch.bifurcations.size())}) {
-      walk.put(x);
-    }
+    walk.put(b);
     for (std::size_t i = 0; i < b.branch.points.size(); ++i) {
       const BranchPoint& p = b.branch.points[i];
-      walk.put(p);
-      for (const double r : b.radii[i]) walk.put(r);
       of_point.push_back(number.back());
       value.push_back(p.value);
       revolutions.push_back(layout.period(b.branch, p));
@@ -121,11 +191,6 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
       }
     }
     for (const Bifurcation& x : b.branch.bifurcations) {
-      walk.put(x.at);
-      for (const double v :
-           {double(x.kind), double(x.after), x.change, x.multiplier.real(), x.multiplier.imag()}) {
-        walk.put(v);
-      }
       kinds.emplace_back(name_of(x.kind));
       grazing.push_back(x.contact);
       of_bifurcation.push_back(number.back());
@@ -185,42 +250,54 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
 }
 
 std::vector<TracedBranch> read_branches(const ResultReader& file, const BranchLayout& layout) {
-  Packed walk(layout, file.numbers(group + "/walk"));
-  const std::vector<std::string> ends = file.strings(group + "/end");
-  std::vector<std::string> grazing;
-  if (file.has(group + "/bifurcation_contact")) {
-    grazing = file.strings(group + "/bifurcation_contact");
-  }
-  std::size_t known = 0;
-  std::vector<TracedBranch> branches;
-  for (const std::string& end : ends) {
-    TracedBranch b;
-    b.branch.end = end;
-    b.branch.period = walk.take_count();
-    b.parent = walk.take_count();
-    b.generation = walk.take_count();
-    b.direction = walk.take();
-    const int points = walk.take_count(), bifurcations = walk.take_count();
-    for (int i = 0; i < points; ++i) {
-      b.branch.points.push_back(walk.take_point(b.branch.period));
-      b.radii.emplace_back();
-      for (std::size_t k = 0; k < layout.stations.size(); ++k)
-        b.radii.back().push_back(walk.take());
+  return read_walk(file, group, layout);
+}
+
+void write_borders(ResultWriter& file, const BranchLayout& layout, const BorderAxes& axes,
+                   const std::vector<TracedBranch>& borders, bool is_complete) {
+  const std::string of = "/border";
+  const auto path = [&](const char* name) { return of + "/" + name; };
+  Packed walk(layout.contacts);
+  std::vector<std::string> kinds, contacts, ends;
+  std::vector<int> number, period, curve, stable;
+  std::vector<double> first, second;
+  for (const TracedBranch& b : borders) {
+    walk.put(b);
+    number.push_back(static_cast<int>(number.size()) + 1);
+    kinds.emplace_back(name_of(b.kind));
+    contacts.push_back(b.contact);
+    period.push_back(b.branch.period);
+    ends.push_back(b.branch.end);
+    for (const BranchPoint& p : b.branch.points) {
+      curve.push_back(number.back());
+      first.push_back(axes.first_value(p));
+      second.push_back(p.value);
+      const CVec& others = p.multipliers;
+      stable.push_back(others.size() == 0 || others.cwiseAbs().maxCoeff() < 1.0 ? 1 : 0);
     }
-    for (int i = 0; i < bifurcations; ++i) {
-      Bifurcation x{.at = walk.take_point(b.branch.period)};
-      x.kind = static_cast<BifurcationKind>(walk.take_count());
-      x.after = static_cast<std::size_t>(walk.take_count());
-      x.change = walk.take();
-      const double real = walk.take();
-      x.multiplier = {real, walk.take()};
-      x.contact = known < grazing.size() ? grazing[known] : "";
-      ++known;
-      b.branch.bifurcations.push_back(std::move(x));
-    }
-    branches.push_back(std::move(b));
   }
-  return branches;
+  file.dataset(path("number"), number, {"", "curve", {""}});
+  const std::vector<std::string> of_curve{path("number")};
+  file.dataset(path("kind"), kinds, {"", "kind of the bifurcation", of_curve});
+  file.dataset(path("contact"), contacts, {"", "contact that grazes", of_curve});
+  file.dataset(path("period"), period, {"", "period of the orbits [revolutions]", of_curve});
+  file.dataset(path("end"), ends, {"", "why it ends", of_curve});
+  file.dataset(path("first"), first, {layout.unit, layout.path, {""}});
+  const std::vector<std::string> of_point{path("first")};
+  file.dataset(path("second"), second, {axes.unit, axes.path, of_point});
+  file.dataset(path("curve"), curve, {"", "curve of a point", of_point});
+  file.dataset(path("stable"), stable,
+               {"", "1: no other multiplier is outside of the unit circle", of_point});
+  file.dataset(path("walk"), walk.numbers(), {"", "what the walk goes on from", {""}});
+  file.attribute(of, "complete", is_complete ? 1 : 0);
+}
+
+std::vector<TracedBranch> read_borders(const ResultReader& file, const BranchLayout& layout) {
+  if (!file.has("/border/walk")) return {};
+  std::vector<TracedBranch> borders = read_walk(file, "/border", layout);
+  const std::vector<std::string> contacts = file.strings("/border/contact");
+  for (std::size_t i = 0; i < borders.size(); ++i) borders[i].contact = contacts[i];
+  return borders;
 }
 
 }  // namespace whirl

@@ -18,6 +18,8 @@ struct TracedBranch {
   int generation = 0;  ///< how many branches it is away from the first
   double direction = 1.0;
   std::vector<std::vector<double>> radii;  ///< per point, largest distance of the stations [m]
+  BifurcationKind kind{};                  ///< of a border: of which bifurcation
+  std::string contact;                     ///< likewise: which grazes
 };
 
 /// What all branches of a study have in common.
@@ -42,5 +44,24 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
 /// The same branches again, bit by bit.
 /// @throws FileError  if the file holds something else
 std::vector<TracedBranch> read_branches(const ResultReader& file, const BranchLayout& layout);
+
+/// The second parameter of borders, and what the unknown of the first one means.
+struct BorderAxes {
+  std::string path, unit;
+  double low = 0.0, high = 1.0;  ///< range of the first parameter
+
+  double first_value(const BranchPoint& p) const {
+    return low + p.z(p.z.size() - 2) * (high - low);
+  }
+};
+
+/// Group /border: curves of bifurcations along a second parameter.
+/// @param layout  of the branch that they begin on
+void write_borders(ResultWriter& file, const BranchLayout& layout, const BorderAxes& axes,
+                   const std::vector<TracedBranch>& borders, bool is_complete);
+
+/// The same borders again, bit by bit; none where there are none.
+/// @throws FileError  if the file holds something else
+std::vector<TracedBranch> read_borders(const ResultReader& file, const BranchLayout& layout);
 
 }  // namespace whirl

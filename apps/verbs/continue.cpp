@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/verbs/all.hpp"
+#include "apps/verbs/borders.hpp"
 #include "apps/verbs/branches.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/orbits.hpp"
@@ -13,8 +14,6 @@
 #include "libdyn/cycle.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/model_file.hpp"
-#include "libio/parameter_axis.hpp"
 #include "libio/table.hpp"
 
 namespace whirl {
@@ -23,84 +22,21 @@ namespace {
 
 constexpr double same_place = 1e-5;  ///< of the range, where branches meet
 
-/// The parameter, its range, and the model at its values.
-struct Parameter {
-  ParameterAxis axis;
-  double low = 0.0, high = 0.0, first = 0.0, largest_step = 0.0;
-  double direction = 1.0;  ///< towards the last value
-  bool goes_both = false;  ///< the start is within the range
-  std::string file, source;
-
-  Model model(double value) const {
-    ParameterAxis at = axis;
-    at.values = {value};
-    return parse_model(source, file, at.assignments(0), std::filesystem::path(file).parent_path());
-  }
-  std::string text(double value) const {
-    return fmt::format("{} = {:.8g}{}{}", axis.path, value, axis.unit.empty() ? "" : " ",
-                       axis.unit);
-  }
-};
-
-Parameter parameter_of(const Invocation& call, const Model& model) {
-  if (call.over.size() != 1) {
-    throw ModelError(
-        {"--over"}, "",
-        fmt::format("found {} of them, expected one: --over PATH=first:last:step, such "
-                    "as --over contact.ring.friction=0.15:0:0.002",
-                    call.over.size()));
-  }
-  const int points = static_cast<int>(call.integer("points", 101, 2));
-  const auto axis = parse_axis(call.over[0], points);
-  if (!axis) throw ModelError({"--over " + call.over[0]}, "", axis.problem);
-  Parameter p{.axis = *axis, .file = call.file, .source = model.source};
-  const auto& values = axis->values;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  p.low = *low;
-  p.high = *high;
-  p.first = values.front();
-  if (!(p.low < p.high)) {
-    throw ModelError({"--over " + call.over[0]}, "", "expected two values that differ");
-  }
-  p.direction = values.back() >= values.front() ? 1.0 : -1.0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    p.largest_step = std::max(p.largest_step, std::abs(values[i] - values[i - 1]));
-  }
-  if (call.has("at")) {
-    const std::string line = p.axis.path + "=" + call.text("at");
-    const auto at = parse_axis(line + (p.axis.unit.empty() ? "" : p.axis.unit), 0);
-    const auto own = parse_axis(line, 0);  // with a unit of its own
-    const auto& found = own && !own->unit.empty() ? own : at;
-    if (!found || found->values.size() != 1 || found->unit != p.axis.unit) {
-      throw ModelError({"--at " + call.text("at")}, "", "expected a value such as those of --over");
-    }
-    p.first = found->values[0];
-    if (p.first < p.low || p.first > p.high) {
-      throw ModelError({"--at " + call.text("at")}, "", "expected a value within --over");
-    }
-    p.goes_both = p.first > p.low && p.first < p.high;
-    if (p.first == p.high) p.direction = -1.0;
-    if (p.first == p.low) p.direction = 1.0;
-  }
-  for (const double end : {p.low, p.high, p.first}) require_speed(p.model(end));
-  return p;
-}
-
 /// All branches of a call, each walked in its turn.
 class Tracing {
  public:
-  Tracing(const Parameter& parameter, std::shared_ptr<const Scene> first,
+  Tracing(const BranchParameters& parameters, std::shared_ptr<const Scene> first,
           std::vector<NamedPoint> stations, ContinuationOptions options, int generations,
           bool is_rotating)
-      : parameter_(parameter),
+      : parameters_(parameters),
         first_(std::move(first)),
         stations_(std::move(stations)),
         options_(std::move(options)),
         generations_(generations) {
     layout_ = {.states = first_->contacts.size(),
                .scale = first_->contacts.state_scale(),
-               .path = parameter.axis.path,
-               .unit = parameter.axis.unit,
+               .path = parameters.along.axis.path,
+               .unit = parameters.along.axis.unit,
                .is_rotating = is_rotating};
     layout_.contacts.resize(static_cast<std::size_t>(first_->contacts.owners()));
     for (const ReducedContact& c : first_->contacts.contacts()) {
@@ -127,8 +63,8 @@ class Tracing {
   void begin(const Vec& start) {
     const double period =
         layout_.is_rotating ? guessed_period(*first_, start) / first_->contacts.period() : 0.0;
-    for (const double direction : {-parameter_.direction, parameter_.direction}) {
-      if (direction != parameter_.direction && !parameter_.goes_both) continue;
+    for (const double direction : {-parameters_.along.direction, parameters_.along.direction}) {
+      if (direction != parameters_.along.direction && !parameters_.along.goes_both) continue;
       ContinuationOptions how = options_;
       how.direction = direction;
       const Continuation walk = layout_.is_rotating
@@ -175,14 +111,7 @@ class Tracing {
   }
 
  private:
-  std::shared_ptr<const Scene> scene(double value) const {
-    try {
-      return std::make_shared<const Scene>(
-          make_scene(parameter_.model(value), ReductionEstimate::no));
-    } catch (const ModelError& error) {  // no model there: the branch ends
-      throw NumericalError(error.what());
-    }
-  }
+  std::shared_ptr<const Scene> scene(double value) const { return parameters_.scene(value); }
 
   /// A branch that ends on another one would be walked again from there.
   void drop_same(std::size_t number) {
@@ -239,7 +168,7 @@ class Tracing {
     return largest;
   }
 
-  const Parameter& parameter_;
+  const BranchParameters& parameters_;
   std::shared_ptr<const Scene> first_;
   std::vector<NamedPoint> stations_;
   ContinuationOptions options_;
@@ -302,7 +231,7 @@ std::string period_text(const Branch& branch, const BranchLayout& layout) {
 }
 
 std::string branches_text(const std::vector<TracedBranch>& branches, const BranchLayout& layout,
-                          const Parameter& parameter) {
+                          const BranchParameters& parameters) {
   std::string text;
   for (std::size_t k = 0; k < branches.size(); ++k) {
     const Branch& b = branches[k].branch;
@@ -317,8 +246,9 @@ std::string branches_text(const std::vector<TracedBranch>& branches, const Branc
         branches[k].parent > 0 ? fmt::format("; begins on branch {}", branches[k].parent) : "",
         b.end.empty() ? "not yet" : b.end);
     if (b.bifurcations.empty()) continue;
-    const std::string unit = parameter.axis.unit.empty() ? "" : " [" + parameter.axis.unit + "]";
-    Table table({"bifurcation", parameter.axis.path + unit, "after point", "multiplier"});
+    const std::string unit =
+        parameters.along.axis.unit.empty() ? "" : " [" + parameters.along.axis.unit + "]";
+    Table table({"bifurcation", parameters.along.axis.path + unit, "after point", "multiplier"});
     for (const Bifurcation& x : b.bifurcations) {
       const bool is_grazing = x.kind == BifurcationKind::grazing;
       table.row({std::string(name_of(x.kind)) + (is_grazing ? " of " + x.contact : ""),
@@ -340,28 +270,30 @@ Report run_continue(const Invocation& call) {
   if (is_rotating && (call.has("switch") || call.has("period"))) {
     throw ModelError({"--frame rotating"}, "", "expected neither --period nor --switch beside it");
   }
-  const Parameter parameter = parameter_of(call, model);
-  ContinuationOptions options{.low = parameter.low,
-                              .high = parameter.high,
-                              .first = parameter.first,
-                              .direction = parameter.direction,
-                              .largest_step = parameter.largest_step};
+  const BranchParameters parameters = branch_parameters(call, model);
+  if (is_rotating && parameters.across) {
+    throw ModelError({"--frame rotating"}, "", "expected one --over beside it");
+  }
+  ContinuationOptions options = parameters.along.options();
   options.period = static_cast<int>(call.integer("period", 1));
   options.most_points = static_cast<int>(call.integer("most", 2000));
   const int generations = static_cast<int>(call.integer("switch", 0, 0));
 
-  const Model at_first = parameter.model(parameter.first);
+  const Model at_first = parameters.model(parameters.along.first);
   const auto first = std::make_shared<const Scene>(make_scene(at_first));
-  Tracing tracing(parameter, first,
+  Tracing tracing(parameters, first,
                   select_points(at_first, first->assembler, call.text("stations")), options,
                   generations, is_rotating);
+  Borders borders(parameters, first, tracing.layout(), options.most_points);
   StudyFile file(
       call, [&] { return call.result_file(model); },
       [&](ResultWriter& to) {
         write_branches(to, tracing.layout(), tracing.branches(), tracing.is_complete());
+        borders.write(to);
       },
       [&](const ResultReader& earlier) {
         tracing.branches() = read_branches(earlier, tracing.layout());
+        borders.read(earlier);
       });
   std::size_t resumed = 0;
   for (const TracedBranch& b : tracing.branches()) resumed += b.branch.points.size();
@@ -377,6 +309,10 @@ Report run_continue(const Invocation& call) {
     Progress progress("points of branches", options.most_points, call.shows_progress);
     try {
       if (!tracing.walk([&](std::size_t points) {
+            progress.update(static_cast<long>(points));
+            file.save_if_due();
+          }) ||
+          !borders.walk(tracing.branches(), [&](std::size_t points) {
             progress.update(static_cast<long>(points));
             file.save_if_due();
           })) {
@@ -399,12 +335,16 @@ Report run_continue(const Invocation& call) {
     list.add(r);
   }
   Record& r = report.record;
-  r.set("parameter", parameter.axis.path).set("unit", parameter.axis.unit);
+  r.set("parameter", parameters.along.axis.path).set("unit", parameters.along.axis.unit);
   r.set("branches", list).set("points", points_record(branches, tracing.layout()));
   r.set("bifurcations", bifurcations_record(branches)).set("resumed", static_cast<long>(resumed));
-  report.text = "Periodic orbits along " + parameter.axis.path +
+  report.text = "Periodic orbits along " + parameters.along.axis.path +
                 (model.title.empty() ? "" : ": " + model.title) + "\n" +
-                branches_text(branches, tracing.layout(), parameter);
+                branches_text(branches, tracing.layout(), parameters);
+  if (parameters.across) {
+    r.set("borders", borders.record());
+    report.text += borders.text();
+  }
   if (resumed > 0) report.text += fmt::format("\n  {} points were there already\n", resumed);
   if (status == 130) {
     report.text +=

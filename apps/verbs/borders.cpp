@@ -1,0 +1,238 @@
+#include "apps/verbs/borders.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "apps/verbs/simulation.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/hdf5.hpp"
+#include "libio/model_file.hpp"
+#include "libio/table.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// A parameter from its --over and its part of --at, which may be empty.
+BranchParameter parameter_of(const std::string& over, const std::string& at, int points) {
+  const auto axis = parse_axis(over, points);
+  if (!axis) throw ModelError({"--over " + over}, "", axis.problem);
+  BranchParameter p{.axis = *axis};
+  const auto& values = axis->values;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  p.low = *low;
+  p.high = *high;
+  p.first = values.front();
+  if (!(p.low < p.high)) {
+    throw ModelError({"--over " + over}, "", "expected two values that differ");
+  }
+  p.direction = values.back() >= values.front() ? 1.0 : -1.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    p.largest_step = std::max(p.largest_step, std::abs(values[i] - values[i - 1]));
+  }
+  if (at.empty()) return p;
+  const std::string line = p.axis.path + "=" + at;
+  const auto same = parse_axis(line + (p.axis.unit.empty() ? "" : p.axis.unit), 0);
+  const auto own = parse_axis(line, 0);  // with a unit of its own
+  const auto& found = own && !own->unit.empty() ? own : same;
+  if (!found || found->values.size() != 1 || found->unit != p.axis.unit) {
+    throw ModelError({"--at " + at}, "", "expected a value such as those of --over");
+  }
+  p.first = found->values[0];
+  if (p.first < p.low || p.first > p.high) {
+    throw ModelError({"--at " + at}, "", "expected a value within --over");
+  }
+  p.goes_both = p.first > p.low && p.first < p.high;
+  if (p.first == p.high) p.direction = -1.0;
+  if (p.first == p.low) p.direction = 1.0;
+  return p;
+}
+
+bool is_followed(const Bifurcation& b) {
+  if (b.kind == BifurcationKind::pitchfork) return false;
+  // a grazing that ends a branch is not on it
+  return b.kind != BifurcationKind::grazing || b.at.residual < 1e-8;
+}
+
+}  // namespace
+
+Model BranchParameters::model(double first, double second) const {
+  const auto assignments = [](ParameterAxis axis, double value) {
+    axis.values = {value};
+    return axis.assignments(0);
+  };
+  std::vector<std::string> sets = assignments(along.axis, first);
+  if (across) {
+    for (std::string& set : assignments(across->axis, second)) sets.push_back(std::move(set));
+  }
+  return parse_model(source, file, sets, std::filesystem::path(file).parent_path());
+}
+
+std::shared_ptr<const Scene> BranchParameters::scene(double first, double second) const {
+  try {
+    return std::make_shared<const Scene>(make_scene(model(first, second), ReductionEstimate::no));
+  } catch (const ModelError& error) {  // no model there: the branch ends
+    throw NumericalError(error.what());
+  }
+}
+
+BranchParameters branch_parameters(const Invocation& call, const Model& model) {
+  if (call.over.empty() || call.over.size() > 2) {
+    throw ModelError(
+        {"--over"}, "",
+        fmt::format("found {} of them, expected one, or two for borders: --over "
+                    "PATH=first:last:step, such as --over contact.ring.friction=0.15:0:0.002",
+                    call.over.size()));
+  }
+  std::string at = call.text("at"), second_at;
+  if (const auto comma = at.find(','); comma != std::string::npos) {
+    second_at = at.substr(comma + 1);
+    at.resize(comma);
+    if (call.over.size() == 1) {
+      throw ModelError({"--at " + call.text("at")}, "", "expected one value for one --over");
+    }
+  }
+  const int points = static_cast<int>(call.integer("points", 101, 2));
+  BranchParameters p{
+      .along = parameter_of(call.over[0], at, points), .file = call.file, .source = model.source};
+  if (call.over.size() == 2) p.across = parameter_of(call.over[1], second_at, points);
+  for (const double first : {p.along.low, p.along.high, p.along.first}) {
+    require_speed(p.model(first));
+    if (!p.across) continue;
+    for (const double second : {p.across->low, p.across->high})
+      require_speed(p.model(first, second));
+  }
+  return p;
+}
+
+Borders::Borders(const BranchParameters& parameters, std::shared_ptr<const Scene> first,
+                 const BranchLayout& layout, int most_points)
+    : parameters_(parameters),
+      first_(std::move(first)),
+      layout_(layout),
+      most_points_(most_points) {}
+
+BorderAxes Borders::axes() const {
+  return {.path = parameters_.across->axis.path,
+          .unit = parameters_.across->axis.unit,
+          .low = parameters_.along.low,
+          .high = parameters_.along.high};
+}
+
+BranchEquations Borders::equations(const TracedBranch& border) const {
+  const FlowPlane plane{
+      [this](double a, double b) { return flow_of(parameters_.scene(a, b), *first_); },
+      [this, contact = border.contact](double a, double b, std::span<const Vec> starts) {
+        const auto scene = parameters_.scene(a, b);
+        const BasisChange change(*scene, *first_);
+        std::vector<Vec> own;
+        for (const Vec& y : starts) own.push_back(change.to(y));
+        return nearest_graze(*scene, contact, own);
+      }};
+  return border_equations(border.kind, plane, layout_.scale, parameters_.along.low,
+                          parameters_.along.high);
+}
+
+void Borders::begin(const std::vector<TracedBranch>& branches) {
+  for (std::size_t k = 0; k < branches.size(); ++k) {
+    for (const Bifurcation& b : branches[k].branch.bifurcations) {
+      if (!is_followed(b)) continue;
+      TracedBranch border{.parent = static_cast<int>(k) + 1, .kind = b.kind, .contact = b.contact};
+      for (const double direction :
+           {-parameters_.across->direction, parameters_.across->direction}) {
+        if (direction != parameters_.across->direction && !parameters_.across->goes_both) continue;
+        ContinuationOptions how = parameters_.across->options();
+        how.direction = direction;
+        how.period = branches[k].branch.period;
+        how.most_points = most_points_;
+        border.direction = direction;
+        try {
+          border.branch = Continuation(equations(border), b.at.z, how).branch();
+        } catch (const NumericalError& error) {  // a point where two of them meet, say
+          border.branch = {.period = how.period, .points = {b.at}, .end = error.what()};
+          border.branch.points[0].value = parameters_.across->first;
+          Vec z(b.at.z.size() + 1);  // the second parameter is appended
+          z << b.at.z, 0.0;
+          border.branch.points[0].z = z;
+        }
+        border.radii = {{}};
+        borders_.push_back(border);
+      }
+    }
+  }
+}
+
+bool Borders::walk(const std::vector<TracedBranch>& branches,
+                   const std::function<void(std::size_t)>& added) {
+  if (!parameters_.across) return true;
+  if (borders_.empty()) begin(branches);
+  std::size_t points = 0;
+  for (TracedBranch& border : borders_) {
+    if (!border.branch.end.empty()) continue;
+    ContinuationOptions how = parameters_.across->options();
+    how.direction = border.direction;
+    how.period = border.branch.period;
+    how.most_points = most_points_;
+    Continuation on(equations(border), border.branch, how);
+    while (!is_interrupted() && on.advance()) {
+      border.branch = on.branch();
+      border.radii.resize(border.branch.points.size());
+      added(++points);
+    }
+    border.branch = on.branch();
+    border.radii.resize(border.branch.points.size());
+    if (border.branch.end.empty()) return false;
+  }
+  return true;
+}
+
+void Borders::write(ResultWriter& file) const {
+  if (borders_.empty()) return;
+  const bool is_complete = std::all_of(borders_.begin(), borders_.end(),
+                                       [](const auto& b) { return !b.branch.end.empty(); });
+  write_borders(file, layout_, axes(), borders_, is_complete);
+}
+
+void Borders::read(const ResultReader& file) {
+  borders_ = read_borders(file, layout_);
+}
+
+Record Borders::record() const {
+  Record list = Record::array();
+  for (const TracedBranch& b : borders_) {
+    Record r, points = Record::array();
+    r.set("kind", name_of(b.kind)).set("period_revs", b.branch.period).set("branch", b.parent);
+    r.set("contact", b.contact.empty() ? Record(nullptr) : Record(b.contact));
+    for (const BranchPoint& p : b.branch.points) {
+      Record pair = Record::array();
+      pair.add(axes().first_value(p));
+      pair.add(p.value);
+      points.add(pair);
+    }
+    r.set("points", points).set("end", b.branch.end);
+    list.add(r);
+  }
+  return list;
+}
+
+std::string Borders::text() const {
+  const auto named = [](const BranchParameter& p) {
+    return p.axis.path + (p.axis.unit.empty() ? "" : " [" + p.axis.unit + "]");
+  };
+  if (borders_.empty()) return "\n  no border: there is no bifurcation to follow\n";
+  Table table({"border", "of branch", "points", named(parameters_.along),
+               "at " + named(*parameters_.across), "it ends"});
+  for (const TracedBranch& b : borders_) {
+    const auto &first = b.branch.points.front(), &last = b.branch.points.back();
+    table.row({std::string(name_of(b.kind)) + (b.contact.empty() ? "" : " of " + b.contact),
+               std::to_string(b.parent), std::to_string(b.branch.points.size()),
+               fmt::format("{:.6g} to {:.6g}", axes().first_value(first), axes().first_value(last)),
+               fmt::format("{:.6g} to {:.6g}", first.value, last.value), b.branch.end});
+  }
+  return "\n  borders in the plane of both parameters\n\n" + table.text();
+}
+
+}  // namespace whirl

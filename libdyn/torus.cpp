@@ -1,0 +1,304 @@
+#include "libdyn/torus.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double broken = 1e-2;         ///< tail beyond which there is no circle
+constexpr int iterations = 4000;        ///< of tangents, for exponents
+constexpr Eigen::Index scanned = 1024;  ///< sections in which a line is looked for at first
+constexpr double moves = 1e-9;          ///< scales that a motion moves at least
+
+/// Shift of a trigonometric polynomial by its values at N even angles: the value at theta + angle is
+/// the sum of D(theta_i - theta_j + angle) x_j with Dirichlet's kernel D; and its derivative.
+struct Shift {
+  Mat value, rate;
+  Shift(Eigen::Index N, double angle) : value(N, N), rate(N, N) {
+    const Eigen::Index K = (N - 1) / 2;
+    for (Eigen::Index d = 0; d < N; ++d) {
+      const double t = turn * static_cast<double>(d) / static_cast<double>(N) + angle;
+      double v = 1.0, r = 0.0;
+      for (Eigen::Index k = 1; k <= K; ++k) {
+        const double a = static_cast<double>(k);
+        v += 2.0 * std::cos(a * t);
+        r -= 2.0 * a * std::sin(a * t);
+      }
+      for (Eigen::Index j = 0; j < N; ++j) {
+        value((j + d) % N, j) = v / static_cast<double>(N);
+        rate((j + d) % N, j) = r / static_cast<double>(N);
+      }
+    }
+  }
+};
+
+/// Coefficients of harmonics 0 to K of values at even angles, a column each.
+CMat harmonics_of(const Mat& points) {
+  const Eigen::Index N = points.cols(), K = (N - 1) / 2;
+  CMat c = CMat::Zero(points.rows(), K + 1);
+  for (Eigen::Index k = 0; k <= K; ++k) {
+    for (Eigen::Index j = 0; j < N; ++j) {
+      const auto place = static_cast<double>(k * j % N);
+      c.col(k) += points.col(j) *
+                  std::polar(1.0 / static_cast<double>(N), -turn * place / static_cast<double>(N));
+    }
+  }
+  return c;
+}
+
+double tail_of(const Mat& scaled_points) {
+  const CMat c = harmonics_of(scaled_points);
+  const Eigen::Index K = c.cols() - 1, some = std::max<Eigen::Index>(1, K / 8);
+  double largest = 0.0, last = 0.0;
+  for (Eigen::Index k = 1; k <= K; ++k) {
+    const double size = c.col(k).norm();
+    largest = std::max(largest, size);
+    if (k > K - some) last = std::max(last, size);
+  }
+  return largest > 0.0 ? last / largest : 0.0;
+}
+
+/// Weights exp(-1 / (t (1 - t))) of a smooth average.
+Vec smooth_weights(Eigen::Index count) {
+  Vec w(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double t = (static_cast<double>(i) + 1.0) / (static_cast<double>(count) + 1.0);
+    w(i) = std::exp(-1.0 / (t * (1.0 - t)));
+  }
+  return w / w.sum();
+}
+
+/// The matrix of an angle by its values at even ones.
+Mat tangent_at(const std::vector<Mat>& tangents, double theta) {
+  const auto N = std::ssize(tangents);
+  const Eigen::Index K = (N - 1) / 2;
+  Mat A = Mat::Zero(tangents[0].rows(), tangents[0].cols());
+  for (std::ptrdiff_t j = 0; j < N; ++j) {
+    const double t = theta - turn * static_cast<double>(j) / static_cast<double>(N);
+    const double half = std::sin(0.5 * t);
+    const double kernel = std::abs(half) < 1e-12
+                              ? static_cast<double>(N)
+                              : std::sin((static_cast<double>(K) + 0.5) * t) / half;
+    A += kernel / static_cast<double>(N) * tangents[static_cast<std::size_t>(j)];
+  }
+  return A;
+}
+
+/// Exponents of tangents along a circle, all of them, descending: smooth averages of the growth of
+/// orthogonal directions, which converge faster than any power where the motion is quasi-periodic.
+Vec exponents_of(const std::vector<Mat>& tangents, double rotation) {
+  const Eigen::Index n = tangents[0].rows();
+  constexpr int settling = iterations / 4;
+  const Vec weights = smooth_weights(iterations);
+  Mat Q = Mat::Identity(n, n);
+  Vec sum = Vec::Zero(n);
+  for (int i = -settling; i < iterations; ++i) {
+    const double cycles = rotation * i;
+    Q = tangent_at(tangents, turn * (cycles - std::floor(cycles))) * Q;
+    for (Eigen::Index a = 0; a < n; ++a) {  // modified Gram-Schmidt
+      for (Eigen::Index b = 0; b < a; ++b) Q.col(a) -= Q.col(b).dot(Q.col(a)) * Q.col(b);
+      const double size = Q.col(a).norm();
+      Q.col(a) /= size;
+      if (i >= 0) sum(a) += weights(i) * std::log(size);
+    }
+  }
+  std::sort(sum.begin(), sum.end(), std::greater<>());
+  return sum;
+}
+
+/// Exponents without the one nearest to zero, and that one.
+std::pair<Vec, double> across(const Vec& all) {
+  Eigen::Index along = 0;
+  all.cwiseAbs().minCoeff(&along);
+  Vec others(all.size() - 1);
+  others << all.head(along), all.tail(all.size() - along - 1);
+  return {others, all(along)};
+}
+
+}  // namespace
+
+Vec circle_unknowns(const InvariantCircle& circle, const Vec& scale) {
+  const Mat scaled = scale.cwiseInverse().asDiagonal() * circle.points;
+  Vec x(scaled.size() + 1);
+  x << scaled.reshaped(), circle.rotation;
+  return x;
+}
+
+Eigen::Index circle_coordinate(const InvariantCircle& circle, const Vec& scale) {
+  Eigen::Index most = 0;
+  harmonics_of(scale.cwiseInverse().asDiagonal() * circle.points).col(1).cwiseAbs().maxCoeff(&most);
+  return most;
+}
+
+InvariantCircle circle_of(const Vec& unknowns, const Vec& scale, int period) {
+  const Eigen::Index n = scale.size();
+  const Mat scaled = unknowns.head(unknowns.size() - 1).reshaped(n, (unknowns.size() - 1) / n);
+  return {.points = scale.asDiagonal() * scaled,
+          .rotation = unknowns(unknowns.size() - 1),
+          .period = period,
+          .tail = tail_of(scaled)};
+}
+
+BranchEquations circle_equations(FlowAt flow_at, Vec scale, int period, Eigen::Index coordinate) {
+  return {
+      [=, flow_at = std::move(flow_at)](const Vec& x, double value, Tangents wanted) {
+        const Eigen::Index n = scale.size(), size = x.size() - 1, N = size / n;
+        const Mat scaled = x.head(size).reshaped(n, N);
+        if (const double tail = tail_of(scaled); tail > broken) {
+          return BranchEquations::Value{
+              .failure = fmt::format("the highest harmonics are {:.0e} of the largest: the circle "
+                                     "breaks up or locks",
+                                     tail)};
+        }
+        std::vector<Vec> starts;
+        for (Eigen::Index j = 0; j < N; ++j) starts.push_back(scale.cwiseProduct(scaled.col(j)));
+        const std::vector<Passage> passages = flow_at(value).go(starts, period, wanted);
+        Mat ends(n, N);
+        BranchEquations::Value at;
+        for (Eigen::Index j = 0; j < N; ++j) {
+          const Passage& p = passages[static_cast<std::size_t>(j)];
+          if (!p.failure.empty()) return BranchEquations::Value{.failure = p.failure};
+          ends.col(j) = p.end.cwiseQuotient(scale);
+          if (wanted == Tangents::no) continue;
+          at.tangents.push_back(scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal());
+        }
+        const Shift shift(N, turn * x(size));
+        at.residual.resize(size + 1);
+        at.residual.head(size) = (ends - scaled * shift.value.transpose()).reshaped();
+        const CVec c = harmonics_of(scaled.row(coordinate)).row(0);
+        at.residual(size) = c(1).imag();
+        if (wanted == Tangents::no) return at;
+        at.jacobian = Mat::Zero(size + 1, size + 1);
+        for (Eigen::Index i = 0; i < N; ++i) {
+          at.jacobian.block(i * n, i * n, n, n) = at.tangents[static_cast<std::size_t>(i)];
+          for (Eigen::Index j = 0; j < N; ++j) {
+            at.jacobian.block(i * n, j * n, n, n).diagonal().array() -= shift.value(i, j);
+          }
+          at.jacobian(size, i * n + coordinate) =
+              -std::sin(turn * static_cast<double>(i) / static_cast<double>(N)) /
+              static_cast<double>(N);
+        }
+        at.jacobian.col(size).head(size) = -turn * (scaled * shift.rate.transpose()).reshaped();
+        at.rotation = x(size);
+        return at;
+      },
+      [](const BranchEquations::Value& at) -> CVec {
+        return across(exponents_of(at.tangents, at.rotation)).first.array().exp().cast<Complex>();
+      }};
+}
+
+std::optional<InvariantCircle> guessed_circle(const Mat& sections, const Vec& scale, int period,
+                                              int harmonics) {
+  const Eigen::Index count = sections.cols();
+  if (count < 200) throw NumericalError("a circle needs 200 sections or more");
+  const Mat scaled = scale.cwiseInverse().asDiagonal() * sections;
+  const Vec mean = scaled * smooth_weights(count);
+  const Mat moving = scaled.colwise() - mean;
+  Eigen::Index most = 0;
+  if (moving.rowwise().squaredNorm().maxCoeff(&most) < moves * moves * static_cast<double>(count)) {
+    return std::nullopt;
+  }
+  /// Complex amplitude of a line, from as many sections as there are weights.
+  const auto average = [&](const auto& rows, const Vec& weights, double cycles) {
+    CVec sum = CVec::Zero(rows.rows());
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+      const double place = cycles * static_cast<double>(i);
+      sum += rows.col(i) * std::polar(weights(i), -turn * (place - std::floor(place)));
+    }
+    return sum;
+  };
+  // the strongest line: on a grid that none falls through, then by golden sections of more and more
+  Eigen::Index used = std::min<Eigen::Index>(count, scanned);
+  Vec weights = smooth_weights(used);
+  const Mat row = moving.row(most);
+  const auto size = [&](double cycles) { return std::abs(average(row, weights, cycles)(0)); };
+  double width = 0.5 / static_cast<double>(used), best = width, strongest = 0.0;
+  for (double cycles = width; cycles < 0.5; cycles += width) {
+    if (const double s = size(cycles); s > strongest) {
+      best = cycles;
+      strongest = s;
+    }
+  }
+  for (;;) {
+    double low = best - width, high = best + width;
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    for (int i = 0; i < 50; ++i) {
+      const double a = high - golden * (high - low), b = low + golden * (high - low);
+      const bool is_left = size(a) > size(b);
+      (is_left ? high : low) = is_left ? b : a;
+    }
+    best = 0.5 * (low + high);
+    if (used == count) break;
+    used = std::min(2 * used, count);
+    width = 0.5 / static_cast<double>(used);
+    weights = smooth_weights(used);
+  }
+  InvariantCircle circle{.rotation = best, .period = period};
+  const Eigen::Index N = 2 * harmonics + 1;
+  circle.points = scale.cwiseProduct(mean).replicate(1, N);
+  for (int k = 1; k <= harmonics; ++k) {
+    const CVec c = average(moving, weights, k * circle.rotation);
+    for (Eigen::Index j = 0; j < N; ++j) {
+      const double angle = turn * static_cast<double>(k * j % N) / static_cast<double>(N);
+      circle.points.col(j) += scale.cwiseProduct((2.0 * c * std::polar(1.0, angle)).real());
+    }
+  }
+  return circle;
+}
+
+InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
+                            const CircleOptions& options) {
+  const Vec& scale = flow.scale;
+  const FlowAt flow_at = [&](double) { return flow; };
+  InvariantCircle circle = guess;
+  for (int K = options.harmonics;; K *= 2) {
+    const Eigen::Index coordinate = circle_coordinate(circle, scale);
+    const BranchEquations equations = circle_equations(flow_at, scale, options.period, coordinate);
+    // the same polynomial at more angles, begun where the first harmonic is real
+    const Eigen::Index N = 2 * K + 1;
+    const CMat c = harmonics_of(circle.points);
+    const double begin = -std::arg(c(coordinate, 1));
+    Mat points = c.col(0).real().replicate(1, N);
+    for (Eigen::Index k = 1; k < std::min<Eigen::Index>(c.cols(), K + 1); ++k) {
+      for (Eigen::Index j = 0; j < N; ++j) {
+        const double theta = turn * static_cast<double>(j) / static_cast<double>(N) + begin;
+        points.col(j) += (2.0 * c.col(k) * std::polar(1.0, static_cast<double>(k) * theta)).real();
+      }
+    }
+    circle.points = points;
+    Vec x = circle_unknowns(circle, scale);
+    double before = std::numeric_limits<double>::infinity();
+    for (int step = 0;; ++step) {
+      const BranchEquations::Value at = equations.at(x, 0.0, Tangents::yes);
+      circle = circle_of(x, scale, options.period);
+      circle.failure = at.failure;
+      if (at.residual.size() == 0) return circle;
+      circle.residual = at.residual.lpNorm<Eigen::Infinity>();
+      if (is_closed(circle.residual, before)) {
+        std::tie(circle.exponents, circle.along) = across(exponents_of(at.tangents, at.rotation));
+        break;
+      }
+      const auto correction = newton_step(at.jacobian, at.residual);
+      if (!correction || step == options.most_steps || circle.residual > 1e3 * before) {
+        circle.failure =
+            fmt::format("no circle: after {} steps of Newton's method the residual is {:.1e}", step,
+                        circle.residual);
+        return circle;
+      }
+      before = circle.residual;
+      x -= *correction;
+    }
+    if (circle.tail < options.smooth || 2 * K > options.most_harmonics) return circle;
+  }
+}
+
+}  // namespace whirl
