@@ -135,6 +135,25 @@ const std::vector<Verb>& verbs() {
         from_option,
         {"restart", "", "begin anew, whatever the file of --out holds"}},
        run_continue},
+      {"torus",
+       "Contact",
+       "a quasi-periodic motion as an invariant circle, and along a parameter until it locks or "
+       "breaks",
+       "MODEL",
+       "whirl torus models/two_disk_oil_film.toml --speed 440rad/s --set "
+       "oil_film.1.viscosity=0.005 --set "
+       "oil_film.2.viscosity=0.005",
+       {{"over", "PATH=A:B:STEP", "a value of the model along which the circle is followed"},
+        points,
+        {"at", "VALUE", "where the first circle is looked for, between first and last (first)"},
+        {"period", "N", "revolutions of the map that it is a circle of (1)"},
+        {"harmonics", "N", "of the circle at first, doubled up to 64 (16)"},
+        {"revolutions", "N", "sections from which it is guessed (1000)"},
+        {"most", "N", "circles at most (200)"},
+        discard_option,
+        tolerance_option,
+        from_option},
+       run_torus},
       {"sweep", "Contact", "bifurcation diagram and spectra along one parameter, up and down",
        "MODEL",
        "whirl sweep models/jeffcott_stator.toml --over operation.speed=130:140:0.5rad/s --out "

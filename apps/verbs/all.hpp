@@ -16,6 +16,7 @@ Report run_simulate(const Invocation& call);
 Report run_identify(const Invocation& call);
 Report run_classify(const Invocation& call);
 Report run_orbit(const Invocation& call);
+Report run_torus(const Invocation& call);
 Report run_continue(const Invocation& call);
 Report run_sweep(const Invocation& call);
 Report run_map(const Invocation& call);
