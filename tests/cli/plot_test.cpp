@@ -96,6 +96,58 @@ TEST_F(Plot, ACampbellDiagramListsItsCriticalSpeeds) {
   }
 }
 
+// A mass m on a bearing whose stiffness grows with speed, k0 + s Omega: it meets the map's line
+// Omega = sqrt(k / m) where m Omega^2 - s Omega - k0 = 0. Without gyroscopics the planes are apart,
+// and both crossings are critical speeds of the model.
+TEST_F(Plot, BearingsCrossTheCriticalMapAtTheCriticalSpeeds) {
+  constexpr double m = 2.0, kx = 2e4, sx = 50.0, ky = 5e4, sy = 20.0;
+  write("rotor.toml", R"(format = 1
+[[body]]
+name = "rotor"
+mass = 2
+spins = true
+[[bearing]]
+name = "shaft"
+body = "rotor"
+table = "k.csv"
+)");
+  write("k.csv", "speed, kxx, kyy\n0, 2e4, 5e4\n1000, 7e4, 7e4\n");
+  const json r = result({"critical", "rotor.toml", "--out", "c.h5"});
+  const ResultView view(folder / "c.h5");
+  const auto& kinds = figure_kinds();
+  const auto kind = std::find_if(kinds.begin(), kinds.end(),
+                                 [](const FigureKind& k) { return k.name == "critical_map"; });
+  const Panel panel = figures_of(*kind, view).at(0).panels.at(0);
+  const auto curve = [&](const std::string& name) {
+    for (const Curve& c : panel.curves) {
+      if (c.name == name) return c;
+    }
+    ADD_FAILURE() << name;
+    return Curve{};
+  };
+  for (const auto& [name, k0, s] : {std::tuple{"Kxx", kx, sx}, {"Kyy", ky, sy}}) {
+    const Curve c = curve(name);
+    ASSERT_GT(c.x.size(), 10u);
+    for (std::size_t i = 0; i < c.x.size(); ++i) {
+      const double Omega = std::min(c.y[i] * rpm, 1000.0);  // constant beyond the table
+      EXPECT_NEAR(c.x[i], k0 + s * Omega, 1e-9 * c.x[i]);
+    }
+  }
+  const Curve crossings = curve("crossings");
+  for (const auto& [k0, s] : {std::pair{kx, sx}, {ky, sy}}) {
+    const double Omega = (s + std::sqrt(s * s + 4.0 * m * k0)) / (2.0 * m);
+    const auto near = [&](double v) { return std::abs(v * rpm - Omega) < 1e-6 * Omega; };
+    EXPECT_GE(std::count_if(crossings.y.begin(), crossings.y.end(), near), 1) << Omega / rpm;
+    for (std::size_t i = 0; i < crossings.x.size(); ++i) {
+      if (!near(crossings.y[i])) continue;
+      EXPECT_NEAR(crossings.x[i], k0 + s * Omega, 1e-5 * k0);
+    }
+    bool is_critical = false;
+    for (const json& c : r["criticals"]) is_critical |= near(c["speed_rpm"]);
+    EXPECT_TRUE(is_critical) << Omega / rpm;
+  }
+}
+
 TEST_F(Plot, TellsWhatCanBeDrawn) {
   make({"simulate", "rub.toml", "--revolutions", "8", "--discard", "4"}, "r.h5");
   const std::string list = whirl({"plot", "r.h5"}).out;
