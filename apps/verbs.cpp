@@ -15,6 +15,7 @@ const OptionSpec over{"over", "PATH=A:B:STEP",
                       "with --points, or value,value,..."};
 const OptionSpec frame{"frame", "F",
                        "in which it repeats: stationary (the default), or rotating (orbit)"};
+const OptionSpec frequency{"frequency", "U", "unit of frequency axes: Hz, cpm or rad/s (Hz)"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
@@ -195,7 +196,7 @@ const std::vector<Verb>& verbs() {
        "one HTML page with every figure of a result",
        "RESULT.h5",
        "whirl report run.h5 --out run.html",
-       {{"out", "FILE.html", "the page; left out: beside the result"}},
+       {{"out", "FILE.html", "the page; left out: beside the result"}, frequency},
        run_report,
        "OTHER.h5",
        "further results on the same page"},
@@ -205,7 +206,8 @@ const std::vector<Verb>& verbs() {
        "RESULT.h5",
        "whirl plot run.h5 orbit --out orbit.svg",
        {{"out", "FILE", "picture, .svg, .png or .pdf; left out: .svg beside the result"},
-        {"which", "NAME", "of several of a kind: the station, contact or plane (the first)"}},
+        {"which", "NAME", "of several of a kind: the station, contact or plane (the first)"},
+        frequency},
        run_plot,
        "KIND",
        "what to draw; left out: lists what the result holds"},

@@ -413,7 +413,7 @@ class FigureView {
           drawMarker(ctx, "circle", d.px(p, c.x[low]), d.py(p, c.y[low]), 10);
         }
         // a line of a spectrum is a circle of the orbit
-        if (kind === "frequency" && more.amplitude && p.equal && this.figure.kind === "orbit" && more.station === this.figure.variant) {
+        if (kind === "frequency" && more.amplitude && LENGTHS[more.unit] && p.equal && this.figure.kind === "orbit" && more.station === this.figure.variant) {
           const r = (more.amplitude * LENGTHS[more.unit]) / LENGTHS[unitOf(p.x.title)];
           ctx.strokeStyle = paint("alarm");
           ctx.lineWidth = 1.6;

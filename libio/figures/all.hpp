@@ -16,6 +16,7 @@ std::vector<Figure> deflection_figures(const ResultView& result);
 std::vector<Figure> time_history_figures(const ResultView& result);
 std::vector<Figure> orbit_figures(const ResultView& result);
 std::vector<Figure> spectrum_figures(const ResultView& result);
+std::vector<Figure> waterfall_figures(const ResultView& result);
 std::vector<Figure> poincare_figures(const ResultView& result);
 std::vector<Figure> contact_force_figures(const ResultView& result);
 std::vector<Figure> contact_angle_figures(const ResultView& result);

@@ -36,6 +36,15 @@ long count(const std::string& text, const std::string& part) {
   return n;
 }
 
+/// The first panel of the first figure of a kind.
+Panel panel_of(std::string_view name, const ResultView& view) {
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.name == name) return figures_of(kind, view).at(0).panels.at(0);
+  }
+  ADD_FAILURE() << name;
+  return {};
+}
+
 // Every kind of figure is drawn from the result of the verb that holds its numbers.
 TEST_F(Plot, DrawsEveryKindOfFigure) {
   const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
@@ -46,8 +55,8 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"unbalance", disks, "--speeds", "0:8000:100rpm"},
        {"layout", "bode", "polar", "deflection"}},
       {{"identify", disks, "--revolutions", "64"},
-       {"layout", "modes", "orbit", "time_history", "spectrum", "poincare", "contact_forces",
-        "contact_angles", "mac"}},
+       {"layout", "modes", "orbit", "time_history", "spectrum", "waterfall", "poincare",
+        "contact_forces", "contact_angles", "mac"}},
       {{"classify", "rub.toml", "--discard", "20"}, {"layout", "exponents"}},
       {{"sweep", "rub.toml"}, {"layout", "bifurcation", "spectral_map", "cascade"}},
       {{"continue", "rub.toml"}, {"layout", "branches"}},
@@ -114,10 +123,7 @@ table = "k.csv"
   write("k.csv", "speed, kxx, kyy\n0, 2e4, 5e4\n1000, 7e4, 7e4\n");
   const json r = result({"critical", "rotor.toml", "--out", "c.h5"});
   const ResultView view(folder / "c.h5");
-  const auto& kinds = figure_kinds();
-  const auto kind = std::find_if(kinds.begin(), kinds.end(),
-                                 [](const FigureKind& k) { return k.name == "critical_map"; });
-  const Panel panel = figures_of(*kind, view).at(0).panels.at(0);
+  const Panel panel = panel_of("critical_map", view);
   const auto curve = [&](const std::string& name) {
     for (const Curve& c : panel.curves) {
       if (c.name == name) return c;
@@ -146,6 +152,69 @@ table = "k.csv"
     for (const json& c : r["criticals"]) is_critical |= near(c["speed_rpm"]);
     EXPECT_TRUE(is_critical) << Omega / rpm;
   }
+}
+
+// A free vibration at omega = 100 rad/s dies out as exp(-zeta omega t) beside the steady response
+// at the speed: from one spectrum to the next its line falls by that, the other one stays.
+TEST_F(Plot, AWaterfallShowsAFreeVibrationDieOut) {
+  write("rotor.toml", std::string(jeffcott) +
+                          "[operation]\nspeed = 60\n[start]\ndisplaced = [{ body = \"rotor\", x = "
+                          "\"2 mm\", vy = 0.2 }]\n");
+  ASSERT_EQ(whirl({"simulate", "rotor.toml", "--set", "gravity=0", "--discard", "0",
+                   "--revolutions", "128", "--samples", "16", "--out", "r.h5"})
+                .status,
+            0);
+  ResultView view(folder / "r.h5");
+  view.frequency = *frequency_unit("rad/s");
+  const Panel panel = panel_of("waterfall", view);
+  ASSERT_GE(panel.curves.size(), 8u);
+  EXPECT_EQ(panel.x.title, "whirl frequency [rad/s]");
+  // the decades between the line near a frequency and the largest of all, and the spectrum's time
+  const double first = panel.curves.front().y.front(), last = panel.curves.back().y.front();
+  const auto line = [&](const Curve& c, double frequency) {
+    const double height = 0.09 * (last - first), time = c.y.front();  // flat at its end
+    double most = 0.0;
+    for (std::size_t k = 0; k < c.x.size(); ++k) {
+      if (std::abs(c.x[k] - frequency) < 8.0) most = std::max(most, c.y[k] - time);
+    }
+    return 3.0 * (most / height - 1.0);
+  };
+  constexpr double zeta = 0.01, omega = 100.0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    const Curve &before = panel.curves[i - 1], &now = panel.curves[i];
+    const double passed = now.y.front() - before.y.front();
+    // the decay within a window widens lines alike
+    EXPECT_NEAR(line(now, omega) - line(before, omega), -zeta * omega * passed * std::log10(M_E),
+                1e-3);
+    EXPECT_NEAR(line(now, 60.0), line(before, 60.0), 0.02);
+  }
+}
+
+// The same numbers in other units, on the axes, the lines of orders and in the table.
+TEST_F(Plot, FrequenciesAreShownInTheUnitOfTheOption) {
+  const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  make({"campbell", disks, "--speeds", "0:8000:400rpm"}, "c.h5");
+  ResultView view(folder / "c.h5");
+  const Panel in_hertz = panel_of("campbell", view);
+  for (const auto& [unit, factor] : {std::pair{"cpm", 60.0}, {"rad/s", 2.0 * pi}}) {
+    view.frequency = *frequency_unit(unit);
+    const Panel p = panel_of("campbell", view);
+    EXPECT_EQ(p.y.title, std::string("natural frequency [") + unit + "]");
+    for (std::size_t i = 0; i < p.curves.size(); ++i) {
+      for (std::size_t k = 0; k < p.curves[i].y.size(); ++k) {
+        const double expected = factor * in_hertz.curves[i].y[k];
+        if (!std::isfinite(expected)) continue;
+        EXPECT_NEAR(p.curves[i].y[k], expected, 1e-9 * expected);
+      }
+    }
+    EXPECT_NEAR(p.rules.at(0).at, factor * in_hertz.rules.at(0).at, 1e-12);
+    ASSERT_EQ(whirl({"plot", "c.h5", "campbell", "--frequency", unit, "--out", "u.svg"}).status, 0);
+    EXPECT_TRUE(has(content(folder / "u.svg"), p.y.title));
+  }
+  EXPECT_NEAR(in_hertz.rules.at(0).at, 1.0 / 60.0, 1e-15);  // Hz per rpm
+  EXPECT_EQ(whirl({"plot", "c.h5", "campbell", "--frequency", "rpm"}).status, 2);
+  ASSERT_EQ(whirl({"report", "c.h5", "--frequency", "cpm"}).status, 0);
+  EXPECT_TRUE(has(content(folder / "c.html"), "natural frequency [cpm]"));
 }
 
 TEST_F(Plot, TellsWhatCanBeDrawn) {
