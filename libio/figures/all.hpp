@@ -73,7 +73,7 @@ std::vector<std::size_t> stations_by_interest(const ResultView& result,
                                               const std::vector<std::string>& names);
 
 /// Columns at which the largest magnitude of all rows has a maximum, the four highest, ascending.
-std::vector<Eigen::Index> response_peaks(const Mat& magnitude);
+std::vector<Eigen::Index> deflection_peaks(const Mat& magnitude);
 
 /// A circle of 181 points.
 Curve circle(const std::string& name, double radius, double x = 0.0, double y = 0.0);
