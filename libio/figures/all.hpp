@@ -68,7 +68,7 @@ std::string with_unit(const std::string& what, const DisplayUnit& unit);
 
 /// The contact at a station of the trajectory ("7 ring"), as its number; -1 if there is none.
 int contact_at(const ResultView& result, const std::string& station);
-/// Numbers of stations, those with a contact first.
+/// Numbers of stations, those with a contact first, those that do not move last.
 std::vector<std::size_t> stations_by_interest(const ResultView& result,
                                               const std::vector<std::string>& names);
 

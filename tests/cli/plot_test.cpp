@@ -2,6 +2,7 @@
 
 #include <regex>
 
+#include "libio/comparison.hpp"
 #include "libio/figures.hpp"
 #include "tests/cli/program.hpp"
 
@@ -292,6 +293,52 @@ TEST_F(Plot, AReportIsOneFile) {
   EXPECT_FALSE(data["results"][1]["motion"].contains("motions"));
   // program, style and libraries: below 1 MB
   EXPECT_LT(page.size() - data.dump().size(), 1'000'000u);
+}
+
+// Two runs over each other: what was changed is said, and every curve of both is there, in the units
+// of the first, although the second one's motion is so small that it is shown in others.
+TEST_F(Plot, AReportComparesResults) {
+  for (const auto& [set, out] :
+       {std::pair{"unbalance.1.offset=1mm", "a.h5"}, {"unbalance.1.offset=0.0001mm", "b.h5"}}) {
+    make({"simulate", "rub.toml", "--set", set, "--revolutions", "8", "--discard", "40"}, out);
+  }
+  const json r = result({"report", "a.h5", "b.h5"});
+  const std::string page = content(folder / "a.html");
+  const auto from = page.find("id=\"data\">") + 10;
+  const json data = json::parse(page.substr(from, page.find("</script>", from) - from));
+  const json& compared = data["comparison"];
+  EXPECT_EQ(compared["names"], json::array({"a", "b"}));
+  EXPECT_EQ(compared["differences"]["header"], json::array({"model", "a", "b"}));
+  EXPECT_EQ(compared["differences"]["rows"],
+            json::array({json::array({"unbalance.1.offset", "1mm", "0.0001mm"})}));
+  const ResultView a(folder / "a.h5"), b(folder / "b.h5");
+  const auto history = [](const json& figures) {
+    for (const json& f : figures) {
+      if (f["kind"] == "time_history") return f;
+    }
+    return json{};
+  };
+  const json both = history(compared["figures"]), one = history(data["results"][0]["figures"]);
+  ASSERT_EQ(both["panels"].size(), one["panels"].size());
+  EXPECT_EQ(both["panels"][0]["y"]["title"], "x [µm]");
+  EXPECT_NE(history(data["results"][1]["figures"])["panels"][0]["y"]["title"], "x [µm]");
+  EXPECT_EQ(both["panels"][0]["curves"][0]["name"], "a: x");
+  EXPECT_EQ(both["panels"][0]["curves"][1]["name"], "b: x");
+  EXPECT_NE(both["panels"][0]["curves"][0]["paint"], both["panels"][0]["curves"][1]["paint"]);
+  // the smaller motion is a ten-thousandth of the linear one, as numbers of the same unit
+  const auto figures = [&](const ResultView& view) {
+    for (const FigureKind& kind : figure_kinds()) {
+      if (kind.name == "time_history") return figures_of(kind, view).at(0);
+    }
+    return Figure{};
+  };
+  const Figure x = figures(a), y = figures(b);
+  const auto overlaid = overlay({&x, &y}, {"a", "b"});
+  ASSERT_TRUE(overlaid);
+  const std::vector<double>& small = overlaid->panels.at(0).curves.at(1).y;
+  const double in_nm = largest_of(y.panels.at(0).curves.at(0).y);
+  EXPECT_NEAR(largest_of(small), 1e-3 * in_nm, 1e-9 * in_nm);
+  for (const json& f : compared["figures"]) EXPECT_NE(f["kind"], "layout");
 }
 
 // What a model's text says cannot leave the place where it is shown.
