@@ -63,6 +63,9 @@ struct ShownAxis {
 };
 ShownAxis shown_axis(const ResultView& result, const std::string& path);
 
+/// What was set on the command line of a result, to be set again: " --set 'a.b=c'".
+std::string settings_of(const ResultView& result);
+
 /// Position of the first number along a title of an axis with a unit: "x [mm]".
 std::string with_unit(const std::string& what, const DisplayUnit& unit);
 

@@ -55,6 +55,17 @@ ShownAxis shown_axis(const ResultView& result, const std::string& path) {
   return axis;
 }
 
+std::string settings_of(const ResultView& result) {
+  std::string settings;
+  const auto words = result.file.strings("/arguments");
+  for (std::size_t i = 2; i + 1 < words.size(); ++i) {
+    if (words[i] == "--set" || words[i] == "--speed") {
+      settings += fmt::format(" {} '{}'", words[i], words[i + 1]);
+    }
+  }
+  return settings;
+}
+
 int contact_at(const ResultView& result, const std::string& station) {
   if (!result.model || !result.assembler) return -1;
   const auto& contacts = result.model->contacts;

@@ -5,6 +5,7 @@
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -126,6 +127,30 @@ def check_map(browser, name):
     return command
 
 
+def check_branches(browser, whirl, folder, model):
+    """A click on a point of a branch tells its multipliers and a command that finds its orbit."""
+    result, page = os.path.join(folder, "branches.h5"), os.path.join(folder, "branches.html")
+    subprocess.run([whirl, "continue", model, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6", "--over",
+                    "contact.ring.friction=0.14:0.15:0.002", "--at", "0.15", "--out", result, "--quiet"], check=True)
+    subprocess.run([whirl, "report", result, "--out", page, "--quiet"], check=True)
+    browser.open(page)
+    browser.wait_for("document.documentElement.dataset.state === 'drawn'")
+    view = "views.find(v => v.figure.kind === 'branches')"
+    x, y = middle_of_point(browser, view, curve="p.curves.find(c => c.details)")
+    browser.click(x, y)
+    lines = browser.value(f"[...{view}.command.querySelectorAll('.detail')].map(e => e.innerText)")
+    check(len(lines) == 3 and lines[0].startswith("Point ") and "multipliers: " in lines[1] and "% in touch" in lines[2], f"a click says {lines}")
+    command = shlex.split(browser.value(f"{view}.command.querySelector('code')?.textContent || ''"))
+    check(command[:2] == ["whirl", "orbit"] and "--point" in command, f"a click says {command}")
+    done = subprocess.run([whirl, *command[1:], "--json", "-"], capture_output=True, text=True)
+    check(done.returncode == 0, f"{command}: {done.stderr}")
+    size = abs(complex(*json.loads(done.stdout)["floquet"][0]))
+    told = lines[1].split(": ")[1].split(", ")[0].replace("−", "-")
+    check(abs(size - abs(float(told.split("(")[1][:-1] if "(" in told else told))) < 1e-4, f"{told} is not of size {size}")
+    check(not browser.problems, f"branches: {browser.problems}")
+    print("branches", flush=True)
+
+
 def check_comparison(browser, whirl, folder, model):
     """A page of two runs begins with what was changed and with both over each other, each in its color."""
     for verb, words in (("unbalance", ["--speeds", "0:3000:20rpm"]), ("campbell", []), ("simulate", ["--revolutions", "40", "--discard", "40"])):
@@ -242,6 +267,8 @@ def main():
             check(not outside, f"{name} asks the network: {outside}")
             check(not browser.problems, f"{name}: {browser.problems}")
             print(name, flush=True)
+        browser.problems.clear()
+        check_branches(browser, whirl, folder, model("jeffcott_stator"))
         browser.problems.clear()
         check_comparison(browser, whirl, folder, model("jeffcott"))
         browser.problems.clear()
