@@ -52,6 +52,10 @@ std::vector<ResponsePeak> response_peaks(const std::vector<double>& speeds, cons
     const double limit = peak.amplitude / std::numbers::sqrt2;
     peak.below = side(speeds, a, k, -1, limit);
     peak.above = side(speeds, a, k, +1, limit);
+    const auto between = std::count_if(speeds.begin(), speeds.end(),
+                                       [&](double s) { return s > peak.below && s < peak.above; });
+    constexpr long least = 5;  // the factor is right to some percent then
+    if (between < least) peak.below = peak.above = nan;
     peaks.push_back(peak);
   }
   std::stable_sort(peaks.begin(), peaks.end(), [](const ResponsePeak& a, const ResponsePeak& b) {

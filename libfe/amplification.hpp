@@ -13,17 +13,18 @@ struct ResponsePeak {
   Eigen::Index row = 0;    ///< the response that is largest there
   double speed = 0.0;      ///< N_c [rad/s]
   double amplitude = 0.0;  ///< in the unit of the response
-  double below = 0.0;  ///< N_1: where the amplitude is 0.707 of the peak; NaN if it does not fall
-  double above = 0.0;  ///< N_2, likewise                                                [rad/s]
+  double below = 0.0;      ///< N_1: where the amplitude is 0.707 of the peak [rad/s]
+  double above = 0.0;      ///< N_2, likewise; both NaN where the samples do not tell them
 
-  /// N_c / (N_2 - N_1), of a lightly damped rotor 1 / (2 zeta); NaN without one of the sides.
+  /// N_c / (N_2 - N_1), of a lightly damped rotor 1 / (2 zeta); NaN without these sides.
   double amplification() const { return speed / (above - below); }
 };
 
 /// Peaks of the largest of several responses, ascending speeds.
 ///
-/// A peak lies on the parabola through its three highest samples, sides between two samples: the
-/// speeds must be as close as the peaks are sharp.
+/// A peak lies on the parabola through its three highest samples, sides between two samples. Where
+/// less than five samples are between the sides, or the amplitude does not fall that far, they are
+/// not told.
 ///
 /// @param speeds     ascending [rad/s]
 /// @param amplitude  responses x speeds, >= 0

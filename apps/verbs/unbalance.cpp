@@ -26,9 +26,14 @@ std::string add_peaks(const Model& model, const std::vector<NamedPoint>& station
     return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : std::string("-");
   };
   const auto peaks = response_peaks(speeds, major);
+  const char* hint =
+      "\n  -: the speeds are too far apart for this peak, or end beside it: --speeds "
+      "FIRST:LAST:STEP\n";
+  bool is_told = true;
   for (const ResponsePeak& peak : peaks) {
     const NamedPoint& station = stations[static_cast<std::size_t>(peak.row)];
     const double factor = peak.amplification();
+    is_told = is_told && std::isfinite(factor);
     Record r;
     r.set("speed_rpm", peak.speed / rpm);
     r.set("node", station.node() > 0 ? Record(station.node()) : Record(nullptr));
@@ -59,7 +64,7 @@ std::string add_peaks(const Model& model, const std::vector<NamedPoint>& station
   if (peaks.empty()) return "";
   return "\nPeaks of the largest response: amplification factors and separation margins after API "
          "617\n\n" +
-         table.text();
+         table.text() + (is_told ? "" : hint);
 }
 
 }  // namespace

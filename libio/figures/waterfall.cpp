@@ -14,9 +14,10 @@ namespace {
 using namespace figures;
 
 constexpr Eigen::Index least_window = 16, most_window = 64;  ///< revolutions of a spectrum
-constexpr Eigen::Index windows = 8;      ///< that the motion has room for, one after another
-constexpr Eigen::Index most_lines = 40;  ///< spectra, which overlap
-constexpr double powers = 3.0;           ///< of ten that a height shows: 1X would hide all else
+constexpr Eigen::Index windows = 8;       ///< that the motion has room for, one after another
+constexpr Eigen::Index most_lines = 40;   ///< spectra, which overlap
+constexpr std::size_t most_told = 20000;  ///< points with a text each, for the size of pages
+constexpr double powers = 3.0;            ///< of ten that a height shows: 1X would hide all else
 
 /// Spectra of parts of a motion, with the middles of these parts.
 struct ShortTimeSpectra {
@@ -107,10 +108,9 @@ std::vector<Figure> waterfall_figures(const ResultView& result) {
         c.y.push_back(s.time[i] +
                       height *
                           (a > 0.0 ? std::max(0.0, 1.0 + std::log10(a / largest) / powers) : 0.0));
-        c.hover.push_back(
-            fmt::format("{:.3g} {} around {:.4g} s", unit.factor * a, unit.name, s.time[i]));
+        c.hover.push_back(fmt::format("{:.3g} {}", unit.factor * a, unit.name));
       }
-      if (s.time.size() * c.x.size() > 40000) c.hover.clear();
+      if (s.time.size() * c.x.size() > most_told) c.hover.clear();
       p.curves.push_back(std::move(c));
     }
     p.rules.push_back({Rule::Kind::vertical, 0.0, "", Paint::ink, Dash::dotted});

@@ -63,6 +63,13 @@ TEST(Amplification, TwoPeaksBelongToTheResponsesThatAreLargestThere) {
   EXPECT_NEAR(peaks[0].amplification(), 25.0 * (1.0 - 4.0 * 0.02 * 0.02), 0.02);
   EXPECT_NEAR(peaks[1].amplification(), 10.0 * (1.0 - 4.0 * 0.05 * 0.05), 0.02);
   EXPECT_EQ(response_peaks(speeds, amplitude, 1).at(0).row, 0);  // the higher one
+  // too few samples to tell
+  const auto coarse = speeds_to(400.0, 2.0);
+  Mat sampled(1, static_cast<Eigen::Index>(coarse.size()));
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    sampled(0, static_cast<Eigen::Index>(i)) = jeffcott(coarse[i] / 100.0, 0.02, 1.0);
+  }
+  EXPECT_TRUE(std::isnan(response_peaks(coarse, sampled).at(0).amplification()));
   // speeds that end before the response has fallen do not tell
   const std::vector<double> few(speeds.begin(), speeds.begin() + 1005);
   EXPECT_TRUE(std::isnan(response_peaks(few, amplitude.leftCols(1005)).at(0).amplification()));
