@@ -343,6 +343,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (word == "schema") return write_schema({words.begin() + 2, words.end()});
+    if (word == "help" && words[2] == "schema") return write_schema({"--help"});
     if (word == "help") return run({words[0], words[2], "--help"}, "");
     if (word != "rerun") return run(words, "");
     if (words.size() < 3 || words[2] == "--help") {

@@ -65,6 +65,7 @@ TEST_F(Help, SchemaIsPrintedOrWritten) {
   EXPECT_EQ(written.out, "");
   EXPECT_EQ(content(folder / "whirl.schema.json"), printed.out);
   EXPECT_TRUE(has(whirl({"schema", "--help"}).out, "Usage: whirl schema"));
+  EXPECT_EQ(whirl({"help", "schema"}).out, whirl({"schema", "--help"}).out);
   EXPECT_EQ(whirl({"schema", "rotor.toml"}).status, 2);
   EXPECT_EQ(whirl({"schema", "--out", "nowhere/x.json"}).status, 2);
 }

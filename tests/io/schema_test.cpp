@@ -128,7 +128,8 @@ TEST(Schema, HasNoKeyThatTheManualDoesNotName) {
           << table << "." << inner;
       // tables within tables are described in the text
       for (const json& form : value.contains("anyOf") ? value["anyOf"] : json::array({value})) {
-        for (const auto& [part, ignored] : table_of(form).value("properties", json{}).items()) {
+        const json parts = table_of(form).value("properties", json::object());
+        for (const auto& [part, ignored] : parts.items()) {
           EXPECT_TRUE(std::regex_search(all.at(table).text, std::regex("\\b" + part + "\\b")) ||
                       std::regex_search(all.at("bearing").text, std::regex("\\b" + part + "\\b")) ||
                       std::set<std::string>({"at", "node", "body"}).contains(part))
