@@ -25,7 +25,7 @@ _whirl() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} options=""
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W "{}rerun completion help --help --version" -- "$word"))
+    COMPREPLY=($(compgen -W "{}rerun completion schema help --help --version" -- "$word"))
     return
   fi
   case "$before" in

@@ -66,6 +66,7 @@ bool holds_something_else(const fs::path& place) {
                                     : ending == ".pdf"  ? "%PDF"
                                     : ending == ".html" ? "<!DO"
                                     : ending == ".ogv"  ? "OggS"
+                                    : ending == ".gif"  ? "GIF8"
                                                         : "\x89HDF";
   return begin[0] != '\0' && std::string_view(begin, sizeof begin) != expected;
 }

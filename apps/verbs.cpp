@@ -14,6 +14,7 @@ const OptionSpec over{"over", "PATH=A:B:STEP",
                       "a value of the model and what it runs over: first:last:step, first:last "
                       "with --points, or value,value,..."};
 const OptionSpec frame{"frame", "F", "in which it repeats: stationary (the default), or rotating"};
+const OptionSpec frequency{"frequency", "U", "unit of frequency axes: Hz, cpm or rad/s (Hz)"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
@@ -106,8 +107,9 @@ const std::vector<Verb>& verbs() {
        "one periodic orbit, stable or not, with its Floquet multipliers",
        "MODEL",
        "whirl orbit models/jeffcott_stator.toml --period 1",
-       {{"period", "N", "revolutions after which it repeats (1)"},
+       {{"period", "N", "revolutions after which it repeats (1; of --point, that of its branch)"},
         frame,
+        {"point", "N", "begins at this point of the branches of --from, its value included"},
         discard_option,
         tolerance_option,
         from_option},
@@ -214,7 +216,8 @@ const std::vector<Verb>& verbs() {
        "a film of a motion or of a mode",
        "FILE",
        "whirl animate run.h5 --out run.ogv",
-       {{"out", "FILE", "film .ogv, or pictures .png, numbered; left out: .ogv beside FILE"},
+       {{"out", "FILE",
+         "film .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE"},
         {"mode", "N", "this mode (the motion of a result; of others, 1)"},
         {"revolutions", "N", "last revolutions of a motion (4)"},
         {"frames", "N", "pictures: of a motion at most (120), of a mode's cycle (60)"},
@@ -226,7 +229,7 @@ const std::vector<Verb>& verbs() {
        "one HTML page with every figure of a result",
        "RESULT.h5",
        "whirl report run.h5 --out run.html",
-       {{"out", "FILE.html", "the page; left out: beside the result"}},
+       {{"out", "FILE.html", "the page; left out: beside the result"}, frequency},
        run_report,
        "OTHER.h5",
        "further results on the same page"},
@@ -236,7 +239,8 @@ const std::vector<Verb>& verbs() {
        "RESULT.h5",
        "whirl plot run.h5 orbit --out orbit.svg",
        {{"out", "FILE", "picture, .svg, .png or .pdf; left out: .svg beside the result"},
-        {"which", "NAME", "of several of a kind: the station, contact or plane (the first)"}},
+        {"which", "NAME", "of several of a kind: the station, contact or plane (the first)"},
+        frequency},
        run_plot,
        "KIND",
        "what to draw; left out: lists what the result holds"},

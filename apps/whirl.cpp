@@ -17,6 +17,7 @@
 #include "apps/version.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
+#include "libio/model_schema.hpp"
 #include "libio/nearest.hpp"
 #include "libio/replace_file.hpp"
 
@@ -95,6 +96,9 @@ std::string overview() {
   text += fmt::format("  {:<10} {}\n             {}\n", "completion",
                       "a script that completes verbs and options in bash",
                       "source <(whirl completion)");
+  text += fmt::format("  {:<10} {}\n             {}\n", "schema",
+                      "a JSON Schema of model files, for editors",
+                      "whirl schema --out whirl.schema.json");
   return text +
          "\nCommon options: --set PATH=VALUE, --speed S, --out FILE.h5, --json FILE, --threads N, "
          "--quiet\n"
@@ -105,7 +109,7 @@ std::string overview() {
 int unknown_verb(const std::string& word) {
   std::vector<std::string> known;
   for (const Verb& verb : verbs()) known.emplace_back(verb.name);
-  for (const char* other : {"rerun", "completion", "--help", "--version"})
+  for (const char* other : {"rerun", "completion", "schema", "--help", "--version"})
     known.emplace_back(other);
   const auto near = nearest(word, known);
   fmt::print(stderr, "whirl: there is no {} \"{}\"; {}\n",
@@ -294,6 +298,32 @@ int rerun(const std::string& file, std::vector<std::string> further) {
   return run(kept, text);
 }
 
+/// The schema of model files, to a file or to standard output.
+int write_schema(const std::vector<std::string>& options) {
+  const bool has_file = options.size() == 2 && options[0] == "--out";
+  const bool asks_help = options == std::vector<std::string>{"--help"};
+  if (asks_help || (!options.empty() && !has_file)) {
+    fmt::print(
+        asks_help ? stdout : stderr,
+        "Usage: whirl schema [--out FILE.json]\n\nWrites a JSON Schema of model files. An "
+        "editor that knows TOML completes and checks\nkeys with it; in a model's first line: "
+        "#:schema ./FILE.json\n");
+    return asks_help ? done : wrong_input;
+  }
+  const std::string text = model_schema().json();
+  if (!has_file) {
+    std::fputs(text.c_str(), stdout);
+    return after_printing(done);
+  }
+  try {
+    replace_file(options[1], text);
+  } catch (const FileError& error) {
+    fmt::print(stderr, "whirl: {}\n", error.what());
+    return wrong_input;
+  }
+  return done;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -312,6 +342,8 @@ int main(int argc, char** argv) {
     return done;
   }
   try {
+    if (word == "schema") return write_schema({words.begin() + 2, words.end()});
+    if (word == "help" && words[2] == "schema") return write_schema({"--help"});
     if (word == "help") return run({words[0], words[2], "--help"}, "");
     if (word != "rerun") return run(words, "");
     if (words.size() < 3 || words[2] == "--help") {

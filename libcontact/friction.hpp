@@ -31,7 +31,7 @@ struct Friction {
     return std::tuple{
         optional("friction", &Friction::mu, "", nonnegative, "Coulomb coefficient"),
         optional("slip", &Friction::slip, "", any, "what friction opposes"),
-        optional(
+        alternative(
             "radius", &Friction::radius, "m", nonnegative,
             "of the contact, for the slip velocity; left out: half the shaft's diameter there"),
         optional("slip_tolerance", &Friction::tolerance, "m/s", nonnegative,

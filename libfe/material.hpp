@@ -22,8 +22,8 @@ struct Material {
     return std::tuple{
         required("density", &Material::rho, "kg/m^3", nonnegative, "mass per volume; 0: massless"),
         required("youngs_modulus", &Material::E, "Pa", positive, "Young's modulus E"),
-        optional("shear_modulus", &Material::G, "Pa", positive, "shear modulus G, or ..."),
-        optional("poisson_ratio", &Material::nu, "", any, "... Poisson's ratio, -1 to 0.5"),
+        alternative("shear_modulus", &Material::G, "Pa", positive, "shear modulus G, or ..."),
+        alternative("poisson_ratio", &Material::nu, "", any, "... Poisson's ratio, -1 to 0.5"),
         optional("internal_damping", &Material::eta, "s", nonnegative,
                  "viscous damping that rotates with the shaft: stress E (strain + eta rate)")};
   }

@@ -32,13 +32,14 @@ struct Reduction {
 
   static constexpr auto fields() {
     using enum Range;
-    return std::tuple{optional("method", &Reduction::method, "", any, "how the rotor is reduced"),
-                      optional("modes", &Reduction::modes, "", positive,
-                               "left out: as many as the tolerance needs"),
-                      optional("tolerance", &Reduction::tolerance, "", positive,
-                               "of eigenvalues and contact receptances in the band"),
-                      optional("band", &Reduction::band, "rad/s", positive,
-                               "highest frequency of interest; left out: twice the speed")};
+    return std::tuple{
+        alternative("method", &Reduction::method, "", any, "how the rotor is reduced"),
+        alternative("modes", &Reduction::modes, "", positive,
+                    "left out: as many as the tolerance needs"),
+        optional("tolerance", &Reduction::tolerance, "", positive,
+                 "of eigenvalues and contact receptances in the band"),
+        alternative("band", &Reduction::band, "rad/s", positive,
+                    "highest frequency of interest; left out: twice the speed")};
   }
 };
 

@@ -47,8 +47,8 @@ struct Segment {
     using enum Range;
     return std::tuple{
         required("length", &Segment::length, "m", positive, "length of the segment"),
-        optional("elements", &Segment::elements, "", positive,
-                 "number of equal elements; left out: chosen from the shape and the stations"),
+        alternative("elements", &Segment::elements, "", positive,
+                    "number of equal elements; left out: chosen from the shape and the stations"),
         optional(
             "internal_functions", &Segment::internal_functions, "", nonnegative,
             "pairs of internal shape functions per element, 0 to 4; each raises the order by two"),
@@ -70,13 +70,14 @@ struct Disk {
   static constexpr auto fields() {
     using enum Range;
     return std::tuple{
-        optional("mass", &Disk::m, "kg", nonnegative, "of a disk that is not given by its shape"),
+        alternative("mass", &Disk::m, "kg", nonnegative,
+                    "of a disk that is not given by its shape"),
         optional("diametral_inertia", &Disk::Id, "kg.m^2", nonnegative, "about a diameter"),
         optional("polar_inertia", &Disk::Ip, "kg.m^2", nonnegative, "about the axis"),
-        optional("outer_diameter", &Disk::outer_diameter, "m", positive,
-                 "of a disk of some material"),
+        alternative("outer_diameter", &Disk::outer_diameter, "m", positive,
+                    "of a disk of some material"),
         optional("inner_diameter", &Disk::inner_diameter, "m", nonnegative, "bore; left out: none"),
-        optional("width", &Disk::width, "m", positive, "along the axis")};
+        alternative("width", &Disk::width, "m", positive, "along the axis")};
   }
 };
 

@@ -86,13 +86,15 @@ struct Curve {
   Dash dash = Dash::solid;
   bool has_marker = false;
   Marker marker = Marker::circle;
-  double size = 7.0;                 ///< of markers [pixels]; below 3 they are dots
-  std::size_t marker_every = 1;      ///< points
-  double fill = 0.0;                 ///< opacity of the area inside, 0 to 1
-  std::vector<std::string> hover{};  ///< of points, told beside their numbers
-  std::vector<double> along{};       ///< a number per point, such as its time
-  std::string along_title{};         ///< "time [s]"; points of one time are shown together
-  bool is_key = true;                ///< counts for the range of the axes
+  double size = 7.0;                   ///< of markers [pixels]; below 3 they are dots
+  std::size_t marker_every = 1;        ///< points
+  double fill = 0.0;                   ///< opacity of the area inside, 0 to 1
+  std::vector<std::string> hover{};    ///< of points, told beside their numbers
+  std::vector<double> along{};         ///< a number per point, such as its time
+  std::string along_title{};           ///< "time [s]"; points of one time are shown together
+  bool is_key = true;                  ///< counts for the range of the axes
+  std::vector<std::string> details{};  ///< of points, told after a click; lines
+  std::string command{};  ///< command line of a point, {n} its number of `along`; after a click
 };
 
 struct Category {

@@ -52,6 +52,7 @@ Record record_of(const Curve& c, ArrayStore& arrays) {
   if (!c.hover.empty()) r.set("hover", texts(c.hover));
   if (!c.along.empty()) r.set("along", arrays.add(c.along)).set("along_title", c.along_title);
   if (!c.is_key) r.set("is_key", false);
+  if (!c.details.empty()) r.set("details", texts(c.details)).set("command", c.command);
   return r;
 }
 

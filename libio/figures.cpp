@@ -28,6 +28,14 @@ ResultView::ResultView(const std::filesystem::path& file_path)
   }
 }
 
+std::optional<DisplayUnit> frequency_unit(std::string_view name) {
+  for (const DisplayUnit& unit :
+       {DisplayUnit{"Hz", 1.0 / figures::hertz}, {"cpm", 1.0 / figures::rpm}, {"rad/s", 1.0}}) {
+    if (unit.name == name) return unit;
+  }
+  return std::nullopt;
+}
+
 const std::vector<FigureKind>& figure_kinds() {
   static const std::vector<FigureKind> kinds{
       {"layout", "the rotor to scale, with disks, bearings and contacts", {}, true, layout_figures},
@@ -77,6 +85,11 @@ const std::vector<FigureKind>& figure_kinds() {
        {"/spectra/amplitude"},
        false,
        spectrum_figures},
+      {"waterfall",
+       "full spectra one after another in time, one above the other",
+       {"/trajectory/x"},
+       false,
+       waterfall_figures},
       {"poincare",
        "where a station is once a revolution",
        {"/trajectory/x"},

@@ -27,7 +27,11 @@ struct ResultView {
   std::optional<Model> model;  ///< none: see problem
   std::optional<Assembler> assembler;
   std::string problem;  ///< why there is no model, such as a bearing table that is gone
+  DisplayUnit frequency{"Hz", 0.15915494309189535};  ///< of frequency axes; speeds are in rpm
 };
+
+/// A unit for frequency axes: "Hz", "cpm" or "rad/s"; nothing for other names.
+std::optional<DisplayUnit> frequency_unit(std::string_view name);
 
 /// A kind of figure.
 struct FigureKind {

@@ -12,8 +12,9 @@
 
 namespace whirl {
 
-ModelBuilder::ModelBuilder(ConfigNode& root, std::filesystem::path directory)
-    : root_(root), directory_(std::move(directory)) {}
+ModelBuilder::ModelBuilder(ConfigNode& root, std::filesystem::path directory,
+                           std::vector<AskedKey>* asked)
+    : root_(root), directory_(std::move(directory)), asked_(asked) {}
 
 Model ModelBuilder::build() {
   read_top();
@@ -48,7 +49,7 @@ Model ModelBuilder::build() {
 }
 
 void ModelBuilder::read_top() {
-  TableReader top(&root_, "", problems_);
+  TableReader top(&root_, "", problems_, asked_);
   const auto format = top.integer("format", Range::any, true);
   if (format && *format != 1) {
     top.problem("format", fmt::format("found {}, expected 1, the only format so far", *format));
@@ -119,7 +120,7 @@ std::optional<Station> ModelBuilder::named_station(const std::string& name, Tabl
 
 void ModelBuilder::read_settings() {
   {
-    TableReader table(root_.find("operation"), "operation", problems_);
+    TableReader table(root_.find("operation"), "operation", problems_, asked_);
     if (const auto speed = table.quantity("speed", "rad/s", Range::nonnegative)) {
       model_.speed = *speed;
       model_.has_speed = true;
@@ -127,18 +128,18 @@ void ModelBuilder::read_settings() {
     table.finish();
   }
   {
-    TableReader table(root_.find("damping"), "damping", problems_);
-    TableReader rayleigh(table.node("rayleigh"), "damping.rayleigh", problems_);
+    TableReader table(root_.find("damping"), "damping", problems_, asked_);
+    TableReader rayleigh(table.node("rayleigh"), "damping.rayleigh", problems_, asked_);
     rayleigh.read(model_.structure.damping);
     rayleigh.finish();
     table.finish();
   }
   {
-    TableReader table(root_.find("reduction"), "reduction", problems_);
+    TableReader table(root_.find("reduction"), "reduction", problems_, asked_);
     table.read(model_.reduction);
     table.finish();
   }
-  TableReader table(root_.find("start"), "start", problems_);
+  TableReader table(root_.find("start"), "start", problems_, asked_);
   if (const auto from = table.choice<StartFrom>("from")) model_.start.from = *from;
   if (const auto file = table.string("file"); file && !file->empty()) {
     // in the file: beside it; from the command line: as the shell sees it
@@ -155,7 +156,7 @@ void ModelBuilder::read_settings() {
                                 whirl->as_written()));
     }
     for (std::size_t i = 0; i < whirl->items.size(); ++i) {
-      TableReader item(&whirl->items[i], fmt::format("start.whirl.{}", i + 1), problems_);
+      TableReader item(&whirl->items[i], fmt::format("start.whirl.{}", i + 1), problems_, asked_);
       WhirlStart w;
       if (const auto mode = item.integer("mode", Range::positive, true))
         w.mode = static_cast<int>(*mode);
@@ -174,7 +175,8 @@ void ModelBuilder::read_settings() {
                                              displaced->as_written()));
     }
     for (std::size_t i = 0; i < displaced->items.size(); ++i) {
-      TableReader item(&displaced->items[i], fmt::format("start.displaced.{}", i + 1), problems_);
+      TableReader item(&displaced->items[i], fmt::format("start.displaced.{}", i + 1), problems_,
+                       asked_);
       Displaced d;
       if (const auto at = station(item)) d.at = *at;
       for (const auto& [key, unit, to] : {std::tuple{"x", "m", &d.x},

@@ -16,7 +16,9 @@ namespace whirl {
 /// Builds a model from the tree of a file, collecting all problems.
 class ModelBuilder {
  public:
-  ModelBuilder(ConfigNode& root, std::filesystem::path directory);
+  /// @param asked  receives every key that is asked for; null: nobody wants to know
+  ModelBuilder(ConfigNode& root, std::filesystem::path directory,
+               std::vector<AskedKey>* asked = nullptr);
 
   /// @throws ModelError  with every problem found
   Model build();
@@ -70,6 +72,7 @@ class ModelBuilder {
   ConfigNode& root_;
   std::filesystem::path directory_;
   std::vector<Problem> problems_;
+  std::vector<AskedKey>* asked_;
   Model model_;
   std::map<std::string, Material> materials_;
   std::vector<DoubleStation> double_stations_;
@@ -90,7 +93,7 @@ void ModelBuilder::for_each(const char* array, F f) {
     const ConfigNode* name = list->items[i].find("name");
     const bool has_name = name && name->kind == ConfigNode::Kind::string;
     const std::string label = has_name ? name->text : std::to_string(i + 1);
-    TableReader table(&list->items[i], std::string(array) + "." + label, problems_);
+    TableReader table(&list->items[i], std::string(array) + "." + label, problems_, asked_);
     if (has_name && std::find(names.begin(), names.end(), label) != names.end()) {
       table.problem("name", "another " + std::string(array) + " has this name already");
     }

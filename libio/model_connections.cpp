@@ -18,7 +18,7 @@ std::optional<Mat2> ModelBuilder::matrix(TableReader& table, std::string_view ke
     if (!value) return std::nullopt;
     return Mat2(Mat2::Identity() * *value);
   }
-  TableReader entries(node, table.path(key), problems_);
+  TableReader entries(node, table.path(key), problems_, asked_);
   Mat2 m = Mat2::Zero();
   for (const int i : {0, 1}) {
     for (const int j : {0, 1}) {
@@ -111,7 +111,7 @@ void ModelBuilder::read_links() {
       if (!node) {
         table.missing(key, "a body's name, \"ground\", { at = position } or { node = number }");
       } else if (node->kind == ConfigNode::Kind::table) {
-        TableReader inner(node, table.path(key), problems_);
+        TableReader inner(node, table.path(key), problems_, asked_);
         if (const auto s = station(inner)) *end = *s;
         inner.finish();
       } else if (const auto name = table.string(key)) {

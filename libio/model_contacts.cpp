@@ -11,19 +11,16 @@ namespace whirl {
 
 namespace {
 
-/// Reads the law of the given name into the contact; false if there is none.
+/// Reads the law of the given name into the contact.
 template <std::size_t... I>
-bool read_law(const std::string& name, TableReader& table, AnyContactLaw<>& to,
+void read_law(const std::string& name, TableReader& table, AnyContactLaw<>& to,
               std::index_sequence<I...>) {
-  bool found = false;
   const auto try_one = [&](auto law) {
     if (decltype(law)::name != name) return;
-    found = true;
     table.read(law);
     to = law;
   };
   (try_one(std::variant_alternative_t<I, AnyContactLaw<>>{}), ...);
-  return found;
 }
 
 template <std::size_t... I>
@@ -53,11 +50,7 @@ void check_geometry(const Contact& contact, TableReader& table) {
     table.problem("offset", "a face has none: its clearance is axial");
   }
   if (const auto* tips = std::get_if<BladeTip<>>(&contact.law)) {
-    constexpr int most = 1000;
-    if (tips->blades > most) {
-      table.problem("blades",
-                    fmt::format("found {}, expected a number up to {}", tips->blades, most));
-    }
+    table.at_most("blades", tips->blades, 1000);
     if (tips->blade_length > tips->tip_radius && tips->tip_radius > 0.0) {
       table.problem("blade_length", "is more than the tip_radius, in which it lies");
     }
@@ -83,10 +76,11 @@ void ModelBuilder::read_contacts() {
     }
     table.read(contact);
     table.read(contact.friction);
-    const std::string law = table.string("law").value_or("radial");
-    if (!read_law(law, table, contact.law, laws)) {
-      table.unknown_choice("law", law, law_names(laws));
+    const auto law = table.choice("law", law_names(laws));
+    if (!law && table.has("law")) {
       accept_all_laws(table, laws);
+    } else {
+      read_law(law.value_or("radial"), table, contact.law, laws);
     }
     contact.offset = center(table);
     check_geometry(contact, table);

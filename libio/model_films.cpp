@@ -27,19 +27,8 @@ constexpr auto laws = std::make_index_sequence<std::variant_size_v<AnyFilmLaw>>{
 
 /// The key `offset`, [x, y] of a circle's centre [m].
 Vec2 ModelBuilder::center(TableReader& table) {
-  Vec2 at = Vec2::Zero();
-  const ConfigNode* offset = table.node("offset");
-  if (!offset) return at;
-  if (offset->kind != ConfigNode::Kind::array || offset->items.size() != 2) {
-    table.problem("offset", fmt::format("found {}, expected [x, y]", offset->as_written()));
-    return at;
-  }
-  for (const int k : {0, 1}) {
-    const auto v = table.quantity(offset->items[static_cast<std::size_t>(k)], table.path("offset"),
-                                  "m", Range::any);
-    if (v) at(k) = *v;
-  }
-  return at;
+  const auto offset = table.pair("offset", "m", Range::any, "[x, y]");
+  return offset ? Vec2(offset->front(), offset->back()) : Vec2(Vec2::Zero());
 }
 
 void ModelBuilder::read_films() {
@@ -72,13 +61,7 @@ void ModelBuilder::read_films() {
     }
     table.read(film.bearing);
     film.offset = center(table);
-    if (const auto law = table.string("law")) {
-      const std::vector<std::string> names = law_names(laws);
-      if (std::find(names.begin(), names.end(), *law) == names.end()) {
-        table.unknown_choice("law", *law, names);
-      }
-      set_law(*law, film.law, laws);
-    }
+    if (const auto law = table.choice("law", law_names(laws))) set_law(*law, film.law, laws);
     if (at) model_.structure.stations.push_back(*at);
     model_.films.push_back(film);
   });

@@ -25,7 +25,7 @@ void ModelBuilder::read_materials() {
     return;
   }
   for (const auto& [name, node] : all->entries) {
-    TableReader table(&node, "material." + name, problems_);
+    TableReader table(&node, "material." + name, problems_, asked_);
     Material m{.name = name};
     table.read(m);
     const bool has_G = table.has("shear_modulus"), has_nu = table.has("poisson_ratio");
@@ -77,15 +77,9 @@ std::optional<std::pair<double, double>> ModelBuilder::diameters(TableReader& ta
     if (!both) return std::nullopt;
     return std::pair(*both, *both);
   }
-  if (node->items.size() != 2) {
-    table.problem(key, fmt::format("found a list of {}, expected one value, or [left, right]",
-                                   node->items.size()));
-    return std::nullopt;
-  }
-  const auto left = table.quantity(node->items[0], table.path(key), "m", range);
-  const auto right = table.quantity(node->items[1], table.path(key), "m", range);
-  if (!left || !right) return std::nullopt;
-  return std::pair(*left, *right);
+  const auto ends = table.pair(key, "m", range, "one value, or [left, right]");
+  if (!ends) return std::nullopt;
+  return std::pair(ends->front(), ends->back());
 }
 
 void ModelBuilder::read_shaft() {
@@ -124,14 +118,9 @@ void ModelBuilder::read_shaft() {
         segment.shear.value = *value;
     }
     constexpr int most_elements = 100'000;
-    if (segment.elements > most_elements) {
-      table.problem("elements",
-                    fmt::format("found {}, expected up to {}", segment.elements, most_elements));
-      segment.elements = 1;
-    }
-    if (segment.internal_functions > 4) {
-      table.problem("internal_functions", "expected 0 to 4");
-    }
+    table.at_most("elements", segment.elements, most_elements);
+    if (segment.elements > most_elements) segment.elements = 1;
+    table.at_most("internal_functions", segment.internal_functions, 4);
     model_.structure.shaft.push_back(segment);
   });
 }
@@ -175,12 +164,14 @@ void ModelBuilder::read_disks() {
                                 "{:g} mm",
                                 1e3 * disk.inner_diameter, 1e3 * disk.outer_diameter));
     }
-    if (has_mass == has_material) {
-      table.node("material");
-      table.problem(
-          has_mass ? "mass" : "material",
-          "expected a disk by its shape (material, outer_diameter, inner_diameter, width) or "
-          "by its mass (mass, diametral_inertia, polar_inertia), one of the two");
+    table.node("material");
+    const char* expected =
+        "a disk by its shape (material, outer_diameter, inner_diameter, width) or "
+        "by its mass (mass, diametral_inertia, polar_inertia), one of the two";
+    if (!has_mass && !has_material) {
+      table.missing("material", expected, {"mass"});
+    } else if (has_mass && has_material) {
+      table.problem("mass", fmt::format("found both, expected {}", expected));
     } else if (has_material) {
       for (const char* key : {"outer_diameter", "width"}) {
         if (!table.has(key))
@@ -193,7 +184,7 @@ void ModelBuilder::read_disks() {
       if (const auto m = material(table)) set_inertia_from_shape(disk, m->rho);
     }
     if (const ConfigNode* inner = table.node("unbalance")) {
-      TableReader reader(inner, table.path("unbalance"), problems_);
+      TableReader reader(inner, table.path("unbalance"), problems_, asked_);
       if (const auto u = unbalance(reader, disk.at, disk.m))
         model_.structure.unbalances.push_back(*u);
       reader.finish();

@@ -88,7 +88,7 @@ void add_responses(const ResultView& result, const DofMap& dofs, Record& motions
                    ArrayStore& arrays) {
   const Vec speed = result.file.vector("/unbalance/speed");
   std::vector<double> speeds;
-  for (const Eigen::Index k : figures::response_peaks(result.file.matrix("/unbalance/major"))) {
+  for (const Eigen::Index k : figures::deflection_peaks(result.file.matrix("/unbalance/major"))) {
     if (speed(k) > 0.0) speeds.push_back(speed(k));
   }
   const std::vector<Point> points = dofs.points();

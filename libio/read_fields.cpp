@@ -10,8 +10,10 @@
 
 namespace whirl {
 
-TableReader::TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems)
-    : table_(table), path_(std::move(path)), problems_(problems) {
+TableReader::TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems,
+                         std::vector<AskedKey>* asked)
+    : table_(table), path_(std::move(path)), problems_(problems), asked_(asked) {
+  if (asked_) asked_->push_back({.form = AskedKey::Form::table, .path = path_});
   if (table_ && table_->kind != ConfigNode::Kind::table) {
     const bool is_top = path_.find('.') == std::string::npos;
     const bool is_array = table_->kind == ConfigNode::Kind::array;
@@ -34,6 +36,7 @@ Where TableReader::where(std::string_view key) const {
 
 const ConfigNode* TableReader::node(std::string_view key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
+  note(key, {.form = AskedKey::Form::known});
   return table_ ? table_->find(key) : nullptr;
 }
 
@@ -46,6 +49,7 @@ void TableReader::missing(std::string_view key, std::string_view expected,
                           std::vector<std::string> alternatives) {
   if (is_malformed_) return;
   alternatives.emplace_back(key);
+  note(key, {.form = AskedKey::Form::missing, .names = alternatives});
   missing_.push_back({std::move(alternatives),
                       {where(), path(key), fmt::format("missing, expected {}", expected)}});
 }
@@ -103,13 +107,33 @@ std::optional<double> TableReader::quantity(const ConfigNode& value, const std::
 std::optional<double> TableReader::quantity(std::string_view key, std::string_view unit,
                                             Range range, bool is_required) {
   const ConfigNode* value = node(key);
+  note(key, {.form = AskedKey::Form::quantity, .unit = std::string(unit), .range = range});
   if (value) return quantity(*value, path(key), unit, range);
   if (is_required) missing(key, expected_quantity(unit));
   return std::nullopt;
 }
 
+std::optional<std::array<double, 2>> TableReader::pair(std::string_view key, std::string_view unit,
+                                                       Range range, std::string_view expected) {
+  const ConfigNode* value = node(key);
+  note(key, {.form = AskedKey::Form::pair, .unit = std::string(unit), .range = range});
+  if (!value) return std::nullopt;
+  const bool is_list = value->kind == ConfigNode::Kind::array;
+  if (!is_list || value->items.size() != 2) {
+    const std::string found =
+        is_list ? fmt::format("a list of {}", value->items.size()) : value->as_written();
+    problem(key, fmt::format("found {}, expected {}", found, expected));
+    return std::nullopt;
+  }
+  const auto first = quantity(value->items[0], path(key), unit, range);
+  const auto second = quantity(value->items[1], path(key), unit, range);
+  if (!first || !second) return std::nullopt;
+  return std::array{*first, *second};
+}
+
 std::optional<long> TableReader::integer(std::string_view key, Range range, bool is_required) {
   const ConfigNode* value = node(key);
+  note(key, {.form = AskedKey::Form::integer, .range = range});
   if (!value) {
     if (is_required) missing(key, "a whole number");
     return std::nullopt;
@@ -128,15 +152,37 @@ std::optional<long> TableReader::integer(std::string_view key, Range range, bool
   return static_cast<long>(value->number);
 }
 
+void TableReader::at_most(std::string_view key, long value, long most) {
+  note(key, {.form = AskedKey::Form::limit, .most = most});
+  if (value <= most) return;
+  problem(key, fmt::format("found {}, expected a number up to {}", value, most));
+}
+
 std::optional<bool> TableReader::boolean(std::string_view key) {
   const ConfigNode* value = node(key);
+  note(key, {.form = AskedKey::Form::boolean});
   if (!value) return std::nullopt;
   if (value->kind == ConfigNode::Kind::boolean) return value->boolean;
   problem(key, fmt::format("found {}, expected true or false", value->as_written()));
   return std::nullopt;
 }
 
+std::optional<std::string> TableReader::choice(std::string_view key,
+                                               const std::vector<std::string>& known) {
+  note(key, {.form = AskedKey::Form::choice, .names = known});
+  const auto name = text(key, false);
+  if (!name) return std::nullopt;
+  if (std::find(known.begin(), known.end(), *name) != known.end()) return name;
+  unknown_choice(key, *name, known);
+  return std::nullopt;
+}
+
 std::optional<std::string> TableReader::string(std::string_view key, bool is_required) {
+  note(key, {.form = AskedKey::Form::text});
+  return text(key, is_required);
+}
+
+std::optional<std::string> TableReader::text(std::string_view key, bool is_required) {
   const ConfigNode* value = node(key);
   if (!value) {
     if (is_required) missing(key, "a text");
@@ -145,6 +191,19 @@ std::optional<std::string> TableReader::string(std::string_view key, bool is_req
   if (value->kind == ConfigNode::Kind::string) return value->text;
   problem(key, fmt::format("found {}, expected a text in quotation marks", value->as_written()));
   return std::nullopt;
+}
+
+void TableReader::note(std::string_view key, AskedKey what) {
+  if (!asked_) return;
+  what.path = path(key);
+  asked_->push_back(std::move(what));
+}
+
+void TableReader::note_field(std::string_view key, std::string_view meaning,
+                             std::string otherwise) {
+  note(key, {.form = AskedKey::Form::field,
+             .meaning = std::string(meaning),
+             .otherwise = std::move(otherwise)});
 }
 
 void TableReader::finish() {

@@ -11,6 +11,7 @@
 
 #include "libfe/base/error.hpp"
 #include "libfe/base/field.hpp"
+#include "libio/asked_key.hpp"
 #include "libio/config.hpp"
 
 namespace whirl {
@@ -21,7 +22,9 @@ class TableReader {
   /// @param table     null: the table is absent, everything in it is left out
   /// @param path      of the table, for messages
   /// @param problems  receives what is wrong
-  TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems);
+  /// @param asked     receives what is asked for; null: nobody wants to know
+  TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems,
+              std::vector<AskedKey>* asked = nullptr);
 
   bool has(std::string_view key) const { return table_ && table_->find(key); }
   /// Whether something stands here that is no table; that is reported, and nothing else in it.
@@ -43,23 +46,29 @@ class TableReader {
   /// The same of a value that stands in an array or an inline table.
   std::optional<double> quantity(const ConfigNode& value, const std::string& at,
                                  std::string_view unit, Range range);
+  /// A list of two, such as [x, y].
+  /// @param expected  for messages: "[x, y]"
+  std::optional<std::array<double, 2>> pair(std::string_view key, std::string_view unit,
+                                            Range range, std::string_view expected);
   std::optional<long> integer(std::string_view key, Range range, bool is_required = false);
+  /// Reports a value that is more than it may be.
+  void at_most(std::string_view key, long value, long most);
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::string> string(std::string_view key, bool is_required = false);
 
   /// One of the names of an enum; reports the known ones otherwise.
   template <class Enum>
   std::optional<Enum> choice(std::string_view key) {
-    const auto name = string(key);
-    if (!name) return std::nullopt;
     std::vector<std::string> known;
+    for (const auto& [candidate, value] : choices(Enum{})) known.emplace_back(candidate);
+    const auto name = choice(key, known);
     for (const auto& [candidate, value] : choices(Enum{})) {
-      if (candidate == *name) return value;
-      known.emplace_back(candidate);
+      if (name && candidate == *name) return value;
     }
-    unknown_choice(key, *name, known);
     return std::nullopt;
   }
+  /// One of some names; reports any other.
+  std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& known);
 
   /// A required key is missing; so are others that would do as well.
   void missing(std::string_view key, std::string_view expected,
@@ -75,6 +84,7 @@ class TableReader {
  private:
   template <class Struct, class Member>
   void read_field(Struct& to, const Field<Struct, Member>& field) {
+    if (asked_) note_field(field.name, field.meaning, otherwise(to, field));
     if constexpr (std::is_same_v<Member, double>) {
       if (const auto v = quantity(field.name, field.unit, field.range, field.is_required))
         to.*field.member = *v;
@@ -90,6 +100,28 @@ class TableReader {
       if (const auto v = string(field.name, field.is_required)) to.*field.member = *v;
     }
   }
+  /// What holds if a field is left out, as it would be written; empty: something else.
+  template <class Struct, class Member>
+  static std::string otherwise(const Struct& to, const Field<Struct, Member>& field) {
+    if (!field.has_default) return "";
+    const Member& value = to.*field.member;
+    if constexpr (std::is_same_v<Member, bool>) {
+      return value ? "true" : "false";
+    } else if constexpr (std::is_arithmetic_v<Member>) {
+      ConfigNode number;
+      number.kind = std::is_integral_v<Member> ? ConfigNode::Kind::integer : ConfigNode::Kind::real;
+      number.number = value;
+      return number.as_written();
+    } else if constexpr (std::is_enum_v<Member>) {
+      return '"' + std::string(name_of(value)) + '"';
+    } else {
+      return '"' + value + '"';
+    }
+  }
+  std::optional<std::string> text(std::string_view key, bool is_required);
+  void note(std::string_view key, AskedKey what);
+  void note_field(std::string_view key, std::string_view meaning, std::string otherwise);
+
   bool in_range(const ConfigNode& value, const std::string& at, double number, Range range,
                 const std::string& expected);
 
@@ -97,6 +129,7 @@ class TableReader {
   bool is_malformed_ = false;
   std::string path_;
   std::vector<Problem>& problems_;
+  std::vector<AskedKey>* asked_;
   std::vector<std::string> known_;
 
   struct Missing {

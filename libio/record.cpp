@@ -48,6 +48,11 @@ Record& Record::set(std::string_view key, Record value) {
   return *this;
 }
 
+Record& Record::merge(const Record& other) {
+  for (const auto& [key, value] : std::get<Object>(other.value_)) set(key, value);
+  return *this;
+}
+
 void Record::add(Record item) {
   assert(std::holds_alternative<Array>(value_));
   std::get<Array>(value_).push_back(std::move(item));

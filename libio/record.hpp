@@ -33,6 +33,8 @@ class Record {
 
   /// Sets an entry of an object, in the order of the calls.
   Record& set(std::string_view key, Record value);
+  /// Adds the entries of another object.
+  Record& merge(const Record& other);
   /// Adds an item to an array.
   void add(Record item);
   static Record array() { return Record(Array{}); }

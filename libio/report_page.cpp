@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "libfe/base/error.hpp"
+#include "libio/comparison.hpp"
 #include "libio/figure_json.hpp"
 #include "libio/format.hpp"
 #include "libio/motion_json.hpp"
@@ -138,6 +140,45 @@ std::string filled(std::string_view page,
   return out.append(page);
 }
 
+Record table_record(const FigureTable& table) {
+  const auto list = [](const std::vector<std::string>& texts) {
+    Record array = Record::array();
+    for (const std::string& text : texts) array.add(text);
+    return array;
+  };
+  Record rows = Record::array();
+  for (const auto& row : table.rows) rows.add(list(row));
+  return Record().set("header", list(table.header)).set("rows", rows);
+}
+
+/// What several results show over each other: figures of one kind and variant that all of them have.
+Record comparison_record(const std::vector<std::unique_ptr<ResultView>>& results,
+                         const std::vector<std::vector<Figure>>& figures, ArrayStore& arrays) {
+  const std::vector<std::string> names = names_of(results);
+  std::vector<std::string> texts;
+  for (const auto& result : results) texts.push_back(result->file.strings("/model").at(0));
+  Record list = Record::array();
+  for (const Figure& f : figures.front()) {
+    std::vector<const Figure*> alike{&f};
+    for (std::size_t n = 1; n < figures.size(); ++n) {
+      const auto same = std::find_if(
+          figures[n].begin(), figures[n].end(),
+          [&](const Figure& other) { return other.kind == f.kind && other.variant == f.variant; });
+      if (same != figures[n].end()) alike.push_back(&*same);
+    }
+    if (alike.size() != figures.size()) continue;
+    if (const auto both = overlay(alike, names)) {
+      list.add(record_of(*both, arrays).set("summary", ""));
+    }
+  }
+  Record title = Record::array();
+  for (const std::string& name : names) title.add(name);
+  return Record()
+      .set("names", title)
+      .set("figures", list)
+      .set("differences", table_record(differences(texts, names)));
+}
+
 }  // namespace
 
 ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
@@ -146,9 +187,11 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
   ArrayStore arrays;
   Record list = Record::array();
   bool moves = false;
+  std::vector<std::vector<Figure>> all;
   for (const auto& result : results) {
     Record figures = Record::array();
     std::vector<std::string> missing;
+    all.emplace_back();
     for (const FigureKind& kind : figure_kinds()) {
       try {
         for (const Figure& f : figures_of(kind, *result)) {
@@ -156,6 +199,7 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
           r.set("summary", kind.summary);
           figures.add(r);
           ++made.figures;
+          if (results.size() > 1) all.back().push_back(f);
         }
       } catch (const FileError& error) {  // one damaged dataset does not cost the others
         missing.push_back(fmt::format("no figure \"{}\": {}", kind.name, error.what()));
@@ -171,6 +215,7 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
   }
   Record data;
   data.set("version", version).set("colors", color_record()).set("results", list);
+  if (results.size() > 1) data.set("comparison", comparison_record(results, all, arrays));
   data.set("arrays", arrays.record());
   const std::string title = for_html(results.empty() ? "whirl" : results.front()->title);
   const std::string json = for_script(data.json());

@@ -90,19 +90,6 @@ std::optional<Unit> find_unit(std::string_view symbol) {
   return std::nullopt;
 }
 
-/// All symbols, plain ones first, then with prefixes.
-const std::vector<std::string>& known_symbols() {
-  static const std::vector<std::string> known = [] {
-    std::vector<std::string> all;
-    for (const Unit& unit : units) all.emplace_back(unit.symbol);
-    for (const Unit& unit : units) {
-      for (const char prefix : unit.prefixes) all.push_back(prefix + std::string(unit.symbol));
-    }
-    return all;
-  }();
-  return known;
-}
-
 /// ", did you mean ...?" or nothing. A force, pressure or mass may lack the dot behind it: "Nm".
 std::string suggestion(std::string_view symbol) {
   for (std::size_t i = 1; i < symbol.size() && i < 4; ++i) {
@@ -112,7 +99,7 @@ std::string suggestion(std::string_view symbol) {
       return fmt::format(", did you mean \"{}.{}\"?", symbol.substr(0, i), symbol.substr(i));
     }
   }
-  const auto meant = nearest(symbol, known_symbols());
+  const auto meant = nearest(symbol, unit_symbols());
   return meant ? fmt::format(", did you mean \"{}\"?", *meant) : "";
 }
 
@@ -254,6 +241,18 @@ bool fits(Dimension found, Dimension expected) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& unit_symbols() {
+  static const std::vector<std::string> known = [] {
+    std::vector<std::string> all;
+    for (const Unit& unit : units) all.emplace_back(unit.symbol);
+    for (const Unit& unit : units) {
+      for (const char prefix : unit.prefixes) all.push_back(prefix + std::string(unit.symbol));
+    }
+    return all;
+  }();
+  return known;
+}
 
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 60;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace whirl {
 
@@ -68,6 +69,9 @@ Parsed<double> parse_as(std::string_view text, std::string_view si_unit);
 /// Dimension of an SI unit as field tables write it: "N/m^1.5", "rad/s", "1/s"; "": a plain number.
 /// @throws std::invalid_argument  if it is not a unit, or not one without a factor (mm, rpm)
 Dimension dimension_of(std::string_view si_unit);
+
+/// All symbols of units, plain ones first, then with prefixes.
+const std::vector<std::string>& unit_symbols();
 
 /// What a unit measures: "stiffness" for N/m; empty if it has no name.
 std::string_view quantity_name(const Dimension& dimension);

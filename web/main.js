@@ -5,8 +5,8 @@ const arrays = new Arrays(page.arrays);
 
 const NAMES = { layout: "Layout", campbell: "Campbell", log_decrement: "Log decrement", critical_map: "Critical speeds",
   modes: "Mode shapes", bode: "Bode", polar: "Polar", deflection: "Deflected shapes", orbit: "Orbit", time_history: "Time history",
-  spectrum: "Spectrum", poincare: "Poincaré", contact_forces: "Contact forces", contact_angles: "Contact angles", mac: "MAC",
-  exponents: "Exponents", bifurcation: "Bifurcation", spectral_map: "Spectral map", cascade: "Cascade", map: "Map",
+  spectrum: "Spectrum", waterfall: "Waterfall", poincare: "Poincaré", contact_forces: "Contact forces", contact_angles: "Contact angles", mac: "MAC",
+  exponents: "Exponents", bifurcation: "Bifurcation", branches: "Branches", spectral_map: "Spectral map", cascade: "Cascade", map: "Map",
   exponent_map: "Exponent map", regime_map: "Contact map", basins: "Basins", work_precision: "Speed against error" };
 
 function setTheme(theme) {
@@ -29,13 +29,14 @@ function build() {
   const wanted = matchMedia("(prefers-color-scheme: dark)");
   document.documentElement.dataset.theme = wanted.matches ? "dark" : "light";
   wanted.addEventListener("change", (e) => setTheme(e.matches ? "dark" : "light"));
-  const first = page.results[0];
+  const first = page.results[0], compared = page.comparison;
   document.getElementById("head").append(
-    element("div", {}, element("h1", {}, first.title), element("p", {}, `report of whirl ${page.version}`)),
+    element("div", {}, element("h1", {}, compared ? compared.names.join(", ") : first.title), element("p", {}, `report of whirl ${page.version}`)),
     element("button", { type: "button", id: "theme", onclick: () => setTheme(isDark() ? "light" : "dark") }, "Light / dark"));
 
   const contents = element("div"), main = document.getElementById("main");
   document.getElementById("contents").append(contents);
+  if (compared) addComparison(compared, main, contents);
   page.results.forEach((result, number) => {
     result.number = number;
     const several = page.results.length > 1;
@@ -75,6 +76,22 @@ function build() {
     clearTimeout(timer);
     timer = setTimeout(() => views.forEach((v) => v.resize()), 80);
   });
+}
+
+/** Figures of several results over each other, and what their models differ in. */
+function addComparison(compared, main, contents) {
+  const grid = element("div", { class: "grid" }), { header, rows } = compared.differences;
+  const section = element("section", {}, element("h2", {}, `Compared: ${compared.names.join(", ")}`), grid);
+  grid.append(element("article", { class: "card wide", id: "differences" }, element("h3", {}, "Differences of the models"),
+    rows.length ? tableOf(header, rows) : element("p", { class: "about" }, "none")));
+  contents.append(element("a", { href: "#differences" }, "differences"));
+  const result = { number: "compared", figures: compared.figures };
+  for (const figures of kindsOf(result)) {
+    const view = new FigureView(figures, result, arrays);
+    grid.append(view.card);
+    contents.append(element("a", { href: `#${view.card.id}` }, `compared ${NAMES[figures[0].kind] || figures[0].kind}`));
+  }
+  main.append(section);
 }
 
 function addSpace(result, grid, link) {

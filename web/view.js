@@ -298,16 +298,16 @@ class FigureView {
   }
 
   /** The nearest point of a panel's curves. */
-  nearest(panel, x, y) {
+  nearest(panel, x, y, isWanted = () => true) {
     const d = this.drawing;
     let best = null, least = 22 * 22;
     for (const c of panel.curves) {
-      if (!d.isShown(c) || (!c.name && !c.end_name && !c.hover && !c.along && panel.curves.length > 3 && !c.marker && !panel.cursor)) continue;
+      if (!d.isShown(c) || !isWanted(c) || (!c.name && !c.end_name && !c.hover && !c.along && panel.curves.length > 3 && !c.marker && !panel.cursor)) continue;
       for (let k = 0; k < c.x.length; ++k) {
         const dx = d.px(panel, c.x[k]) - x;
         if (dx > 22 || dx < -22) continue;
         const dy = d.py(panel, c.y[k]) - y, far = dx * dx + dy * dy;
-        if (far < least) {
+        if (far < least || (far === least && c.details)) {
           least = far;
           best = { c, k };
         }
@@ -333,6 +333,7 @@ class FigureView {
       if (panel.frame !== false) {
         const line = (axis, v) => axis.title && `${withoutUnit(axis.title)} = ${shown(v)} ${unitOf(axis.title)}${
           axis.also ? ` = ${shown(v * axis.also_factor, 4)} ${axis.also}` : ""}`.trim();
+        if (c.details) lines.push("click: its multipliers and command");
         if (this.figure.kind !== "layout") lines.push(line(panel.x, c.x[k]), line(panel.y, c.y[k]));
       }
       if (c.along) lines.push(`${c.along_title} = ${shown(c.along[k], 7)}${c.along_title === "time" ? " s" : ""}`);
@@ -361,14 +362,24 @@ class FigureView {
   }
 
   click(panel, x, y) {
+    const point = this.nearest(panel, x, y, (c) => c.details);
+    if (point) {
+      const { c, k } = point;
+      return this.tellCommand(c.command.replace("{n}", String(c.along[k])), c.details[k].split("\n"));
+    }
     const cell = panel.cells?.command && this.cellAt(panel, x, y);
     if (!cell) return;
     const cells = panel.cells, number = (v) => String(Number(v.toPrecision(12)));
     const text = cells.command.replace("{x}", number(cells.x[cell.i] * cells.x_factor)).replace("{y}", number(cells.y[cell.j] * cells.y_factor));
+    this.tellCommand(text, []);
+  }
+
+  /** Shows a command line below the figure, with what is to be said before it. */
+  tellCommand(text, lines) {
     const copy = element("button", { type: "button", onclick: () => {
       navigator.clipboard?.writeText(text).then(() => { copy.textContent = "Copied"; }, () => {});
     } }, "Copy");
-    this.command.replaceChildren(element("code", {}, text), copy);
+    this.command.replaceChildren(...lines.map((l) => element("div", { class: "detail" }, l)), element("code", {}, text), copy);
     this.command.style.display = "flex";
     this.command.hidden = false;
   }
@@ -413,7 +424,7 @@ class FigureView {
           drawMarker(ctx, "circle", d.px(p, c.x[low]), d.py(p, c.y[low]), 10);
         }
         // a line of a spectrum is a circle of the orbit
-        if (kind === "frequency" && more.amplitude && p.equal && this.figure.kind === "orbit" && more.station === this.figure.variant) {
+        if (kind === "frequency" && more.amplitude && LENGTHS[more.unit] && p.equal && this.figure.kind === "orbit" && more.station === this.figure.variant) {
           const r = (more.amplitude * LENGTHS[more.unit]) / LENGTHS[unitOf(p.x.title)];
           ctx.strokeStyle = paint("alarm");
           ctx.lineWidth = 1.6;

@@ -90,14 +90,49 @@ void render(const fs::path& series, const fs::path& to, std::pair<int, int> size
   }
 }
 
+/// Makes a film .gif, played in a loop, of pictures NAME_0001.png, ...; VTK does not write it.
+void make_gif(const fs::path& name, const fs::path& to, long rate, const fs::path& output) {
+  const fs::path stem = fs::path(name).replace_extension("");
+  std::vector<std::string> pictures;
+  for (const auto& entry : fs::directory_iterator(name.parent_path())) {
+    if (entry.path().extension() == ".png") pictures.push_back(entry.path().string());
+  }
+  std::sort(pictures.begin(), pictures.end());
+  const std::vector<std::string> with_ffmpeg{
+      "ffmpeg",
+      "-y",
+      "-framerate",
+      fmt::format("{}", rate),
+      "-i",
+      stem.string() + "_%04d.png",
+      "-filter_complex",
+      "split[a][b];[a]palettegen=stats_mode=full[colors];[b][colors]paletteuse",
+      to.string()};
+  std::vector<std::string> with_imagemagick{"convert", "-delay",
+                                            fmt::format("{:.3g}", 100.0 / rate), "-loop", "0"};
+  with_imagemagick.insert(with_imagemagick.end(), pictures.begin(), pictures.end());
+  with_imagemagick.insert(with_imagemagick.end(),
+                          {"+dither", "+remap", "-layers", "OptimizeFrame", to.string()});
+  bool is_there = false;
+  for (const auto& words : {with_ffmpeg, with_imagemagick}) {
+    const std::optional<int> status = run_program(words, output);
+    if (status == 0 && fs::exists(to)) return;
+    is_there = is_there || status.has_value();
+  }
+  throw FileError(
+      is_there ? fmt::format("cannot make {}: {}", to.filename().string(), last_words(output))
+               : "a .gif is made with ffmpeg or convert (Debian packages ffmpeg and "
+                 "imagemagick), and neither is there; .ogv and .png need none of them");
+}
+
 }  // namespace
 
 Report run_animate(const Invocation& call) {
   const SceneSource source(call);
   const fs::path out = call.text("out", fs::path(call.file).replace_extension(".ogv").string());
   const std::string ending = out.extension();
-  if (ending != ".ogv" && ending != ".png") {
-    throw wrong("--out " + out.string(), "expected a film .ogv, or pictures .png");
+  if (ending != ".ogv" && ending != ".gif" && ending != ".png") {
+    throw wrong("--out " + out.string(), "expected a film .ogv or .gif, or pictures .png");
   }
   FileReplacement{out};  // a directory that is not there is said first
   const auto size = size_of(call.text("size", "960x540"));
@@ -121,8 +156,10 @@ Report run_animate(const Invocation& call) {
   const Folder folder;
   const fs::path series = folder.path / "series.pvd";
   write_vtk_series(series, source.scene, frames);
-  const fs::path drawn = folder.path / ("film" + ending);
-  render(series, drawn, size, call.integer("rate", 25), title, folder.path / "output.txt");
+  const long rate = call.integer("rate", 25);
+  const fs::path drawn = folder.path / (ending == ".gif" ? "film.png" : "film" + ending);
+  render(series, drawn, size, rate, title, folder.path / "output.txt");
+  if (ending == ".gif") make_gif(drawn, folder.path / "film.gif", rate, folder.path / "output.txt");
 
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder.path)) {

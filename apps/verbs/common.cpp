@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "apps/version.hpp"
+#include "libfe/base/error.hpp"
+#include "libio/figures.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 
@@ -123,6 +125,14 @@ std::string point_label(const NamedPoint& point) {
   if (point.node() == 0) return point.name;
   return point.name.empty() ? fmt::format("{}", point.node())
                             : fmt::format("{} {}", point.node(), point.name);
+}
+
+void set_frequency_unit(const Invocation& call, ResultView& result) {
+  if (!call.has("frequency")) return;
+  const std::string name = call.text("frequency");
+  const auto unit = frequency_unit(name);
+  if (!unit) throw ModelError({"--frequency " + name}, "", "expected Hz, cpm or rad/s");
+  result.frequency = *unit;
 }
 
 void commit(const Invocation& call, ResultWriter* file, Report& report) {

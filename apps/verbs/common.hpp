@@ -13,6 +13,7 @@
 namespace whirl {
 
 class ResultWriter;
+struct ResultView;
 
 constexpr double rpm = std::numbers::pi / 30.0;  ///< one revolution per minute [rad/s]
 
@@ -39,6 +40,9 @@ std::string fixed(double value, int digits);
 
 /// "7 seal", "stator".
 std::string point_label(const NamedPoint& point);
+
+/// Shows frequencies in the unit of --frequency, if it is given.
+void set_frequency_unit(const Invocation& call, ResultView& result);
 
 /// Commits a result file, if there is one, and says so.
 void commit(const Invocation& call, ResultWriter* file, Report& report);

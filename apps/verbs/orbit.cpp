@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/verbs/all.hpp"
+#include "apps/verbs/branch_point.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
@@ -131,14 +132,27 @@ Report rotating_orbit(const Invocation& call, const Model& model) {
 
 }  // namespace
 
-Report run_orbit(const Invocation& call) {
+Report run_orbit(const Invocation& given) {
+  std::optional<BranchStart> point;
+  Invocation call = given;
+  if (call.has("point")) {
+    point = branch_start(call);
+    call.sets.insert(call.sets.end(), point->sets.begin(), point->sets.end());
+  }
   const Model model = call.model();
   require_speed(model);
-  if (is_rotating_frame(call)) return rotating_orbit(call, model);
-  const int period = static_cast<int>(call.integer("period", 1));
+  if (is_rotating_frame(call)) {
+    if (point) require_stationary_frame(call);
+    return rotating_orbit(call, model);
+  }
+  const int period = static_cast<int>(call.integer("period", point ? point->period : 1));
   const auto file = call.result_file(model);
   const Scene scene = make_scene(model);
-  const Trajectory transient = after_transient(call, model, scene);
+  // an unstable orbit is not to be left before it is looked for
+  const Trajectory transient =
+      point ? Trajectory{.system = &scene.contacts,
+                         .state = {.y = basis_change(scene, point->first, point->state)}}
+            : after_transient(call, model, scene);
   const Flow flow = flow_of(scene.contacts);
   PeriodicOrbit orbit{.period = period, .states = {transient.state.y}};
   int status = status_of(transient.outcome);

@@ -143,7 +143,8 @@ void write_picture(const std::string& svg, const fs::path& to) {
 }  // namespace
 
 Report run_plot(const Invocation& call) {
-  const ResultView result(call.file);
+  ResultView result(call.file);
+  set_frequency_unit(call, result);
   if (call.words.size() > 1) throw wrong(call.words[1], "one kind of figure at a time");
   if (call.words.empty()) {
     if (call.has("out")) throw wrong("--out " + call.given.at("out"), "which kind of figure?");

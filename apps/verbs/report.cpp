@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "apps/verbs/all.hpp"
+#include "apps/verbs/common.hpp"
 #include "apps/version.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/replace_file.hpp"
@@ -14,6 +15,7 @@ Report run_report(const Invocation& call) {
   std::vector<std::unique_ptr<ResultView>> results;
   results.push_back(std::make_unique<ResultView>(call.file));
   for (const std::string& file : call.words) results.push_back(std::make_unique<ResultView>(file));
+  for (const auto& result : results) set_frequency_unit(call, *result);
   const std::string out =
       call.text("out", std::filesystem::path(call.file).replace_extension(".html").string());
   const ReportPage page = report_page(results, version);

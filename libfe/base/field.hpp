@@ -19,18 +19,26 @@ struct Field {
   Range range;               ///< which numbers are allowed
   std::string_view meaning;  ///< half a sentence for the manual
   bool is_required;
+  bool has_default;  ///< whether a struct as it is made has the value that holds if left out
 };
 
 template <class S, class T>
 constexpr Field<S, T> required(std::string_view name, T S::*member, std::string_view unit,
                                Range range, std::string_view meaning) {
-  return {name, member, unit, range, meaning, true};
+  return {name, member, unit, range, meaning, true, false};
 }
 
 template <class S, class T>
 constexpr Field<S, T> optional(std::string_view name, T S::*member, std::string_view unit,
                                Range range, std::string_view meaning) {
-  return {name, member, unit, range, meaning, false};
+  return {name, member, unit, range, meaning, false, true};
+}
+
+/// An optional key in whose place, if it is left out, something else is given or found.
+template <class S, class T>
+constexpr Field<S, T> alternative(std::string_view name, T S::*member, std::string_view unit,
+                                  Range range, std::string_view meaning) {
+  return {name, member, unit, range, meaning, false, false};
 }
 
 /// A name and the enumerator it stands for; an enum read from a file lists its `choices(Enum)`.

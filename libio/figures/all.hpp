@@ -16,6 +16,7 @@ std::vector<Figure> deflection_figures(const ResultView& result);
 std::vector<Figure> time_history_figures(const ResultView& result);
 std::vector<Figure> orbit_figures(const ResultView& result);
 std::vector<Figure> spectrum_figures(const ResultView& result);
+std::vector<Figure> waterfall_figures(const ResultView& result);
 std::vector<Figure> poincare_figures(const ResultView& result);
 std::vector<Figure> contact_force_figures(const ResultView& result);
 std::vector<Figure> contact_angle_figures(const ResultView& result);
@@ -62,17 +63,20 @@ struct ShownAxis {
 };
 ShownAxis shown_axis(const ResultView& result, const std::string& path);
 
+/// What was set on the command line of a result, to be set again: " --set 'a.b=c'".
+std::string settings_of(const ResultView& result);
+
 /// Position of the first number along a title of an axis with a unit: "x [mm]".
 std::string with_unit(const std::string& what, const DisplayUnit& unit);
 
 /// The contact at a station of the trajectory ("7 ring"), as its number; -1 if there is none.
 int contact_at(const ResultView& result, const std::string& station);
-/// Numbers of stations, those with a contact first.
+/// Numbers of stations, those with a contact first, those that do not move last.
 std::vector<std::size_t> stations_by_interest(const ResultView& result,
                                               const std::vector<std::string>& names);
 
 /// Columns at which the largest magnitude of all rows has a maximum, the four highest, ascending.
-std::vector<Eigen::Index> response_peaks(const Mat& magnitude);
+std::vector<Eigen::Index> deflection_peaks(const Mat& magnitude);
 
 /// A circle of 181 points.
 Curve circle(const std::string& name, double radius, double x = 0.0, double y = 0.0);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "libio/figures/all.hpp"
+#include "libio/format.hpp"
 
 namespace whirl {
 
@@ -132,6 +133,60 @@ void add_marks(Panel& p, const Branches& b, const std::vector<double>& y) {
   }
 }
 
+/// A multiplier as people write it: "-1.02"; a pair with its size: "0.3 ± 0.4 i (0.5)".
+std::string told(const Complex& m) {
+  if (m.imag() == 0.0) return with_minus(fmt::format("{:.5g}", m.real()));
+  return with_minus(
+      fmt::format("{:.5g} ± {:.5g} i ({:.5g})", m.real(), std::abs(m.imag()), std::abs(m)));
+}
+
+/// The points of every branch: a click tells their multipliers and how to get their orbits.
+void add_points(Panel& p, const ResultView& result, const Branches& b, const std::vector<double>& y,
+                const CMat& multipliers) {
+  const auto contacts = names_of(result, "/branch/contact");
+  const bool has_contacts = !contacts.empty();
+  const Mat duty = has_contacts ? result.file.matrix("/branch/duty") : Mat();
+  const Mat impacts = has_contacts ? result.file.matrix("/branch/impacts_per_rev") : Mat();
+  const Mat normal = has_contacts ? result.file.matrix("/branch/max_normal") : Mat();
+  const std::string command = fmt::format("whirl orbit {}{} --from {} --point {{n}}",
+                                          result.model_path, settings_of(result), result.path);
+  for (std::size_t number = 1; number <= b.period.size(); ++number) {
+    Curve c{.paint = series_paint(number - 1), .has_line = false, .has_marker = true};
+    c.size = 4.0;
+    c.along_title = "point";
+    c.command = command;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      if (b.branch[i] != static_cast<double>(number)) continue;
+      c.x.push_back(b.axis.values[i]);
+      c.y.push_back(y[i]);
+      c.along.push_back(static_cast<double>(i + 1));
+      const auto k = static_cast<Eigen::Index>(i);
+      std::string text = fmt::format("Point {} of branch {}: {} = {:.8g}, period {:.0f}, {}", i + 1,
+                                     number, b.axis.title, b.axis.values[i], b.period[number - 1],
+                                     b.stable[i] < 0.0   ? "begins on another branch"
+                                     : b.stable[i] > 0.0 ? "stable"
+                                                         : "unstable");
+      std::string list;
+      constexpr Eigen::Index most = 8;
+      for (Eigen::Index j = 0; j < std::min(most, multipliers.cols()); ++j) {
+        if (!std::isfinite(multipliers(k, j).real()) || multipliers(k, j).imag() < 0.0) continue;
+        list += (list.empty() ? "" : ", ") + told(multipliers(k, j));
+      }
+      if (!list.empty()) {
+        text += (multipliers.cols() > most ? "\nlargest multipliers: " : "\nmultipliers: ") + list;
+      }
+      for (std::size_t j = 0; j < contacts.size(); ++j) {
+        const auto at = static_cast<Eigen::Index>(j);
+        text += fmt::format("\n{}: {:.4g} % in touch, {:.4g} impacts per revolution, up to {}",
+                            contacts[j], 100.0 * duty(k, at), impacts(k, at),
+                            format_engineering(normal(k, at), "N"));
+      }
+      c.details.push_back(std::move(text));
+    }
+    p.curves.push_back(std::move(c));
+  }
+}
+
 }  // namespace
 
 std::vector<Figure> branch_figures(const ResultView& result) {
@@ -160,6 +215,7 @@ std::vector<Figure> branch_figures(const ResultView& result) {
     Panel p = panel(with_unit("largest distance from the axis", unit));
     p.share = 2.4;
     add_lines(p, b, radius, true);
+    add_points(p, result, b, radius, all);
     add_marks(p, b, radius);
     f.panels.push_back(std::move(p));
     Panel m = panel("largest multiplier");
@@ -173,7 +229,7 @@ std::vector<Figure> branch_figures(const ResultView& result) {
       add_lines(d, b, column(result, "/branch/duty", 0), false);
       f.panels.push_back(std::move(d));
     }
-    f.notes.push_back("Solid: stable, dashed: unstable.");
+    f.notes.push_back("Solid: stable, dashed: unstable. Dots are the points that were computed.");
     figures.push_back(std::move(f));
   }
   return figures;

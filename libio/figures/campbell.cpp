@@ -15,11 +15,13 @@ using namespace figures;
 struct Branches {
   explicit Branches(const ResultView& result)
       : speed(scaled(numbers(result.file.vector("/campbell/speed")), 1.0 / rpm)),
-        frequency(result.file.matrix("/campbell/frequency") / hertz),
+        unit(result.frequency),
+        frequency(result.file.matrix("/campbell/frequency") * unit.factor),
         decrement(result.file.matrix("/campbell/log_decrement")),
         whirl(result.file.strings("/campbell/whirl")) {}
   std::vector<double> speed;  ///< [rpm]
-  Mat frequency, decrement;   ///< [Hz], [-]
+  DisplayUnit unit;           ///< of frequencies
+  Mat frequency, decrement;   ///< [unit], [-]
   std::vector<std::string> whirl;
 
   std::string name(Eigen::Index i) const {
@@ -39,9 +41,9 @@ Curve curve_of(const Branches& b, Eigen::Index i, std::vector<double> y) {
   c.marker_every = every;
   for (std::size_t j = 0; j < c.x.size(); ++j) {
     const auto k = static_cast<Eigen::Index>(j);
-    c.hover.push_back(fmt::format("branch {}: {:.5g} Hz ({:.5g} rpm), log decrement {:.4g}",
-                                  b.name(i), b.frequency(i, k), 60.0 * b.frequency(i, k),
-                                  b.decrement(i, k)));
+    c.hover.push_back(fmt::format("branch {}: {:.5g} {} ({:.5g} rpm), log decrement {:.4g}",
+                                  b.name(i), b.frequency(i, k), b.unit.name,
+                                  b.frequency(i, k) / (rpm * b.unit.factor), b.decrement(i, k)));
   }
   return c;
 }
@@ -70,10 +72,11 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
   f.subtitle = "Campbell diagram";
   Panel p;
   p.x = {.title = "speed [rpm]", .first = b.speed.front(), .last = b.speed.back()};
-  p.y.title = "natural frequency [Hz]";
+  p.y.title = with_unit("natural frequency", b.unit);
   p.y.first = 0.0;
   // branches far above the second harmonic would press the others together
-  const double twice = 2.4 * b.speed.back() / 60.0;
+  const double per_rpm = rpm * b.unit.factor;
+  const double twice = 2.4 * b.speed.back() * per_rpm;
   double low = 0.0, all = 0.0;
   for (Eigen::Index i = 0; i < b.frequency.rows(); ++i) {
     const double top = largest_of(row(b.frequency, i));
@@ -85,9 +88,9 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
   for (Eigen::Index i = 0; i < b.frequency.rows(); ++i) {
     p.curves.push_back(curve_of(b, i, row(b.frequency, i)));
   }
-  p.rules.push_back({Rule::Kind::slope, 1.0 / 60.0, "1X", Paint::ink, Dash::dash_dot});
-  p.rules.push_back({Rule::Kind::slope, 2.0 / 60.0, "2X", Paint::gray, Dash::dotted});
-  p.rules.push_back({Rule::Kind::slope, 0.5 / 60.0, "½X", Paint::gray, Dash::dotted});
+  p.rules.push_back({Rule::Kind::slope, per_rpm, "1X", Paint::ink, Dash::dash_dot});
+  p.rules.push_back({Rule::Kind::slope, 2.0 * per_rpm, "2X", Paint::gray, Dash::dotted});
+  p.rules.push_back({Rule::Kind::slope, 0.5 * per_rpm, "½X", Paint::gray, Dash::dotted});
   mark_operation(result, p);
   if (result.file.has("/campbell/critical_speed")) {
     const auto speeds = numbers(result.file.vector("/campbell/critical_speed"));
@@ -96,15 +99,16 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
     c.has_marker = true;
     c.marker = Marker::cross;
     c.size = 9.0;
-    f.table.header = {"critical speed [rpm]", "[Hz]", "branch", "whirl", "log decrement"};
+    f.table.header = {"critical speed [rpm]", "[" + b.unit.name + "]", "branch", "whirl",
+                      "log decrement"};
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(branches[i] - 1);
       const double speed = speeds[i] / rpm;
       c.x.push_back(speed);
-      c.y.push_back(speed / 60.0);
+      c.y.push_back(speed * per_rpm);
       c.hover.push_back(fmt::format("critical speed {:.1f} rpm of branch {}", speed, b.name(k)));
       const double decrement = between(b.speed, b.decrement, k, speed);
-      f.table.rows.push_back({fmt::format("{:.1f}", speed), fmt::format("{:.2f}", speed / 60.0),
+      f.table.rows.push_back({fmt::format("{:.1f}", speed), fmt::format("{:.2f}", speed * per_rpm),
                               b.name(k), b.whirl[static_cast<std::size_t>(k)],
                               fmt::format("{:.4f}", decrement)});
     }

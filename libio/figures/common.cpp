@@ -55,6 +55,17 @@ ShownAxis shown_axis(const ResultView& result, const std::string& path) {
   return axis;
 }
 
+std::string settings_of(const ResultView& result) {
+  std::string settings;
+  const auto words = result.file.strings("/arguments");
+  for (std::size_t i = 2; i + 1 < words.size(); ++i) {
+    if (words[i] == "--set" || words[i] == "--speed") {
+      settings += fmt::format(" {} '{}'", words[i], words[i + 1]);
+    }
+  }
+  return settings;
+}
+
 int contact_at(const ResultView& result, const std::string& station) {
   if (!result.model || !result.assembler) return -1;
   const auto& contacts = result.model->contacts;
@@ -76,9 +87,22 @@ std::vector<std::size_t> stations_by_interest(const ResultView& result,
                                               const std::vector<std::string>& names) {
   std::vector<std::size_t> order(names.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return (contact_at(result, names[a]) >= 0) > (contact_at(result, names[b]) >= 0);
-  });
+  // what stays where it is, as in a rigid bearing, comes last
+  std::vector<int> interest(names.size(), 1);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (contact_at(result, names[i]) >= 0) interest[i] = 2;
+  }
+  if (result.file.has("/trajectory/x") && result.file.strings("/trajectory/station") == names) {
+    constexpr double still = 1e-9;  // of the largest motion
+    const Vec most = (result.file.matrix("/trajectory/x").cwiseAbs().rowwise().maxCoeff() +
+                      result.file.matrix("/trajectory/y").cwiseAbs().rowwise().maxCoeff())
+                         .eval();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (most(static_cast<Eigen::Index>(i)) <= still * most.maxCoeff()) interest[i] = 0;
+    }
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return interest[a] > interest[b]; });
   return order;
 }
 

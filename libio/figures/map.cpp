@@ -46,13 +46,7 @@ std::string set(const std::string& path, const std::string& value) {
 std::string command_of(const ResultView& result, const Planes& planes, std::size_t plane,
                        const std::string& verb) {
   std::string line = fmt::format("whirl {} {}", verb, result.model_path);
-  const auto words = result.file.strings("/arguments");
-  for (std::size_t i = 2; i + 1 < words.size(); ++i) {
-    if (words[i] == "--set" || words[i] == "--speed") {
-      line += fmt::format(" {} '{}'", words[i], words[i + 1]);
-    }
-  }
-  line += set(planes.x.path, "{x}") + set(planes.y.path, "{y}");
+  line += settings_of(result) + set(planes.x.path, "{x}") + set(planes.y.path, "{y}");
   if (!planes.z.values.empty()) {
     line += set(planes.z.path, fmt::format("{:.10g}", planes.z.values[plane] * planes.z.factor));
   }

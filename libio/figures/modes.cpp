@@ -90,8 +90,8 @@ std::vector<Figure> mac_figures(const ResultView& result) {
   f.height = 150.0 + 34.0 * static_cast<double>(mac.rows());
   f.height = std::max(f.height, 320.0);
   Panel p;
-  p.x.title = "mode, its frequency [Hz]";
-  p.y.title = "peak [Hz]";
+  p.x.title = with_unit("mode, its frequency", result.frequency);
+  p.y.title = with_unit("peak", result.frequency);
   Cells& c = p.cells;
   c.title = "MAC";
   c.prints_values = true;
@@ -99,11 +99,11 @@ std::vector<Figure> mac_figures(const ResultView& result) {
     c.x.push_back(static_cast<double>(j + 1));
     c.x_names.push_back(fmt::format("{}{} {:.1f}", j + 1,
                                     whirl_style(whirl[static_cast<std::size_t>(j)]).letter,
-                                    modes(j) / hertz));
+                                    modes(j) * result.frequency.factor));
   }
   for (Eigen::Index i = mac.rows(); i-- > 0;) {  // the strongest peak on top
     c.y.push_back(static_cast<double>(mac.rows() - i));
-    c.y_names.push_back(with_minus(fmt::format("{:+.2f}", peaks(i) / hertz)));
+    c.y_names.push_back(with_minus(fmt::format("{:+.2f}", peaks(i) * result.frequency.factor)));
     for (Eigen::Index j = 0; j < mac.cols(); ++j) c.values.push_back(mac(i, j));
   }
   f.panels.push_back(std::move(p));

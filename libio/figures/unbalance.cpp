@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libfe/amplification.hpp"
 #include "libio/figures/all.hpp"
 
 namespace whirl {
@@ -74,41 +75,29 @@ void mark_operation(const ResultView& result, const Response& r, Panel& panel) {
       {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
 }
 
-/// Speeds where a response falls to 0.707 of a peak, below and above [rpm]; NaN if it does not.
-std::pair<double, double> half_power(const Response& r, const Vec& amplitude, Eigen::Index peak) {
-  const double limit = amplitude(peak) / std::numbers::sqrt2;
-  std::pair<double, double> sides{std::nan(""), std::nan("")};
-  for (const int step : {-1, 1}) {
-    for (Eigen::Index k = peak; k + step >= 0 && k + step < amplitude.size(); k += step) {
-      if (amplitude(k + step) > limit) continue;
-      const double share = (amplitude(k) - limit) / (amplitude(k) - amplitude(k + step));
-      const double a = r.speed[static_cast<std::size_t>(k)],
-                   b = r.speed[static_cast<std::size_t>(k + step)];
-      (step < 0 ? sides.first : sides.second) = a + share * (b - a);
-      break;
-    }
-  }
-  return sides;
-}
-
-/// Peaks with amplification factors, N / (N2 - N1), and their margin to the operating speed.
+/// Peaks with amplification factors, and their margins to the operating speed.
 FigureTable peaks_of(const ResultView& result, const Response& r, const CMat& a,
                      const DisplayUnit& unit) {
-  FigureTable t{.header = {"peak [rpm]", "largest at", with_unit("p-p", unit),
-                           "amplification factor", "margin to operation"}};
+  FigureTable t{.header = {"peak [rpm]", "largest at", with_unit("p-p", unit), "amplification",
+                           "margin", "required"}};
   const double operation = speed_of(result) / rpm;
-  for (const Eigen::Index k : response_peaks(a.cwiseAbs())) {
-    Eigen::Index station = 0;
-    const double top = a.cwiseAbs().col(k).maxCoeff(&station);
-    const double speed = r.speed[static_cast<std::size_t>(k)];
-    const auto [below, above] = half_power(r, a.row(station).cwiseAbs().transpose(), k);
-    const double factor = speed / (above - below), margin = (operation - speed) / operation;
-    t.rows.push_back({fmt::format("{:.0f}", speed), r.stations[static_cast<std::size_t>(station)],
-                      fmt::format("{:.4g}", 2.0 * unit.factor * top),
-                      std::isfinite(factor) ? fmt::format("{:.3g}", factor) : "–",
-                      std::isfinite(margin) ? fmt::format("{:.1f} % {}", 100.0 * std::abs(margin),
-                                                          margin > 0.0 ? "below" : "above")
-                                            : "–"});
+  for (const ResponsePeak& peak : response_peaks(r.speed, a.cwiseAbs())) {
+    const double factor = peak.amplification();
+    std::vector<std::string> row{fmt::format("{:.0f}", peak.speed),
+                                 r.stations[static_cast<std::size_t>(peak.row)],
+                                 fmt::format("{:.4g}", 2.0 * unit.factor * peak.amplitude),
+                                 std::isfinite(factor) ? fmt::format("{:.3g}", factor) : "–"};
+    if (operation > 0.0) {
+      const SeparationMargin m = separation_margin(peak, operation);
+      row.push_back(fmt::format("{:.1f} % {}", 100.0 * m.actual, m.is_below ? "below" : "above"));
+      row.push_back(!std::isfinite(m.required) ? "–"
+                    : m.required == 0.0        ? "none"
+                                               : fmt::format("{:.1f} %, {}", 100.0 * m.required,
+                                                      m.is_kept() ? "kept" : "not kept"));
+    } else {
+      row.insert(row.end(), {"–", "–"});
+    }
+    t.rows.push_back(std::move(row));
   }
   return t;
 }
@@ -157,7 +146,7 @@ Figure bode(const ResultView& result, const Response& r, const CMat& a, const ch
 
 }  // namespace
 
-std::vector<Eigen::Index> figures::response_peaks(const Mat& magnitude) {
+std::vector<Eigen::Index> figures::deflection_peaks(const Mat& magnitude) {
   const Vec largest = magnitude.colwise().maxCoeff().transpose();
   std::vector<Eigen::Index> peaks;
   for (Eigen::Index k = 1; k + 1 < largest.size(); ++k) {
@@ -256,7 +245,7 @@ std::vector<Figure> deflection_figures(const ResultView& result) {
   std::sort(places.begin(), places.end());
   if (places.size() < 3) return {};
   const Vec largest = major.cwiseAbs().colwise().maxCoeff().transpose();
-  const std::vector<Eigen::Index> peaks = response_peaks(major.cwiseAbs());
+  const std::vector<Eigen::Index> peaks = deflection_peaks(major.cwiseAbs());
   Figure f{.height = 400.0};
   f.subtitle = "Deflected shapes at the peaks of the response";
   Panel p;

@@ -5,6 +5,7 @@
 
 import json
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -126,6 +127,57 @@ def check_map(browser, name):
     return command
 
 
+def check_branches(browser, whirl, folder, model):
+    """A click on a point of a branch tells its multipliers and a command that finds its orbit."""
+    result, page = os.path.join(folder, "branches.h5"), os.path.join(folder, "branches.html")
+    subprocess.run([whirl, "continue", model, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6", "--over",
+                    "contact.ring.friction=0.14:0.15:0.002", "--at", "0.15", "--out", result, "--quiet"], check=True)
+    subprocess.run([whirl, "report", result, "--out", page, "--quiet"], check=True)
+    browser.open(page)
+    browser.wait_for("document.documentElement.dataset.state === 'drawn'")
+    view = "views.find(v => v.figure.kind === 'branches')"
+    x, y = middle_of_point(browser, view, curve="p.curves.find(c => c.details)")
+    browser.click(x, y)
+    lines = browser.value(f"[...{view}.command.querySelectorAll('.detail')].map(e => e.innerText)")
+    check(len(lines) == 3 and lines[0].startswith("Point ") and "multipliers: " in lines[1] and "% in touch" in lines[2], f"a click says {lines}")
+    command = shlex.split(browser.value(f"{view}.command.querySelector('code')?.textContent || ''"))
+    check(command[:2] == ["whirl", "orbit"] and "--point" in command, f"a click says {command}")
+    done = subprocess.run([whirl, *command[1:], "--json", "-"], capture_output=True, text=True)
+    check(done.returncode == 0, f"{command}: {done.stderr}")
+    size = abs(complex(*json.loads(done.stdout)["floquet"][0]))
+    told = lines[1].split(": ")[1].split(", ")[0].replace("−", "-")
+    check(abs(size - abs(float(told.split("(")[1][:-1] if "(" in told else told))) < 1e-4, f"{told} is not of size {size}")
+    check(not browser.problems, f"branches: {browser.problems}")
+    print("branches", flush=True)
+
+
+def check_comparison(browser, whirl, folder, model):
+    """A page of two runs begins with what was changed and with both over each other, each in its color."""
+    for verb, words in (("unbalance", ["--speeds", "0:3000:20rpm"]), ("campbell", []), ("simulate", ["--revolutions", "40", "--discard", "40"])):
+        files = [os.path.join(folder, f"{verb}_{name}.h5") for name in ("light", "heavy")]
+        for file, mass in zip(files, ("2kg", "2.6kg")):
+            subprocess.run([whirl, verb, model, "--set", f"disk.1.mass={mass}", *words, "--out", file, "--quiet"], check=True)
+        page = os.path.join(folder, f"compared_{verb}.html")
+        subprocess.run([whirl, "report", *files, "--out", page, "--quiet"], check=True)
+        browser.open(page)
+        browser.wait_for("document.documentElement.dataset.state === 'drawn'")
+        check(browser.value("[...document.querySelectorAll('#differences td')].map(e => e.innerText)") == ["disk.disk.mass", "2kg", "2.6kg"],
+              f"{verb}: the difference of the models is not told")
+        own = "views.filter(v => v.result.number === 'compared')"
+        check(browser.value(f"{own}.length") > 0, f"{verb}: nothing is compared")
+        # both results have curves in every panel, in two colors; a hidden one leaves less ink
+        mixed = browser.value(f"""{own}.flatMap(v => v.drawing.panels.filter(p => {{
+            const of = name => p.curves.filter(c => c.name.startsWith(name)), a = of('{verb}_light'), b = of('{verb}_heavy');
+            return !a.length || a.length !== b.length || a.some(c => b.some(d => c.paint === d.paint)); }}).map(() => v.figure.kind))""")
+        check(mixed == [], f"{verb}: not both results, or not in colors of their own: {mixed}")
+        for i in range(browser.value(f"{own}.length")):
+            ink = browser.value(f"{PIXELS}({own}[{i}].canvas)")["share"]
+            browser.value(f"{own}[{i}].drawing.hidden = new Set({own}[{i}].drawing.legend().map(e => e.name).filter(n => n.startsWith('{verb}_heavy'))); {own}[{i}].draw()")
+            check(browser.value(f"{PIXELS}({own}[{i}].canvas)")["share"] < ink, f"{verb}: the second result leaves no ink in a figure")
+        check(not browser.problems, f"{verb}, compared: {browser.problems}")
+        print(f"compared {verb}", flush=True)
+
+
 def check_speed(browser, folder, page):
     """35 000 cells and 200 000 points put into a page of the program are drawn in time."""
     text = open(page).read()
@@ -215,6 +267,10 @@ def main():
             check(not outside, f"{name} asks the network: {outside}")
             check(not browser.problems, f"{name}: {browser.problems}")
             print(name, flush=True)
+        browser.problems.clear()
+        check_branches(browser, whirl, folder, model("jeffcott_stator"))
+        browser.problems.clear()
+        check_comparison(browser, whirl, folder, model("jeffcott"))
         browser.problems.clear()
         check_speed(browser, folder, os.path.join(folder, "map.html"))
         check(not browser.problems, f"many: {browser.problems}")

@@ -44,6 +44,48 @@ TEST_F(Animate, DrawsFilmsAndPicturesWithoutAScreen) {
                                                "run.h5"}));
 }
 
+// Blocks of a GIF: a screen of the size asked for, a picture per frame, played for ever, each for
+// 1 / rate.
+TEST_F(Animate, DrawsGifs) {
+  if (!can_animate()) GTEST_SKIP() << "needs VTK's rendering and xvfb-run (xvfb, xauth)";
+  const Outcome film = without_display("animate " + disks +
+                                       " --out m.gif --mode 1 --frames 5 --size 320x240 --rate 20");
+  if (film.status == 2 && has(film.err, "neither is there")) {
+    GTEST_SKIP() << "needs ffmpeg or imagemagick";
+  }
+  ASSERT_EQ(film.status, 0) << film.err;
+  EXPECT_EQ(files(), std::vector<std::string>{"m.gif"});
+  const std::string gif = content(folder / "m.gif");
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(gif.at(at)); };
+  const auto word = [&](std::size_t at) { return byte(at) + 256 * byte(at + 1); };
+  const auto colors = [&](std::size_t flags) {
+    return (byte(flags) & 0x80) != 0 ? std::size_t{3} << ((byte(flags) & 7) + 1) : 0;
+  };
+  EXPECT_EQ(gif.substr(0, 6), "GIF89a");
+  EXPECT_EQ(word(6), 320);
+  EXPECT_EQ(word(8), 240);
+  int pictures = 0, centiseconds = 0;
+  bool loops = false;
+  for (std::size_t at = 13 + colors(10); byte(at) != 0x3b;) {
+    if (byte(at) == 0x21) {  // an extension
+      if (byte(at + 1) == 0xf9) centiseconds += word(at + 4);
+      loops = loops || gif.substr(at + 3, 11) == "NETSCAPE2.0";
+      at += 2;
+    } else {
+      ASSERT_EQ(byte(at), 0x2c);
+      ++pictures;
+      at += 10 + colors(at + 9) + 1;
+    }
+    while (byte(at) != 0) at += byte(at) + 1u;  // its data
+    ++at;
+  }
+  EXPECT_EQ(without_display("animate " + disks + " --out m.gif --frames 2 --size 64x64").status, 0)
+      << "an older film is replaced";
+  EXPECT_EQ(pictures, 5);
+  EXPECT_EQ(centiseconds, 25);
+  EXPECT_TRUE(loops);
+}
+
 // Where there is nothing to draw on it is said, also where VTK ends the process; nothing is written.
 TEST_F(Animate, TellsWhatIsMissing) {
   const Outcome no_xvfb = without_display("animate " + disks + " --out m.ogv", "PATH=/nowhere");
@@ -54,7 +96,7 @@ TEST_F(Animate, TellsWhatIsMissing) {
   EXPECT_EQ(wrong_display.status, 2);
   EXPECT_TRUE(has(wrong_display.err, "cannot draw")) << wrong_display.err;
   for (const auto& [words, message] : std::vector<std::pair<std::string, std::string>>{
-           {"--out m.mp4", "expected a film .ogv, or pictures .png"},
+           {"--out m.mp4", "expected a film .ogv or .gif, or pictures .png"},
            {"--out m.ogv --size big", "expected WIDTHxHEIGHT"},
            {"--out m.ogv --size 1x1", "expected WIDTHxHEIGHT"},
            {"--out m.ogv --mode 4711", "there is no such mode"},

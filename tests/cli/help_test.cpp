@@ -56,6 +56,20 @@ TEST_F(Help, CompletesInBash) {
   EXPECT_EQ(completes("modes rotor.toml --speed ''"), "\n");
 }
 
+TEST_F(Help, SchemaIsPrintedOrWritten) {
+  const Outcome printed = whirl({"schema"});
+  EXPECT_EQ(printed.status, 0);
+  EXPECT_TRUE(printed.tree()["properties"].contains("contact"));
+  const Outcome written = whirl({"schema", "--out", "whirl.schema.json"});
+  EXPECT_EQ(written.status, 0);
+  EXPECT_EQ(written.out, "");
+  EXPECT_EQ(content(folder / "whirl.schema.json"), printed.out);
+  EXPECT_TRUE(has(whirl({"schema", "--help"}).out, "Usage: whirl schema"));
+  EXPECT_EQ(whirl({"help", "schema"}).out, whirl({"schema", "--help"}).out);
+  EXPECT_EQ(whirl({"schema", "rotor.toml"}).status, 2);
+  EXPECT_EQ(whirl({"schema", "--out", "nowhere/x.json"}).status, 2);
+}
+
 TEST_F(Help, Version) {
   const Outcome version = whirl({"--version"});
   EXPECT_EQ(version.status, 0);

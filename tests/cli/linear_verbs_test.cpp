@@ -238,6 +238,31 @@ TEST_F(Linear, Unbalance) {
   }
 }
 
+// One peak at omega / (1 - 2 zeta^2)^(1/2) with an amplification factor of 1 / (2 zeta) = 50; API 617
+// asks for 17 (1 - 1 / 48.5) % > 16 % below the operating speed.
+TEST_F(Linear, UnbalanceTellsAmplificationAndMargins) {
+  const auto peaks = [&](const std::string& speed, const std::string& speeds) {
+    return result({"unbalance", "rotor.toml", "--speed", speed, "--speeds", speeds})["peaks"];
+  };
+  const json found = peaks("125", "0:150:0.02");
+  ASSERT_EQ(found.size(), 1u);
+  const json& peak = found[0];
+  EXPECT_NEAR(peak["speed_rpm"], omega / std::sqrt(1.0 - 2.0 * zeta * zeta) / rpm, 0.01);
+  EXPECT_NEAR(peak["amplitude_m"], 0.5 * e / zeta, 1e-3 * e / zeta);
+  EXPECT_NEAR(peak["amplification"], 50.0, 0.1);
+  EXPECT_NEAR(peak["margin"], 0.2, 1e-3);
+  EXPECT_EQ(peak["side"], "below");
+  EXPECT_NEAR(peak["required_margin"], 0.16, 1e-12);
+  EXPECT_EQ(peak["is_kept"], true);
+  EXPECT_EQ(peaks("115", "0:150:0.02")[0]["is_kept"], false);
+  EXPECT_EQ(peaks("80", "0:150:0.02")[0]["side"], "above");
+  EXPECT_TRUE(peaks("125", "0:100.5:0.02")[0]["amplification"].is_null());
+  EXPECT_EQ(peaks("125", "0:90:1").size(), 0u);
+  const std::string text =
+      whirl({"unbalance", "rotor.toml", "--speed", "115", "--speeds", "0:150:0.02"}).out;
+  EXPECT_TRUE(has(text, "13.0 % below") && has(text, "16.0 %, NOT KEPT")) << text;
+}
+
 TEST_F(Linear, UnbalanceAtChosenStations) {
   const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
   const auto names = [&](const std::string& list) {

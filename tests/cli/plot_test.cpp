@@ -2,6 +2,7 @@
 
 #include <regex>
 
+#include "libio/comparison.hpp"
 #include "libio/figures.hpp"
 #include "tests/cli/program.hpp"
 
@@ -36,6 +37,15 @@ long count(const std::string& text, const std::string& part) {
   return n;
 }
 
+/// The first panel of the first figure of a kind.
+Panel panel_of(std::string_view name, const ResultView& view) {
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.name == name) return figures_of(kind, view).at(0).panels.at(0);
+  }
+  ADD_FAILURE() << name;
+  return {};
+}
+
 // Every kind of figure is drawn from the result of the verb that holds its numbers.
 TEST_F(Plot, DrawsEveryKindOfFigure) {
   const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
@@ -46,8 +56,8 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"unbalance", disks, "--speeds", "0:8000:100rpm"},
        {"layout", "bode", "polar", "deflection"}},
       {{"identify", disks, "--revolutions", "64"},
-       {"layout", "modes", "orbit", "time_history", "spectrum", "poincare", "contact_forces",
-        "contact_angles", "mac"}},
+       {"layout", "modes", "orbit", "time_history", "spectrum", "waterfall", "poincare",
+        "contact_forces", "contact_angles", "mac"}},
       {{"classify", "rub.toml", "--discard", "20"}, {"layout", "exponents"}},
       {{"sweep", "rub.toml"}, {"layout", "bifurcation", "spectral_map", "cascade"}},
       {{"continue", "rub.toml"}, {"layout", "branches"}},
@@ -94,6 +104,118 @@ TEST_F(Plot, ACampbellDiagramListsItsCriticalSpeeds) {
   for (const char* name : {">1B</text>", ">2F</text>", ">3B</text>", ">4F</text>", ">1X</text>"}) {
     EXPECT_TRUE(has(svg, name)) << name;
   }
+}
+
+// A mass m on a bearing whose stiffness grows with speed, k0 + s Omega: it meets the map's line
+// Omega = sqrt(k / m) where m Omega^2 - s Omega - k0 = 0. Without gyroscopics the planes are apart,
+// and both crossings are critical speeds of the model.
+TEST_F(Plot, BearingsCrossTheCriticalMapAtTheCriticalSpeeds) {
+  constexpr double m = 2.0, kx = 2e4, sx = 50.0, ky = 5e4, sy = 20.0;
+  write("rotor.toml", R"(format = 1
+[[body]]
+name = "rotor"
+mass = 2
+spins = true
+[[bearing]]
+name = "shaft"
+body = "rotor"
+table = "k.csv"
+)");
+  write("k.csv", "speed, kxx, kyy\n0, 2e4, 5e4\n1000, 7e4, 7e4\n");
+  const json r = result({"critical", "rotor.toml", "--out", "c.h5"});
+  const ResultView view(folder / "c.h5");
+  const Panel panel = panel_of("critical_map", view);
+  const auto curve = [&](const std::string& name) {
+    for (const Curve& c : panel.curves) {
+      if (c.name == name) return c;
+    }
+    ADD_FAILURE() << name;
+    return Curve{};
+  };
+  for (const auto& [name, k0, s] : {std::tuple{"Kxx", kx, sx}, {"Kyy", ky, sy}}) {
+    const Curve c = curve(name);
+    ASSERT_GT(c.x.size(), 10u);
+    for (std::size_t i = 0; i < c.x.size(); ++i) {
+      const double Omega = std::min(c.y[i] * rpm, 1000.0);  // constant beyond the table
+      EXPECT_NEAR(c.x[i], k0 + s * Omega, 1e-9 * c.x[i]);
+    }
+  }
+  const Curve crossings = curve("crossings");
+  for (const auto& [k0, s] : {std::pair{kx, sx}, {ky, sy}}) {
+    const double Omega = (s + std::sqrt(s * s + 4.0 * m * k0)) / (2.0 * m);
+    const auto near = [&](double v) { return std::abs(v * rpm - Omega) < 1e-6 * Omega; };
+    EXPECT_GE(std::count_if(crossings.y.begin(), crossings.y.end(), near), 1) << Omega / rpm;
+    for (std::size_t i = 0; i < crossings.x.size(); ++i) {
+      if (!near(crossings.y[i])) continue;
+      EXPECT_NEAR(crossings.x[i], k0 + s * Omega, 1e-5 * k0);
+    }
+    bool is_critical = false;
+    for (const json& c : r["criticals"]) is_critical |= near(c["speed_rpm"]);
+    EXPECT_TRUE(is_critical) << Omega / rpm;
+  }
+}
+
+// A free vibration at omega = 100 rad/s dies out as exp(-zeta omega t) beside the steady response
+// at the speed: from one spectrum to the next its line falls by that, the other one stays.
+TEST_F(Plot, AWaterfallShowsAFreeVibrationDieOut) {
+  write("rotor.toml", std::string(jeffcott) +
+                          "[operation]\nspeed = 60\n[start]\ndisplaced = [{ body = \"rotor\", x = "
+                          "\"2 mm\", vy = 0.2 }]\n");
+  ASSERT_EQ(whirl({"simulate", "rotor.toml", "--set", "gravity=0", "--discard", "0",
+                   "--revolutions", "128", "--samples", "16", "--out", "r.h5"})
+                .status,
+            0);
+  ResultView view(folder / "r.h5");
+  view.frequency = *frequency_unit("rad/s");
+  const Panel panel = panel_of("waterfall", view);
+  ASSERT_GE(panel.curves.size(), 8u);
+  EXPECT_EQ(panel.x.title, "whirl frequency [rad/s]");
+  // the decades between the line near a frequency and the largest of all, and the spectrum's time
+  const double first = panel.curves.front().y.front(), last = panel.curves.back().y.front();
+  const auto line = [&](const Curve& c, double frequency) {
+    const double height = 0.09 * (last - first), time = c.y.front();  // flat at its end
+    double most = 0.0;
+    for (std::size_t k = 0; k < c.x.size(); ++k) {
+      if (std::abs(c.x[k] - frequency) < 8.0) most = std::max(most, c.y[k] - time);
+    }
+    return 3.0 * (most / height - 1.0);
+  };
+  constexpr double zeta = 0.01, omega = 100.0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    const Curve &before = panel.curves[i - 1], &now = panel.curves[i];
+    const double passed = now.y.front() - before.y.front();
+    // the decay within a window widens lines alike
+    EXPECT_NEAR(line(now, omega) - line(before, omega), -zeta * omega * passed * std::log10(M_E),
+                1e-3);
+    EXPECT_NEAR(line(now, 60.0), line(before, 60.0), 0.02);
+  }
+}
+
+// The same numbers in other units, on the axes, the lines of orders and in the table.
+TEST_F(Plot, FrequenciesAreShownInTheUnitOfTheOption) {
+  const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  make({"campbell", disks, "--speeds", "0:8000:400rpm"}, "c.h5");
+  ResultView view(folder / "c.h5");
+  const Panel in_hertz = panel_of("campbell", view);
+  for (const auto& [unit, factor] : {std::pair{"cpm", 60.0}, {"rad/s", 2.0 * pi}}) {
+    view.frequency = *frequency_unit(unit);
+    const Panel p = panel_of("campbell", view);
+    EXPECT_EQ(p.y.title, std::string("natural frequency [") + unit + "]");
+    for (std::size_t i = 0; i < p.curves.size(); ++i) {
+      for (std::size_t k = 0; k < p.curves[i].y.size(); ++k) {
+        const double expected = factor * in_hertz.curves[i].y[k];
+        if (!std::isfinite(expected)) continue;
+        EXPECT_NEAR(p.curves[i].y[k], expected, 1e-9 * expected);
+      }
+    }
+    EXPECT_NEAR(p.rules.at(0).at, factor * in_hertz.rules.at(0).at, 1e-12);
+    ASSERT_EQ(whirl({"plot", "c.h5", "campbell", "--frequency", unit, "--out", "u.svg"}).status, 0);
+    EXPECT_TRUE(has(content(folder / "u.svg"), p.y.title));
+  }
+  EXPECT_NEAR(in_hertz.rules.at(0).at, 1.0 / 60.0, 1e-15);  // Hz per rpm
+  EXPECT_EQ(whirl({"plot", "c.h5", "campbell", "--frequency", "rpm"}).status, 2);
+  ASSERT_EQ(whirl({"report", "c.h5", "--frequency", "cpm"}).status, 0);
+  EXPECT_TRUE(has(content(folder / "c.html"), "natural frequency [cpm]"));
 }
 
 TEST_F(Plot, TellsWhatCanBeDrawn) {
@@ -171,6 +293,52 @@ TEST_F(Plot, AReportIsOneFile) {
   EXPECT_FALSE(data["results"][1]["motion"].contains("motions"));
   // program, style and libraries: below 1 MB
   EXPECT_LT(page.size() - data.dump().size(), 1'000'000u);
+}
+
+// Two runs over each other: what was changed is said, and every curve of both is there, in the units
+// of the first, although the second one's motion is so small that it is shown in others.
+TEST_F(Plot, AReportComparesResults) {
+  for (const auto& [set, out] :
+       {std::pair{"unbalance.1.offset=1mm", "a.h5"}, {"unbalance.1.offset=0.0001mm", "b.h5"}}) {
+    make({"simulate", "rub.toml", "--set", set, "--revolutions", "8", "--discard", "40"}, out);
+  }
+  const json r = result({"report", "a.h5", "b.h5"});
+  const std::string page = content(folder / "a.html");
+  const auto from = page.find("id=\"data\">") + 10;
+  const json data = json::parse(page.substr(from, page.find("</script>", from) - from));
+  const json& compared = data["comparison"];
+  EXPECT_EQ(compared["names"], json::array({"a", "b"}));
+  EXPECT_EQ(compared["differences"]["header"], json::array({"model", "a", "b"}));
+  EXPECT_EQ(compared["differences"]["rows"],
+            json::array({json::array({"unbalance.1.offset", "1mm", "0.0001mm"})}));
+  const ResultView a(folder / "a.h5"), b(folder / "b.h5");
+  const auto history = [](const json& figures) {
+    for (const json& f : figures) {
+      if (f["kind"] == "time_history") return f;
+    }
+    return json{};
+  };
+  const json both = history(compared["figures"]), one = history(data["results"][0]["figures"]);
+  ASSERT_EQ(both["panels"].size(), one["panels"].size());
+  EXPECT_EQ(both["panels"][0]["y"]["title"], "x [µm]");
+  EXPECT_NE(history(data["results"][1]["figures"])["panels"][0]["y"]["title"], "x [µm]");
+  EXPECT_EQ(both["panels"][0]["curves"][0]["name"], "a: x");
+  EXPECT_EQ(both["panels"][0]["curves"][1]["name"], "b: x");
+  EXPECT_NE(both["panels"][0]["curves"][0]["paint"], both["panels"][0]["curves"][1]["paint"]);
+  // the smaller motion is a ten-thousandth of the linear one, as numbers of the same unit
+  const auto figures = [&](const ResultView& view) {
+    for (const FigureKind& kind : figure_kinds()) {
+      if (kind.name == "time_history") return figures_of(kind, view).at(0);
+    }
+    return Figure{};
+  };
+  const Figure x = figures(a), y = figures(b);
+  const auto overlaid = overlay({&x, &y}, {"a", "b"});
+  ASSERT_TRUE(overlaid);
+  const std::vector<double>& small = overlaid->panels.at(0).curves.at(1).y;
+  const double in_nm = largest_of(y.panels.at(0).curves.at(0).y);
+  EXPECT_NEAR(largest_of(small), 1e-3 * in_nm, 1e-9 * in_nm);
+  for (const json& f : compared["figures"]) EXPECT_NE(f["kind"], "layout");
 }
 
 // What a model's text says cannot leave the place where it is shown.

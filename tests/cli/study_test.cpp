@@ -352,7 +352,8 @@ TEST_F(Study, BadInput) {
 }
 
 // At 138.4 rad/s and 64 MN/m, from friction 0.15 down: period 1, 2, 4, as simulations say at 0.15,
-// 0.12 and 0.11, and the orbit of period 1 goes on beside them, unstable.
+// 0.12 and 0.11, and the orbit of period 1 goes on beside them, unstable. Each point is an orbit that
+// Newton's method finds at once, with the multipliers of the point.
 TEST_F(Study, ContinueFollowsPeriodDoublings) {
   const json r =
       result({"continue", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
@@ -371,6 +372,31 @@ TEST_F(Study, ContinueFollowsPeriodDoublings) {
   EXPECT_GT(r["bifurcations"][0]["value"], 0.12);
   EXPECT_LT(r["bifurcations"][1]["value"], 0.12);
   EXPECT_GT(r["bifurcations"][1]["value"], 0.11);
+  const auto orbit_at = [&](const std::string& number) {
+    return result({"orbit", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
+                   "--from", "branch.h5", "--point", number});
+  };
+  int unstable = 0;
+  for (std::size_t i = 3; i < r["points"].size(); i += 12) {
+    const json& p = r["points"][i];
+    if (p["stable"].is_null()) continue;
+    const json orbit = orbit_at(std::to_string(i + 1));
+    EXPECT_EQ(orbit["period_revs"], p["branch"]);
+    EXPECT_EQ(orbit["stable"], p["stable"]);
+    EXPECT_LE(orbit["steps"], 1);
+    EXPECT_NEAR(orbit["floquet"][0][0], p["floquet"][0][0], 1e-5);
+    EXPECT_NEAR(orbit["contacts"][0]["duty"], p["duty"][0], 1e-6);
+    unstable += p["stable"] == false ? 1 : 0;
+  }
+  EXPECT_GT(unstable, 0);
+  const auto problem = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"orbit", stator, "--speed", "138.4rad/s", "--point"});
+    const Outcome o = whirl(words);
+    EXPECT_EQ(o.status, 2);
+    return o.err;
+  };
+  EXPECT_TRUE(has(problem({"4711", "--from", "branch.h5"}), "expected a number from 1 to "));
+  EXPECT_TRUE(has(problem({"1"}), "of which branches?"));
   std::size_t of_one = 0;
   for (const json& p : r["points"]) {
     const double value = p["value"];

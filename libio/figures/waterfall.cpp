@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libdyn/spectrum.hpp"
+#include "libio/figures/all.hpp"
+
+namespace whirl {
+
+namespace {
+
+using namespace figures;
+
+constexpr Eigen::Index least_window = 16, most_window = 64;  ///< revolutions of a spectrum
+constexpr Eigen::Index windows = 8;       ///< that the motion has room for, one after another
+constexpr Eigen::Index most_lines = 40;   ///< spectra, which overlap
+constexpr std::size_t most_told = 20000;  ///< points with a text each, for the size of pages
+constexpr double powers = 3.0;            ///< of ten that a height shows: 1X would hide all else
+
+/// Spectra of parts of a motion, with the middles of these parts.
+struct ShortTimeSpectra {
+  std::vector<double> time;  ///< [s], ascending
+  double bin = 0.0;          ///< [rad/s]
+  Eigen::Index count = 0;    ///< lines of a spectrum
+  Mat amplitude;             ///< time x lines from -count / 2 to count / 2 - 1 [m]
+
+  double frequency(Eigen::Index line) const { return bin * static_cast<double>(line - count / 2); }
+};
+
+/// Of a station, or nothing if the motion is too short for spectra to tell something.
+ShortTimeSpectra short_time_spectra(const Motion& m, const Vec& x, const Vec& y) {
+  ShortTimeSpectra s;
+  const Eigen::Index window = std::clamp(m.size() / windows, least_window * m.per_revolution,
+                                         most_window * m.per_revolution);
+  if (m.size() < 2 * window) return s;
+  s.count = static_cast<Eigen::Index>(smooth_length(static_cast<long>(window)) / 2 * 2);
+  while (s.count > 2 && smooth_length(static_cast<long>(s.count)) != s.count) s.count -= 2;
+  const Eigen::Index room = m.size() - s.count;
+  const Eigen::Index lines = std::min(most_lines, 1 + 4 * room / s.count);
+  s.amplitude.resize(lines, s.count);
+  const double spacing = (m.time(m.size() - 1) - m.time(0)) / static_cast<double>(m.size() - 1);
+  for (Eigen::Index i = 0; i < lines; ++i) {
+    const Eigen::Index from = lines > 1 ? i * room / (lines - 1) : 0;
+    CVec z(s.count);
+    z.real() = x.segment(from, s.count);
+    z.imag() = y.segment(from, s.count);
+    z.array() -= z.mean();
+    const Spectrum spectrum = hann_spectrum(z, spacing);
+    s.bin = spectrum.bin;
+    for (Eigen::Index k = 0; k < s.count; ++k) {
+      s.amplitude(i, k) = std::abs(spectrum.at(k - s.count / 2));
+    }
+    s.time.push_back(0.5 * (m.time(from) + m.time(from + s.count - 1)));
+  }
+  return s;
+}
+
+/// The largest magnitude of a frequency with more than a thousandth of the largest amplitude.
+double reach_of(const ShortTimeSpectra& s) {
+  const Vec most = s.amplitude.colwise().maxCoeff().transpose();
+  double reach = 0.0;
+  for (Eigen::Index k = 0; k < s.count; ++k) {
+    if (most(k) > 1e-3 * most.maxCoeff()) reach = std::max(reach, std::abs(s.frequency(k)));
+  }
+  return reach;
+}
+
+}  // namespace
+
+std::vector<Figure> waterfall_figures(const ResultView& result) {
+  const Motion m(result);
+  const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
+  const DisplayUnit in = result.frequency;
+  std::vector<Figure> figures;
+  for (const std::size_t station : stations_by_interest(result, m.stations)) {
+    const auto row = static_cast<Eigen::Index>(station);
+    const ShortTimeSpectra s =
+        short_time_spectra(m, x.row(row).transpose(), y.row(row).transpose());
+    const double largest = s.time.empty() ? 0.0 : s.amplitude.maxCoeff();
+    if (!(largest > 0.0)) continue;
+    Figure f{.variant = m.stations[station], .width = 760.0, .height = 680.0};
+    f.subtitle = fmt::format("{}: waterfall of full spectra{}{}, backward left, forward right",
+                             m.stations[station], speed_text(result).empty() ? "" : " at ",
+                             speed_text(result));
+    const double speed = speed_of(result);
+    double reach = 1.15 * reach_of(s);
+    if (m.spins) reach = std::max(reach, 2.2 * speed);
+    reach = std::min(reach, s.bin * static_cast<double>(s.count) / 2.0);
+    Panel p;
+    p.cursor = "frequency";
+    p.x = {.title = with_unit("whirl frequency", in),
+           .first = -reach * in.factor,
+           .last = reach * in.factor};
+    if (m.spins) p.x.also_unit = "X", p.x.also_factor = 1.0 / (in.factor * speed);
+    p.y.title = "time [s]";
+    const DisplayUnit unit = unit_for(largest, "m");
+    const double range = s.time.back() - s.time.front();
+    const double height = (range > 0.0 ? range : 1.0) * 0.09;
+    for (std::size_t i = 0; i < s.time.size(); ++i) {
+      Curve c{.paint = i % 2 == 0 ? Paint::forward : Paint::ink};
+      c.width = 0.9;
+      for (Eigen::Index k = 0; k < s.count; ++k) {
+        if (std::abs(s.frequency(k)) > 1.02 * reach) continue;
+        const double a = s.amplitude(static_cast<Eigen::Index>(i), k);
+        c.x.push_back(in.factor * s.frequency(k));
+        c.y.push_back(s.time[i] +
+                      height *
+                          (a > 0.0 ? std::max(0.0, 1.0 + std::log10(a / largest) / powers) : 0.0));
+        c.hover.push_back(fmt::format("{:.3g} {}", unit.factor * a, unit.name));
+      }
+      if (s.time.size() * c.x.size() > most_told) c.hover.clear();
+      p.curves.push_back(std::move(c));
+    }
+    p.rules.push_back({Rule::Kind::vertical, 0.0, "", Paint::ink, Dash::dotted});
+    if (m.spins) {
+      for (const double order : {-1.0, 1.0}) {
+        p.rules.push_back({Rule::Kind::vertical, order * speed * in.factor,
+                           order > 0.0 ? "+1X" : "−1X", Paint::gray, Dash::dotted});
+      }
+    }
+    f.panels.push_back(std::move(p));
+    f.notes = {
+        fmt::format("Each spectrum is of {:.3g} s, around its time. Heights are "
+                    "logarithmic: from {:.3g} {}, the largest radius, down to a thousandth "
+                    "of it.",
+                    2.0 * std::numbers::pi / s.bin, unit.factor * largest, unit.name)};
+    figures.push_back(std::move(f));
+    constexpr std::size_t most_stations = 4;
+    if (figures.size() == most_stations) break;
+  }
+  return figures;
+}
+
+}  // namespace whirl

@@ -1,0 +1,45 @@
+#pragma once
+/// The keys of model files, as a tree: what the reader asks for.
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "libio/asked_key.hpp"
+
+namespace whirl {
+
+/// Sets of keys of which one is required in a table.
+using Requirements = std::set<std::vector<std::string>>;
+
+/// What a value of a key changes in its table: what else is needed, what is not known.
+struct Condition {
+  std::string key{}, value{};  ///< no value: it is enough that the key is there
+  bool is_default = false;     ///< whether it holds too if the key is left out
+  Requirements required{};
+  std::vector<std::string> unknown{};
+};
+
+/// A key with all ways to write its value, and the keys in it.
+struct Key {
+  std::vector<AskedKey> asked;
+  std::vector<std::pair<std::string, Key>> entries;
+  Requirements required;
+  std::vector<Condition> conditions;
+
+  Key& entry(const std::string& name);  ///< made if it is not there
+  Key& at(const std::string& path);     ///< likewise
+  const AskedKey* find(AskedKey::Form form) const;
+};
+
+/// All keys, from the reader as it reads specimens of every kind of table. Elements of arrays are
+/// "[]", tables of any name "*": contact.[].stiffness.xx, material.*.density.
+Key model_keys();
+
+/// Path of the table that a key is in; empty at the top.
+std::string parent_path(const std::string& path);
+/// Name of a key, without the path of its table.
+std::string last_part(const std::string& path);
+
+}  // namespace whirl
