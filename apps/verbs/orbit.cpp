@@ -142,7 +142,9 @@ Report run_orbit(const Invocation& given) {
   const Model model = call.model();
   require_speed(model);
   if (is_rotating_frame(call)) {
-    if (point) require_stationary_frame(call);
+    if (point) {
+      throw ModelError({"--point"}, "", "expected an orbit of the stationary frame");
+    }
     return rotating_orbit(call, model);
   }
   const int period = static_cast<int>(call.integer("period", point ? point->period : 1));
@@ -151,7 +153,7 @@ Report run_orbit(const Invocation& given) {
   // an unstable orbit is not to be left before it is looked for
   const Trajectory transient =
       point ? Trajectory{.system = &scene.contacts,
-                         .state = {.y = basis_change(scene, point->first, point->state)}}
+                         .state = {.y = BasisChange(scene, point->first).to(point->state)}}
             : after_transient(call, model, scene);
   const Flow flow = flow_of(scene.contacts);
   PeriodicOrbit orbit{.period = period, .states = {transient.state.y}};
