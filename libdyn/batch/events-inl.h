@@ -57,11 +57,15 @@ HWY_ATTR typename P::Mask first_fall(const P* g, int degree, const P& sign, cons
   P M = P(degree * (degree - 1.0)) * abs(g[degree]);
   for (int k = degree - 1; k >= 2; --k) M = fma(M, h, P(k * (k - 1.0)) * abs(g[k]));
   M = max(M, scale * P(1e-60));
-  const P inverse_M = P(1.0) / M;
   const P value = select(surface, nothing, sign * g[0]);
   const P slope = sign * g[1];
-  Mask fell = both(active, less(value, nothing));
-  Mask running = without(active, fell);
+  // most often a bound tells, without a root, that g does not get down to zero
+  const P most_fall = fma(P(0.5) * M * h, h, abs(slope) * h);
+  const Mask asked = without(active, less(most_fall + zero, value));
+  if (!any(h, asked)) return asked;
+  const P inverse_M = P(1.0) / M;
+  Mask fell = both(asked, less(value, nothing));
+  Mask running = without(asked, fell);
 
   // first advance from the start; on the surface, to the middle of where g is positive for certain
   const Mask near = both(running, less_equal(value, zero));
