@@ -16,23 +16,19 @@ namespace HWY_NAMESPACE {
 /// Step at which the last two terms are as large as the tolerance allows.
 template <class P>
 HWY_ATTR P Engine<P>::step_length() {
-  P last(1e-280), before(1e-280), sum(0.0);
-  const P* a = term(N + 2);
-  const P* b = term(N + 1);
+  P last(1e-280), before(1e-280), sum(0.0), size(0.0);
+  const P *a = term(N + 2), *b = term(N + 1), *y = y_.data(), *scale = scale_.data();
   for (int i = 0; i < n_; ++i) {
-    const P in_a = abs(a[i]) * scale_[static_cast<size_t>(i)];
-    const P in_b = abs(b[i]) * scale_[static_cast<size_t>(i)];
+    const P in_a = abs(a[i]) * scale[i], in_b = abs(b[i]) * scale[i];
     last = max(last, in_a);
     before = max(before, in_b);
     sum = sum + in_a + in_b;  // unlike a maximum, it never loses what is no number
+    size = max(size, abs(y[i]) * scale[i]);
   }
   // quadruple numbers reach further, and need to: with a law that has no Taylor series at a surface,
   // the last of thirty terms gets there
   const P huge(1e300);
   finite_ = less(sum, P::is_double ? huge : huge * huge * huge);
-  P size(0.0);
-  for (int i = 0; i < n_; ++i)
-    size = max(size, abs(y_[static_cast<size_t>(i)]) * scale_[static_cast<size_t>(i)]);
   bounded_ = less(size, P(boundless));
   const P e(log2_tolerance_);
   const P h1 = (e - rough_log2(last)) * P(1.0 / (N + 2));

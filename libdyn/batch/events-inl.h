@@ -13,16 +13,27 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// Value and derivative of a polynomial, lowest coefficient first.
+/// Value and derivative of a polynomial in w, every second of the coefficients up to `last`.
+template <class P>
+HWY_ATTR inline void horner_of_half(const P* c, int last, const P& w, P& value, P& slope) {
+  value = c[last];
+  slope = P(0.0);
+  for (int k = last - 2; k >= 0; k -= 2) {
+    slope = fma(slope, w, value);
+    value = fma(value, w, c[k]);
+  }
+}
+
+/// Value and derivative of a polynomial, lowest coefficient first:  g(t) = a(t^2) + t b(t^2), two
+/// short chains instead of a long one.
 template <class P>
 HWY_ATTR inline void horner(const P* c, int degree, const P& t, P& value, P& slope) {
-  P a = c[degree], b(0.0);
-  for (int k = degree - 1; k >= 0; --k) {
-    b = fma(b, t, a);
-    a = fma(a, t, c[k]);
-  }
-  value = a;
-  slope = b;
+  const P w = t * t;
+  P a, a_slope, b, b_slope;
+  horner_of_half(c, degree - degree % 2, w, a, a_slope);
+  horner_of_half(c, degree - 1 + degree % 2, w, b, b_slope);
+  value = fma(b, t, a);
+  slope = fma(t + t, fma(b_slope, t, a_slope), b);
 }
 
 /// The positive root u of g + g' u - M u^2 / 2, for g >= 0, without cancellation and never too
