@@ -185,12 +185,10 @@ struct ContactLanes {
     dx[k] = xk;
     dy[k] = yk;
     OlderTerms<P> older;
-    older.square(dx, dy, k);
+    with_distance ? older.square(dx, dy, r, k) : older.square(dx, dy, k);
     const P half_s = fma(dx[0], xk, older.xx) + fma(dy[0], yk, older.yy);
     s[k] = half_s + half_s;
-    if (!with_distance) return;
-    older.square(r, k);
-    r[k] = (half_s - older.rr) * inverse_r;
+    if (with_distance) r[k] = (half_s - older.rr) * inverse_r;
   }
 
   /// The same of a blade, for any k, from what its disk does.

@@ -37,13 +37,13 @@ HWY_ATTR void Engine<P>::find_load() {
   }
 }
 
-/// Adds coefficient k of -K x - D x' to the acceleration.
+/// Coefficient k of the acceleration, contacts and films apart.
 template <class P>
 HWY_ATTR inline void Engine<P>::accelerate(int k, P* to) {
   const P *now = term(k), *rate = term(k + 1);  // x' has coefficients (k + 1) x_{k+1}
-  const P *kd = equations_.K.data(), *dd = equations_.D.data();
+  const P *kd = equations_.K.data(), *dd = equations_.D.data(), *load = load_.data() + k * n_;
   const P whole(k + 1.0);
-  for (int i = 0; i < n_; ++i) to[i] = fnma(whole * dd[i], rate[i], fnma(kd[i], now[i], to[i]));
+  for (int i = 0; i < n_; ++i) to[i] = fnma(whole * dd[i], rate[i], fnma(kd[i], now[i], load[i]));
   for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
     const P* a = equations_.A.data() + row.begin;
     P of_x(0.0), of_rate(0.0);
@@ -89,7 +89,6 @@ HWY_ATTR void Engine<P>::series_of_any() {
   }
   for (int k = 0; k <= N; ++k) {
     P* acceleration = term(k + 2);  // not yet integrated
-    std::copy_n(load_.data() + k * n_, n_, acceleration);
     for (const auto& disk : disks_) extend(*disk, contacts_, term(k + 1), k + 1);
     for (size_t i = 0; i < contacts_.size(); ++i) {  // before all else: this takes longest
       ContactLanes<P>& c = contacts_[i];

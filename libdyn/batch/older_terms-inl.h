@@ -33,9 +33,18 @@ struct OlderTerms {
       yy = fma(y[i], y[k - i], yy);
     }
   }
-  HWY_ATTR inline void square(const P* r, int k) {
-    if (k % 2 == 0) rr = P(0.5) * r[k / 2] * r[k / 2];
-    for (int i = (k - 1) / 2; i > 0; --i) rr = fma(r[i], r[k - i], rr);
+  HWY_ATTR inline void square(const P* x, const P* y, const P* r, int k) {
+    if (k % 2 == 0) {
+      const P &xm = x[k / 2], &ym = y[k / 2], &rm = r[k / 2];
+      xx = P(0.5) * xm * xm;
+      yy = P(0.5) * ym * ym;
+      rr = P(0.5) * rm * rm;
+    }
+    for (int i = (k - 1) / 2; i > 0; --i) {
+      xx = fma(x[i], x[k - i], xx);
+      yy = fma(y[i], y[k - i], yy);
+      rr = fma(r[i], r[k - i], rr);
+    }
   }
   HWY_ATTR inline void multiply(const P* x, const P* y, const P* r, const P* q, int k) {
     if (k % 2 == 0) {
@@ -51,7 +60,7 @@ struct OlderTerms {
       rq = fma(r[i], qj, fma(r[k - i], qi, rq));
     }
   }
-  /// All three of these with one load of every coefficient.
+  /// Squares and products at once, with one load of every coefficient.
   HWY_ATTR inline void square_and_multiply(const P* x, const P* y, const P* r, const P* q, int k) {
     if (k % 2 == 0) {
       const P &xm = x[k / 2], &ym = y[k / 2], &rm = r[k / 2], &qm = q[k / 2];
