@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "libdyn/batch/engine_bodies-inl.h"
 #include "libdyn/batch/engine_events-inl.h"
 #include "libdyn/batch/engine_films-inl.h"
 #include "libdyn/batch/engine_series-inl.h"

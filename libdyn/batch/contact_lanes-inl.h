@@ -15,6 +15,7 @@
 #include "libdyn/batch/blade_lanes-inl.h"
 #include "libdyn/batch/face_lanes-inl.h"
 #include "libdyn/batch/law_lanes-inl.h"
+#include "libdyn/batch/older_terms-inl.h"
 #include "libdyn/batch/pattern.hpp"
 #include "libdyn/contact_system.hpp"
 
@@ -25,33 +26,6 @@ namespace HWY_NAMESPACE {
 /// Sets or clears a lane's bit.
 inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
   bits_of = yes ? bits_of | bit : bits_of & ~bit;
-}
-
-/// Sums over the older coefficients of order k: of half the products in d . d and in r r.
-template <class P>
-HWY_ATTR inline void sum_squares(const P* dx, const P* dy, const P* r, int k, P& of_d, P& of_r) {
-  P a(0.0), b(0.0), c(0.0);
-  for (int i = 1; i <= (k - 1) / 2; ++i) {
-    a = fma(dx[i], dx[k - i], a);
-    b = fma(dy[i], dy[k - i], b);
-    c = fma(r[i], r[k - i], c);
-  }
-  of_d = a + b;
-  of_r = c;
-}
-/// The same of the products with q in r q and d q.
-template <class P>
-HWY_ATTR inline void sum_products(const P* dx, const P* dy, const P* r, const P* q, int k, P& of_r,
-                                  P& of_dx, P& of_dy) {
-  P a(0.0), b(0.0), c(0.0);
-  for (int i = 1; i < k; ++i) {
-    a = fma(r[k - i], q[i], a);
-    b = fma(dx[k - i], q[i], b);
-    c = fma(dy[k - i], q[i], c);
-  }
-  of_r = a;
-  of_dx = b;
-  of_dy = c;
 }
 
 /// The force of a contact is -(q d + tau rot d): q = N / r, tau = T / r, rot d = (-d_y, d_x).
@@ -86,7 +60,7 @@ struct ContactLanes {
   bool is_ahead = false;                 // whether the force needs geometry one coefficient ahead
   typename P::Mask evaluated, in_touch;  // lanes that need the force, lanes that feel it
   typename P::Mask has_tau;              // lanes that slide smoothly or stick
-  P inverse_r{1.0}, half_inverse_r{0.5}, share{0.0};
+  P inverse_r{1.0}, share{0.0};
   P dx[P::most_terms], dy[P::most_terms], s[P::most_terms], r[P::most_terms];
   P N[P::most_terms], q[P::most_terms], tau[P::most_terms];  // tau: of lanes that have it
   P fx, fy;                                                  // newest coefficient of the force
@@ -172,12 +146,13 @@ struct ContactLanes {
   template <int Bodies = 0>
   HWY_ATTR inline void displacement(const P* x, P& to_x, P& to_y) const {
     if constexpr (Bodies > 0) {
-      to_x = ux[0] * x[0];
-      to_y = uy[0] * x[1];
+      P along = ux[0] * x[0], across = uy[0] * x[1];
       for (int i = 1; i < Bodies; ++i) {
-        to_x = fma(ux[static_cast<size_t>(i)], x[2 * i], to_x);
-        to_y = fma(uy[static_cast<size_t>(i)], x[2 * i + 1], to_y);
+        along = fma(ux[static_cast<size_t>(i)], x[2 * i], along);
+        across = fma(uy[static_cast<size_t>(i)], x[2 * i + 1], across);
       }
+      to_x = along;
+      to_y = across;
     } else {
       to_x = ux[0] * x[rows.of_x[0]];
       to_y = uy[0] * x[rows.of_y[0]];
@@ -187,50 +162,33 @@ struct ContactLanes {
   }
 
   /// Coefficient 0 of displacement, distance squared, distance.
-  template <int Bodies = 0>
   HWY_ATTR inline void first_geometry(const P* x) {
-    if (Bodies == 0 && disk) return blade_geometry(0, is_evaluated);
+    if (disk) return blade_geometry(0, is_evaluated);
     P x0, y0;
-    displacement<Bodies>(x, x0, y0);
+    displacement(x, x0, y0);
     dx[0] = x0 = x0 - offset_x;
     dy[0] = y0 = y0 - offset_y;
-    const P s0 = fma(x0, x0, y0 * y0);
-    s[0] = s0;
-    if (!is_evaluated) return;
-    const P r0 = sqrt(select(evaluated, s0, clearance2));  // harmless where there is no touch
-    r[0] = r0;
-    inverse_r = P(1.0) / r0;
-    half_inverse_r = P(0.5) * inverse_r;
+    s[0] = fma(x0, x0, y0 * y0);
+    if (is_evaluated) first_distance();
+  }
+  /// Coefficient 0 of the distance, and what divides by it.
+  HWY_ATTR inline void first_distance() {
+    r[0] = sqrt(select(evaluated, s[0], clearance2));  // harmless where there is no touch
+    inverse_r = P(1.0) / r[0];
   }
 
-  /// Coefficient k > 0 of the same; the newest terms come last, which shortens the chain.
-  template <int Bodies = 0>
+  /// Coefficient k > 0 of the same.
   HWY_ATTR inline void geometry(const P* x, int k, bool with_distance) {
-    if (Bodies == 0 && disk) return blade_geometry(k, with_distance);
+    if (disk) return blade_geometry(k, with_distance);
     P xk, yk;
-    displacement<Bodies>(x, xk, yk);
+    displacement(x, xk, yk);
     dx[k] = xk;
     dy[k] = yk;
-    P half_s, half_r;
-    if (with_distance) {
-      sum_squares(dx, dy, r, k, half_s, half_r);
-    } else {
-      P a(0.0), b(0.0);
-      for (int i = 1; i <= (k - 1) / 2; ++i) {
-        a = fma(dx[i], dx[k - i], a);
-        b = fma(dy[i], dy[k - i], b);
-      }
-      half_s = a + b;
-    }
-    P sk = half_s + half_s;
-    if (k % 2 == 0) sk = fma(dx[k / 2], dx[k / 2], fma(dy[k / 2], dy[k / 2], sk));
-    const P newest = fma(dx[0], xk, dy[0] * yk);
-    sk = sk + (newest + newest);
-    s[k] = sk;
-    if (!with_distance) return;
-    P rr = half_r + half_r;
-    if (k % 2 == 0) rr = fma(r[k / 2], r[k / 2], rr);
-    r[k] = (sk - rr) * half_inverse_r;
+    OlderTerms<P> older;
+    with_distance ? older.square(dx, dy, r, k) : older.square(dx, dy, k);
+    const P half_s = fma(dx[0], xk, older.xx) + fma(dy[0], yk, older.yy);
+    s[k] = half_s + half_s;
+    if (with_distance) r[k] = (half_s - older.rr) * inverse_r;
   }
 
   /// The same of a blade, for any k, from what its disk does.
@@ -246,15 +204,10 @@ struct ContactLanes {
     const P along_y = fma(disk->cosine[k], blade_sine, disk->sine[k] * blade_cosine);
     dx[k] = fma(disk->radius, along_x, disk->ux[k]);
     dy[k] = fma(disk->radius, along_y, disk->uy[k]);
-    if (k == 0) {
-      r[0] = sqrt(select(evaluated, s[0], clearance2));
-      inverse_r = P(1.0) / r[0];
-      half_inverse_r = P(0.5) * inverse_r;
-      return;
-    }
+    if (k == 0) return first_distance();
     P rest = s[k];
     for (int i = 1; i < k; ++i) rest = fnma(r[i], r[k - i], rest);
-    r[k] = rest * half_inverse_r;
+    r[k] = rest * (P(0.5) * inverse_r);
   }
 
   /// Coefficient k of the depth. A law that has no Taylor series at the surface starts its step just
@@ -272,29 +225,35 @@ struct ContactLanes {
   /// Rate of the distance, coefficient k; for laws that know it, geometry is one coefficient ahead.
   HWY_ATTR inline P rate(int k) const { return rows.has_rate ? P(k + 1.0) * r[k + 1] : P(0.0); }
 
+  /// Coefficient k of the normal force.
+  HWY_ATTR inline P normal(AnyLawWork<P>& work, int k) const {
+    P result;
+    with_alternative(work, [&](auto& l) HWY_ATTR {
+      result = rows.has_rate ? l.normal(k, depth(k), rate(k)) : l.normal(k, depth(k));
+    });
+    return result;
+  }
+
   /// Coefficient k of the force on the rotor, sign reversed, in fx and fy; without the share of
-  /// tau_k while sticking. With Bodies, no lane may stick or slide smoothly, nor the law know a rate.
-  template <int Bodies = 0>
+  /// tau_k while sticking.
   HWY_ATTR inline void force(AnyLawWork<P>& work, int k) {
-    P rate_k(0.0), Nk;
-    if (Bodies == 0) rate_k = rate(k);
-    with_alternative(work, [&](auto& l) HWY_ATTR { Nk = l.normal(k, depth(k), rate_k); });
-    N[k] = Nk;
-    P rq, px, py;
-    sum_products(dx, dy, r, q, k, rq, px, py);
-    if (k > 0) {
-      rq = fma(r[k], q[0], rq);
-      px = fma(q[0], dx[k], px);
-      py = fma(q[0], dy[k], py);
+    N[k] = normal(work, k);
+    P px, py;
+    if (k == 0) {
+      q[0] = select(in_touch, N[0] * inverse_r, P(0.0));
+      px = q[0] * dx[0];
+      py = q[0] * dy[0];
+    } else {
+      OlderTerms<P> older;
+      older.multiply(dx, dy, r, q, k);
+      q[k] = select(in_touch, (N[k] - fma(r[k], q[0], older.rq)) * inverse_r, P(0.0));
+      px = fma(q[k], dx[0], fma(q[0], dx[k], older.xq));
+      py = fma(q[k], dy[0], fma(q[0], dy[k], older.yq));
     }
-    const P qk = select(in_touch, (Nk - rq) * inverse_r, P(0.0));
-    q[k] = qk;
-    px = fma(qk, dx[0], px);
-    py = fma(qk, dy[0], py);
-    if (Bodies == 0 && face) return face_force(k, px, py);
+    if (face) return face_force(k, px, py);
     fx = fnma(share, py, px);
     fy = fma(share, px, py);
-    if (Bodies > 0 || !any_has_tau) return;
+    if (!any_has_tau) return;
     tau[k] = friction(k);
     for (int i = 0; i <= k; ++i) {
       px = fnma(tau[i], dy[k - i], px);

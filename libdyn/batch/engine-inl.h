@@ -40,9 +40,10 @@ class Engine {
         n_(pattern.n),
         lanes_(P::lanes()),
         log2_tolerance_(std::log2(options.tolerance)),
-        equations_(pattern) {
+        equations_(pattern, pattern.bodies > 0 ? N + 1 : 0) {
     const auto n = static_cast<size_t>(n_);
     terms_.assign(n * static_cast<size_t>(N + 3), P(0.0));
+    load_.assign(n * static_cast<size_t>(N + 1), P(0.0));
     scale_.assign(n, P(1.0));
     y_.assign(2 * n, P(0.0));
     contacts_.reserve(pattern.contacts.size());
@@ -137,14 +138,15 @@ class Engine {
   HWY_ATTR void remove_slip(int l);
   HWY_ATTR bool tell(const Observer& observer, double h);
 
-  // engine_series-inl.h
+  // engine_series-inl.h, engine_bodies-inl.h
   HWY_ATTR void series();
-  /// Whether series_of<2> can make this step.
+  /// Whether series_of_bodies can make this step.
   bool is_rotor_in_stator() const { return pattern_.bodies == 2 && !contacts_[0].any_has_tau; }
-  template <int Bodies>
-  __attribute__((flatten)) HWY_ATTR void series_of();
-  template <int Bodies>
-  HWY_ATTR inline void accelerate(int k, const P& sine, const P& cosine, P* to);
+  __attribute__((flatten)) HWY_ATTR void series_of_any();
+  template <int Bodies, bool Isotropic, class Law>
+  __attribute__((flatten)) HWY_ATTR void series_of_bodies(Law& law);
+  HWY_ATTR inline void accelerate(int k, P* to);
+  HWY_ATTR void find_load();
   HWY_ATTR void stick(int k);
   HWY_ATTR void solve_influence();
 
@@ -214,7 +216,7 @@ class Engine {
 
   // this step
   Mask finite_, bounded_;  // lanes whose series is one of numbers, whose motion is of sane size
-  std::vector<P> terms_, influence_, work_;
+  std::vector<P> terms_, load_, influence_, work_;
   std::vector<Falls> falls_;
   std::unique_ptr<Tangents<P>> tangents_;
 };
@@ -239,6 +241,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   equations_.load(s, l);
   for (int i = 0; i < n_; ++i) {
     set_lane(scale_[static_cast<size_t>(i)], l, 1.0 / s.state_scale()(i));
+    set_lane(load_[static_cast<size_t>(i)], l, s.constant_load()(i));
   }
   set_state(l, t.state.y);
   if constexpr (!P::is_double) {

@@ -84,9 +84,10 @@ HWY_ATTR void Engine<P>::watch_slip(size_t i, P& h) {
   P distance(0.0), speed(0.0);
   for (int k = N + 1; k >= 1; --k) {
     const P size = abs(c.dx[k]) + abs(c.dy[k]);
+    speed = fma(speed, h, distance);
     distance = fma(distance, h, size);
-    speed = fma(speed, h, P(static_cast<double>(k)) * size);
   }
+  speed = fma(speed, h, distance);
   distance = fma(distance, h, abs(c.dx[0]) + abs(c.dy[0]));
   const Mask certain = less(distance * speed, abs(c.rim) * c.clearance);
   const uint64_t asked = sliding & (~bits(h, certain) | c.surface_slip);

@@ -13,27 +13,37 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// Coefficient k of the acceleration, contacts apart; Bodies as below.
+/// Coefficients of the load; where it does not turn they are zero from the second on.
+///
+///   f = f0 + fc cos(phase) + fs sin(phase),   f_{k+2} = -rate^2 f_k / ((k + 1) (k + 2))
 template <class P>
-template <int Bodies>
-HWY_ATTR inline void Engine<P>::accelerate(int k, const P& sine, const P& cosine, P* to) {
-  const int n = Bodies > 0 ? 2 * Bodies : n_;
-  const P *now = term(k), *rate = term(k + 1);  // x' has coefficients (k + 1) x_{k+1}
-  const P *kd = equations_.K.data(), *dd = equations_.D.data(), *fc = equations_.fc.data(),
-          *fs = equations_.fs.data();
-  const P whole(k + 1.0);
-  const int forced = Bodies > 0 ? 2 : n;  // coordinates with unbalance
-  each<2 * Bodies>(n, [&](int i) HWY_ATTR {
-    P sum(0.0);
-    if (i < forced) sum = fma(fc[i], cosine, fs[i] * sine);
-    sum = fnma(kd[i], now[i], sum);
-    to[i] = fnma(whole * dd[i], rate[i], sum);
-  });
-  if (k == 0) {
-    each<2 * Bodies>(
-        n, [&](int i) HWY_ATTR { to[i] = to[i] + equations_.f0[static_cast<size_t>(i)]; });
+HWY_ATTR void Engine<P>::find_load() {
+  P sine, cosine;
+  sin_cos(rate_ * time_, sine, cosine);
+  const P curvature = -(rate_ * rate_);
+  P* load = load_.data();
+  for (const int i : pattern_.forced) {
+    const P &of_cosine = equations_.fc[static_cast<size_t>(i)],
+            &of_sine = equations_.fs[static_cast<size_t>(i)];
+    P now = fma(of_cosine, cosine, of_sine * sine);
+    P next = rate_ * fma(of_sine, cosine, -(of_cosine * sine));
+    load[i] = now + equations_.f0[static_cast<size_t>(i)];
+    for (int k = 1; k <= N; ++k) {
+      load[k * n_ + i] = next;
+      const P after = curvature * P(twice_integrated<P>(k - 1)) * now;
+      now = next;
+      next = after;
+    }
   }
-  if (Bodies > 0) return;
+}
+
+/// Coefficient k of the acceleration, contacts and films apart.
+template <class P>
+HWY_ATTR inline void Engine<P>::accelerate(int k, P* to) {
+  const P *now = term(k), *rate = term(k + 1);  // x' has coefficients (k + 1) x_{k+1}
+  const P *kd = equations_.K.data(), *dd = equations_.D.data(), *load = load_.data() + k * n_;
+  const P whole(k + 1.0);
+  for (int i = 0; i < n_; ++i) to[i] = fnma(whole * dd[i], rate[i], fnma(kd[i], now[i], load[i]));
   for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
     const P* a = equations_.A.data() + row.begin;
     P of_x(0.0), of_rate(0.0);
@@ -58,77 +68,57 @@ HWY_ATTR void Engine<P>::series() {
       laws_.emplace_back(std::in_place_type<LawWork<P, Law>>, law);
     });
   }
-  if (is_rotor_in_stator()) {
-    series_of<2>();
-  } else {
-    series_of<0>();
-  }
+  if (!is_rotor_in_stator()) return series_of_any();
+  with_alternative(laws_[0], [&](auto& law) HWY_ATTR {
+    if constexpr (std::remove_cvref_t<decltype(law)>::is_of_ring) {
+      pattern_.is_isotropic ? series_of_bodies<2, true>(law) : series_of_bodies<2, false>(law);
+    }
+  });
 }
 
-/// The same for Pattern::bodies that the compiler knows, which saves a third of the time, while
-/// friction has no series of its own; 0: any system.
+/// The same for any system.
 template <class P>
-template <int Bodies>
-HWY_ATTR void Engine<P>::series_of() {
-  const int n = Bodies > 0 ? 2 * Bodies : n_;
-  const size_t contacts = Bodies > 0 ? 1 : contacts_.size();
-  P sine, cosine;
-  sin_cos(rate_ * time_, sine, cosine);
+HWY_ATTR void Engine<P>::series_of_any() {
   std::copy(y_.begin(), y_.end(), term(0));
+  find_load();
   bool any_sticks = false;
   for (const ContactLanes<P>& c : contacts_) any_sticks = any_sticks || (c.sticking & active_) != 0;
-  if (Bodies == 0) {
-    for (const auto& disk : disks_) {
-      disk->start(time_);
-      extend(*disk, contacts_, term(0), 0);
-    }
+  for (const auto& disk : disks_) {
+    disk->start(time_);
+    extend(*disk, contacts_, term(0), 0);
   }
-  P in_registers[Bodies > 0 ? 2 * Bodies : 1];
   for (int k = 0; k <= N; ++k) {
-    P* next = term(k + 2);
-    P* acceleration = Bodies > 0 ? in_registers : next;
-    if (Bodies == 0) {
-      for (const auto& disk : disks_) extend(*disk, contacts_, term(k + 1), k + 1);
-    }
-    for (size_t i = 0; i < contacts; ++i) {  // before all else: this takes longest
+    P* acceleration = term(k + 2);  // not yet integrated
+    for (const auto& disk : disks_) extend(*disk, contacts_, term(k + 1), k + 1);
+    for (size_t i = 0; i < contacts_.size(); ++i) {  // before all else: this takes longest
       ContactLanes<P>& c = contacts_[i];
-      if (Bodies == 0 && c.disk && !c.is_evaluated) continue;  // in find_events, if at all
-      if (k == 0) c.template first_geometry<Bodies>(term(0));
-      if (Bodies == 0 && c.is_ahead) {
+      if (c.disk && !c.is_evaluated) continue;  // in find_events, if at all
+      if (k == 0) c.first_geometry(term(0));
+      if (c.is_ahead) {
         c.geometry(term(k + 1), k + 1, true);
       } else if (k > 0) {
-        c.template geometry<Bodies>(term(k), k, c.is_evaluated);
+        c.geometry(term(k), k, c.is_evaluated);
       }
-      if (Bodies == 0 && c.face && c.is_ahead) c.face->velocity(term(k + 1), k);
-      if (c.is_evaluated) c.template force<Bodies>(laws_[i], k);
+      if (c.face && c.is_ahead) c.face->velocity(term(k + 1), k);
+      if (c.is_evaluated) c.force(laws_[i], k);
     }
-    accelerate<Bodies>(k, sine, cosine, acceleration);
-    for (size_t i = 0; i < contacts; ++i) {
-      const ContactLanes<P>& c = contacts_[i];
+    accelerate(k, acceleration);
+    for (const ContactLanes<P>& c : contacts_) {
       if (!c.is_evaluated) continue;
-      c.template push<Bodies>(acceleration, c.fx, c.fy);
-      if (Bodies == 0 && c.face) c.face->push(acceleration, c.face->fx, c.face->fy);
+      c.push(acceleration, c.fx, c.fy);
+      if (c.face) c.face->push(acceleration, c.face->fx, c.face->fy);
     }
-    if constexpr (Bodies == 0) {
-      for (const auto& film : films_) film->add(term(k), term(k + 1), k, acceleration);
-    }
-    if (Bodies == 0 && any_sticks) stick(k);
+    for (const auto& film : films_) film->add(term(k), term(k + 1), k, acceleration);
+    if (any_sticks) stick(k);
     const P scale(twice_integrated<P>(k));
-    each<2 * Bodies>(n, [&](int i) HWY_ATTR { next[i] = acceleration[i] * scale; });
-    const P turn = rate_ * P(inverse_of<P>(k + 1));
-    const P turned = -(turn * sine);
-    sine = turn * cosine;
-    cosine = turned;
+    for (int i = 0; i < n_; ++i) acceleration[i] = acceleration[i] * scale;
   }
   // to be as good as the state, the square of the distance needs two more
-  if (Bodies == 0) {
-    for (const auto& disk : disks_) extend(*disk, contacts_, term(N + 2), N + 2);
-  }
-  for (size_t i = 0; i < contacts; ++i) {
-    ContactLanes<P>& c = contacts_[i];
-    if (Bodies == 0 && c.disk && !c.is_evaluated) continue;
-    if (!c.is_ahead) c.template geometry<Bodies>(term(N + 1), N + 1, false);
-    c.template geometry<Bodies>(term(N + 2), N + 2, false);
+  for (const auto& disk : disks_) extend(*disk, contacts_, term(N + 2), N + 2);
+  for (ContactLanes<P>& c : contacts_) {
+    if (c.disk && !c.is_evaluated) continue;
+    if (!c.is_ahead) c.geometry(term(N + 1), N + 1, false);
+    c.geometry(term(N + 2), N + 2, false);
   }
 }
 

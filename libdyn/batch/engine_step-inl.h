@@ -16,23 +16,19 @@ namespace HWY_NAMESPACE {
 /// Step at which the last two terms are as large as the tolerance allows.
 template <class P>
 HWY_ATTR P Engine<P>::step_length() {
-  P last(1e-280), before(1e-280), sum(0.0);
-  const P* a = term(N + 2);
-  const P* b = term(N + 1);
+  P last(1e-280), before(1e-280), sum(0.0), size(0.0);
+  const P *a = term(N + 2), *b = term(N + 1), *y = y_.data(), *scale = scale_.data();
   for (int i = 0; i < n_; ++i) {
-    const P in_a = abs(a[i]) * scale_[static_cast<size_t>(i)];
-    const P in_b = abs(b[i]) * scale_[static_cast<size_t>(i)];
+    const P in_a = abs(a[i]) * scale[i], in_b = abs(b[i]) * scale[i];
     last = max(last, in_a);
     before = max(before, in_b);
     sum = sum + in_a + in_b;  // unlike a maximum, it never loses what is no number
+    size = max(size, abs(y[i]) * scale[i]);
   }
   // quadruple numbers reach further, and need to: with a law that has no Taylor series at a surface,
   // the last of thirty terms gets there
   const P huge(1e300);
   finite_ = less(sum, P::is_double ? huge : huge * huge * huge);
-  P size(0.0);
-  for (int i = 0; i < n_; ++i)
-    size = max(size, abs(y_[static_cast<size_t>(i)]) * scale_[static_cast<size_t>(i)]);
   bounded_ = less(size, P(boundless));
   const P e(log2_tolerance_);
   const P h1 = (e - rough_log2(last)) * P(1.0 / (N + 2));
@@ -52,27 +48,24 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
   constexpr int at_once = Bodies > 0 ? 2 * Bodies : 2;  // coordinates, whose chains overlap
   const int n = Bodies > 0 ? 2 * Bodies : n_;
   const Mask active = mask_of<P>(active_);
-  const P order(N + 2.0);
   for (int first = 0; first < n; first += at_once) {
     const auto place = [&](int i) { return Bodies > 0 ? i : std::min(first + i, n - 1); };
     P x[at_once], v[at_once];
     const P* now = terms + (N + 2) * n;
     each<at_once>(0, [&](int i) HWY_ATTR {
       x[i] = now[place(i)];
-      v[i] = order * x[i];
+      v[i] = P(0.0);
     });
-    for (int k = N + 1; k >= 1; --k) {
+    for (int k = N + 1; k >= 0; --k) {
       now -= n;
-      const P whole(static_cast<double>(k));
       each<at_once>(0, [&](int i) HWY_ATTR {
-        const P& term = now[place(i)];
-        x[i] = fma(x[i], h, term);
-        v[i] = fma(v[i], h, whole * term);
+        v[i] = fma(v[i], h, x[i]);
+        x[i] = fma(x[i], h, now[place(i)]);
       });
     }
     each<at_once>(0, [&](int i) HWY_ATTR {
       P &to_x = y[place(i)], &to_v = y[n + place(i)];
-      to_x = select(active, fma(x[i], h, terms[place(i)]), to_x);
+      to_x = select(active, x[i], to_x);
       to_v = select(active, v[i], to_v);
     });
   }
@@ -192,9 +185,10 @@ HWY_ATTR void Engine<P>::fly_on(int l) {
 template <class P>
 HWY_ATTR void Engine<P>::remove_slip(int l) {
   if constexpr (!P::is_double) return;  // what double computes would be worse than what is left
+  const uint64_t bit = uint64_t{1} << l;
+  const auto sticks = [&](const ContactLanes<P>& c) { return (c.sticking & bit) != 0; };
+  if (std::none_of(contacts_.begin(), contacts_.end(), sticks)) return;
   const ContactStates states = contacts_of(l);
-  const auto sticks = [](const ContactState& c) { return c.touch == Touch::sticking; };
-  if (std::none_of(states.begin(), states.end(), sticks)) return;
   Vec y = state_of(l);
   trajectory_[static_cast<size_t>(l)]->system->remove_slip(y.data(), states);
   set_state(l, y);

@@ -23,8 +23,12 @@ struct EquationLanes {
   std::vector<P> K, D;  ///< diagonals
   std::vector<P> A;     ///< of [K D] beside them, as pattern.off_diagonal
   std::vector<P> f0, fc, fs;
+  int orders;              ///< of series for which there is `damping`
+  std::vector<P> damping;  ///< (k + 1) D for k = 0, 1, ...
 
-  explicit EquationLanes(const Pattern& of) : pattern(of) {
+  explicit EquationLanes(const Pattern& of, int orders_of_damping = 0)
+      : pattern(of), orders(orders_of_damping) {
+    damping.assign(static_cast<size_t>(of.n) * static_cast<size_t>(orders), P(0.0));
     for (std::vector<P>* v : {&K, &D, &f0, &fc, &fs}) v->assign(static_cast<size_t>(of.n), P(0.0));
     A.assign(static_cast<size_t>(of.off_diagonals), P(0.0));
   }
@@ -38,6 +42,12 @@ struct EquationLanes {
       set_lane(f0[ui], l, s.constant_load()(i));
       set_lane(fc[ui], l, s.cosine_load()(i));
       set_lane(fs[ui], l, s.sine_load()(i));
+    }
+    for (int k = 0; k < orders; ++k) {
+      for (int i = 0; i < n; ++i) {
+        set_lane(damping[static_cast<size_t>(k * n + i)], l,
+                 typename P::Number(k + 1.0) * typename P::Number(s.D()(i, i)));
+      }
     }
     for (const Pattern::OffDiagonal& row : pattern.off_diagonal) {
       P* entry = A.data() + row.begin;

@@ -13,16 +13,27 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// Value and derivative of a polynomial, lowest coefficient first.
+/// Value and derivative of a polynomial in w, every second of the coefficients up to `last`.
+template <class P>
+HWY_ATTR inline void horner_of_half(const P* c, int last, const P& w, P& value, P& slope) {
+  value = c[last];
+  slope = P(0.0);
+  for (int k = last - 2; k >= 0; k -= 2) {
+    slope = fma(slope, w, value);
+    value = fma(value, w, c[k]);
+  }
+}
+
+/// Value and derivative of a polynomial, lowest coefficient first:  g(t) = a(t^2) + t b(t^2), two
+/// short chains instead of a long one.
 template <class P>
 HWY_ATTR inline void horner(const P* c, int degree, const P& t, P& value, P& slope) {
-  P a = c[degree], b(0.0);
-  for (int k = degree - 1; k >= 0; --k) {
-    b = fma(b, t, a);
-    a = fma(a, t, c[k]);
-  }
-  value = a;
-  slope = b;
+  const P w = t * t;
+  P a, a_slope, b, b_slope;
+  horner_of_half(c, degree - degree % 2, w, a, a_slope);
+  horner_of_half(c, degree - 1 + degree % 2, w, b, b_slope);
+  value = fma(b, t, a);
+  slope = fma(t + t, fma(b_slope, t, a_slope), b);
 }
 
 /// The positive root u of g + g' u - M u^2 / 2, for g >= 0, without cancellation and never too
@@ -57,11 +68,15 @@ HWY_ATTR typename P::Mask first_fall(const P* g, int degree, const P& sign, cons
   P M = P(degree * (degree - 1.0)) * abs(g[degree]);
   for (int k = degree - 1; k >= 2; --k) M = fma(M, h, P(k * (k - 1.0)) * abs(g[k]));
   M = max(M, scale * P(1e-60));
-  const P inverse_M = P(1.0) / M;
   const P value = select(surface, nothing, sign * g[0]);
   const P slope = sign * g[1];
-  Mask fell = both(active, less(value, nothing));
-  Mask running = without(active, fell);
+  // most often a bound tells, without a root, that g does not get down to zero
+  const P most_fall = fma(P(0.5) * M * h, h, abs(slope) * h);
+  const Mask asked = without(active, less(most_fall + zero, value));
+  if (!any(h, asked)) return asked;
+  const P inverse_M = P(1.0) / M;
+  Mask fell = both(asked, less(value, nothing));
+  Mask running = without(asked, fell);
 
   // first advance from the start; on the surface, to the middle of where g is positive for certain
   const Mask near = both(running, less_equal(value, zero));

@@ -68,12 +68,7 @@ HWY_ATTR inline auto indentation(const A& a, const typename A::Number& bend) {
 /// dz/dd = 1 / (1 + 3 b z^2).
 template <int I, class A>
 HWY_ATTR inline auto derivative(const Indentation<A>& e) {
-  const auto of_a = derivative<I>(e.a);
-  if constexpr (is_zero<std::remove_cvref_t<decltype(of_a)>>) {
-    return of_a;
-  } else {
-    return of_a / (1.0 + (e * e) * (typename A::Number(3.0) * e.bend));
-  }
+  return derivative<I>(e.a) / (1.0 + (e * e) * (typename A::Number(3.0) * e.bend));
 }
 
 /// Calls f with the alternative that a variant holds; inlined, unlike std::visit.
@@ -90,14 +85,20 @@ HWY_ATTR inline decltype(auto) with_alternative(Variant& v, F&& f) {
 /// A law over packs, with the series that its normal force needs.
 template <class P, class Law>
 struct LawWork {
+  static constexpr bool is_of_ring = Law::geometry == Geometry::ring;
   using Force = decltype(std::declval<Law>().normal(Leaf<P, 0>(), Leaf<P, 1>()));
+  using RatelessForce = decltype(std::declval<Law>().normal(Leaf<P, 0>(), Zero<P>()));
   Force force;
+  RatelessForce rateless;  // of a law that does not depend on the rate
 
-  explicit LawWork(const Law& law) : force(law.normal(Leaf<P, 0>(), Leaf<P, 1>())) {}
+  explicit LawWork(const Law& law)
+      : force(law.normal(Leaf<P, 0>(), Leaf<P, 1>())),
+        rateless(law.normal(Leaf<P, 0>(), Zero<P>())) {}
   /// Coefficient k of the normal force from those of depth and rate; call for k = 0, 1, 2, ...
   HWY_ATTR inline P normal(int k, const P& depth, const P& rate) {
     return force.at(k, depth, rate);
   }
+  HWY_ATTR inline P normal(int k, const P& depth) { return rateless.at(k, depth, depth); }
 };
 
 template <class P, class List>

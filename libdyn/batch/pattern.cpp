@@ -13,15 +13,10 @@ void insert(std::vector<int>& sorted, int value) {
   if (place == sorted.end() || *place != value) sorted.insert(place, value);
 }
 
-int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
+int bodies_in(const Pattern& p) {
   if (!p.films.empty() || p.contacts.size() != 1 || p.contacts[0].has_rate ||
       p.contacts[0].is_face || !p.blade_groups.empty() || p.off_diagonals > 0)
     return 0;
-  for (const ContactSystem* s : systems) {
-    for (int i = 2; i < p.n; ++i) {
-      if (s->cosine_load()(i) != 0.0 || s->sine_load()(i) != 0.0) return 0;
-    }
-  }
   const int bodies = p.n / 2;
   std::vector<int> of_x, of_y;
   for (int i = 0; i < bodies; ++i) {
@@ -32,6 +27,19 @@ int bodies_in(const Pattern& p, std::span<const ContactSystem* const> systems) {
   const bool fits = p.n == 2 * bodies && c.of_x == of_x && c.pushed_by_x == of_x &&
                     c.of_y == of_y && c.pushed_by_y == of_y;
   return fits ? bodies : 0;
+}
+
+/// Whether bodies have the same coefficients in x and in y in all systems.
+bool are_isotropic(std::span<const ContactSystem* const> systems) {
+  for (const ContactSystem* s : systems) {
+    const ReducedContact& c = s->contacts()[0];
+    for (int x = 0, y = 1; y < s->coordinates(); x += 2, y += 2) {
+      if (s->K()(x, x) != s->K()(y, y) || s->D()(x, x) != s->D()(y, y) || c.U(0, x) != c.U(1, y) ||
+          c.B(x, 0) != c.B(y, 1))
+        return false;
+    }
+  }
+  return true;
 }
 
 /// Adds the rows of a system's films.
@@ -90,6 +98,9 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
           "the systems of a batch must have equal numbers of coordinates and contacts");
     }
     add_films(p, *s);
+    for (int i = 0; i < p.n; ++i) {
+      if (s->cosine_load()(i) != 0.0 || s->sine_load()(i) != 0.0) insert(p.forced, i);
+    }
     for (OffDiagonal& row : p.off_diagonal) {
       for (int j = 0; j < p.n; ++j) {
         if (j == row.i) continue;
@@ -134,7 +145,8 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     row.begin = p.off_diagonals;
     p.off_diagonals += static_cast<int>(row.of_x.size() + row.of_rate.size());
   }
-  p.bodies = bodies_in(p, systems);
+  p.bodies = bodies_in(p);
+  p.is_isotropic = p.bodies > 0 && are_isotropic(systems);
   return p;
 }
 

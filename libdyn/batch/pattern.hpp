@@ -36,6 +36,7 @@ struct Pattern {
   };
 
   int n = 0;
+  std::vector<int> forced;                ///< coordinates with a load that turns
   std::vector<OffDiagonal> off_diagonal;  ///< rows that have any
   int off_diagonals = 0;                  ///< coefficients in all of them
   std::vector<ContactRows> contacts;
@@ -47,10 +48,10 @@ struct Pattern {
   };
   std::vector<BladeGroup> blade_groups;
 
-  /// How many bodies there are, where the coordinates are their (x, y), the first alone is out of
-  /// balance, and nothing couples them but a contact that all are in, whose law does not know the
+  /// How many bodies there are, where the coordinates are their (x, y) and nothing couples them but a contact that all are in, whose law does not know the
   /// rate of the depth, and there is no film; else 0.
   int bodies = 0;
+  bool is_isotropic = false;  ///< bodies whose coefficients are the same in x and in y
 
   /// @throws NumericalError  if the systems differ in coordinates, contacts, films or kinds of laws
   static Pattern of(std::span<const ContactSystem* const> systems);

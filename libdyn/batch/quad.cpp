@@ -6,6 +6,7 @@
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/batch/quad_pack.hpp"
 // after the pack that they are for
+#include "libdyn/batch/engine_bodies-inl.h"
 #include "libdyn/batch/engine_events-inl.h"
 #include "libdyn/batch/engine_films-inl.h"
 #include "libdyn/batch/engine_series-inl.h"

@@ -76,6 +76,21 @@ struct Constant : SeriesTag {
   HWY_ATTR inline P at(int k, const P&, const P&) { return k == 0 ? value : P(0.0); }
 };
 
+/// The series that is zero.
+template <class P>
+struct Zero : SeriesTag {
+  using Number = P;
+  HWY_ATTR inline P at(int, const P&, const P&) { return P(0.0); }
+};
+template <class A>
+constexpr bool is_zero = false;
+template <class P>
+constexpr bool is_zero<Zero<P>> = true;
+template <class A>
+constexpr bool is_constant = false;
+template <class P>
+constexpr bool is_constant<Constant<P>> = true;
+
 /// factor * a.
 template <class A>
 struct Scaled : SeriesTag {
@@ -149,23 +164,33 @@ struct SquareRoot : SeriesTag {
 
 template <Series A, Series B>
 HWY_ATTR inline auto operator+(const A& a, const B& b) {
-  return Sum<A, B>(a, b);
+  if constexpr (is_zero<A>) {
+    return b;
+  } else if constexpr (is_zero<B>) {
+    return a;
+  } else {
+    return Sum<A, B>(a, b);
+  }
 }
 template <Series A>
 HWY_ATTR inline auto operator*(const typename A::Number& f, const A& a) {
-  return Scaled<A>(a, f);
+  if constexpr (is_zero<A>) {
+    return a;
+  } else {
+    return Scaled<A>(a, f);
+  }
 }
 template <Series A>
 HWY_ATTR inline auto operator*(const A& a, const typename A::Number& f) {
-  return Scaled<A>(a, f);
+  return f * a;
 }
 template <Series A>
 HWY_ATTR inline auto operator*(double f, const A& a) {
-  return Scaled<A>(a, typename A::Number(f));
+  return typename A::Number(f) * a;
 }
 template <Series A>
 HWY_ATTR inline auto operator-(const A& a) {
-  return Scaled<A>(a, typename A::Number(-1.0));
+  return typename A::Number(-1.0) * a;
 }
 template <Series A, Series B>
 HWY_ATTR inline auto operator-(const A& a, const B& b) {
@@ -174,7 +199,7 @@ HWY_ATTR inline auto operator-(const A& a, const B& b) {
 template <Series A>
 HWY_ATTR inline auto operator+(double f, const A& a) {
   using P = typename A::Number;
-  return Sum<Constant<P>, A>(Constant<P>(P(f)), a);
+  return Constant<P>(P(f)) + a;
 }
 template <Series A>
 HWY_ATTR inline auto operator+(const A& a, double f) {
@@ -190,11 +215,23 @@ HWY_ATTR inline auto operator-(double f, const A& a) {
 }
 template <Series A, Series B>
 HWY_ATTR inline auto operator*(const A& a, const B& b) {
-  return Product<A, B>(a, b);
+  if constexpr (is_zero<A>) {
+    return a;
+  } else if constexpr (is_zero<B>) {
+    return b;
+  } else if constexpr (is_constant<B>) {
+    return a * b.value;
+  } else {
+    return Product<A, B>(a, b);
+  }
 }
 template <Series A, Series B>
 HWY_ATTR inline auto operator/(const A& a, const B& b) {
-  return Quotient<A, B>(a, b);
+  if constexpr (is_zero<A>) {
+    return a;
+  } else {
+    return Quotient<A, B>(a, b);
+  }
 }
 template <Series A>
 HWY_ATTR inline auto sqrt(const A& a) {
@@ -202,38 +239,6 @@ HWY_ATTR inline auto sqrt(const A& a) {
 }
 
 // ---- derivatives of expressions by one of their leaves ------------------------------------------
-
-/// The derivative that is zero everywhere.
-template <class P>
-struct Zero : SeriesTag {
-  using Number = P;
-  HWY_ATTR inline P at(int, const P&, const P&) { return P(0.0); }
-};
-template <class A>
-constexpr bool is_zero = false;
-template <class P>
-constexpr bool is_zero<Zero<P>> = true;
-
-template <Series A, Series B>
-HWY_ATTR inline auto sum_of(const A& a, const B& b) {
-  if constexpr (is_zero<A>) {
-    return b;
-  } else if constexpr (is_zero<B>) {
-    return a;
-  } else {
-    return a + b;
-  }
-}
-template <Series A, Series B>
-HWY_ATTR inline auto product_of(const A& a, const B& b) {
-  if constexpr (is_zero<A>) {
-    return a;
-  } else if constexpr (is_zero<B>) {
-    return b;
-  } else {
-    return a * b;
-  }
-}
 
 /// Derivative by leaf I.
 template <int I, class P, int J>
@@ -250,39 +255,24 @@ HWY_ATTR inline auto derivative(const Constant<P>&) {
 }
 template <int I, class A>
 HWY_ATTR inline auto derivative(const Scaled<A>& e) {
-  const auto of_a = derivative<I>(e.a);
-  if constexpr (is_zero<std::remove_cvref_t<decltype(of_a)>>) {
-    return of_a;
-  } else {
-    return of_a * e.factor;
-  }
+  return derivative<I>(e.a) * e.factor;
 }
 template <int I, class A, class B>
 HWY_ATTR inline auto derivative(const Sum<A, B>& e) {
-  return sum_of(derivative<I>(e.a), derivative<I>(e.b));
+  return derivative<I>(e.a) + derivative<I>(e.b);
 }
 template <int I, class A, class B>
 HWY_ATTR inline auto derivative(const Product<A, B>& e) {
-  return sum_of(product_of(derivative<I>(e.a), e.b), product_of(e.a, derivative<I>(e.b)));
+  return derivative<I>(e.a) * e.b + e.a * derivative<I>(e.b);
 }
 template <int I, class A, class B>
 HWY_ATTR inline auto derivative(const Quotient<A, B>& e) {  // (a' - (a / b) b') / b
-  const auto by_b = product_of(-e, derivative<I>(e.b));
-  const auto above = sum_of(derivative<I>(e.a), by_b);
-  if constexpr (is_zero<std::remove_cvref_t<decltype(above)>>) {
-    return above;
-  } else {
-    return above / e.b;
-  }
+  const auto by_b = -e * derivative<I>(e.b);
+  return (derivative<I>(e.a) + by_b) / e.b;
 }
 template <int I, class A>
 HWY_ATTR inline auto derivative(const SquareRoot<A>& e) {
-  const auto of_a = derivative<I>(e.a);
-  if constexpr (is_zero<std::remove_cvref_t<decltype(of_a)>>) {
-    return of_a;
-  } else {
-    return of_a / (2.0 * e);
-  }
+  return derivative<I>(e.a) / (2.0 * e);
 }
 
 // ---- whole series -------------------------------------------------------------------------------

@@ -93,6 +93,41 @@ TEST(Batch, GivesEachTrajectoryWhatItIsAloneAmongSlidingAndStickingOnes) {
   expect_same_as_alone(sample, {.tolerance = 1e-8, .exponents = true});
 }
 
+/// A rotor whose bearing is stiffer along y than along x.
+struct AnisotropicRotor : RotorStator {
+  Model model() const {
+    Model m = RotorStator::model();
+    m.structure.bearings[0] =
+        test::bearing(test::body("rotor"), test::orthotropic(kr, 1.5 * kr, cr, cr));
+    return m;
+  }
+};
+
+// Isotropic rotors, others, and such with damped contacts are computed in different ways each, that
+// of a batch being the most general one that any of its rotors needs.
+TEST(Batch, GivesEachTrajectoryWhatItIsAloneAmongOnesThatNeedMore) {
+  for (const bool are_hertz : {false, true}) {
+    const test::Trajectories plain = random_rotors(12, false, are_hertz);
+    test::Trajectories odd, damped = random_rotors(4, true, are_hertz);
+    for (int i = 0; i < 4; ++i) {
+      AnisotropicRotor p{{.Omega = 130.0 + 10.0 * i, .kC = 30e6}};
+      if (are_hertz) p.kH = 100.0 * p.kC;
+      odd.add(p, 20);
+    }
+    std::vector<Trajectory> among_odd = plain.all, among_damped = plain.all;
+    among_odd.insert(among_odd.end(), odd.all.begin(), odd.all.end());
+    among_damped.insert(among_damped.end(), damped.all.begin(), damped.all.end());
+    integrate_batch(among_odd, {.threads = 1, .sections = true});
+    integrate_batch(among_damped, {.threads = 1, .sections = true});
+    for (std::size_t i = 0; i < plain.all.size(); ++i) {
+      Trajectory alone = plain.all[i];
+      integrate_single(alone, {.sections = true});
+      EXPECT_TRUE(is_same(among_odd[i], alone)) << i;
+      EXPECT_TRUE(is_same(among_damped[i], alone)) << i;
+    }
+  }
+}
+
 TEST(Batch, DoesNotDependOnTheOrderOfTrajectoriesNorOnThreads) {
   const test::Trajectories sample = random_rotors(50);
   std::vector<Trajectory> forward = sample.all;

@@ -1,0 +1,119 @@
+// Series of the engine for a few bodies with one contact between them, the commonest small model:
+// everything about an order that fits stays in registers.
+
+#if defined(WHIRL_ENGINE_BODIES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_ENGINE_BODIES_INL_H
+#undef WHIRL_ENGINE_BODIES_INL_H
+#else
+#define WHIRL_ENGINE_BODIES_INL_H
+#endif
+
+#include "libdyn/batch/engine-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// Coefficients x_{k+2} from those up to k + 1, of Pattern::bodies, while friction has no series of
+/// its own. Loads from memory decide how long this takes, so what is used twice is loaded once:
+/// of isotropic bodies, one coefficient serves x and y.
+///
+/// Every number is made by the operations of series_of_any in their order: a lane must not notice
+/// which of the two its neighbors ask for.
+template <class P>
+template <int Bodies, bool Isotropic, class Law>
+HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
+  constexpr int n = 2 * Bodies;
+  ContactLanes<P>& c = contacts_[0];
+  std::copy(y_.begin(), y_.end(), term(0));
+  find_load();
+  // none of these overlap, which the compiler cannot know of registers in memory
+  P* __restrict dx = c.dx, * __restrict dy = c.dy, * __restrict s = c.s, * __restrict r = c.r;
+  P* __restrict N_of = c.N, * __restrict q = c.q;
+  const P *ux = c.ux.data(), *uy = Isotropic ? ux : c.uy.data();
+  const P *bx = c.bx.data(), *by = Isotropic ? bx : c.by.data();
+  const P *K = equations_.K.data(), *D = equations_.damping.data(), *load = load_.data();
+  const Mask in_touch = c.in_touch;
+  P *now = term(0), *rate = term(1), *next = term(2);
+
+  const auto displacement = [&](const P* x, P& to_x, P& to_y) HWY_ATTR {
+    P along = ux[0] * x[0], across = uy[0] * x[1];
+    for (int i = 1; i < Bodies; ++i) {
+      along = fma(ux[i], x[2 * i], along);
+      across = fma(uy[i], x[2 * i + 1], across);
+    }
+    to_x = along;
+    to_y = across;
+  };
+  P acceleration[n];
+  const auto accelerate = [&](const P* newest) HWY_ATTR {
+    each<n>(n, [&](int i) HWY_ATTR {
+      const int j = Isotropic ? i & ~1 : i;
+      acceleration[i] = fnma(D[j], newest[i], fnma(K[j], now[i], load[i]));
+    });
+  };
+  const auto square = [&](const OlderTerms<P>& older, int k) HWY_ATTR {  // half of s_k
+    return fma(dx[0], dx[k], older.xx) + fma(dy[0], dy[k], older.yy);
+  };
+
+  displacement(now, dx[0], dy[0]);
+  displacement(rate, dx[1], dy[1]);
+  dx[0] = dx[0] - c.offset_x;
+  dy[0] = dy[0] - c.offset_y;
+  s[0] = fma(dx[0], dx[0], dy[0] * dy[0]);
+  if (c.is_evaluated) c.first_distance();
+  accelerate(rate);
+  for (int k = 0;; ++k) {
+    OlderTerms<P> older;
+    if (c.is_evaluated) {
+      P px, py;
+      if (k == 0) {
+        N_of[0] = law.normal(0, max(r[0] - c.clearance, c.least_depth));
+        q[0] = select(in_touch, N_of[0] * c.inverse_r, P(0.0));
+        px = q[0] * dx[0];
+        py = q[0] * dy[0];
+      } else {
+        older.square_and_multiply(dx, dy, r, q, k);
+        const P half_s = square(older, k);
+        s[k] = half_s + half_s;
+        r[k] = (half_s - older.rr) * c.inverse_r;
+        N_of[k] = law.normal(k, r[k]);
+        q[k] = select(in_touch, (N_of[k] - fma(r[k], q[0], older.rq)) * c.inverse_r, P(0.0));
+        px = fma(q[k], dx[0], fma(q[0], dx[k], older.xq));
+        py = fma(q[k], dy[0], fma(q[0], dy[k], older.yq));
+      }
+      const P fx = fnma(c.share, py, px), fy = fma(c.share, px, py);
+      for (int i = 0; i < Bodies; ++i) {
+        acceleration[2 * i] = fnma(bx[i], fx, acceleration[2 * i]);
+        acceleration[2 * i + 1] = fnma(by[i], fy, acceleration[2 * i + 1]);
+      }
+    } else if (k > 0) {
+      older.square(dx, dy, k);
+      const P half_s = square(older, k);
+      s[k] = half_s + half_s;
+    }
+    const P scale(twice_integrated<P>(k));
+    P newest[n];
+    each<n>(n, [&](int i) HWY_ATTR { next[i] = newest[i] = acceleration[i] * scale; });
+    displacement(newest, dx[k + 2], dy[k + 2]);
+    if (k == N) break;
+    now = rate;
+    rate = next;
+    next += n;
+    D += n;
+    load += n;
+    accelerate(newest);  // of the next order, while its rates are at hand
+  }
+  for (int k = N + 1; k <= N + 2; ++k) {
+    OlderTerms<P> older;
+    older.square(dx, dy, k);
+    const P half_s = square(older, k);
+    s[k] = half_s + half_s;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard

@@ -1,0 +1,91 @@
+// Sums over older coefficients in products of series, those of a contact at once.
+
+#if defined(WHIRL_OLDER_TERMS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_OLDER_TERMS_INL_H
+#undef WHIRL_OLDER_TERMS_INL_H
+#else
+#define WHIRL_OLDER_TERMS_INL_H
+#endif
+
+#include "libdyn/batch/pack-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl {
+namespace HWY_NAMESPACE {
+
+/// What coefficients 1 to k - 1 add to coefficient k of products of series; of squares, half of it.
+///
+/// Pairs i, k - i from the middle outwards: the newest come last, which shortens the chain. Operands
+/// are references, for g++ 12 stores copies of packs and never reads them.
+template <class P>
+struct OlderTerms {
+  P xx{0.0}, yy{0.0}, rr{0.0};  // halves
+  P xq{0.0}, yq{0.0}, rq{0.0};
+
+  HWY_ATTR inline void square(const P* x, const P* y, int k) {
+    if (k % 2 == 0) {
+      const P &xm = x[k / 2], &ym = y[k / 2];
+      xx = P(0.5) * xm * xm;
+      yy = P(0.5) * ym * ym;
+    }
+    for (int i = (k - 1) / 2; i > 0; --i) {
+      xx = fma(x[i], x[k - i], xx);
+      yy = fma(y[i], y[k - i], yy);
+    }
+  }
+  HWY_ATTR inline void square(const P* x, const P* y, const P* r, int k) {
+    if (k % 2 == 0) {
+      const P &xm = x[k / 2], &ym = y[k / 2], &rm = r[k / 2];
+      xx = P(0.5) * xm * xm;
+      yy = P(0.5) * ym * ym;
+      rr = P(0.5) * rm * rm;
+    }
+    for (int i = (k - 1) / 2; i > 0; --i) {
+      xx = fma(x[i], x[k - i], xx);
+      yy = fma(y[i], y[k - i], yy);
+      rr = fma(r[i], r[k - i], rr);
+    }
+  }
+  HWY_ATTR inline void multiply(const P* x, const P* y, const P* r, const P* q, int k) {
+    if (k % 2 == 0) {
+      const P& qm = q[k / 2];
+      xq = x[k / 2] * qm;
+      yq = y[k / 2] * qm;
+      rq = r[k / 2] * qm;
+    }
+    for (int i = (k - 1) / 2; i > 0; --i) {
+      const P &qi = q[i], &qj = q[k - i];
+      xq = fma(x[i], qj, fma(x[k - i], qi, xq));
+      yq = fma(y[i], qj, fma(y[k - i], qi, yq));
+      rq = fma(r[i], qj, fma(r[k - i], qi, rq));
+    }
+  }
+  /// Squares and products at once, with one load of every coefficient.
+  HWY_ATTR inline void square_and_multiply(const P* x, const P* y, const P* r, const P* q, int k) {
+    if (k % 2 == 0) {
+      const P &xm = x[k / 2], &ym = y[k / 2], &rm = r[k / 2], &qm = q[k / 2];
+      xx = P(0.5) * xm * xm;
+      yy = P(0.5) * ym * ym;
+      rr = P(0.5) * rm * rm;
+      xq = xm * qm;
+      yq = ym * qm;
+      rq = rm * qm;
+    }
+    for (int i = (k - 1) / 2; i > 0; --i) {
+      const P &qi = q[i], &qj = q[k - i];
+      const P &xi = x[i], &xj = x[k - i], &yi = y[i], &yj = y[k - i], &ri = r[i], &rj = r[k - i];
+      xx = fma(xi, xj, xx);
+      xq = fma(xi, qj, fma(xj, qi, xq));
+      yy = fma(yi, yj, yy);
+      yq = fma(yi, qj, fma(yj, qi, yq));
+      rr = fma(ri, rj, rr);
+      rq = fma(ri, qj, fma(rj, qi, rq));
+    }
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard
