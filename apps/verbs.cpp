@@ -15,6 +15,9 @@ const OptionSpec over{"over", "PATH=A:B:STEP",
                       "with --points, or value,value,..."};
 const OptionSpec frame{"frame", "F",
                        "in which it repeats: stationary (the default), or rotating (orbit)"};
+const OptionSpec orbit_method_option{"method", "M", "shooting (the default), or harmonic-balance"};
+const OptionSpec harmonics{"harmonics", "N",
+                           "of harmonic balance, of the orbit's frequency (as many as it takes)"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
@@ -97,6 +100,9 @@ const std::vector<Verb>& verbs() {
        "whirl orbit models/jeffcott_stator.toml --period 1",
        {{"period", "N", "revolutions after which it repeats (1)"},
         frame,
+        orbit_method_option,
+        harmonics,
+        {"verify", "", "how far harmonic balance is from shooting"},
         discard_option,
         tolerance_option,
         from_option},

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_ports.hpp"
+#include "libdyn/methods.hpp"
 #include "libfe/base/error.hpp"
 
 namespace whirl {
@@ -38,11 +38,11 @@ Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {
   const auto n = system.coordinates();
   const Eigen::Index N = static_cast<Eigen::Index>(samples) * revolutions;
   Mat eta = y.head(n).replicate(1, N);
-  Trajectory motion{.system = &system, .revolutions = revolutions};
-  motion.state.y = y;
+  MotionState state;
+  state.y = y;
   Eigen::Index next = 0;
   Vec now(2 * n);
-  integrate_single(motion, {}, [&](const Step& step) {
+  integrate(suitable_method(system), system, state, revolutions, {}, [&](const Step& step) {
     const double begin = turn * static_cast<double>(step.revolution) + step.phase;
     for (; next < N; ++next) {
       const double phase = turn * static_cast<double>(next) / samples;

@@ -307,8 +307,10 @@ HarmonicOrbit find_harmonic_orbit(const HarmonicProblem& problem, const Mat& sta
                                   const HarmonicOptions& options) {
   options.check();
   const bool is_adaptive = options.harmonics == 0;
-  const int most = options.most_harmonics * options.period;
-  int H = is_adaptive ? std::min(first_harmonics * options.period, most) : options.harmonics;
+  const int most = is_adaptive ? options.most_harmonics * options.period : options.harmonics;
+  int H = std::min(first_harmonics * options.period, most);
+  // half as many before, to tell how far the motion still moves
+  if (!is_adaptive) H = most >= 4 * options.period ? (most + 1) / 2 : most;
   HarmonicOrbit found;
   std::vector<HarmonicOrbit::Level> levels;
   double change = std::numeric_limits<double>::quiet_NaN(), fall = unproven;
@@ -333,8 +335,8 @@ HarmonicOrbit find_harmonic_orbit(const HarmonicProblem& problem, const Mat& sta
     found.truncation = change * fall / (1.0 - fall);
     if (problem.forces.empty() && H >= options.period) found.truncation = 0.0;  // linear: exact
     failures = found.is_good() ? 0 : failures + 1;
-    if (!is_adaptive || H >= most || found.truncation < options.tolerance) break;
-    if (failures == most_failures) break;
+    if (H >= most || failures == most_failures) break;
+    if (is_adaptive && found.truncation < options.tolerance) break;
   }
   found.levels = std::move(levels);
   return found;

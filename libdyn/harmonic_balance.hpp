@@ -122,7 +122,8 @@ struct HarmonicOrbit {
 /// Finds a periodic orbit by harmonic balance with Newton's method.
 ///
 /// The number of harmonics is doubled until the motion stays where it is: changes that fall by q a
-/// doubling sum up to q / (1 - q) of the last one, which is the estimate of the truncation.
+/// doubling sum up to q / (1 - q) of the last one, which is the estimate of the truncation. With a
+/// given number, half of it comes before.
 ///
 /// @param start  Fourier coefficients of a motion near the orbit, n x any odd number
 HarmonicOrbit find_harmonic_orbit(const HarmonicProblem& problem, const Mat& start,
