@@ -58,31 +58,51 @@ double Continuation::dot(const Vec& a, const Vec& b) const {
 }
 
 Continuation::Continuation(FlowAt flow_at, const Vec& start, const ContinuationOptions& options)
-    : flow_at_(std::move(flow_at)), options_(options) {
+    : options_(options) {
   options_.check();
-  const Flow flow = flow_at_(options_.first);
+  const Flow flow = flow_at(options_.first);
   scale_ = flow.scale;
-  PeriodicOrbit orbit = find_orbit(flow, start, {.period = options_.period});
+  const PeriodicOrbit orbit = find_orbit(flow, start, {.period = options_.period});
   if (!orbit.is_good()) {
     throw NumericalError(
         fmt::format("at the first value, {:g}: {}", options_.first, orbit.failure));
   }
-  const Eigen::Index n = scale_.size(), size = n * options_.period;
-  weights_ = Vec::Constant(size + 1, 1.0 / static_cast<double>(size));
-  weights_(size) = 1.0;
-  Trial trial;
-  trial.point.z.resize(size + 1);
+  equations_ = shooting_equations(std::move(flow_at), scale_);
+  const Eigen::Index n = scale_.size();
+  Vec x(n * options_.period);
   for (int i = 0; i < options_.period; ++i) {
-    trial.point.z.segment(i * n, n) =
-        orbit.states[static_cast<std::size_t>(i)].cwiseQuotient(scale_);
+    x.segment(i * n, n) = orbit.states[static_cast<std::size_t>(i)].cwiseQuotient(scale_);
   }
+  begin(x, orbit.residual,
+        {.jacobian = shooting_jacobian(orbit.tangents),
+         .contacts = orbit.contacts,
+         .multipliers = [&] { return orbit.multipliers; }});
+}
+
+Continuation::Continuation(OrbitEquations equations, const Vec& x,
+                           const ContinuationOptions& options)
+    : equations_(std::move(equations)), options_(options) {
+  options_.check();
+  const auto there = equations_.at(x, options_.first, Tangents::yes);
+  if (there.residual.size() == 0) {
+    throw NumericalError(
+        fmt::format("at the first value, {:g}: {}", options_.first, there.failure));
+  }
+  begin(x, there.residual.lpNorm<Eigen::Infinity>(), there);
+}
+
+void Continuation::begin(const Vec& x, double residual, const OrbitEquations::Evaluation& there) {
+  const Eigen::Index size = x.size();
+  set_weights(size);
+  Trial trial;
   trial.point.value = options_.first;
-  trial.point.z(size) = (options_.first - options_.low) / options_.range();
+  trial.point.z.resize(size + 1);
+  trial.point.z << x, (options_.first - options_.low) / options_.range();
   if (options_.first == options_.high) trial.point.z(size) = 1.0;
-  trial.point.multipliers = orbit.multipliers;
-  trial.point.residual = orbit.residual;
-  trial.point.contacts = orbit.contacts;
-  trial.tangents = orbit.tangents;
+  trial.point.multipliers = there.multipliers();
+  trial.point.residual = residual;
+  trial.point.contacts = there.contacts;
+  trial.jacobian = there.jacobian;
   Vec along = Vec::Zero(size + 1);
   along(size) = options_.direction;
   if (!add_tangent(trial, along, by_parameter_)) {
@@ -95,16 +115,22 @@ Continuation::Continuation(FlowAt flow_at, const Vec& start, const ContinuationO
 
 Continuation::Continuation(FlowAt flow_at, Vec scale, Branch branch,
                            const ContinuationOptions& options)
-    : flow_at_(std::move(flow_at)),
-      options_(options),
-      scale_(std::move(scale)),
-      branch_(std::move(branch)) {
+    : Continuation(shooting_equations(std::move(flow_at), scale), std::move(branch), options) {
+  scale_ = std::move(scale);
+}
+
+Continuation::Continuation(OrbitEquations equations, Branch branch,
+                           const ContinuationOptions& options)
+    : equations_(std::move(equations)), options_(options), branch_(std::move(branch)) {
   options_.period = branch_.period;
   options_.check();
-  const Eigen::Index size = scale_.size() * options_.period;
+  set_weights(branch_.points.back().z.size() - 1);
+  if (branch_.end.empty()) by_parameter_ = derivative_by_parameter(branch_.points.back().z);
+}
+
+void Continuation::set_weights(Eigen::Index size) {
   weights_ = Vec::Constant(size + 1, 1.0 / static_cast<double>(size));
   weights_(size) = 1.0;
-  if (branch_.end.empty()) by_parameter_ = derivative_by_parameter(branch_.points.back().z);
 }
 
 double Continuation::limited(double step, const Vec& tangent) const {
@@ -114,21 +140,9 @@ double Continuation::limited(double step, const Vec& tangent) const {
   return share * step > most ? most / share : step;
 }
 
-Vec Continuation::gaps(const Vec& z, PeriodicOrbit& orbit, Tangents wanted) const {
-  const Eigen::Index n = scale_.size(), size = z.size() - 1;
-  orbit.period = static_cast<int>(size / n);
-  orbit.states.clear();
-  for (Eigen::Index i = 0; i < size; i += n) {
-    orbit.states.emplace_back(scale_.cwiseProduct(z.segment(i, n)));
-  }
-  try {
-    Flow flow = flow_at_(value_of(z(size)));
-    flow.scale = scale_;
-    return shoot(flow, orbit, wanted);
-  } catch (const NumericalError& error) {
-    orbit.failure = error.what();
-    return {};
-  }
+OrbitEquations::Evaluation Continuation::evaluate(const Vec& z, Tangents wanted) const {
+  const Eigen::Index size = z.size() - 1;
+  return equations_.at(z.head(size), value_of(z(size)), wanted);
 }
 
 Vec Continuation::derivative_by_parameter(const Vec& z) const {
@@ -140,8 +154,7 @@ Vec Continuation::derivative_by_parameter(const Vec& z) const {
   for (int k = 0; k < (is_central ? 2 : 3); ++k) {
     Vec at = z;
     at(z.size() - 1) = std::clamp(u + shifts[is_central ? 0 : 1][k], 0.0, 1.0);
-    PeriodicOrbit orbit;
-    g[k] = gaps(at, orbit, Tangents::no);
+    g[k] = evaluate(at, Tangents::no).residual;
     if (g[k].size() == 0) return Vec::Zero(z.size() - 1);
   }
   if (is_central) return (g[1] - g[0]) / (2.0 * h);
@@ -152,7 +165,7 @@ bool Continuation::add_tangent(Trial& trial, const Vec& along, Vec& by_parameter
   const Eigen::Index size = trial.point.z.size() - 1;
   by_parameter = derivative_by_parameter(trial.point.z);
   Mat M(size + 1, size + 1);
-  M << shooting_jacobian(trial.tangents), by_parameter, along.cwiseProduct(weights_).transpose();
+  M << trial.jacobian, by_parameter, along.cwiseProduct(weights_).transpose();
   Vec unit = Vec::Zero(size + 1);
   unit(size) = 1.0;
   const auto tangent = newton_step(M, unit);
@@ -172,33 +185,31 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
       trial.failure = "outside of the range";
       return trial;
     }
-    PeriodicOrbit orbit;
-    const Vec gap = gaps(z, orbit, Tangents::yes);
-    if (gap.size() == 0) {
-      trial.failure = orbit.failure;
+    OrbitEquations::Evaluation now = evaluate(z, Tangents::yes);
+    if (now.residual.size() == 0) {
+      trial.failure = now.failure;
       return trial;
     }
-    trial.point.contacts = orbit.contacts;  // also of a failure, to tell why
-    if (is_closed(orbit.residual, before)) {
+    const double residual = now.residual.lpNorm<Eigen::Infinity>();
+    trial.point.contacts = now.contacts;  // also of a failure, to tell why
+    if (is_closed(residual, before)) {
       trial.point.value = value_of(z(size));
       trial.point.z = z;
-      trial.point.residual = orbit.residual;
-      trial.point.multipliers = multipliers_of(orbit.tangents);
-      trial.tangents = std::move(orbit.tangents);
+      trial.point.residual = residual;
+      trial.point.multipliers = now.multipliers();
+      trial.jacobian = std::move(now.jacobian);
       return trial;
     }
-    if (trial.corrections == most_corrections || orbit.residual > 2.0 * before ||
-        orbit.residual > 1e3) {
+    if (trial.corrections == most_corrections || residual > 2.0 * before || residual > 1e3) {
       trial.failure = "Newton's method does not converge";
       return trial;
     }
-    before = orbit.residual;
+    before = residual;
     if (trial.corrections == renewal) by_parameter = derivative_by_parameter(z);
     Mat M(size + 1, size + 1);
-    M << shooting_jacobian(orbit.tangents), by_parameter,
-        plane.normal.cwiseProduct(weights_).transpose();
+    M << now.jacobian, by_parameter, plane.normal.cwiseProduct(weights_).transpose();
     Vec r(size + 1);
-    r << gap, dot(plane.normal, z - plane.at);
+    r << now.residual, dot(plane.normal, z - plane.at);
     const auto correction = newton_step(M, r);
     if (!correction) {
       trial.failure = "the equations of the branch are singular";
@@ -281,11 +292,11 @@ void Continuation::end_at_failure(const std::string& why) {
   branch_.end = fmt::format("no orbit is found beyond {:.10g}: {}", last.value, why);
   // the motions that the tangent predicts: do they touch otherwise, and from where on
   const auto impacts_differ = [&](double length, std::vector<ContactMeasure>& seen) {
-    PeriodicOrbit orbit;
     Vec z = last.z + length * last.tangent;
     z(z.size() - 1) = std::clamp(z(z.size() - 1), 0.0, 1.0);
-    if (gaps(z, orbit, Tangents::no).size() == 0) return false;
-    seen = orbit.contacts;
+    const auto there = evaluate(z, Tangents::no);
+    if (there.residual.size() == 0) return false;
+    seen = there.contacts;
     return !same_impacts(seen, last.contacts);
   };
   std::vector<ContactMeasure> seen;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbit_equations.hpp"
 #include "libfe/base/field.hpp"
 
 namespace whirl {
@@ -38,8 +38,9 @@ struct ContinuationOptions {
 /// An orbit of a branch, and how the branch goes on from it.
 struct BranchPoint {
   double value = 0.0;  ///< of the parameter
-  Vec z;        ///< states of all segments [scales], then the parameter, 0 at low and 1 at high
-  Vec tangent;  ///< to the branch, of length 1 in its metric
+  Vec z;  ///< unknowns of the orbit (states of all segments) [scales], then the parameter, 0 at
+          ///< low and 1 at high
+  Vec tangent;        ///< to the branch, of length 1 in its metric
   double step = 0.0;  ///< of the arc length, to the next point
   CVec multipliers;   ///< the largest first; empty: start of a branch that is switched to
   double residual = 0.0;
@@ -48,7 +49,7 @@ struct BranchPoint {
   bool is_stable() const {
     return multipliers.size() > 0 && multipliers.cwiseAbs().maxCoeff() < 1.0;
   }
-  /// State at phase 0 of revolution i of the period.
+  /// State at phase 0 of revolution i of the period, if these are the unknowns.
   Vec state(const Vec& scale, int i = 0) const {
     return scale.cwiseProduct(z.segment(i * scale.size(), scale.size()));
   }
@@ -70,17 +71,13 @@ struct Branch {
   std::string end;                        ///< why it ended; empty: it goes on
 };
 
-/// The flow at a value of the parameter; its states are the same throughout.
-/// May throw NumericalError where there is none.
-using FlowAt = std::function<Flow(double value)>;
-
 /// Walks along a branch by pseudo-arclength.
 ///
-///   gaps(z) = 0,  <t, z - z_predicted> = 0,   z = (s_1 ... s_m, u)
-///   <a, b> = mean of a_i b_i over the states + a_u b_u
+///   r(z) = 0,  <t, z - z_predicted> = 0,   z = (x, u)
+///   <a, b> = mean of a_i b_i over the unknowns x + a_u b_u
 ///
 /// Newton's method corrects what the tangent t predicts. The derivative by the parameter is a central
-/// difference of two further passages at each point. Steps follow the number of corrections and the
+/// difference of two further evaluations at each point. Steps follow the number of corrections and the
 /// angle between tangents; where none converges they shrink. Bifurcations between two points show
 /// by the signs of test functions (see bifurcation.hpp) or by other numbers of impacts; they are
 /// located by solving for the point where that happens.
@@ -97,6 +94,10 @@ class Continuation {
   /// Goes on with a branch of at least one point.
   /// @param scale  of the states of its points
   Continuation(FlowAt flow_at, Vec scale, Branch branch, const ContinuationOptions& options);
+  /// Both for other equations.
+  /// @param x  their solution at the first value
+  Continuation(OrbitEquations equations, const Vec& x, const ContinuationOptions& options);
+  Continuation(OrbitEquations equations, Branch branch, const ContinuationOptions& options);
 
   /// Adds a point, and the bifurcations on the way to it; false: the branch has ended.
   bool advance();
@@ -110,7 +111,7 @@ class Continuation {
     int corrections = 0;
     bool is_outside = false;  ///< of the range
     std::string failure;
-    std::vector<Mat> tangents;
+    Mat jacobian;
   };
   /// What holds z in the corrector: <normal, z - at> = 0.
   struct Plane {
@@ -119,8 +120,10 @@ class Continuation {
 
   double value_of(double u) const;
   double dot(const Vec& a, const Vec& b) const;
-  /// Gaps at z; empty if the flow fails.
-  Vec gaps(const Vec& z, PeriodicOrbit& orbit, Tangents wanted) const;
+  OrbitEquations::Evaluation evaluate(const Vec& z, Tangents wanted) const;
+  void set_weights(Eigen::Index size);
+  /// The first point, where the equations are solved.
+  void begin(const Vec& x, double residual, const OrbitEquations::Evaluation& there);
   Vec derivative_by_parameter(const Vec& z) const;
   Trial correct(const Plane& plane, Vec by_parameter) const;
   /// Tangent at a point of the branch, and the derivative by the parameter.
@@ -135,11 +138,11 @@ class Continuation {
   void end_at_failure(const std::string& why);
   double limited(double step, const Vec& tangent) const;
 
-  FlowAt flow_at_;
+  OrbitEquations equations_;
   ContinuationOptions options_;
-  Vec scale_;
+  Vec scale_;  ///< of states, if these are the unknowns
   Branch branch_;
-  Vec by_parameter_;  ///< derivative of the gaps at the last point
+  Vec by_parameter_;  ///< derivative of the residual at the last point
   Vec weights_;
 };
 
