@@ -31,7 +31,8 @@ HarmonicProblem harmonic_problem(const ContactSystem& system) {
           .rate = system.phase_rate(),
           .length_scale = system.length_scale(),
           .scale = system.state_scale(),
-          .forces = port_forces(system)};
+          .forces = port_forces(system),
+          .measures = [&system](const Periodic& motion) { return measures_on(system, motion); }};
 }
 
 Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {

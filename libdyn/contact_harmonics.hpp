@@ -8,6 +8,7 @@
 
 namespace whirl {
 
+/// @param system  must live as long as the problem
 /// @throws NumericalError  if nothing moves
 HarmonicProblem harmonic_problem(const ContactSystem& system);
 

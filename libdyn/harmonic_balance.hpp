@@ -1,9 +1,11 @@
 #pragma once
 /// Periodic orbits as Fourier series: harmonic balance, with the forces' places as unknowns.
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "libdyn/contact_measures.hpp"
 #include "libdyn/port_forces.hpp"
 #include "libfe/eigen/dense.hpp"
 
@@ -19,6 +21,8 @@ struct HarmonicProblem {
   double length_scale = 1.0;  ///< of displacements at the forces [m]
   Vec scale;                  ///< of the state (eta, eta'), size 2 n
   std::vector<PortForces> forces;
+  /// What contacts do on a motion of eta; empty: there are none.
+  std::function<std::vector<ContactMeasure>(const Periodic& motion)> measures;
 
   Eigen::Index coordinates() const { return K.rows(); }
 };

@@ -19,6 +19,7 @@ constexpr int most_vectors = 1000;
 constexpr Eigen::Index most_unknowns = 1000;     ///< more than the orbit has
 constexpr Eigen::Index most_numbers = 10000000;  ///< in matrices of all harmonics
 constexpr double faint = 1e-4;                   ///< multipliers below are not looked for
+constexpr double least_band = 3.0;               ///< few harmonics are all that there are
 constexpr double resolved = 0.7;  ///< of the harmonics: modes that are faster are not
 
 /// (A - d/dt)^-1 on the Fourier coefficients of states, one after another: displacements, then rates.
@@ -217,8 +218,25 @@ int enough_harmonics(const HarmonicEquations& equations, const CVec& mean, int o
   const auto n = equations.problem().coordinates();
   const auto most =
       static_cast<double>(std::min(most_unknowns / (2 * ports), most_numbers / (n * n)));
-  const double wanted = fastest / (0.7 * resolved * w) + 1.0;
+  if (fastest < std::max(least_band, resolved * orbit) * w) return orbit;
+  const double wanted = fastest / (resolved * resolved * w) + 1.0;
   return std::max(orbit, static_cast<int>(std::min(wanted, most)));
+}
+
+/// Makes real what has no conjugate: real exponents at a strip's edge get imaginary parts of the
+/// truncation's size.
+void remove_stray_imaginary_parts(CVec& values) {
+  CVec result = values;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const Complex conjugate = std::conj(values(i));
+    bool has_partner = false;
+    for (Eigen::Index j = 0; j < values.size(); ++j) {
+      const double away = std::abs(conjugate - values(j));
+      has_partner = has_partner || (j != i && away < std::abs(values(i).imag()));
+    }
+    if (!has_partner) result(i) = std::copysign(std::abs(values(i)), values(i).real());
+  }
+  values = result;
 }
 
 }  // namespace
@@ -239,7 +257,7 @@ HillStability hill_stability(const HarmonicProblem& problem, const HarmonicOrbit
   result.harmonics = H;
   const double w = equations.frequency(), T = 2.0 * std::numbers::pi / w;
   const auto states = static_cast<std::size_t>(mean.size());
-  const double band = resolved * H, far = std::hypot(w, std::log(faint) / T);
+  const double band = std::max(least_band, resolved * H), far = std::hypot(w, std::log(faint) / T);
   std::vector<Complex> all;
   for (const Complex& lambda : mean) {
     if (std::abs(lambda.imag()) > band * w) all.push_back(lambda);
@@ -274,10 +292,9 @@ HillStability hill_stability(const HarmonicProblem& problem, const HarmonicOrbit
   result.missing = static_cast<int>(states - all.size());
   result.multipliers.resize(std::ssize(all));
   for (std::size_t i = 0; i < all.size(); ++i) {
-    Complex m = std::exp(all[i] * T);
-    if (std::abs(m.imag()) < 1e-9 * std::abs(m)) m = m.real();
-    result.multipliers(static_cast<Eigen::Index>(i)) = m;
+    result.multipliers(static_cast<Eigen::Index>(i)) = std::exp(all[i] * T);
   }
+  remove_stray_imaginary_parts(result.multipliers);
   sort_by_size(result.multipliers);
   result.exponents = result.multipliers;
   for (Complex& rate : result.exponents) rate = std::log(rate) / T;

@@ -1,0 +1,34 @@
+#pragma once
+/// Branches of orbits by harmonic balance.
+
+#include <functional>
+#include <memory>
+
+#include "libdyn/harmonic_balance.hpp"
+#include "libdyn/orbit_equations.hpp"
+
+namespace whirl {
+
+/// The equations of motion at a value of the parameter, with the same places of forces throughout.
+/// May throw NumericalError where there are none.
+using HarmonicProblemAt = std::function<std::shared_ptr<const HarmonicProblem>(double value)>;
+
+/// Those of harmonic balance for a walk along the parameter, with the harmonics of a first orbit.
+///
+/// Unknowns are the Fourier coefficients of the displacements at forces over the length scale, which
+/// no change of the modes touches. Multipliers are those of Hill's method; those that it leaves out
+/// count as zero.
+///
+/// @param first  an orbit at some value: number of harmonics, period
+/// @param scale  of displacements [m]
+OrbitEquations harmonic_equations(HarmonicProblemAt problem_at, const HarmonicOrbit& first,
+                                  double scale);
+
+/// The unknowns of an orbit.
+Vec harmonic_unknowns(const HarmonicOrbit& orbit, double scale);
+
+/// The orbit of unknowns x, with as much of it as follows from them at once.
+HarmonicOrbit orbit_of_unknowns(const HarmonicProblem& problem, const Vec& x, int period,
+                                double scale);
+
+}  // namespace whirl
