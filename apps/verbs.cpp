@@ -120,6 +120,8 @@ const std::vector<Verb>& verbs() {
         {"at", "VALUE", "where the first orbit is looked for, between first and last (first)"},
         {"period", "N", "revolutions after which the first orbit repeats (1)"},
         frame,
+        orbit_method_option,
+        harmonics,
         {"switch", "N",
          "generations of branches that begin at period doublings and pitchforks (0)"},
         {"most", "N", "points of a branch at most (2000)"},

@@ -129,6 +129,54 @@ Mat HarmonicEquations::receptance(const Mat& q) const {
   return u;
 }
 
+namespace {
+
+/// Adds the Fourier coefficients of v(theta) phi_b(theta) to columns b, v being the slopes of one
+/// place's forces: its own coefficients C_m, S_m up to 2 H have them all,
+///
+///   2 cos k cos l = cos(k - l) + cos(k + l),   2 sin k cos l = sin(k - l) + sin(k + l), ...
+///
+/// @param first, all  number of its first port, and of all ports
+void add_integrals(const std::vector<PortSample>& samples, PortMat PortSample::*slopes,
+                   Eigen::Index ports, Eigen::Index H, Eigen::Index first, Eigen::Index all,
+                   Mat& to) {
+  Mat sums = Mat::Zero(ports * ports, 4 * H + 1);
+  for (const PortSample& sample : samples) {
+    const PortMat& v = sample.*slopes;
+    const Eigen::Map<const Vec> flat(v.data(), v.size());
+    if (flat.isZero(0.0)) continue;
+    sums +=
+        sample.share * flat * harmonic_functions(sample.theta, static_cast<int>(2 * H)).transpose();
+  }
+  if (sums.isZero(0.0)) return;
+  for (Eigen::Index j = 0; j < ports; ++j) {
+    for (Eigen::Index i = 0; i < ports; ++i) {
+      const auto sum = sums.row(j * ports + i);
+      const auto C = [&](Eigen::Index m) { return m == 0 ? sum(0) : sum(2 * std::abs(m) - 1); };
+      const auto S = [&](Eigen::Index m) {
+        return m == 0 ? 0.0 : m > 0 ? sum(2 * m) : -sum(-2 * m);
+      };
+      const auto at = [&](Eigen::Index a, Eigen::Index b) -> double& {
+        return to(a * all + first + i, b * all + first + j);
+      };
+      for (Eigen::Index l = 0; l <= H; ++l) {
+        const Eigen::Index cos_l = l == 0 ? 0 : 2 * l - 1, sin_l = 2 * l;
+        at(0, cos_l) += C(l);
+        if (l > 0) at(0, sin_l) += S(l);
+        for (Eigen::Index k = 1; k <= H; ++k) {
+          at(2 * k - 1, cos_l) += C(k - l) + C(k + l);
+          at(2 * k, cos_l) += S(k + l) + S(k - l);
+          if (l == 0) continue;
+          at(2 * k - 1, sin_l) += S(k + l) - S(k - l);
+          at(2 * k, sin_l) += C(k - l) - C(k + l);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
 HarmonicEquations::Evaluation HarmonicEquations::evaluate(const Mat& u, bool slopes) const {
   const Eigen::Index P = ports(), terms = 2 * harmonics_ + 1;
   Evaluation e;
@@ -146,39 +194,14 @@ HarmonicEquations::Evaluation HarmonicEquations::evaluate(const Mat& u, bool slo
     const Eigen::Index p = force.U.rows();
     samples.clear();
     if (!force.sample({u.middleRows(first, p), period_, problem_.rate}, samples)) return e;
-    const auto N = std::ssize(samples);
-    // coefficients are integrals with 1, 2 cos, 2 sin, ...
-    Mat phi(N, terms);
-    for (Eigen::Index s = 0; s < N; ++s) {
-      phi.row(s) = harmonic_functions(samples[static_cast<std::size_t>(s)].theta, harmonics_);
+    if (slopes) {
+      add_integrals(samples, &PortSample::by_u, p, harmonics_, first, P, e.by_u);
+      add_integrals(samples, &PortSample::by_rate, p, harmonics_, first, P, e.by_rate);
     }
-    Mat weighted = 2.0 * phi;
-    weighted.col(0) *= 0.5;
-    for (Eigen::Index s = 0; s < N; ++s) {
-      const PortSample& sample = samples[static_cast<std::size_t>(s)];
-      weighted.row(s) *= sample.share;
-      e.g.middleRows(first, p) += sample.g * weighted.row(s);
-    }
-    if (slopes && N > 0) {
-      const auto add = [&](Mat& to, PortMat PortSample::*by) {
-        Vec values(N);
-        for (Eigen::Index i = 0; i < p; ++i) {
-          for (Eigen::Index j = 0; j < p; ++j) {
-            for (Eigen::Index s = 0; s < N; ++s) {
-              values(s) = (samples[static_cast<std::size_t>(s)].*by)(i, j);
-            }
-            if (values.isZero(0.0)) continue;
-            const Mat integrals = weighted.transpose() * (values.asDiagonal() * phi);
-            for (Eigen::Index b = 0; b < terms; ++b) {
-              for (Eigen::Index a = 0; a < terms; ++a) {
-                to(a * P + first + i, b * P + first + j) += integrals(a, b);
-              }
-            }
-          }
-        }
-      };
-      add(e.by_u, &PortSample::by_u);
-      add(e.by_rate, &PortSample::by_rate);
+    for (const PortSample& sample : samples) {  // coefficients are integrals with 1, 2 cos, 2 sin
+      Vec weights = 2.0 * sample.share * harmonic_functions(sample.theta, harmonics_);
+      weights(0) *= 0.5;
+      e.g.middleRows(first, p) += sample.g * weights.transpose();
     }
     first += p;
   }

@@ -55,9 +55,8 @@ HarmonicOrbit orbit_of_unknowns(const HarmonicProblem& problem, const Vec& x, in
   return orbit;
 }
 
-OrbitEquations harmonic_equations(HarmonicProblemAt problem_at, const HarmonicOrbit& first,
+OrbitEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int harmonics,
                                   double scale) {
-  const int period = first.motion.period, harmonics = first.harmonics();
   return {[problem_at = std::move(problem_at), period, harmonics, scale](const Vec& x, double value,
                                                                          Tangents wanted) {
     OrbitEquations::Evaluation result;

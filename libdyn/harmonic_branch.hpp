@@ -13,15 +13,15 @@ namespace whirl {
 /// May throw NumericalError where there are none.
 using HarmonicProblemAt = std::function<std::shared_ptr<const HarmonicProblem>(double value)>;
 
-/// Those of harmonic balance for a walk along the parameter, with the harmonics of a first orbit.
+/// Those of harmonic balance for a walk along the parameter, with the same harmonics throughout.
 ///
 /// Unknowns are the Fourier coefficients of the displacements at forces over the length scale, which
 /// no change of the modes touches. Multipliers are those of Hill's method; those that it leaves out
 /// count as zero.
 ///
-/// @param first  an orbit at some value: number of harmonics, period
-/// @param scale  of displacements [m]
-OrbitEquations harmonic_equations(HarmonicProblemAt problem_at, const HarmonicOrbit& first,
+/// @param period, harmonics  of the orbits
+/// @param scale              of displacements [m]
+OrbitEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int harmonics,
                                   double scale);
 
 /// The unknowns of an orbit.

@@ -16,11 +16,11 @@ constexpr int block = 2;            ///< vectors that Arnoldi's method begins wi
 constexpr double converged = 1e-9;  ///< change of an eigenvalue over the frequency
 constexpr int check_every = 16;     ///< vectors
 constexpr int most_vectors = 1000;
-constexpr Eigen::Index most_unknowns = 1000;     ///< more than the orbit has
-constexpr Eigen::Index most_numbers = 10000000;  ///< in matrices of all harmonics
-constexpr double faint = 1e-4;                   ///< multipliers below are not looked for
-constexpr double least_band = 3.0;               ///< few harmonics are all that there are
-constexpr double resolved = 0.7;  ///< of the harmonics: modes that are faster are not
+constexpr Eigen::Index most_unknowns = 1000;  ///< more than the orbit has
+constexpr Eigen::Index most_numbers = 10000;  ///< of a vector, likewise
+constexpr double faint = 1e-4;                ///< multipliers below are not looked for
+constexpr double least_band = 3.0;            ///< few harmonics are all that there are
+constexpr double resolved = 0.7;              ///< of the harmonics: modes that are faster are not
 
 /// (A - d/dt)^-1 on the Fourier coefficients of states, one after another: displacements, then rates.
 class InverseHill {
@@ -217,7 +217,7 @@ int enough_harmonics(const HarmonicEquations& equations, const CVec& mean, int o
   const auto ports = std::max<Eigen::Index>(equations.ports(), 1);
   const auto n = equations.problem().coordinates();
   const auto most =
-      static_cast<double>(std::min(most_unknowns / (2 * ports), most_numbers / (n * n)));
+      static_cast<double>(std::min(most_unknowns / (2 * ports), most_numbers / (4 * n)));
   if (fastest < std::max(least_band, resolved * orbit) * w) return orbit;
   const double wanted = fastest / (resolved * resolved * w) + 1.0;
   return std::max(orbit, static_cast<int>(std::min(wanted, most)));

@@ -40,7 +40,8 @@ class Packed {
   BranchPoint take_point(int period) {
     BranchPoint p;
     p.value = take();
-    const Eigen::Index size = layout_.states * period + 1;
+    const bool is_series = layout_.harmonics > 0;
+    const Eigen::Index size = (is_series ? layout_.unknowns : layout_.states * period) + 1;
     p.z.resize(size);
     for (double& x : p.z) x = take();
     p.tangent.resize(size);
@@ -101,6 +102,9 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
       const BranchPoint& p = b.branch.points[i];
       walk.put(p);
       for (const double r : b.radii[i]) walk.put(r);
+      if (layout.harmonics > 0) {
+        for (const double x : b.starts[i]) walk.put(x);
+      }
       of_point.push_back(number.back());
       value.push_back(p.value);
       residual.push_back(p.residual);
@@ -109,7 +113,7 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
       for (Eigen::Index k = 0; k < layout.states; ++k) {
         multiplier.push_back(p.multipliers.size() > 0 ? p.multipliers(k) : Complex(nan, nan));
       }
-      const Vec y = p.state(layout.scale);
+      const Vec& y = b.starts[i];
       states.insert(states.end(), y.begin(), y.end());
       for (const ContactMeasure& c : p.contacts) {
         duty.push_back(c.duty);
@@ -179,6 +183,12 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
   }
   file.dataset(path("walk"), walk.numbers(), {"", "what the walk goes on from", {""}});
   file.attribute(group, "complete", is_complete ? 1 : 0);
+  if (layout.harmonics > 0) file.attribute(group, "harmonics", layout.harmonics);
+}
+
+int harmonics_in(const ResultReader& file) {
+  if (!file.has_attribute(group, "harmonics")) return 0;
+  return static_cast<int>(file.number_attribute(group, "harmonics"));
 }
 
 std::vector<TracedBranch> read_branches(const ResultReader& file, const BranchLayout& layout) {
@@ -203,6 +213,12 @@ std::vector<TracedBranch> read_branches(const ResultReader& file, const BranchLa
       b.radii.emplace_back();
       for (std::size_t k = 0; k < layout.stations.size(); ++k)
         b.radii.back().push_back(walk.take());
+      if (layout.harmonics == 0) {
+        b.starts.push_back(b.branch.points.back().state(layout.scale));
+        continue;
+      }
+      b.starts.emplace_back(layout.states);
+      for (double& x : b.starts.back()) x = walk.take();
     }
     for (int i = 0; i < bifurcations; ++i) {
       Bifurcation x{.at = walk.take_point(b.branch.period)};

@@ -66,7 +66,8 @@ Branch duffing_branch(int harmonics) {
   const HarmonicOrbit orbit =
       find_harmonic_orbit(*problem, Mat::Zero(1, 1), {.harmonics = harmonics});
   EXPECT_TRUE(orbit.is_good()) << orbit.failure;
-  return walk_to_the_end({harmonic_equations(at, orbit, 1.0), harmonic_unknowns(orbit, 1.0), up});
+  return walk_to_the_end(
+      {harmonic_equations(at, 1, harmonics, 1.0), harmonic_unknowns(orbit, 1.0), up});
 }
 
 // With one harmonic both folds are those of the closed form; between them the branch is unstable.
@@ -135,8 +136,8 @@ TEST(HarmonicBranch, FindsThePeriodDoublingOfARubbingRotor) {
   const ContactOrbit orbit = find_harmonic_orbit(first->contacts, t.state.y, {.harmonics = 40});
   ASSERT_TRUE(orbit.orbit.is_good()) << orbit.orbit.failure;
   const double scale = first->contacts.length_scale();
-  const Branch series = walk_to_the_end({harmonic_equations(problem_at, orbit.orbit, scale),
-                                         harmonic_unknowns(orbit.orbit, scale), down});
+  const Branch series = walk_to_the_end(
+      {harmonic_equations(problem_at, 1, 40, scale), harmonic_unknowns(orbit.orbit, scale), down});
   EXPECT_EQ(series.end, "the end of the range");
   ASSERT_EQ(values(series, period_doubling).size(), 1u);
   constexpr double by_harmonics = 1e-3;  // of the friction, what 40 leave
