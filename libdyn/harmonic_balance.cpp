@@ -49,6 +49,11 @@ void HarmonicOptions::check() const {
       !(accurate > 0.0)) {
     throw NumericalError("harmonic balance: period, harmonics and accuracy must be positive");
   }
+  if (harmonics > 0 && harmonics < period) {
+    throw NumericalError(
+        fmt::format("harmonic balance: the speed is harmonic {} of the orbit, there are {}", period,
+                    harmonics));
+  }
 }
 
 HarmonicEquations::HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics)

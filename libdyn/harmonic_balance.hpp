@@ -28,14 +28,14 @@ struct HarmonicProblem {
 };
 
 struct HarmonicOptions {
-  int period = 1;            ///< of the orbit [revolutions]
-  int harmonics = 0;         ///< of the orbit's frequency; 0: as many as it takes
+  int period = 1;     ///< of the orbit [revolutions]
+  int harmonics = 0;  ///< of the orbit's frequency, at least the period; 0: as many as it takes
   int most_harmonics = 160;  ///< a revolution, if as many as it takes
   double tolerance = 1e-5;   ///< of the truncation, likewise [length scales]
   int most_steps = 30;       ///< of Newton's method
   double accurate = 1e-11;   ///< residual of an orbit [length scales]
 
-  /// @throws NumericalError  if a number is not positive
+  /// @throws NumericalError  if a number is outside of what it may be
   void check() const;
 };
 

@@ -32,7 +32,7 @@ struct HillStability {
 /// of the ports, not of the states. A strip of width w across the imaginary axis holds each exponent
 /// once; it is laid where no eigenvalue is near its edges. Blocks of two vectors find exponents that
 /// isotropy doubles. Modes faster than seven tenths of the harmonics have no copy in the strip that
-/// these resolve; forces change too slowly to reach them, and the mean of A(t) has their exponents.
+/// these resolve; their exponents are those of the mean of A(t), to first order.
 ///
 /// The series of p has the harmonics of the orbit, or more if the modes of the mean of A(t) ask for it
 /// and that is cheap.

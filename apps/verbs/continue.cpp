@@ -369,7 +369,7 @@ Report run_continue(const Invocation& call) {
   if (is_series && generations > 0) {
     throw ModelError({"--switch"}, "", "goes with --method shooting only");
   }
-  const int harmonics = call.has("harmonics") ? static_cast<int>(call.integer("harmonics", 1)) : 0;
+  const int harmonics = harmonics_of(call, options.period);
 
   const Model at_first = parameter.model(parameter.first);
   const auto first = std::make_shared<const Scene>(make_scene(at_first));

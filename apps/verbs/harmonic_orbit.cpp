@@ -11,11 +11,14 @@
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/hill.hpp"
+#include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 
 namespace whirl {
 
 namespace {
+
+constexpr long most_harmonics = 10000;
 
 /// Differences from the orbit that shooting finds from the same states.
 struct Verification {
@@ -66,11 +69,21 @@ std::string text_of(const HarmonicOrbit& orbit, const HillStability& hill) {
 
 }  // namespace
 
+int harmonics_of(const Invocation& call, int period) {
+  if (!call.has("harmonics")) return 0;
+  const long harmonics = call.integer("harmonics", 1);
+  if (harmonics < period || harmonics > most_harmonics) {
+    throw ModelError({"--harmonics " + call.text("harmonics")}, "",
+                     fmt::format("expected {} to {}: the speed is harmonic {} of the orbit", period,
+                                 most_harmonics, period));
+  }
+  return static_cast<int>(harmonics);
+}
+
 FoundOrbit find_by_harmonic_balance(const Invocation& call, const Scene& scene, const Vec& start,
                                     int period) {
-  HarmonicOptions options{.period = period};
-  if (call.has("harmonics")) options.harmonics = static_cast<int>(call.integer("harmonics", 1));
-  const ContactOrbit found = find_harmonic_orbit(scene.contacts, start, options);
+  const ContactOrbit found = find_harmonic_orbit(
+      scene.contacts, start, {.period = period, .harmonics = harmonics_of(call, period)});
   const HarmonicOrbit& orbit = found.orbit;
   FoundOrbit result{.period = period, .shortest_period = period};
   result.residual = orbit.residual;

@@ -204,6 +204,7 @@ Report run_orbit(const Invocation& call) {
                      "harmonic balance finds orbits in the stationary frame only");
   }
   const int period = static_cast<int>(call.integer("period", 1));
+  harmonics_of(call, period);  // before anything long
   const auto file = call.result_file(model);
   const Scene scene = make_scene(model);
   const Trajectory transient = after_transient(call, model, scene);

@@ -26,6 +26,10 @@ enum class OrbitMethod { shooting, harmonic_balance };
 /// @throws ModelError  for an unknown one, or for options of the other
 OrbitMethod orbit_method(const Invocation& call);
 
+/// --harmonics; 0: left out.
+/// @throws ModelError  if the speed itself, harmonic number `period`, is not among them
+int harmonics_of(const Invocation& call, int period);
+
 /// What a verb says of an orbit, however it was found.
 struct FoundOrbit {
   int period = 1, shortest_period = 1;  ///< [revolutions]

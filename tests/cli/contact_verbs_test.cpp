@@ -493,6 +493,8 @@ TEST_F(OrbitVerb, SaysWhatItCannotDo) {
   EXPECT_TRUE(has(problem({"--method", "harmonic-balance", "--frame", "rotating"}),
                   "stationary frame only"));
   EXPECT_TRUE(has(problem({"--method", "harmonic-balance", "--harmonics", "0"}), "--harmonics"));
+  EXPECT_TRUE(has(problem({"--method", "harmonic-balance", "--harmonics", "2", "--period", "3"}),
+                  "expected 3 to"));
 }
 
 }  // namespace contact_verbs_test
