@@ -15,6 +15,9 @@ const OptionSpec over{"over", "PATH=A:B:STEP",
                       "with --points, or value,value,..."};
 const OptionSpec frame{"frame", "F", "in which it repeats: stationary (the default), or rotating"};
 const OptionSpec frequency{"frequency", "U", "unit of frequency axes: Hz, cpm or rad/s (Hz)"};
+const OptionSpec orbit_method_option{"method", "M", "shooting (the default), or harmonic-balance"};
+const OptionSpec harmonics{"harmonics", "N",
+                           "of harmonic balance, of the orbit's frequency (as many as it takes)"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
@@ -110,6 +113,9 @@ const std::vector<Verb>& verbs() {
        {{"period", "N", "revolutions after which it repeats (1; of --point, that of its branch)"},
         frame,
         {"point", "N", "begins at this point of the branches of --from, its value included"},
+        orbit_method_option,
+        harmonics,
+        {"verify", "", "how far harmonic balance is from shooting"},
         discard_option,
         tolerance_option,
         from_option},
@@ -128,6 +134,8 @@ const std::vector<Verb>& verbs() {
          "where the first orbit is looked for, between first and last (first)"},
         {"period", "N", "revolutions after which the first orbit repeats (1)"},
         frame,
+        orbit_method_option,
+        harmonics,
         {"switch", "N",
          "generations of branches that begin at period doublings and pitchforks (0)"},
         {"most", "N", "points of a branch at most (2000)"},

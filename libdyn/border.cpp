@@ -149,20 +149,19 @@ BranchEquations border_equations(BifurcationKind kind, FlowPlane flows, Vec scal
                 at.jacobian(size, k) = (*moved - g) / h;
               }
             }
-            at.tangents = std::move(here.orbit.tangents);
-            return at;
-          },
-          [kind](const BranchEquations::Value& at) -> CVec {
-            const CVec all = multipliers_of(at.tangents);
-            if (kind == grazing) return all;
-            const auto critical = critical_places(kind, all);
-            std::vector<Complex> others;
-            for (Eigen::Index i = 0; i < all.size(); ++i) {
-              if (!critical || (i != critical->first && i != critical->second)) {
-                others.push_back(all(i));
+            at.multipliers = [kind, tangents = std::move(here.orbit.tangents)]() -> CVec {
+              const CVec all = multipliers_of(tangents);
+              if (kind == grazing) return all;
+              const auto critical = critical_places(kind, all);
+              std::vector<Complex> others;
+              for (Eigen::Index i = 0; i < all.size(); ++i) {
+                if (!critical || (i != critical->first && i != critical->second)) {
+                  others.push_back(all(i));
+                }
               }
-            }
-            return Eigen::Map<const CVec>(others.data(), std::ssize(others));
+              return Eigen::Map<const CVec>(others.data(), std::ssize(others));
+            };
+            return at;
           },
           h};
 }

@@ -17,13 +17,11 @@ struct BranchEquations {
   struct Value {
     Vec residual;                          ///< of all equations, in scales; empty: they failed
     Mat jacobian;                          ///< by x, if it is wanted
-    std::vector<Mat> tangents;             ///< of the motion, if wanted, for its multipliers
     std::vector<ContactMeasure> contacts;  ///< shares of the period
-    double rotation = 0.0;                 ///< of a circle, for its multipliers
+    std::function<CVec()> multipliers;     ///< the largest first; likewise, where the residual is 0
     std::string failure;
   };
   std::function<Value(const Vec& x, double value, Tangents wanted)> at;
-  std::function<CVec(const Value& at)> multipliers;  ///< the largest first
   double difference = 3e-6;  ///< of the parameter's range, for the derivative by it
 };
 

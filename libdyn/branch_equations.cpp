@@ -9,23 +9,22 @@ namespace whirl {
 BranchEquations shooting_equations(FlowAt flow_at, Vec scale) {
   return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
                                                                    Tangents wanted) {
-            const Eigen::Index n = scale.size();
-            PeriodicOrbit orbit{.period = static_cast<int>(x.size() / n)};
-            for (Eigen::Index i = 0; i < x.size(); i += n) {
-              orbit.states.emplace_back(scale.cwiseProduct(x.segment(i, n)));
-            }
-            Flow flow = flow_at(value);
-            flow.scale = scale;
-            BranchEquations::Value at{.residual = shoot(flow, orbit, wanted)};
-            if (wanted == Tangents::yes && at.residual.size() > 0) {
-              at.jacobian = shooting_jacobian(orbit.tangents);
-            }
-            at.tangents = std::move(orbit.tangents);
-            at.contacts = std::move(orbit.contacts);
-            at.failure = std::move(orbit.failure);
-            return at;
-          },
-          [](const BranchEquations::Value& at) { return multipliers_of(at.tangents); }};
+    const Eigen::Index n = scale.size();
+    PeriodicOrbit orbit{.period = static_cast<int>(x.size() / n)};
+    for (Eigen::Index i = 0; i < x.size(); i += n) {
+      orbit.states.emplace_back(scale.cwiseProduct(x.segment(i, n)));
+    }
+    Flow flow = flow_at(value);
+    flow.scale = scale;
+    BranchEquations::Value at{.residual = shoot(flow, orbit, wanted)};
+    if (wanted == Tangents::yes && at.residual.size() > 0) {
+      at.jacobian = shooting_jacobian(orbit.tangents);
+      at.multipliers = [tangents = std::move(orbit.tangents)] { return multipliers_of(tangents); };
+    }
+    at.contacts = std::move(orbit.contacts);
+    at.failure = std::move(orbit.failure);
+    return at;
+  }};
 }
 
 Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
@@ -47,24 +46,23 @@ Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
 BranchEquations cycle_equations(FreeFlowAt flow_at, Vec scale) {
   return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
                                                                    Tangents wanted) {
-            const Eigen::Index n = scale.size();
-            FreeFlow flow = flow_at(value);
-            const Vec state = scale.cwiseProduct(x.head(n));
-            FreeFlow::Arrival end = flow.go(state, x(n) * flow.revolution, wanted);
-            BranchEquations::Value at{.contacts = std::move(end.contacts),
-                                      .failure = std::move(end.failure)};
-            if (!at.failure.empty()) return at;
-            const Vec to_scale = scale.cwiseInverse();
-            at.residual = Vec::Zero(n + 1);
-            at.residual.head(n) = (end.end - state).cwiseProduct(to_scale);
-            if (wanted == Tangents::no) return at;
-            at.tangents = {to_scale.asDiagonal() * end.tangent * scale.asDiagonal()};
-            at.jacobian = cycle_jacobian(
-                at.tangents[0], flow.rate(state).cwiseProduct(to_scale) * flow.revolution,
-                flow.rate(end.end).cwiseProduct(to_scale) * flow.revolution);
-            return at;
-          },
-          [](const BranchEquations::Value& at) { return multipliers_across(at.tangents[0]); }};
+    const Eigen::Index n = scale.size();
+    FreeFlow flow = flow_at(value);
+    const Vec state = scale.cwiseProduct(x.head(n));
+    FreeFlow::Arrival end = flow.go(state, x(n) * flow.revolution, wanted);
+    BranchEquations::Value at{.contacts = std::move(end.contacts),
+                              .failure = std::move(end.failure)};
+    if (!at.failure.empty()) return at;
+    const Vec to_scale = scale.cwiseInverse();
+    at.residual = Vec::Zero(n + 1);
+    at.residual.head(n) = (end.end - state).cwiseProduct(to_scale);
+    if (wanted == Tangents::no) return at;
+    const Mat tangent = to_scale.asDiagonal() * end.tangent * scale.asDiagonal();
+    at.multipliers = [tangent] { return multipliers_across(tangent); };
+    at.jacobian = cycle_jacobian(tangent, flow.rate(state).cwiseProduct(to_scale) * flow.revolution,
+                                 flow.rate(end.end).cwiseProduct(to_scale) * flow.revolution);
+    return at;
+  }};
 }
 
 Continuation cycle_continuation(const FreeFlowAt& flow_at, const Vec& start, double period,

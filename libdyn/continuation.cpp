@@ -153,7 +153,7 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
       trial.point.value = value_of(z(size));
       trial.point.z = z;
       trial.point.residual = residual;
-      trial.point.multipliers = equations_.multipliers(at);
+      trial.point.multipliers = at.multipliers();
       trial.jacobian = std::move(at.jacobian);
       return trial;
     }

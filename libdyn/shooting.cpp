@@ -38,6 +38,8 @@ std::vector<ContactMeasure> shares(const std::vector<Passage>& passages, double 
   return sum;
 }
 
+}  // namespace
+
 void sort_by_size(CVec& values) {
   std::sort(values.begin(), values.end(), [](const Complex& a, const Complex& b) {
     const double x = std::abs(a), y = std::abs(b);
@@ -47,8 +49,6 @@ void sort_by_size(CVec& values) {
     return a.imag() > b.imag();
   });
 }
-
-}  // namespace
 
 void ShootingOptions::check() const {
   if (period < 1 || most_steps < 1 || segments < 0 || !(accurate > 0.0)) {

@@ -90,6 +90,9 @@ std::optional<Vec> newton_step(const Mat& J, const Vec& r);
 /// Whether an orbit is found: its residual is small, or small enough and no longer falling.
 bool is_closed(double residual, double before, double accurate = 1e-11);
 
+/// The largest first, pairs together.
+void sort_by_size(CVec& multipliers);
+
 /// Eigenvalues of the product A_m ... A_1, the largest first.
 ///
 /// They are m-th powers of the eigenvalues of the cyclic matrix that has A_1 ... A_m as its blocks:

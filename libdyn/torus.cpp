@@ -124,6 +124,52 @@ std::pair<Vec, double> across(const Vec& all) {
   return {others, all(along)};
 }
 
+/// The equations of a circle for its unknowns, and the tangents at its points.
+struct Turned {
+  BranchEquations::Value value;
+  std::vector<Mat> tangents{};
+};
+Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eigen::Index coordinate,
+              Tangents wanted) {
+  const Eigen::Index n = scale.size(), size = x.size() - 1, N = size / n;
+  const Mat scaled = x.head(size).reshaped(n, N);
+  if (const double tail = tail_of(scaled); tail > broken) {
+    return Turned{
+        {.failure = fmt::format("the highest harmonics are {:.0e} of the largest: the circle "
+                                "breaks up or locks",
+                                tail)}};
+  }
+  std::vector<Vec> starts;
+  for (Eigen::Index j = 0; j < N; ++j) starts.push_back(scale.cwiseProduct(scaled.col(j)));
+  const std::vector<Passage> passages = flow.go(starts, period, wanted);
+  Mat ends(n, N);
+  Turned at;
+  for (Eigen::Index j = 0; j < N; ++j) {
+    const Passage& p = passages[static_cast<std::size_t>(j)];
+    if (!p.failure.empty()) return Turned{{.failure = p.failure}};
+    ends.col(j) = p.end.cwiseQuotient(scale);
+    if (wanted == Tangents::no) continue;
+    at.tangents.push_back(scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal());
+  }
+  const Shift shift(N, turn * x(size));
+  at.value.residual.resize(size + 1);
+  at.value.residual.head(size) = (ends - scaled * shift.value.transpose()).reshaped();
+  const CVec c = harmonics_of(scaled.row(coordinate)).row(0);
+  at.value.residual(size) = c(1).imag();
+  if (wanted == Tangents::no) return at;
+  at.value.jacobian = Mat::Zero(size + 1, size + 1);
+  for (Eigen::Index i = 0; i < N; ++i) {
+    at.value.jacobian.block(i * n, i * n, n, n) = at.tangents[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < N; ++j) {
+      at.value.jacobian.block(i * n, j * n, n, n).diagonal().array() -= shift.value(i, j);
+    }
+    at.value.jacobian(size, i * n + coordinate) =
+        -std::sin(turn * static_cast<double>(i) / static_cast<double>(N)) / static_cast<double>(N);
+  }
+  at.value.jacobian.col(size).head(size) = -turn * (scaled * shift.rate.transpose()).reshaped();
+  return at;
+}
+
 }  // namespace
 
 Vec circle_unknowns(const InvariantCircle& circle, const Vec& scale) {
@@ -149,51 +195,14 @@ InvariantCircle circle_of(const Vec& unknowns, const Vec& scale, int period) {
 }
 
 BranchEquations circle_equations(FlowAt flow_at, Vec scale, int period, Eigen::Index coordinate) {
-  return {
-      [=, flow_at = std::move(flow_at)](const Vec& x, double value, Tangents wanted) {
-        const Eigen::Index n = scale.size(), size = x.size() - 1, N = size / n;
-        const Mat scaled = x.head(size).reshaped(n, N);
-        if (const double tail = tail_of(scaled); tail > broken) {
-          return BranchEquations::Value{
-              .failure = fmt::format("the highest harmonics are {:.0e} of the largest: the circle "
-                                     "breaks up or locks",
-                                     tail)};
-        }
-        std::vector<Vec> starts;
-        for (Eigen::Index j = 0; j < N; ++j) starts.push_back(scale.cwiseProduct(scaled.col(j)));
-        const std::vector<Passage> passages = flow_at(value).go(starts, period, wanted);
-        Mat ends(n, N);
-        BranchEquations::Value at;
-        for (Eigen::Index j = 0; j < N; ++j) {
-          const Passage& p = passages[static_cast<std::size_t>(j)];
-          if (!p.failure.empty()) return BranchEquations::Value{.failure = p.failure};
-          ends.col(j) = p.end.cwiseQuotient(scale);
-          if (wanted == Tangents::no) continue;
-          at.tangents.push_back(scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal());
-        }
-        const Shift shift(N, turn * x(size));
-        at.residual.resize(size + 1);
-        at.residual.head(size) = (ends - scaled * shift.value.transpose()).reshaped();
-        const CVec c = harmonics_of(scaled.row(coordinate)).row(0);
-        at.residual(size) = c(1).imag();
-        if (wanted == Tangents::no) return at;
-        at.jacobian = Mat::Zero(size + 1, size + 1);
-        for (Eigen::Index i = 0; i < N; ++i) {
-          at.jacobian.block(i * n, i * n, n, n) = at.tangents[static_cast<std::size_t>(i)];
-          for (Eigen::Index j = 0; j < N; ++j) {
-            at.jacobian.block(i * n, j * n, n, n).diagonal().array() -= shift.value(i, j);
-          }
-          at.jacobian(size, i * n + coordinate) =
-              -std::sin(turn * static_cast<double>(i) / static_cast<double>(N)) /
-              static_cast<double>(N);
-        }
-        at.jacobian.col(size).head(size) = -turn * (scaled * shift.rate.transpose()).reshaped();
-        at.rotation = x(size);
-        return at;
-      },
-      [](const BranchEquations::Value& at) -> CVec {
-        return across(exponents_of(at.tangents, at.rotation)).first.array().exp().cast<Complex>();
-      }};
+  return {[=, flow_at = std::move(flow_at)](const Vec& x, double value, Tangents wanted) {
+    Turned at = turned(flow_at(value), scale, x, period, coordinate, wanted);
+    at.value.multipliers = [tangents = std::move(at.tangents),
+                            rotation = x(x.size() - 1)]() -> CVec {
+      return across(exponents_of(tangents, rotation)).first.array().exp().cast<Complex>();
+    };
+    return std::move(at.value);
+  }};
 }
 
 std::optional<InvariantCircle> guessed_circle(const Mat& sections, const Vec& scale, int period,
@@ -258,11 +267,9 @@ std::optional<InvariantCircle> guessed_circle(const Mat& sections, const Vec& sc
 InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
                             const CircleOptions& options) {
   const Vec& scale = flow.scale;
-  const FlowAt flow_at = [&](double) { return flow; };
   InvariantCircle circle = guess;
   for (int K = options.harmonics;; K *= 2) {
     const Eigen::Index coordinate = circle_coordinate(circle, scale);
-    const BranchEquations equations = circle_equations(flow_at, scale, options.period, coordinate);
     // the same polynomial at more angles, begun where the first harmonic is real
     const Eigen::Index N = 2 * K + 1;
     const CMat c = harmonics_of(circle.points);
@@ -278,13 +285,15 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
     Vec x = circle_unknowns(circle, scale);
     double before = std::numeric_limits<double>::infinity();
     for (int step = 0;; ++step) {
-      const BranchEquations::Value at = equations.at(x, 0.0, Tangents::yes);
+      const Turned there = turned(flow, scale, x, options.period, coordinate, Tangents::yes);
+      const BranchEquations::Value& at = there.value;
       circle = circle_of(x, scale, options.period);
       circle.failure = at.failure;
       if (at.residual.size() == 0) return circle;
       circle.residual = at.residual.lpNorm<Eigen::Infinity>();
       if (is_closed(circle.residual, before)) {
-        std::tie(circle.exponents, circle.along) = across(exponents_of(at.tangents, at.rotation));
+        std::tie(circle.exponents, circle.along) =
+            across(exponents_of(there.tangents, circle.rotation));
         break;
       }
       const auto correction = newton_step(at.jacobian, at.residual);

@@ -30,6 +30,7 @@ class Packed {
       put(b.branch.points[i]);
       put(static_cast<double>(b.radii[i].size()));
       for (const double r : b.radii[i]) put(r);
+      put(i < b.starts.size() ? b.starts[i] : Vec());
     }
     for (const Bifurcation& x : b.branch.bifurcations) {
       put(x.at);
@@ -52,6 +53,7 @@ class Packed {
       b.branch.points.push_back(take_point());
       b.radii.emplace_back(static_cast<std::size_t>(take_count()));
       for (double& r : b.radii.back()) r = take();
+      b.starts.push_back(take_vector());
     }
     for (int i = 0; i < bifurcations; ++i) {
       Bifurcation x{.at = take_point()};
@@ -181,7 +183,7 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
       for (Eigen::Index k = 0; k < layout.states; ++k) {
         multiplier.push_back(k < p.multipliers.size() ? p.multipliers(k) : Complex(nan, nan));
       }
-      const Vec y = p.state(layout.scale);
+      const Vec& y = b.starts[i];
       states.insert(states.end(), y.begin(), y.end());
       for (const ContactMeasure& c : p.contacts) {
         duty.push_back(c.duty);
@@ -247,6 +249,12 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
   }
   file.dataset(path("walk"), walk.numbers(), {"", "what the walk goes on from", {""}});
   file.attribute(group, "complete", is_complete ? 1 : 0);
+  if (layout.harmonics > 0) file.attribute(group, "harmonics", layout.harmonics);
+}
+
+int harmonics_in(const ResultReader& file) {
+  if (!file.has_attribute(group, "harmonics")) return 0;
+  return static_cast<int>(file.number_attribute(group, "harmonics"));
 }
 
 std::vector<TracedBranch> read_branches(const ResultReader& file, const BranchLayout& layout) {

@@ -18,14 +18,16 @@ struct TracedBranch {
   int generation = 0;  ///< how many branches it is away from the first
   double direction = 1.0;
   std::vector<std::vector<double>> radii;  ///< per point, largest distance of the stations [m]
-  BifurcationKind kind{};                  ///< of a border: of which bifurcation
-  std::string contact;                     ///< likewise: which grazes
+  std::vector<Vec> starts;  ///< per point, state at phase 0, in the basis of the first value
+  BifurcationKind kind{};   ///< of a border: of which bifurcation
+  std::string contact;      ///< likewise: which grazes
 };
 
 /// What all branches of a study have in common.
 struct BranchLayout {
   Eigen::Index states = 0;            ///< of a revolution, reduced
   Vec scale;                          ///< of the states
+  int harmonics = 0;                  ///< of harmonic balance; 0: shooting
   std::vector<std::string> contacts;  ///< names
   std::vector<std::string> stations;  ///< likewise
   std::string path, unit;             ///< of the parameter
@@ -40,6 +42,9 @@ struct BranchLayout {
 /// Group /branch: all points and bifurcations, and what the walk goes on from.
 void write_branches(ResultWriter& file, const BranchLayout& layout,
                     const std::vector<TracedBranch>& branches, bool is_complete);
+
+/// Harmonics of the branches in a file; 0: of shooting.
+int harmonics_in(const ResultReader& file);
 
 /// The same branches again, bit by bit.
 /// @throws FileError  if the file holds something else

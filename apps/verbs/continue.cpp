@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/borders.hpp"
@@ -11,7 +13,9 @@
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study.hpp"
 #include "libdyn/bifurcation.hpp"
+#include "libdyn/contact_harmonics.hpp"
 #include "libdyn/cycle.hpp"
+#include "libdyn/harmonic_branch.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
@@ -27,8 +31,9 @@ class Tracing {
  public:
   Tracing(const BranchParameters& parameters, std::shared_ptr<const Scene> first,
           std::vector<NamedPoint> stations, ContinuationOptions options, int generations,
-          bool is_rotating)
-      : parameters_(parameters),
+          OrbitMethod method, bool is_rotating)
+      : method_(method),
+        parameters_(parameters),
         first_(std::move(first)),
         stations_(std::move(stations)),
         options_(std::move(options)),
@@ -59,19 +64,26 @@ class Tracing {
     return [this](double value) { return rotating_flow(scene(value), *first_); };
   }
 
+  /// What series have in common with those of an earlier file.
+  void set_harmonics(int harmonics) { layout_.harmonics = harmonics; }
+
   /// The first branch, or two of them, from an orbit near a start.
-  void begin(const Vec& start) {
+  /// @param harmonics  of harmonic balance; 0: as many as it takes
+  void begin(const Vec& start, int harmonics) {
+    std::optional<Vec> unknowns;
+    if (method_ == OrbitMethod::harmonic_balance) unknowns = series_of(start, harmonics);
     const double period =
         layout_.is_rotating ? guessed_period(*first_, start) / first_->contacts.period() : 0.0;
     for (const double direction : {-parameters_.along.direction, parameters_.along.direction}) {
       if (direction != parameters_.along.direction && !parameters_.along.goes_both) continue;
       ContinuationOptions how = options_;
       how.direction = direction;
-      const Continuation walk = layout_.is_rotating
+      const Continuation walk = unknowns ? Continuation(equations(), *unknowns, how)
+                                : layout_.is_rotating
                                     ? cycle_continuation(free_flow_at(), start, period, how)
                                     : orbit_continuation(flow_at(), start, how);
       branches_.push_back({.branch = walk.branch(), .direction = direction});
-      branches_.back().radii.push_back(radii(walk.branch(), walk.branch().points[0]));
+      measure(branches_.back(), walk.branch().points[0]);
     }
   }
 
@@ -83,9 +95,7 @@ class Tracing {
       if (branches_[i].branch.end.empty()) {
         ContinuationOptions how = options_;
         how.direction = branches_[i].direction;
-        Continuation on(layout_.is_rotating ? cycle_equations(free_flow_at(), layout_.scale)
-                                            : shooting_equations(flow_at(), layout_.scale),
-                        branches_[i].branch, how);
+        Continuation on(equations(), branches_[i].branch, how);
         while (!is_interrupted() && on.advance()) {
           Branch& known = branches_[i].branch;  // a copy of what is new only
           known.points.push_back(on.branch().points.back());
@@ -94,7 +104,7 @@ class Tracing {
             known.bifurcations.push_back(on.branch().bifurcations[b]);
           }
           known.end = on.branch().end;
-          branches_[i].radii.push_back(radii(on.branch(), on.branch().points.back()));
+          measure(branches_[i], on.branch().points.back());
           added(++points_);
         }
         branches_[i].branch = on.branch();
@@ -137,37 +147,93 @@ class Tracing {
       TracedBranch branch{.branch = {.period = next->period, .points = {next->start}},
                           .parent = static_cast<int>(number) + 1,
                           .generation = from.generation + 1};
-      branch.radii.push_back(radii(branch.branch, next->start));
+      measure(branch, next->start);
       branches_.push_back(std::move(branch));
     }
   }
 
-  /// Largest distance of the stations from the axis over the period [m].
-  std::vector<double> radii(const Branch& branch, const BranchPoint& point) const {
+  /// Unknowns of harmonic balance for the orbit near a start.
+  Vec series_of(const Vec& start, int harmonics) {
+    const ContactOrbit found = find_harmonic_orbit(
+        first_->contacts, start, {.period = options_.period, .harmonics = harmonics});
+    if (!found.orbit.is_good()) {
+      throw NumericalError(
+          fmt::format("at the first value, {:g}: {}", options_.first, found.orbit.failure));
+    }
+    const Vec unknowns = harmonic_unknowns(found.orbit, first_->contacts.length_scale());
+    if (unknowns.size() == 0) {
+      throw NumericalError(
+          "harmonic balance: without contacts or films there is one motion for each value, which "
+          "whirl unbalance has");
+    }
+    set_harmonics(found.orbit.harmonics());
+    return unknowns;
+  }
+
+  struct Problem {
+    std::shared_ptr<const Scene> scene;
+    HarmonicProblem equations;
+  };
+  std::shared_ptr<const HarmonicProblem> problem_at(double value) const {
+    const auto at = scene(value);
+    const auto both = std::make_shared<const Problem>(Problem{at, harmonic_problem(at->contacts)});
+    return {both, &both->equations};
+  }
+
+  BranchEquations equations() const {
+    if (method_ == OrbitMethod::harmonic_balance) {
+      return harmonic_equations([this](double value) { return problem_at(value); }, options_.period,
+                                layout_.harmonics, first_->contacts.length_scale());
+    }
+    return layout_.is_rotating ? cycle_equations(free_flow_at(), layout_.scale)
+                               : shooting_equations(flow_at(), layout_.scale);
+  }
+
+  /// State at phase 0, and the largest distance of the stations from the axis over the period [m].
+  void measure(TracedBranch& branch, const BranchPoint& point) const {
     std::vector<double> largest(stations_.size(), 0.0);
     const auto at = scene(point.value);
     const Mat map = at->displacement_map();
     const DofMap& dofs = at->reduced.dofs;
     const auto n = at->contacts.coordinates();
-    // the state in the basis of this value; in most cases the first one's
-    Trajectory t{.system = &at->contacts,
-                 .revolutions = static_cast<long>(std::ceil(layout_.period(branch, point)))};
-    t.state.y = BasisChange(*at, *first_).to(point.state(layout_.scale));
+    const BasisChange change(*at, *first_);
     Vec y(2 * n);
-    integrate_single(t, {}, [&](const Step& step) {
-      for (int k = 1; k <= 8; ++k) {
-        step.at(k / 8.0, y.data());
-        for (std::size_t i = 0; i < stations_.size(); ++i) {
-          const double x = map.row(dofs.full_index(stations_[i].point, X)) * y.head(n);
-          const double z = map.row(dofs.full_index(stations_[i].point, Y)) * y.head(n);
-          largest[i] = std::max(largest[i], std::hypot(x, z));
-        }
+    const auto add = [&] {
+      for (std::size_t i = 0; i < stations_.size(); ++i) {
+        const double x = map.row(dofs.full_index(stations_[i].point, X)) * y.head(n);
+        const double z = map.row(dofs.full_index(stations_[i].point, Y)) * y.head(n);
+        largest[i] = std::max(largest[i], std::hypot(x, z));
       }
-      return true;
-    });
-    return largest;
+    };
+    if (method_ == OrbitMethod::harmonic_balance) {
+      const HarmonicOrbit orbit =
+          orbit_of_unknowns(harmonic_problem(at->contacts), point.z.head(point.z.size() - 1),
+                            options_.period, first_->contacts.length_scale());
+      const int samples = 8 * layout_.harmonics;
+      for (int k = 0; k < samples; ++k) {
+        y.head(n) = orbit.motion.at(2.0 * std::numbers::pi * k / samples).x;
+        add();
+      }
+      branch.starts.emplace_back(change.back(orbit.state()));
+    } else {
+      // the state in the basis of this value; in most cases the first one's
+      Trajectory t{
+          .system = &at->contacts,
+          .revolutions = static_cast<long>(std::ceil(layout_.period(branch.branch, point)))};
+      t.state.y = change.to(point.state(layout_.scale));
+      integrate_single(t, {}, [&](const Step& step) {
+        for (int k = 1; k <= 8; ++k) {
+          step.at(k / 8.0, y.data());
+          add();
+        }
+        return true;
+      });
+      branch.starts.push_back(point.state(layout_.scale));
+    }
+    branch.radii.push_back(std::move(largest));
   }
 
+  OrbitMethod method_;
   const BranchParameters& parameters_;
   std::shared_ptr<const Scene> first_;
   std::vector<NamedPoint> stations_;
@@ -278,12 +344,21 @@ Report run_continue(const Invocation& call) {
   options.period = static_cast<int>(call.integer("period", 1));
   options.most_points = static_cast<int>(call.integer("most", 2000));
   const int generations = static_cast<int>(call.integer("switch", 0, 0));
+  const OrbitMethod method = orbit_method(call);
+  const bool is_series = method == OrbitMethod::harmonic_balance;
+  if (is_series && (generations > 0 || parameters.across || is_rotating)) {
+    throw ModelError({generations > 0 ? "--switch"
+                      : is_rotating   ? "--frame rotating"
+                                      : "--over"},
+                     "", "goes with --method shooting only");
+  }
+  const int harmonics = harmonics_of(call, options.period);
 
   const Model at_first = parameters.model(parameters.along.first);
   const auto first = std::make_shared<const Scene>(make_scene(at_first));
   Tracing tracing(parameters, first,
                   select_points(at_first, first->assembler, call.text("stations")), options,
-                  generations, is_rotating);
+                  generations, method, is_rotating);
   Borders borders(parameters, first, tracing.layout(), options.most_points);
   StudyFile file(
       call, [&] { return call.result_file(model); },
@@ -292,6 +367,7 @@ Report run_continue(const Invocation& call) {
         borders.write(to);
       },
       [&](const ResultReader& earlier) {
+        if (is_series) tracing.set_harmonics(harmonics_in(earlier));
         tracing.branches() = read_branches(earlier, tracing.layout());
         borders.read(earlier);
       });
@@ -302,7 +378,7 @@ Report run_continue(const Invocation& call) {
     const Trajectory transient = after_transient(call, at_first, *first);
     status = status_of(transient.outcome);
     if (status == 3) throw NumericalError(transient.diagnosis);
-    if (status == 0) tracing.begin(transient.state.y);
+    if (status == 0) tracing.begin(transient.state.y, harmonics);
   }
   if (status == 0) {
     is_interrupted();  // from now on Ctrl-C stops with what is done
@@ -336,10 +412,15 @@ Report run_continue(const Invocation& call) {
   }
   Record& r = report.record;
   r.set("parameter", parameters.along.axis.path).set("unit", parameters.along.axis.unit);
+  r.set("method", call.text("method", "shooting"));
+  if (is_series) r.set("harmonics", tracing.layout().harmonics);
   r.set("branches", list).set("points", points_record(branches, tracing.layout()));
   r.set("bifurcations", bifurcations_record(branches)).set("resumed", static_cast<long>(resumed));
   report.text = "Periodic orbits along " + parameters.along.axis.path +
                 (model.title.empty() ? "" : ": " + model.title) + "\n" +
+                (is_series ? fmt::format("  by harmonic balance with {} harmonics\n",
+                                         tracing.layout().harmonics)
+                           : "") +
                 branches_text(branches, tracing.layout(), parameters);
   if (parameters.across) {
     r.set("borders", borders.record());

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/branch_point.hpp"
 #include "apps/verbs/common.hpp"
@@ -18,9 +20,9 @@ namespace {
 
 constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
 
-std::string multipliers_table(const PeriodicOrbit& orbit) {
+std::string multipliers_table(const FoundOrbit& orbit) {
   Table table({"multiplier", "real", "imaginary", "size", "exponent [1/s]", "frequency [rpm]"});
-  const CVec rates = orbit.exponents();
+  const CVec& rates = orbit.exponents;
   for (Eigen::Index i = 0; i < rates.size(); ++i) {
     const Complex m = orbit.multipliers(i);
     table.row({std::to_string(i + 1), fmt::format("{:+.8f}", m.real()),
@@ -132,6 +134,64 @@ Report rotating_orbit(const Invocation& call, const Model& model) {
 
 }  // namespace
 
+OrbitMethod orbit_method(const Invocation& call) {
+  const std::string method = call.text("method", "shooting");
+  if (method == "harmonic-balance") return OrbitMethod::harmonic_balance;
+  if (method != "shooting") {
+    throw ModelError({"--method " + method}, "", "expected shooting or harmonic-balance");
+  }
+  for (const std::string option : {"harmonics", "verify"}) {
+    if (!call.has(option)) continue;
+    throw ModelError({"--" + option}, "", "goes with --method harmonic-balance");
+  }
+  return OrbitMethod::shooting;
+}
+
+namespace {
+
+FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
+  const Flow flow = flow_of(scene.contacts);
+  PeriodicOrbit orbit = find_orbit(flow, start, {.period = period});
+  FoundOrbit found{.period = period, .shortest_period = period};
+  found.residual = orbit.residual;
+  found.steps = std::max(1L, std::ssize(orbit.residuals)) - 1;
+  found.states = orbit.states;
+  found.multipliers = orbit.multipliers;
+  found.contacts = orbit.contacts;
+  found.failure = orbit.failure;
+  found.summary = fmt::format("residual {:.1e} length scales after {} steps of Newton's method",
+                              orbit.residual, found.steps);
+  if (!orbit.is_good()) return found;
+  found.shortest_period = shortest_period(orbit, flow.scale);
+  found.exponents = orbit.exponents();
+  found.is_stable = orbit.is_stable();
+  return found;
+}
+
+void write_orbit(ResultWriter& file, const Scene& scene, const FoundOrbit& orbit) {
+  const auto n = scene.contacts.coordinates();
+  const Mat map = scene.displacement_map();
+  Mat displacements(map.rows(), std::ssize(orbit.states)), velocities = displacements;
+  for (std::size_t i = 0; i < orbit.states.size(); ++i) {
+    displacements.col(static_cast<Eigen::Index>(i)) = map * orbit.states[i].head(n);
+    velocities.col(static_cast<Eigen::Index>(i)) = map * orbit.states[i].tail(n);
+  }
+  file.dataset("/orbit/multiplier", orbit.multipliers,
+               {"", "Floquet multipliers of the period, the largest first", {""}});
+  file.dataset("/orbit/exponent", orbit.exponents,
+               {"1/s", "Floquet exponents, log(multiplier) / period", {"/orbit/multiplier"}});
+  file.dataset("/orbit/displacement", displacements,
+               {"m, rad", "displacement of all points at the starts of revolutions", {"", ""}});
+  file.dataset("/orbit/velocity", velocities,
+               {"m/s, rad/s", "velocity of all points at the starts of revolutions", {"", ""}});
+  file.attribute("/orbit", "period_revolutions", orbit.period);
+  file.attribute("/orbit", "residual", orbit.residual);
+  file.attribute("/orbit", "stable", orbit.is_stable ? 1 : 0);
+  if (orbit.write) orbit.write(file);
+}
+
+}  // namespace
+
 Report run_orbit(const Invocation& given) {
   std::optional<BranchStart> point;
   Invocation call = given;
@@ -141,13 +201,17 @@ Report run_orbit(const Invocation& given) {
   }
   const Model model = call.model();
   require_speed(model);
+  const OrbitMethod method = orbit_method(call);
   if (is_rotating_frame(call)) {
     if (point) {
       throw ModelError({"--point"}, "", "expected an orbit of the stationary frame");
     }
-    return rotating_orbit(call, model);
+    if (method == OrbitMethod::shooting) return rotating_orbit(call, model);
+    throw ModelError({"--frame rotating"}, "",
+                     "harmonic balance finds orbits in the stationary frame only");
   }
   const int period = static_cast<int>(call.integer("period", point ? point->period : 1));
+  harmonics_of(call, period);  // before anything long
   const auto file = call.result_file(model);
   const Scene scene = make_scene(model);
   // an unstable orbit is not to be left before it is looked for
@@ -155,34 +219,33 @@ Report run_orbit(const Invocation& given) {
       point ? Trajectory{.system = &scene.contacts,
                          .state = {.y = BasisChange(scene, point->first).to(point->state)}}
             : after_transient(call, model, scene);
-  const Flow flow = flow_of(scene.contacts);
-  PeriodicOrbit orbit{.period = period, .states = {transient.state.y}};
+  FoundOrbit orbit{.period = period, .shortest_period = period, .states = {transient.state.y}};
+  orbit.residual = std::numeric_limits<double>::quiet_NaN();
   int status = status_of(transient.outcome);
   if (status == 0) {
-    orbit = find_orbit(flow, transient.state.y, {.period = period});
+    orbit = method == OrbitMethod::shooting
+                ? find_by_shooting(scene, transient.state.y, period)
+                : find_by_harmonic_balance(call, scene, transient.state.y, period);
     if (!orbit.is_good()) status = 3;
   } else {
     orbit.failure = transient.diagnosis.empty() ? "stopped in the transient" : transient.diagnosis;
   }
-  const int shortest = orbit.is_good() ? shortest_period(orbit, flow.scale) : period;
 
   Report report{.record = begin_record(call, model), .failure = orbit.failure, .status = status};
   MotionState on_it;
   on_it.y = orbit.states.front();
   Record floquet = Record::array(), exponents = Record::array();
   for (const Complex& m : orbit.multipliers) floquet.add(m);
-  if (orbit.is_good()) {
-    for (const Complex& rate : orbit.exponents()) exponents.add(rate);
-  }
+  for (const Complex& rate : orbit.exponents) exponents.add(rate);
   Record& r = report.record;
-  r.set("frame", "stationary").set("period_revs", period).set("shortest_period_revs", shortest);
-  const long steps = std::max(1L, std::ssize(orbit.residuals)) - 1;
-  r.set("residual", orbit.residuals.empty() ? Record(nullptr) : Record(orbit.residual));
-  r.set("steps", steps);
+  r.set("frame", "stationary").set("method", call.text("method", "shooting"));
+  r.set("period_revs", period).set("shortest_period_revs", orbit.shortest_period);
+  r.set("residual", orbit.residual).set("steps", orbit.steps);
   r.set("floquet", floquet).set("exponents_1_s", exponents);
-  r.set("stable", orbit.is_good() ? Record(orbit.is_stable()) : Record(nullptr));
+  r.set("stable", orbit.is_good() ? Record(orbit.is_stable) : Record(nullptr));
   r.set("state", on_it.y);
   add_contacts(r, orbit.contacts, period);
+  if (orbit.more) r.set("harmonic_balance", *orbit.more);
   add_reduction(r, scene);
   if (!orbit.failure.empty()) r.set("failure", orbit.failure);
 
@@ -191,42 +254,19 @@ Report run_orbit(const Invocation& given) {
   if (orbit.is_good()) {
     double impacts = 0.0;
     for (const ContactMeasure& c : orbit.contacts) impacts += c.impacts;
-    report.text += fmt::format(
-        "  {} orbit of {} revolution{}, {:.0f}/{} impacts; residual {:.1e} length scales after {} "
-        "steps of Newton's method\n",
-        orbit.is_stable() ? "stable" : "unstable", period, period == 1 ? "" : "s", impacts, period,
-        orbit.residual, steps);
-    if (shortest != period) {
-      report.text +=
-          fmt::format("  it repeats after {} already: --period {}\n", shortest, shortest);
+    report.text += fmt::format("  {} orbit of {} revolution{}, {:.0f}/{} impacts; {}\n",
+                               orbit.is_stable ? "stable" : "unstable", period,
+                               period == 1 ? "" : "s", impacts, period, orbit.summary);
+    if (orbit.shortest_period != period) {
+      report.text += fmt::format("  it repeats after {} already: --period {}\n",
+                                 orbit.shortest_period, orbit.shortest_period);
     }
     report.text += "\n" + multipliers_table(orbit);
     if (!orbit.contacts.empty()) report.text += "\n" + contacts_table(orbit.contacts, period);
   }
   if (file) {
     write_end(*file, model, scene, on_it);
-    if (orbit.is_good()) {
-      const auto n = scene.contacts.coordinates();
-      const Mat map = scene.displacement_map();
-      Mat displacements(map.rows(), std::ssize(orbit.states)), velocities = displacements;
-      for (std::size_t i = 0; i < orbit.states.size(); ++i) {
-        displacements.col(static_cast<Eigen::Index>(i)) = map * orbit.states[i].head(n);
-        velocities.col(static_cast<Eigen::Index>(i)) = map * orbit.states[i].tail(n);
-      }
-      file->dataset("/orbit/multiplier", orbit.multipliers,
-                    {"", "Floquet multipliers of the period, the largest first", {""}});
-      file->dataset("/orbit/exponent", orbit.exponents(),
-                    {"1/s", "Floquet exponents, log(multiplier) / period", {"/orbit/multiplier"}});
-      file->dataset(
-          "/orbit/displacement", displacements,
-          {"m, rad", "displacement of all points at the starts of revolutions", {"", ""}});
-      file->dataset(
-          "/orbit/velocity", velocities,
-          {"m/s, rad/s", "velocity of all points at the starts of revolutions", {"", ""}});
-      file->attribute("/orbit", "period_revolutions", period);
-      file->attribute("/orbit", "residual", orbit.residual);
-      file->attribute("/orbit", "stable", orbit.is_stable() ? 1 : 0);
-    }
+    if (orbit.is_good()) write_orbit(*file, scene, orbit);
   }
   commit(call, file.get(), report);
   return report;

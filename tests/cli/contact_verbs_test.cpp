@@ -439,6 +439,39 @@ TEST_F(OrbitVerb, FindsAnOrbitInTheRotatingFrame) {
   EXPECT_LE(again["steps"], 2);
 }
 
+// The same orbit as a Fourier series: stable, five impacts, near to that of shooting by as much as it
+// says, and as a start for shooting.
+TEST_F(OrbitVerb, FindsTheOrbitByHarmonicBalance) {
+  const std::string model = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
+  const json r = result({"orbit", model, "--discard", "50", "--method", "harmonic-balance",
+                         "--verify", "--out", "series.h5"});
+  EXPECT_EQ(r["method"], "harmonic-balance");
+  EXPECT_EQ(r["stable"], true);
+  EXPECT_EQ(r["contacts"][0]["impacts_per_rev"], 5.0);
+  EXPECT_EQ(r["floquet"].size(), 8u);
+  const json& h = r["harmonic_balance"];
+  EXPECT_EQ(h["harmonics"], h["levels"].back()["harmonics"]);
+  EXPECT_LT(h["truncation"], 1e-5);
+  EXPECT_LT(h["shooting"]["displacement"], h["truncation"]);
+  EXPECT_LT(h["shooting"]["multiplier"], 1e-3);
+
+  // what is stored adds up to the displacements at phase 0
+  const ResultReader file(folder / "series.h5");
+  const Vec orders = file.vector("/orbit/order");
+  EXPECT_EQ(orders(2), 2.0);
+  const CMat amplitudes = file.complex_matrix("/orbit/amplitude");
+  const Mat displacement = file.matrix("/orbit/displacement");
+  EXPECT_LT((amplitudes.real().rowwise().sum() - displacement).norm(), 1e-12);
+
+  const json fixed = result({"orbit", model, "--from", "series.h5", "--method", "harmonic-balance",
+                             "--harmonics", "20", "--period", "2"});
+  EXPECT_EQ(fixed["harmonic_balance"]["harmonics"], 20);
+  EXPECT_EQ(fixed["shortest_period_revs"], 1);
+  const json shot = result({"orbit", model, "--from", "series.h5"});
+  EXPECT_EQ(shot["method"], "shooting");
+  EXPECT_LE(shot["steps"], 3);
+}
+
 TEST_F(OrbitVerb, SaysWhatItCannotDo) {
   const std::string model = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
   const Outcome rotating = whirl({"orbit", model, "--frame", "rotating"});  // under gravity
@@ -447,6 +480,21 @@ TEST_F(OrbitVerb, SaysWhatItCannotDo) {
   const Outcome other = whirl({"orbit", model, "--frame", "bent"});
   EXPECT_EQ(other.status, 2);
   EXPECT_TRUE(has(other.err, "expected stationary or rotating")) << other.err;
+  const auto problem = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> words{"orbit", model};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = whirl(words);
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.err;
+  };
+  EXPECT_TRUE(has(problem({"--method", "balance"}), "expected shooting or harmonic-balance"));
+  EXPECT_TRUE(has(problem({"--verify"}), "goes with --method harmonic-balance"));
+  EXPECT_TRUE(has(problem({"--harmonics", "9"}), "goes with --method harmonic-balance"));
+  EXPECT_TRUE(has(problem({"--method", "harmonic-balance", "--frame", "rotating"}),
+                  "stationary frame only"));
+  EXPECT_TRUE(has(problem({"--method", "harmonic-balance", "--harmonics", "0"}), "--harmonics"));
+  EXPECT_TRUE(has(problem({"--method", "harmonic-balance", "--harmonics", "2", "--period", "3"}),
+                  "expected 3 to"));
 }
 
 }  // namespace contact_verbs_test

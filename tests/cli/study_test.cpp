@@ -429,6 +429,41 @@ TEST_F(Study, ContinueGoesOnAfterKills) {
       2, 5);
 }
 
+// The same branch as Fourier series: the doubling within what 40 harmonics leave, the state at phase 0
+// near that of shooting, and the same numbers again after kills.
+TEST_F(Study, ContinueFollowsSeries) {
+  const std::vector<std::string> branch{"continue", stator,
+                                        "--speed",  "138.4rad/s",
+                                        "--set",    "contact.ring.stiffness=64e6",
+                                        "--over",   "contact.ring.friction=0.12:0.15:0.003",
+                                        "--at",     "0.15"};
+  auto shooting = branch, series = branch;
+  shooting.insert(shooting.end(), {"--out", "shot.h5"});
+  series.insert(series.end(), {"--method", "harmonic-balance", "--harmonics", "40"});
+  const json a = result(shooting);
+  auto once = series;
+  once.insert(once.end(), {"--out", "series.h5"});
+  const json b = result(once);
+  EXPECT_EQ(a["method"], "shooting");
+  EXPECT_EQ(b["method"], "harmonic-balance");
+  EXPECT_EQ(b["harmonics"], 40);
+  ASSERT_EQ(b["bifurcations"].size(), 1u);
+  EXPECT_EQ(b["bifurcations"][0]["kind"], "period-doubling");
+  EXPECT_NEAR(b["bifurcations"][0]["value"], a["bifurcations"][0]["value"], 1e-3);
+  EXPECT_NEAR(b["points"][0]["amplitude_m"], a["points"][0]["amplitude_m"], 1e-6);
+  EXPECT_EQ(b["points"][0]["impacts_per_rev"][0], 7.0);
+  EXPECT_EQ(b["points"][0]["floquet"].size(), 8u);
+  const ResultReader shot(folder / "shot.h5"), file(folder / "series.h5");
+  EXPECT_EQ(file.number_attribute("/branch", "harmonics"), 40.0);
+  for (const std::size_t i : {0u, 1u, 2u, 3u}) {
+    EXPECT_NEAR(file.numbers("/branch/state")[i], shot.numbers("/branch/state")[i], 1e-6);
+  }
+  // a longer one, for kills
+  series[7] = "contact.ring.friction=0.135:0.15:0.0003";
+  series.back() = "20";
+  kill_and_compare(series, "/branch", 2, 3);
+}
+
 TEST_F(Study, ContinueSaysWhatIsWrong) {
   const auto error = [&](const std::vector<std::string>& words) {
     std::vector<std::string> all{"continue", stator};
@@ -440,6 +475,11 @@ TEST_F(Study, ContinueSaysWhatIsWrong) {
   EXPECT_TRUE(has(error({}), "expected one"));
   EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--at", "150"}), "within"));
   EXPECT_TRUE(has(error({"--over", "contact.ring.stiffness=-1:150MN/m"}), "stiffness"));
+  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--harmonics", "9"}),
+                  "goes with --method harmonic-balance"));
+  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--method", "harmonic-balance",
+                         "--switch", "1"}),
+                  "goes with --method shooting only"));
 }
 
 }  // namespace study_test

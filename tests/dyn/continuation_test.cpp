@@ -152,22 +152,6 @@ TEST(Continuation, FindsANeimarkSackerBifurcation) {
               0.0, 1e-5);
 }
 
-/// Folds of one harmonic of Duffing's equation, a^2 ((1 + 3/4 b a^2 - w^2)^2 + (2 zeta w)^2) = F^2: the
-/// largest and smallest frequency above resonance, as amplitudes go down.
-std::pair<double, double> harmonic_folds(double zeta, double b, double F) {
-  const auto frequency = [&](double a) {
-    const double k = 1.0 + 0.75 * b * a * a - 2.0 * zeta * zeta, k0 = 1.0 + 0.75 * b * a * a;
-    const double root = k * k - k0 * k0 + F * F / (a * a);
-    return root < 0.0 ? -1.0 : std::sqrt(k + std::sqrt(root));
-  };
-  double upper = 0.0, lower = 1e300;
-  double a = F / (2.0 * zeta);  // above the largest amplitude
-  while (frequency(a) < 0.0) a *= 0.99999;
-  for (double last = 0.0; frequency(a) >= last; a *= 0.99999) upper = last = frequency(a);
-  for (lower = upper; frequency(a) <= lower; a *= 0.99999) lower = frequency(a);
-  return {upper, lower};
-}
-
 // Duffing's equation with damping e / 2, stiffness 1 + e x^2, force 2 e: one harmonic is the first order of averaging,
 // so that the frequencies of both folds come out of it to the order e^2.
 TEST(Continuation, FindsTheFoldsOfDuffingsEquation) {
@@ -185,7 +169,7 @@ TEST(Continuation, FindsTheFoldsOfDuffingsEquation) {
     EXPECT_EQ(branch.points.back().value, 1.0 + 4.0 * e);
     const std::vector<double> folds = values(branch, fold);
     ASSERT_EQ(folds.size(), 2u) << e;
-    const auto [upper, lower] = harmonic_folds(0.1 * e, e, 0.5 * e);
+    const auto [upper, lower] = test::harmonic_folds(0.1 * e, e, 0.5 * e);
     number.push_back(1.0 / e);
     errors[0].push_back(std::abs(folds[0] - upper));
     errors[1].push_back(std::abs(folds[1] - lower));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "libdyn/shooting.hpp"
@@ -104,6 +105,22 @@ inline Flow map_flow(int size, std::function<void(const Vec& y, Vec& f, Mat& J)>
             }
             return all;
           }};
+}
+
+/// Folds of one harmonic of Duffing's equation, a^2 ((1 + 3/4 b a^2 - w^2)^2 + (2 zeta w)^2) = F^2: the
+/// largest and smallest frequency above resonance, as amplitudes go down.
+inline std::pair<double, double> harmonic_folds(double zeta, double b, double F) {
+  const auto frequency = [&](double a) {
+    const double k = 1.0 + 0.75 * b * a * a - 2.0 * zeta * zeta, k0 = 1.0 + 0.75 * b * a * a;
+    const double root = k * k - k0 * k0 + F * F / (a * a);
+    return root < 0.0 ? -1.0 : std::sqrt(k + std::sqrt(root));
+  };
+  double upper = 0.0, lower = 1e300;
+  double a = F / (2.0 * zeta);  // above the largest amplitude
+  while (frequency(a) < 0.0) a *= 0.99999;
+  for (double last = 0.0; frequency(a) >= last; a *= 0.99999) upper = last = frequency(a);
+  for (lower = upper; frequency(a) <= lower; a *= 0.99999) lower = frequency(a);
+  return {upper, lower};
 }
 
 }  // namespace whirl::test

@@ -1,0 +1,62 @@
+#pragma once
+/// Numbers that carry their derivatives: a law called with them gives its slopes with its force.
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "libcontact/film.hpp"
+#include "libcontact/laws/blade_tip.hpp"
+
+namespace whirl {
+
+/// A value and its derivatives by N variables.
+///
+///   (a b)' = a' b + a b',   f(a)' = f'(a) a'
+///
+/// @source [GriewankWalther2008], ch. 3: the forward mode
+template <int N>
+struct Dual {
+  using Slopes = Eigen::Matrix<double, N, 1>;
+  double value = 0.0;
+  Slopes slopes = Slopes::Zero();
+
+  Dual() = default;
+  Dual(double constant) : value(constant) {}  // NOLINT: numbers are duals
+  Dual(double a, const Slopes& by) : value(a), slopes(by) {}
+  /// Variable number i.
+  static Dual variable(double a, int i) { return {a, Slopes::Unit(i)}; }
+
+  friend Dual operator-(const Dual& a) { return {-a.value, -a.slopes}; }
+  friend Dual operator+(const Dual& a, const Dual& b) {
+    return {a.value + b.value, a.slopes + b.slopes};
+  }
+  friend Dual operator-(const Dual& a, const Dual& b) {
+    return {a.value - b.value, a.slopes - b.slopes};
+  }
+  friend Dual operator*(const Dual& a, const Dual& b) {
+    return {a.value * b.value, a.slopes * b.value + a.value * b.slopes};
+  }
+  friend Dual operator/(const Dual& a, const Dual& b) {
+    const double q = a.value / b.value;
+    return {q, (a.slopes - q * b.slopes) / b.value};
+  }
+
+  friend Dual sqrt(const Dual& a) {
+    const double root = std::sqrt(a.value);
+    return {root, a.slopes / (2.0 * root)};
+  }
+  friend Dual tanh(const Dual& a) {
+    const double y = std::tanh(a.value);
+    return {y, (1.0 - y * y) * a.slopes};
+  }
+  friend Dual arc_cotangent(const Dual& a) {
+    return {whirl::arc_cotangent(a.value), -a.slopes / (1.0 + a.value * a.value)};
+  }
+  /// z of z + bend z^3 = d:  z' = d' / (1 + 3 bend z^2).
+  friend Dual indentation(const Dual& d, double bend) {
+    const double z = whirl::indentation(d.value, bend);
+    return {z, d.slopes / (1.0 + 3.0 * bend * z * z)};
+  }
+};
+
+}  // namespace whirl

@@ -1,0 +1,78 @@
+#include "libdyn/contact_harmonics.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "libdyn/contact_ports.hpp"
+#include "libdyn/methods.hpp"
+#include "libfe/base/error.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr int samples = 256;  ///< of a revolution, for a start
+constexpr int kept = 80;      ///< harmonics of them
+
+}  // namespace
+
+HarmonicProblem harmonic_problem(const ContactSystem& system) {
+  if (system.coordinates() == 0) {
+    throw NumericalError("nothing moves: the system has no freedoms");
+  }
+  return {.K = system.K(),
+          .D = system.D(),
+          .f0 = system.constant_load(),
+          .fc = system.cosine_load(),
+          .fs = system.sine_load(),
+          .rate = system.phase_rate(),
+          .length_scale = system.length_scale(),
+          .scale = system.state_scale(),
+          .forces = port_forces(system),
+          .measures = [&system](const Periodic& motion) { return measures_on(system, motion); }};
+}
+
+Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {
+  const auto n = system.coordinates();
+  const Eigen::Index N = static_cast<Eigen::Index>(samples) * revolutions;
+  Mat eta = y.head(n).replicate(1, N);
+  MotionState state;
+  state.y = y;
+  Eigen::Index next = 0;
+  Vec now(2 * n);
+  integrate(suitable_method(system), system, state, revolutions, {}, [&](const Step& step) {
+    const double begin = turn * static_cast<double>(step.revolution) + step.phase;
+    for (; next < N; ++next) {
+      const double phase = turn * static_cast<double>(next) / samples;
+      if (phase > begin + step.turn) break;
+      step.at(std::clamp((phase - begin) / step.turn, 0.0, 1.0), now.data());
+      eta.col(next) = now.head(n);
+    }
+    return true;
+  });
+  return fourier_coefficients(eta, kept * revolutions);
+}
+
+ContactOrbit find_harmonic_orbit(const ContactSystem& system, const Vec& y,
+                                 const HarmonicOptions& options) {
+  options.check();
+  const HarmonicProblem problem = harmonic_problem(system);
+  ContactOrbit found;
+  found.orbit = find_harmonic_orbit(problem, harmonic_start(system, y, options.period), options);
+  HarmonicOrbit& orbit = found.orbit;
+  if (!orbit.is_good()) return found;
+  const std::string sticking = sticks_on(system, orbit.motion);
+  if (!sticking.empty()) {
+    orbit.failure = fmt::format(
+        "no orbit: contact \"{}\" would stick where its slip changes sign, which harmonic balance "
+        "does not know; give it a slip_tolerance, or use shooting",
+        sticking);
+  }
+  found.contacts = measures_on(system, orbit.motion);
+  return found;
+}
+
+}  // namespace whirl

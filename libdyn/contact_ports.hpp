@@ -1,0 +1,29 @@
+#pragma once
+/// Contacts and oil films of a rotor as forces on periodic motions, and what they do there.
+
+#include <vector>
+
+#include "libdyn/contact_measures.hpp"
+#include "libdyn/port_forces.hpp"
+
+namespace whirl {
+
+/// The forces of all contacts and films, one place each; blades of a contact share theirs.
+///
+/// Contacts are sampled while they touch only, from event to event: touch and release, and reversals
+/// of slip where friction switches exactly, are located on the series, and Gauss points lie between
+/// them, so that kinks cost no accuracy. What jumps at an event has its share in the slopes:
+///
+///   d/dm int g d(theta) = int dg/dm d(theta) + sum [g] (dh/dm) / |dh/d(theta)|,   h = 0 at the event
+///
+/// Exact friction slides with the sign of its slip. It cannot stick here: see sticks_on.
+std::vector<PortForces> port_forces(const ContactSystem& system);
+
+/// What the contacts do over a period; shares of it.
+/// @param motion  of the coordinates eta
+std::vector<ContactMeasure> measures_on(const ContactSystem& system, const Periodic& motion);
+
+/// Name of a contact that would stick where the motion lets its slip change sign; empty: none would.
+std::string sticks_on(const ContactSystem& system, const Periodic& motion);
+
+}  // namespace whirl

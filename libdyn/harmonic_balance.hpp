@@ -1,0 +1,142 @@
+#pragma once
+/// Periodic orbits as Fourier series: harmonic balance, with the forces' places as unknowns.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libdyn/contact_measures.hpp"
+#include "libdyn/port_forces.hpp"
+#include "libfe/eigen/dense.hpp"
+
+namespace whirl {
+
+/// Equations of motion, forces of few displacements apart.
+///
+///   eta'' + D eta' + K eta = f0 + fc cos(phase) + fs sin(phase) + sum_j B_j g_j(phase, U_j eta, U_j eta')
+struct HarmonicProblem {
+  Mat K, D;
+  Vec f0, fc, fs;
+  double rate = 1.0;          ///< of the phase [rad/s]
+  double length_scale = 1.0;  ///< of displacements at the forces [m]
+  Vec scale;                  ///< of the state (eta, eta'), size 2 n
+  std::vector<PortForces> forces;
+  /// What contacts do on a motion of eta; empty: there are none.
+  std::function<std::vector<ContactMeasure>(const Periodic& motion)> measures;
+
+  Eigen::Index coordinates() const { return K.rows(); }
+};
+
+struct HarmonicOptions {
+  int period = 1;     ///< of the orbit [revolutions]
+  int harmonics = 0;  ///< of the orbit's frequency, at least the period; 0: as many as it takes
+  int most_harmonics = 160;  ///< a revolution, if as many as it takes
+  double tolerance = 1e-5;   ///< of the truncation, likewise [length scales]
+  int most_steps = 30;       ///< of Newton's method
+  double accurate = 1e-11;   ///< residual of an orbit [length scales]
+
+  /// @throws NumericalError  if a number is outside of what it may be
+  void check() const;
+};
+
+/// The equations for so many harmonics, everything linear eliminated.
+///
+///   r = u - u_0 - H g(u),   H_k = U Z_k^-1 B,   Z_k = K + i w_k D - w_k^2,   w_k = k rate / period
+///
+/// The unknowns are the Fourier coefficients of the displacements u where forces act, ports x
+/// (2 H + 1), whatever the number of coordinates. Where the linear part alone does not hold the rotor,
+/// or resonates without damping, springs are added to it and taken off the forces, which changes
+/// nothing.
+///
+/// @source [KrackGross2019], ch. 2 and 3.3
+class HarmonicEquations {
+ public:
+  /// @param problem  must live as long as the equations
+  /// @throws NumericalError  at an undamped resonance with a harmonic
+  HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics);
+
+  Eigen::Index ports() const { return U_.rows(); }
+  int harmonics() const { return harmonics_; }
+  int period() const { return period_; }
+  double frequency() const { return problem_.rate / period_; }
+  const HarmonicProblem& problem() const { return problem_; }
+  const Mat& U() const { return U_; }
+  const Mat& B() const { return B_; }
+  /// K with the springs.
+  const Mat& stiffness() const { return K_; }
+
+  /// Forces and slopes at displacements u (ports x (2 H + 1)).
+  struct Evaluation {
+    bool has_force = false;  ///< else nothing of this is known
+    Mat g;                   ///< Fourier coefficients of the forces, springs included
+    Mat residual;            ///< [m]
+    Mat by_u, by_rate;       ///< of g by the coefficients of u and u'; columns of matrices follow
+                             ///< one another; empty: not wanted
+  };
+  Evaluation evaluate(const Mat& u, bool slopes) const;
+  /// dr / du, of size ports (2 H + 1).
+  Mat jacobian(const Evaluation& at) const;
+
+  /// Motion of all coordinates under forces: eta_k = Z_k^-1 (f_k + B g_k).
+  Mat motion(const Mat& g) const;
+  /// Z_k^-1 (b_k + B q_k) of any coefficients b (n x (2 H + 1)) and q (ports x (2 H + 1)).
+  Mat respond(const Mat& b, const Mat& q) const;
+  /// H q.
+  Mat receptance(const Mat& q) const;
+  /// Loads f, n x (2 H + 1).
+  const Mat& loads() const { return loads_; }
+
+ private:
+  /// Dynamic stiffnesses of all harmonics; the first that is singular, or -1.
+  int factorize();
+
+  const HarmonicProblem& problem_;
+  int period_, harmonics_;
+  Mat U_, B_;  ///< of all forces
+  Mat K_;
+  Vec springs_;  ///< of the ports
+  std::vector<DenseLu<CMat>> Z_;
+  std::vector<CMat> H_;
+  Mat loads_, free_;  ///< u_0
+};
+
+/// A periodic orbit, or how far the search for it got.
+struct HarmonicOrbit {
+  Periodic motion;                ///< of eta
+  Periodic ports;                 ///< of the displacements at the forces
+  double residual = 0.0;          ///< [length scales]
+  std::vector<double> residuals;  ///< before every step of Newton's method, and after the last
+  /// A number of harmonics that was tried on the way, and how far the motion moved from the one
+  /// before [length scales].
+  struct Level {
+    int harmonics = 0, steps = 0;
+    double change = 0.0;
+  };
+  std::vector<Level> levels;
+  /// Estimated error of displacements by the harmonics left out [length scales]; NaN if not known.
+  double truncation = 0.0;
+  std::string failure;  ///< empty: it is an orbit
+
+  bool is_good() const { return failure.empty(); }
+  int harmonics() const { return motion.harmonics(); }
+  /// (eta, eta') at the start of revolution i.
+  Vec state(int i = 0) const;
+};
+
+/// Finds a periodic orbit by harmonic balance with Newton's method.
+///
+/// The number of harmonics is doubled until the motion stays where it is: changes that fall by q a
+/// doubling sum up to q / (1 - q) of the last one, which is the estimate of the truncation. With a
+/// given number, half of it comes before.
+///
+/// @param start  Fourier coefficients of a motion near the orbit, n x any odd number
+HarmonicOrbit find_harmonic_orbit(const HarmonicProblem& problem, const Mat& start,
+                                  const HarmonicOptions& options);
+
+/// Shortest period that an orbit has, a divisor of its own [revolutions]; its harmonics say it.
+int shortest_period(const HarmonicOrbit& orbit);
+
+/// Largest distance of two motions at forces, whatever their harmonics [m].
+double distance(const Periodic& a, const Periodic& b);
+
+}  // namespace whirl

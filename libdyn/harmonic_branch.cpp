@@ -1,0 +1,89 @@
+#include "libdyn/harmonic_branch.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "libdyn/hill.hpp"
+#include "libfe/base/error.hpp"
+
+namespace whirl {
+
+namespace {
+
+Mat ports_of(const Vec& x, Eigen::Index ports, double scale) {
+  return scale * Eigen::Map<const Mat>(x.data(), ports, x.size() / ports);
+}
+
+Eigen::Index number_of_ports(const HarmonicProblem& problem) {
+  Eigen::Index ports = 0;
+  for (const PortForces& f : problem.forces) ports += f.U.rows();
+  return ports;
+}
+
+/// All 2 n of them, those left out zero; NaN if they cannot be found.
+CVec multipliers_of(const HarmonicProblem& problem, const HarmonicOrbit& orbit) {
+  const HillStability hill = hill_stability(problem, orbit);
+  CVec all = CVec::Zero(2 * problem.coordinates());
+  if (!hill.failure.empty()) {
+    all.setConstant(std::numeric_limits<double>::quiet_NaN());
+  } else {
+    all.head(hill.multipliers.size()) = hill.multipliers;
+  }
+  return all;
+}
+
+}  // namespace
+
+Vec harmonic_unknowns(const HarmonicOrbit& orbit, double scale) {
+  const Mat& c = orbit.ports.coefficients;
+  return Eigen::Map<const Vec>(c.data(), c.size()) / scale;
+}
+
+HarmonicOrbit orbit_of_unknowns(const HarmonicProblem& problem, const Vec& x, int period,
+                                double scale) {
+  const Eigen::Index ports = number_of_ports(problem);
+  HarmonicOrbit orbit;
+  orbit.ports = {ports_of(x, ports, scale), period, problem.rate};
+  const HarmonicEquations equations(problem, period, orbit.ports.harmonics());
+  const auto at = equations.evaluate(orbit.ports.coefficients, false);
+  if (!at.has_force) {
+    orbit.failure = "a force is not defined on the motion";
+    return orbit;
+  }
+  orbit.motion = {equations.motion(at.g), period, problem.rate};
+  orbit.residual = at.residual.lpNorm<Eigen::Infinity>() / scale;
+  return orbit;
+}
+
+BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int harmonics,
+                                   double scale) {
+  return {[problem_at = std::move(problem_at), period, harmonics, scale](const Vec& x, double value,
+                                                                         Tangents wanted) {
+    BranchEquations::Value result;
+    try {
+      const auto problem = problem_at(value);
+      const HarmonicEquations equations(*problem, period, harmonics);
+      HarmonicOrbit orbit;
+      orbit.ports = {ports_of(x, equations.ports(), scale), period, problem->rate};
+      const auto at = equations.evaluate(orbit.ports.coefficients, wanted == Tangents::yes);
+      if (!at.has_force) {
+        result.failure = "a force is not defined on the motion";
+        return result;
+      }
+      orbit.motion = {equations.motion(at.g), period, problem->rate};
+      result.residual = Eigen::Map<const Vec>(at.residual.data(), at.residual.size()) / scale;
+      if (problem->measures) result.contacts = problem->measures(orbit.motion);
+      if (wanted == Tangents::yes) {
+        result.jacobian = equations.jacobian(at);
+        result.multipliers = [problem, orbit = std::move(orbit)] {
+          return multipliers_of(*problem, orbit);
+        };
+      }
+    } catch (const NumericalError& error) {
+      result.failure = error.what();
+    }
+    return result;
+  }};
+}
+
+}  // namespace whirl

@@ -1,0 +1,123 @@
+#include "libdyn/touch_spans.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace whirl {
+
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr int fewest = 256;      ///< angles a revolution at which events are looked for
+constexpr int per_harmonic = 8;  ///< and of a harmonic
+constexpr int most_refinements = 60;
+
+/// Where a function of opposite signs at two angles is zero: false position with halved weights.
+template <class Function>
+double zero_between(Function&& f, double a, double fa, double b, double fb) {
+  int side = 0;
+  for (int i = 0; i < most_refinements && std::abs(b - a) > 1e-15 * turn; ++i) {
+    const bool bisects = i % 8 == 7;
+    const double x = bisects ? 0.5 * (a + b) : (a * fb - b * fa) / (fb - fa);
+    const double fx = f(x);
+    if (fx == 0.0 || x == a || x == b) return x;
+    if ((fx > 0.0) == (fb > 0.0)) {
+      b = x, fb = fx;
+      if (side == 1) fa *= 0.5;
+      side = 1;
+    } else {
+      a = x, fa = fx;
+      if (side == -1) fb *= 0.5;
+      side = -1;
+    }
+  }
+  return 0.5 * (a + b);
+}
+
+}  // namespace
+
+ContactPath::ContactPath(const ReducedContact& contact, const Periodic& motion)
+    : contact_(contact), motion_(motion) {
+  stiffness_ = normal_force(contact.law, contact.clearance, 0.0) / contact.clearance;
+  const int N = std::max(fewest * motion.period, per_harmonic * motion.harmonics());
+  angles_.reserve(static_cast<std::size_t>(N) + 1);
+  for (int i = 0; i <= N; ++i) {
+    angles_.push_back(turn * i / N);
+    grid_.push_back(i < N ? at(angles_.back()) : grid_.front());
+  }
+}
+
+ContactForces ContactPath::at(double theta) const {
+  const auto [u, rate] = motion_.at(theta);
+  if (contact_.is_blade()) {
+    const Vec2 e = contact_.direction(motion_.phase(theta));
+    return kinematics(contact_, u.head<2>() - contact_.offset + contact_.blade.radius * e,
+                      rate.head<2>() + contact_.blade.speed * Vec2(-e(1), e(0)));
+  }
+  ContactForces f = kinematics(contact_, Vec2(u.head<2>() - contact_.offset), rate.head<2>());
+  if (contact_.is_face()) f.slip = contact_.rim_speed + f.t().dot(rate.tail<2>());
+  return f;
+}
+
+double ContactPath::gap(const ContactForces& f) const {
+  if (is_continuous(contact_.law)) return f.depth;
+  return std::min(f.depth, f.normal / stiffness_);
+}
+
+std::vector<double> ContactPath::zeros(const std::function<double(const ContactForces&)>& f,
+                                       bool looks_between) const {
+  const auto value = [&](double theta) { return f(at(theta)); };
+  std::vector<double> found;
+  const auto add = [&](double a, double fa, double b, double fb) {
+    if ((fa > 0.0) != (fb > 0.0)) found.push_back(zero_between(value, a, fa, b, fb));
+  };
+  const std::size_t N = angles_.size() - 1;
+  for (std::size_t i = 0; i < N; ++i) {
+    const double here = f(grid_[i]), next = f(grid_[i + 1]);
+    const double a = angles_[i], b = angles_[i + 1];
+    // a short touch between two angles: the top of a parabola through three of them
+    const double last = f(grid_[i == 0 ? N - 1 : i - 1]);
+    const double bend = last - 2.0 * here + next, slope = 0.5 * (next - last);
+    if (looks_between && here < 0.0 && next < 0.0 && last < 0.0 && bend < 0.0 &&
+        std::abs(slope) < -bend && here - 0.5 * slope * slope / bend > 0.0) {
+      const double top = a - slope / bend * (b - a), at_top = value(top);
+      add(a - (b - a), last, top, at_top);
+      add(top, at_top, b, next);
+    }
+    add(a, here, b, next);
+  }
+  for (double& theta : found) theta = theta < 0.0 ? theta + turn : theta;
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<ContactPath::Span> ContactPath::spans() const {
+  const std::vector<double> touches = zeros([this](const auto& f) { return gap(f); }, true);
+  std::vector<double> reversals;
+  if (contact_.friction.is_exact()) {
+    reversals = zeros([](const auto& f) { return f.slip; }, false);
+  }
+  std::vector<Span> spans;
+  if (touches.empty() && reversals.empty()) {
+    if (gap(grid_.front()) > 0.0) {
+      spans.push_back({0.0, turn, grid_.front().slip >= 0.0 ? 1.0 : -1.0, false, false, true});
+    }
+    return spans;
+  }
+  std::vector<std::pair<double, bool>> events;  // and whether it touches or releases there
+  for (const double theta : touches) events.emplace_back(theta, true);
+  for (const double theta : reversals) events.emplace_back(theta, false);
+  std::sort(events.begin(), events.end());
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const auto [from, begins] = events[i];
+    const auto [next, ends] = events[(i + 1) % events.size()];
+    const double to = i + 1 < events.size() ? next : next + turn;
+    const ContactForces middle = at(0.5 * (from + to));
+    if (gap(middle) <= 0.0) continue;
+    spans.push_back({from, to, middle.slip >= 0.0 ? 1.0 : -1.0, begins, ends});
+  }
+  return spans;
+}
+
+}  // namespace whirl

@@ -1,0 +1,45 @@
+#pragma once
+/// When a contact touches on a periodic motion.
+
+#include <functional>
+#include <vector>
+
+#include "libdyn/contact_system.hpp"
+#include "libdyn/fourier.hpp"
+
+namespace whirl {
+
+/// A contact on the motion of its displacements (of a face: also its lateral ones, below).
+class ContactPath {
+ public:
+  /// @param motion  2 rows, of a face 4; both must live as long as the path
+  ContactPath(const ReducedContact& contact, const Periodic& motion);
+
+  /// A stretch of touching, without an event inside.
+  struct Span {
+    double from = 0.0, to = 0.0;  ///< angles, 0 <= from < 2 pi, to - from <= 2 pi
+    double sign = 1.0;            ///< of the slip
+    bool begins = true,
+         ends = true;  ///< touches and releases there; else the slip changes its sign
+    bool is_whole() const { return !begins && !ends && is_uncut; }
+    bool is_uncut = false;  ///< it touches all the time and always slips in one sense
+  };
+  std::vector<Span> spans() const;
+
+  /// Kinematics and normal force at an angle; friction is left zero.
+  ContactForces at(double theta) const;
+
+ private:
+  double gap(const ContactForces& f) const;
+  /// Angles where a function of the forces changes its sign, ascending.
+  std::vector<double> zeros(const std::function<double(const ContactForces&)>& f,
+                            bool looks_between) const;
+
+  const ReducedContact& contact_;
+  const Periodic& motion_;
+  double stiffness_;  ///< that makes forces comparable with depths [N/m]
+  std::vector<double> angles_;
+  std::vector<ContactForces> grid_;
+};
+
+}  // namespace whirl
