@@ -13,7 +13,7 @@ namespace whirl {
 
 namespace {
 
-constexpr double aside = 3e-6;   ///< of the scales, for differences of test functions
+constexpr double aside = 2e-7;   ///< of the scales, for differences of test functions
 constexpr double hardly = 1e-8;  ///< likewise beside a grazing, where they are smooth on one side
 constexpr double none = 1e3;     ///< of a graze where there is no extremum
 constexpr int scanned = 8;       ///< parts of a step in which an extremum is looked for

@@ -14,8 +14,12 @@ namespace whirl {
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
-constexpr double broken = 1e-2;         ///< tail beyond which there is no circle
-constexpr int iterations = 4000;        ///< of tangents, for exponents
+constexpr double broken = 1e-2;     ///< tail beyond which there is no circle
+constexpr int iterations = 4000;    ///< of tangents, for exponents
+constexpr int parts = 6;            ///< of the strongest line that are tried as the circle's own
+constexpr int tested = 16;          ///< harmonics by which they are compared
+constexpr double all_told = 1e-4;   ///< of the energy, that may be left without a search
+constexpr double much_less = 0.25;  ///< energy left, for a part to be taken
 constexpr Eigen::Index scanned = 1024;  ///< sections in which a line is looked for at first
 constexpr double moves = 1e-9;          ///< scales that a motion moves at least
 
@@ -130,10 +134,10 @@ struct Turned {
   std::vector<Mat> tangents{};
 };
 Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eigen::Index coordinate,
-              Tangents wanted) {
+              Tangents wanted, double most_tail) {
   const Eigen::Index n = scale.size(), size = x.size() - 1, N = size / n;
   const Mat scaled = x.head(size).reshaped(n, N);
-  if (const double tail = tail_of(scaled); tail > broken) {
+  if (const double tail = tail_of(scaled); tail > most_tail) {
     return Turned{
         {.failure = fmt::format("the highest harmonics are {:.0e} of the largest: the circle "
                                 "breaks up or locks",
@@ -179,12 +183,6 @@ Vec circle_unknowns(const InvariantCircle& circle, const Vec& scale) {
   return x;
 }
 
-Eigen::Index circle_coordinate(const InvariantCircle& circle, const Vec& scale) {
-  Eigen::Index most = 0;
-  harmonics_of(scale.cwiseInverse().asDiagonal() * circle.points).col(1).cwiseAbs().maxCoeff(&most);
-  return most;
-}
-
 InvariantCircle circle_of(const Vec& unknowns, const Vec& scale, int period) {
   const Eigen::Index n = scale.size();
   const Mat scaled = unknowns.head(unknowns.size() - 1).reshaped(n, (unknowns.size() - 1) / n);
@@ -196,7 +194,7 @@ InvariantCircle circle_of(const Vec& unknowns, const Vec& scale, int period) {
 
 BranchEquations circle_equations(FlowAt flow_at, Vec scale, int period, Eigen::Index coordinate) {
   return {[=, flow_at = std::move(flow_at)](const Vec& x, double value, Tangents wanted) {
-    Turned at = turned(flow_at(value), scale, x, period, coordinate, wanted);
+    Turned at = turned(flow_at(value), scale, x, period, coordinate, wanted, broken);
     at.value.multipliers = [tangents = std::move(at.tangents),
                             rotation = x(x.size() - 1)]() -> CVec {
       return across(exponents_of(tangents, rotation)).first.array().exp().cast<Complex>();
@@ -237,15 +235,41 @@ std::optional<InvariantCircle> guessed_circle(const Mat& sections, const Vec& sc
       strongest = s;
     }
   }
-  for (;;) {
-    double low = best - width, high = best + width;
+  // it may be a harmonic of the circle: its parts, if their harmonics leave much less
+  double whole = 0.0;
+  for (Eigen::Index i = 0; i < used; ++i) whole += weights(i) * moving.col(i).squaredNorm();
+  const auto left = [&](double cycles) {
+    double energy = whole;
+    for (int k = 1; k <= tested; ++k) {
+      energy -= 2.0 * average(moving, weights, k * cycles).squaredNorm();
+    }
+    return std::abs(energy);
+  };
+  const auto sharpened = [&](double line, int part) {  // line: of harmonic `part`
     const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    double low = line - width, high = line + width;
     for (int i = 0; i < 50; ++i) {
       const double a = high - golden * (high - low), b = low + golden * (high - low);
-      const bool is_left = size(a) > size(b);
+      const bool is_left = size(part * a) > size(part * b);
       (is_left ? high : low) = is_left ? b : a;
     }
-    best = 0.5 * (low + high);
+    return 0.5 * (low + high);
+  };
+  best = sharpened(best, 1);
+  int part = 1;
+  double least = left(best);
+  const double strongest_line = best;
+  for (int k = 2; k <= parts && least > all_told * whole; ++k) {
+    for (int turns = 0; turns < k; ++turns) {
+      const double cycles = (strongest_line + turns) / k, energy = left(cycles);
+      if (energy > much_less * least) continue;
+      best = cycles;
+      part = k;
+      least = energy;
+    }
+  }
+  for (;;) {
+    best = sharpened(best, part);
     if (used == count) break;
     used = std::min(2 * used, count);
     width = 0.5 / static_cast<double>(used);
@@ -269,7 +293,11 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
   const Vec& scale = flow.scale;
   InvariantCircle circle = guess;
   for (int K = options.harmonics;; K *= 2) {
-    const Eigen::Index coordinate = circle_coordinate(circle, scale);
+    Eigen::Index coordinate = 0;  // that which moves most
+    harmonics_of(scale.cwiseInverse().asDiagonal() * circle.points)
+        .col(1)
+        .cwiseAbs()
+        .maxCoeff(&coordinate);
     // the same polynomial at more angles, begun where the first harmonic is real
     const Eigen::Index N = 2 * K + 1;
     const CMat c = harmonics_of(circle.points);
@@ -285,9 +313,10 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
     Vec x = circle_unknowns(circle, scale);
     double before = std::numeric_limits<double>::infinity();
     for (int step = 0;; ++step) {
-      const Turned there = turned(flow, scale, x, options.period, coordinate, Tangents::yes);
+      const Turned there = turned(flow, scale, x, options.period, coordinate, Tangents::yes, 1.0);
       const BranchEquations::Value& at = there.value;
       circle = circle_of(x, scale, options.period);
+      circle.coordinate = coordinate;
       circle.failure = at.failure;
       if (at.residual.size() == 0) return circle;
       circle.residual = at.residual.lpNorm<Eigen::Infinity>();
@@ -306,7 +335,13 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
       before = circle.residual;
       x -= *correction;
     }
-    if (circle.tail < options.smooth || 2 * K > options.most_harmonics) return circle;
+    if (circle.tail < options.smooth || 2 * K > options.most_harmonics) {
+      if (circle.tail > broken) {
+        circle.failure = fmt::format(
+            "no circle: the highest of {} harmonics are {:.0e} of the largest", K, circle.tail);
+      }
+      return circle;
+    }
   }
 }
 

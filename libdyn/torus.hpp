@@ -15,11 +15,12 @@ namespace whirl {
 ///
 /// given at 2 K + 1 even angles, between which it is a trigonometric polynomial of degree K.
 struct InvariantCircle {
-  Mat points;             ///< a state per column, at theta_j = 2 pi j / (2 K + 1)
-  double rotation = 0.0;  ///< rho / (2 pi), in a period of the map, between 0 and 1
-  int period = 1;         ///< of the map [revolutions]
-  double residual = 0.0;  ///< [scales]
-  double tail = 0.0;      ///< highest harmonics by the largest
+  Mat points;                   ///< a state per column, at theta_j = 2 pi j / (2 K + 1)
+  double rotation = 0.0;        ///< rho / (2 pi), in a period of the map, between 0 and 1
+  int period = 1;               ///< of the map [revolutions]
+  Eigen::Index coordinate = 0;  ///< whose first harmonic is real: where theta begins
+  double residual = 0.0;        ///< [scales]
+  double tail = 0.0;            ///< highest harmonics by the largest
   /// Exponents of its tangents across the circle, descending [1 / period]: all below 0 is stable.
   Vec exponents;
   double along = 0.0;   ///< that along it, which is zero but for errors
@@ -59,9 +60,8 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
 /// @param coordinate  whose harmonic is real
 BranchEquations circle_equations(FlowAt flow_at, Vec scale, int period, Eigen::Index coordinate);
 
-/// Unknowns of those equations, and the coordinate that moves most.
+/// Unknowns of those equations.
 Vec circle_unknowns(const InvariantCircle& circle, const Vec& scale);
-Eigen::Index circle_coordinate(const InvariantCircle& circle, const Vec& scale);
 
 /// Circle of unknowns, without exponents.
 InvariantCircle circle_of(const Vec& unknowns, const Vec& scale, int period);

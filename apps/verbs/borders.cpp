@@ -35,7 +35,7 @@ BranchParameter parameter_of(const std::string& over, const std::string& at, int
   }
   if (at.empty()) return p;
   const std::string line = p.axis.path + "=" + at;
-  const auto same = parse_axis(line + (p.axis.unit.empty() ? "" : p.axis.unit), 0);
+  const auto same = parse_axis(line + p.axis.shown_unit, 0);
   const auto own = parse_axis(line, 0);  // with a unit of its own
   const auto& found = own && !own->unit.empty() ? own : same;
   if (!found || found->values.size() != 1 || found->unit != p.axis.unit) {
@@ -50,6 +50,8 @@ BranchParameter parameter_of(const std::string& over, const std::string& at, int
   if (p.first == p.low) p.direction = 1.0;
   return p;
 }
+
+constexpr double finest = 1e-5;  ///< arc length, to which a border comes near its end
 
 bool is_followed(const Bifurcation& b) {
   if (b.kind == BifurcationKind::pitchfork) return false;
@@ -148,6 +150,7 @@ void Borders::begin(const std::vector<TracedBranch>& branches) {
         how.direction = direction;
         how.period = branches[k].branch.period;
         how.most_points = most_points_;
+        how.smallest_step = finest;
         border.direction = direction;
         try {
           border.branch = Continuation(equations(border), b.at.z, how).branch();
@@ -176,6 +179,7 @@ bool Borders::walk(const std::vector<TracedBranch>& branches,
     how.direction = border.direction;
     how.period = border.branch.period;
     how.most_points = most_points_;
+    how.smallest_step = finest;
     Continuation on(equations(border), border.branch, how);
     while (!is_interrupted() && on.advance()) {
       border.branch = on.branch();

@@ -21,13 +21,24 @@ namespace {
 constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
 
 std::string multipliers_table(const FoundOrbit& orbit) {
-  Table table({"multiplier", "real", "imaginary", "size", "exponent [1/s]", "frequency [rpm]"});
+  std::vector<std::string> head{"multiplier", "real",           "imaginary",
+                                "size",       "exponent [1/s]", "frequency [rpm]"};
+  if (!orbit.modes.empty()) head.push_back("most like mode (MAC)");
+  Table table(head);
   const CVec& rates = orbit.exponents;
   for (Eigen::Index i = 0; i < rates.size(); ++i) {
     const Complex m = orbit.multipliers(i);
-    table.row({std::to_string(i + 1), fmt::format("{:+.8f}", m.real()),
-               fmt::format("{:+.8f}", m.imag()), fmt::format("{:.8f}", std::abs(m)),
-               fmt::format("{:+.6f}", rates(i).real()), fixed(rates(i).imag() / rpm, 2)});
+    std::vector<std::string> row{std::to_string(i + 1),
+                                 fmt::format("{:+.8f}", m.real()),
+                                 fmt::format("{:+.8f}", m.imag()),
+                                 fmt::format("{:.8f}", std::abs(m)),
+                                 fmt::format("{:+.6f}", rates(i).real()),
+                                 fixed(rates(i).imag() / rpm, 2)};
+    if (!orbit.modes.empty()) {
+      const MultiplierMode& mode = orbit.modes[static_cast<std::size_t>(i)];
+      row.push_back(mode.mode > 0 ? fmt::format("{} ({:.2f})", mode.mode, mode.mac) : "-");
+    }
+    table.row(row);
   }
   return table.text();
 }
@@ -165,6 +176,7 @@ FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
   found.shortest_period = shortest_period(orbit, flow.scale);
   found.exponents = orbit.exponents();
   found.is_stable = orbit.is_stable();
+  found.modes = modes_of_multipliers(scene, orbit);
   return found;
 }
 
@@ -202,6 +214,7 @@ Report run_orbit(const Invocation& given) {
   const Model model = call.model();
   require_speed(model);
   const OrbitMethod method = orbit_method(call);
+  if (call.has("starts")) return search_orbits(call, model);
   if (is_rotating_frame(call)) {
     if (point) {
       throw ModelError({"--point"}, "", "expected an orbit of the stationary frame");
@@ -242,6 +255,13 @@ Report run_orbit(const Invocation& given) {
   r.set("period_revs", period).set("shortest_period_revs", orbit.shortest_period);
   r.set("residual", orbit.residual).set("steps", orbit.steps);
   r.set("floquet", floquet).set("exponents_1_s", exponents);
+  Record modes = Record::array();
+  for (const MultiplierMode& m : orbit.modes) {
+    Record mode;
+    mode.set("mode", m.mode > 0 ? Record(m.mode) : Record(nullptr)).set("mac", m.mac);
+    modes.add(mode);
+  }
+  r.set("floquet_modes", modes);
   r.set("stable", orbit.is_good() ? Record(orbit.is_stable) : Record(nullptr));
   r.set("state", on_it.y);
   add_contacts(r, orbit.contacts, period);

@@ -9,6 +9,7 @@
 #include "apps/verb.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_measures.hpp"
+#include "libdyn/multiplier_modes.hpp"
 #include "libdyn/scene.hpp"
 
 namespace whirl {
@@ -42,6 +43,7 @@ struct FoundOrbit {
   long steps = 0;                       ///< of Newton's method
   std::vector<Vec> states;              ///< at the starts of revolutions
   CVec multipliers, exponents;
+  std::vector<MultiplierMode> modes;  ///< of the multipliers; empty: not told
   bool is_stable = false;
   std::vector<ContactMeasure> contacts;
   std::string failure;                       ///< empty: it is an orbit
@@ -56,5 +58,8 @@ struct FoundOrbit {
 /// --verify.
 FoundOrbit find_by_harmonic_balance(const Invocation& call, const Scene& scene, const Vec& start,
                                     int period);
+
+/// Orbits near random starts: --starts.
+Report search_orbits(const Invocation& call, const Model& model);
 
 }  // namespace whirl

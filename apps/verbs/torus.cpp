@@ -111,9 +111,8 @@ Report run_torus(const Invocation& call) {
       how.direction = direction;
       how.most_points = static_cast<int>(call.integer("most", 200));
       how.smallest_step = 1e-6;
-      Continuation walk(
-          circle_equations(flow_at, flow.scale, period, circle_coordinate(circle, flow.scale)),
-          circle_unknowns(circle, flow.scale), how);
+      Continuation walk(circle_equations(flow_at, flow.scale, period, circle.coordinate),
+                        circle_unknowns(circle, flow.scale), how);
       while (!is_interrupted() && walk.advance()) {
         progress.update(std::ssize(walk.branch().points));
       }

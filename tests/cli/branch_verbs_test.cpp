@@ -74,4 +74,95 @@ TEST_F(Branches, OfTheRotatingFrameTakeNeitherPeriodsNorSwitches) {
   EXPECT_TRUE(has(nothing.err, "contacts to bounce in")) << nothing.err;
 }
 
+// Stable points of a closed branch hold in a simulation seen from the rotor, unstable ones are left.
+TEST_F(Branches, OfTheRotatingFrameAreWhatSimulationsSay) {
+  result({"continue", two_disk, "--frame", "rotating", "--over", "operation.speed=3000:7000:20rpm",
+          "--at", "4430rpm", "--out", "branch.h5"});
+  const ResultReader file(folder / "branch.h5");
+  const Vec value = file.vector("/branch/value"), revolutions = file.vector("/branch/revolutions");
+  const auto stable = file.integers("/branch/stable");
+  const CMat multiplier = file.complex_matrix("/branch/multiplier");
+  EXPECT_EQ(multiplier.cols(), 16);
+  for (std::size_t i = 0; i < stable.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    EXPECT_EQ(stable[i] == 1, std::abs(multiplier(k, 0)) < 1.0);
+    EXPECT_TRUE(std::isnan(multiplier(k, 15).real()));  // that along the motion is left out
+    EXPECT_NEAR(revolutions(k), 2.157, 0.002);
+  }
+  // a motion on its stable part is still there after 500 revolutions; beyond its folds it is gone
+  result({"resonances", two_disk, "--speeds", "4200:4350:10rpm", "--modes", "2", "--confirm",
+          "--out", "start.h5"});
+  const auto after = [&](const std::string& speed) {
+    return result({"orbit", two_disk, "--frame", "rotating", "--from", "start.h5", "--discard",
+                   "500", "--speed", speed});
+  };
+  const json on = after("4400.8rpm");
+  EXPECT_EQ(on["stable"], true);
+  EXPECT_NEAR(on["period_revs"], 2.157, 0.002);
+  EXPECT_GT(std::abs(after("4540rpm")["period_revs"].get<double>() - 2.157), 0.01);
+}
+
+// The period doubling at friction 0.128110 (138.4 rad/s, 64 MN/m) in the plane of friction and contact
+// stiffness: the border goes through it, and killed and begun again it is the same.
+TEST_F(Branches, HaveBordersInThePlaneOfTwoParameters) {
+  const std::vector<std::string> line{"continue", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml",
+                                      "--speed",  "138.4rad/s",
+                                      "--over",   "contact.ring.friction=0.1:0.15:0.005",
+                                      "--over",   "contact.ring.stiffness=60:68:0.5MN/m",
+                                      "--at",     "0.15,64",
+                                      "--out",    "borders.h5"};
+  const json r = result(line);
+  ASSERT_EQ(r["borders"].size(), 2u);  // both ways from 64 MN/m
+  for (const json& border : r["borders"]) {
+    EXPECT_EQ(border["kind"], "period-doubling");
+    EXPECT_NEAR(border["points"][0][0], 0.128110487, 1e-7);
+    EXPECT_NEAR(border["points"][0][1], 64e6, 1.0);
+    EXPECT_GT(border["points"].size(), 3u);
+  }
+  // another point of it is where a branch at that stiffness doubles
+  const json& point = r["borders"][0]["points"].back();
+  const json again =
+      result({"continue", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--speed", "138.4rad/s",
+              "--set", "contact.ring.stiffness=" + std::to_string(point[1].get<double>()), "--over",
+              "contact.ring.friction=0.1:0.15:0.005", "--at", "0.15"});
+  bool is_there = false;
+  for (const json& b : again["bifurcations"]) {
+    is_there = is_there || std::abs(b["value"].get<double>() - point[0].get<double>()) < 1e-6;
+  }
+  EXPECT_TRUE(is_there) << again["bifurcations"];
+  EXPECT_EQ(result(line)["borders"], r["borders"]);
+}
+
+// What repeats after T revolutions seen from the rotor is a circle seen from outside, turned by a
+// multiple of 1 / T; its exponents are those of the orbit.
+TEST_F(Branches, AreCirclesSeenFromOutside) {
+  const json circle =
+      result({"torus", two_disk, "--discard", "1500", "--harmonics", "33", "--out", "torus.h5"});
+  const json orbit = result({"orbit", two_disk, "--frame", "rotating"});
+  const double turns = orbit["period_revs"], rotation = circle["rotation_per_rev"];
+  constexpr double truncated = 1e-4;  // of a series of 33 harmonics over impacts
+  EXPECT_NEAR(std::abs(std::remainder(rotation * turns, 1.0)), 0.0, truncated) << rotation;
+  EXPECT_EQ(circle["stable"], true);
+  const double size =
+      std::hypot(orbit["floquet"][0][0].get<double>(), orbit["floquet"][0][1].get<double>());
+  EXPECT_NEAR(circle["exponents_per_rev"][0], std::log(size) / turns, 1e-3);
+  const ResultReader file(folder / "torus.h5");
+  EXPECT_EQ(file.shape("/torus/displacement")[0], 67);
+  const Outcome settled = whirl({"torus", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml"});
+  EXPECT_EQ(settled.status, 3);
+  EXPECT_TRUE(has(settled.err, "settled on a periodic orbit")) << settled.err;
+}
+
+// At 138.4 rad/s, 64 MN/m and friction 0.11 five orbits of one revolution coexist, all of them unstable.
+TEST_F(Branches, BeginAtOrbitsOfASearch) {
+  const json r = result({"orbit", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--speed",
+                         "138.4rad/s", "--set", "contact.ring.stiffness=64e6", "--set",
+                         "contact.ring.friction=0.11", "--starts", "60", "--size", "1"});
+  EXPECT_GE(r["orbits"].size(), 3u);
+  for (const json& orbit : r["orbits"]) {
+    EXPECT_EQ(orbit["stable"], false);
+    EXPECT_EQ(orbit["period_revs"], 1);
+  }
+}
+
 }  // namespace whirl::branch_verbs_test

@@ -103,7 +103,7 @@ TEST(InvariantCircle, IsFollowedAlongAParameter) {
       guessed_circle(sections(flow, Vec{{0.3, 0.0, 0.0}}, 100, 400), flow.scale, 1, 6);
   const InvariantCircle circle = find_circle(flow, *guess, {.harmonics = 6, .most_harmonics = 6});
   Continuation walk(
-      circle_equations(normal_form, flow.scale, 1, circle_coordinate(circle, flow.scale)),
+      circle_equations(normal_form, flow.scale, 1, circle.coordinate),
       circle_unknowns(circle, flow.scale),
       {.low = 0.01, .high = 0.2, .first = 0.2, .direction = -1.0, .largest_step = 0.02});
   while (walk.advance()) {

@@ -1,0 +1,73 @@
+#include "libdyn/multiplier_modes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libfe/eigen/dense.hpp"
+#include "libfe/modes.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// Reduced states of the modes, their displacements times Omega.
+std::vector<CVec> states_of_modes(const Scene& scene) {
+  const Eigen::Index n = scene.contacts.coordinates();
+  const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
+  const DenseLu<Mat> mass(scene.reduced.M);
+  std::vector<CVec> states;
+  for (const Mode& m : complex_modes(scene.system, static_cast<int>(n)).oscillatory) {
+    CVec eta(n);
+    eta.real() = mass.solve(weighted * m.shape.real());
+    eta.imag() = mass.solve(weighted * m.shape.imag());
+    CVec z(2 * n);
+    z << scene.contacts.Omega() * eta, m.lambda * eta;
+    states.push_back(std::move(z));
+  }
+  return states;
+}
+
+}  // namespace
+
+std::vector<MultiplierMode> modes_of_multipliers(const Scene& scene, const PeriodicOrbit& orbit) {
+  const Eigen::Index size = orbit.multipliers.size(), n = size / 2;
+  std::vector<MultiplierMode> found(static_cast<std::size_t>(size));
+  if (orbit.tangents.empty()) return found;
+  Mat A = Mat::Identity(size, size);
+  for (const Mat& segment : orbit.tangents) A = segment * A;
+  const auto directions = general_modes(A);
+  if (!directions) return found;
+  const Vec scale = scene.contacts.state_scale();
+  const std::vector<CVec> states = states_of_modes(scene);
+  const Mat& M = scene.reduced.M;
+  const auto product = [&](const CVec& a, const CVec& b) {
+    return a.head(n).dot(M * b.head(n)) + a.tail(n).dot(M * b.tail(n));
+  };
+  std::vector<bool> is_taken(static_cast<std::size_t>(size), false);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    Eigen::Index best = -1;  // eigenvalues of the product, each for one multiplier
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const double distance = std::abs(directions->values(k) - orbit.multipliers(i));
+      if (!is_taken[static_cast<std::size_t>(k)] && distance < nearest) {
+        best = k;
+        nearest = distance;
+      }
+    }
+    if (best < 0) continue;
+    is_taken[static_cast<std::size_t>(best)] = true;
+    CVec v = scale.cast<Complex>().cwiseProduct(directions->vectors.col(best));
+    v.head(n) *= scene.contacts.Omega();
+    MultiplierMode& mode = found[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      for (const CVec& z : {states[k], CVec(states[k].conjugate())}) {
+        const double mac = std::norm(product(v, z)) / (product(v, v).real() * product(z, z).real());
+        if (mac > mode.mac) mode = {static_cast<int>(k) + 1, mac};
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace whirl

@@ -1,0 +1,28 @@
+#pragma once
+/// Which modes of the rotor the Floquet multipliers of an orbit belong to.
+
+#include <vector>
+
+#include "libdyn/scene.hpp"
+#include "libdyn/shooting.hpp"
+
+namespace whirl {
+
+/// The mode that the direction of a multiplier is most like.
+struct MultiplierMode {
+  int mode = 0;      ///< number from 1, as `modes` lists them; 0: there is none
+  double mac = 0.0;  ///< how much: 1 the same, as without contact
+};
+
+/// Compares the eigenvectors of an orbit's tangent with the complex modes of the rotor alone, as
+/// states at phase 0, weighted with their kinetic energy:
+///
+///   MAC = |v* W z|^2 / (v* W v  z* W z),   z = (Omega eta, lambda eta),   W = diag(M, M)
+///
+/// and likewise with the conjugate z. Contacts mix modes: then the best of them is far from 1.
+///
+/// @param orbit  with tangents and multipliers
+/// @return  one for each multiplier
+std::vector<MultiplierMode> modes_of_multipliers(const Scene& scene, const PeriodicOrbit& orbit);
+
+}  // namespace whirl
