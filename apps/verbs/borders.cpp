@@ -161,7 +161,6 @@ void Borders::begin(const std::vector<TracedBranch>& branches) {
           z << b.at.z, 0.0;
           border.branch.points[0].z = z;
         }
-        border.radii = {{}};
         borders_.push_back(border);
       }
     }
@@ -183,11 +182,9 @@ bool Borders::walk(const std::vector<TracedBranch>& branches,
     Continuation on(equations(border), border.branch, how);
     while (!is_interrupted() && on.advance()) {
       border.branch = on.branch();
-      border.radii.resize(border.branch.points.size());
       added(++points);
     }
     border.branch = on.branch();
-    border.radii.resize(border.branch.points.size());
     if (border.branch.end.empty()) return false;
   }
   return true;

@@ -28,8 +28,10 @@ class Packed {
     }
     for (std::size_t i = 0; i < b.branch.points.size(); ++i) {
       put(b.branch.points[i]);
-      put(static_cast<double>(b.radii[i].size()));
-      for (const double r : b.radii[i]) put(r);
+      const OrbitMeasure m = i < b.measures.size() ? b.measures[i] : OrbitMeasure();
+      put(static_cast<double>(m.radii.size()));
+      for (const double r : m.radii) put(r);
+      put(m.work);
       put(i < b.starts.size() ? b.starts[i] : Vec());
     }
     for (const Bifurcation& x : b.branch.bifurcations) {
@@ -51,8 +53,11 @@ class Packed {
     const int points = take_count(), bifurcations = take_count();
     for (int i = 0; i < points; ++i) {
       b.branch.points.push_back(take_point());
-      b.radii.emplace_back(static_cast<std::size_t>(take_count()));
-      for (double& r : b.radii.back()) r = take();
+      OrbitMeasure m;
+      m.radii.resize(static_cast<std::size_t>(take_count()));
+      for (double& r : m.radii) r = take();
+      m.work = take();
+      b.measures.push_back(std::move(m));
       b.starts.push_back(take_vector());
     }
     for (int i = 0; i < bifurcations; ++i) {
@@ -162,8 +167,8 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
   Packed walk(layout.contacts);
   std::vector<std::string> ends, kinds, grazing;
   std::vector<int> number, period, parent, of_point, stable, of_bifurcation, after;
-  std::vector<double> value, revolutions, residual, radius, duty, impacts, normal, tangential, at,
-      change;
+  std::vector<double> value, revolutions, work, residual, radius, duty, impacts, normal, tangential,
+      at, change;
   std::vector<Complex> multiplier, critical;
   std::vector<double> states;
   for (const TracedBranch& b : branches) {
@@ -179,7 +184,9 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
       revolutions.push_back(layout.period(b.branch, p));
       residual.push_back(p.residual);
       stable.push_back(p.multipliers.size() == 0 ? -1 : p.is_stable() ? 1 : 0);
-      radius.insert(radius.end(), b.radii[i].begin(), b.radii[i].end());
+      const OrbitMeasure& m = b.measures[i];
+      radius.insert(radius.end(), m.radii.begin(), m.radii.end());
+      work.push_back(m.work);
       for (Eigen::Index k = 0; k < layout.states; ++k) {
         multiplier.push_back(k < p.multipliers.size() ? p.multipliers(k) : Complex(nan, nan));
       }
@@ -215,6 +222,7 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
   file.dataset(path("branch"), of_point, {"", "branch of a point", {along}});
   file.dataset(path("stable"), stable, {"", "1 stable, 0 unstable, -1 not known", {along}});
   file.dataset(path("revolutions"), revolutions, {"", "period [revolutions]", {along}});
+  file.dataset(path("work"), work, {"J", "work of the unbalance per revolution", {along}});
   file.dataset(path("residual"), residual, {"", "residual of the orbit [length scales]", {along}});
   file.dataset(path("state"), states, std::vector<Eigen::Index>{n, layout.states},
                {"", "reduced state at phase 0, in the basis of the first value", {along, ""}});

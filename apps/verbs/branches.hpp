@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libdyn/continuation.hpp"
+#include "libdyn/orbit_measure.hpp"
 
 namespace whirl {
 
@@ -17,7 +18,7 @@ struct TracedBranch {
   int parent = 0;      ///< number of the branch that it begins on, from 1; 0: none
   int generation = 0;  ///< how many branches it is away from the first
   double direction = 1.0;
-  std::vector<std::vector<double>> radii;  ///< per point, largest distance of the stations [m]
+  std::vector<OrbitMeasure> measures;  ///< per point
   std::vector<Vec> starts;  ///< per point, state at phase 0, in the basis of the first value
   BifurcationKind kind{};   ///< of a border: of which bifurcation
   std::string contact;      ///< likewise: which grazes

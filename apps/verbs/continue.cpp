@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "apps/verbs/all.hpp"
@@ -16,6 +15,7 @@
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/cycle.hpp"
 #include "libdyn/harmonic_branch.hpp"
+#include "libdyn/orbit_measure.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
@@ -189,48 +189,26 @@ class Tracing {
                                : shooting_equations(flow_at(), layout_.scale);
   }
 
-  /// State at phase 0, and the largest distance of the stations from the axis over the period [m].
+  /// State at phase 0, and what the orbit does.
   void measure(TracedBranch& branch, const BranchPoint& point) const {
-    std::vector<double> largest(stations_.size(), 0.0);
     const auto at = scene(point.value);
-    const Mat map = at->displacement_map();
-    const DofMap& dofs = at->reduced.dofs;
-    const auto n = at->contacts.coordinates();
     const BasisChange change(*at, *first_);
-    Vec y(2 * n);
-    const auto add = [&] {
-      for (std::size_t i = 0; i < stations_.size(); ++i) {
-        const double x = map.row(dofs.full_index(stations_[i].point, X)) * y.head(n);
-        const double z = map.row(dofs.full_index(stations_[i].point, Y)) * y.head(n);
-        largest[i] = std::max(largest[i], std::hypot(x, z));
-      }
-    };
+    std::vector<Point> places;
+    for (const NamedPoint& p : stations_) places.push_back(p.point);
+    OrbitMeasure found;
     if (method_ == OrbitMethod::harmonic_balance) {
       const HarmonicOrbit orbit =
           orbit_of_unknowns(harmonic_problem(at->contacts), point.z.head(point.z.size() - 1),
                             options_.period, first_->contacts.length_scale());
-      const int samples = 8 * layout_.harmonics;
-      for (int k = 0; k < samples; ++k) {
-        y.head(n) = orbit.motion.at(2.0 * std::numbers::pi * k / samples).x;
-        add();
-      }
+      found = measure_orbit(*at, places, orbit.motion);
       branch.starts.emplace_back(change.back(orbit.state()));
     } else {
       // the state in the basis of this value; in most cases the first one's
-      Trajectory t{
-          .system = &at->contacts,
-          .revolutions = static_cast<long>(std::ceil(layout_.period(branch.branch, point)))};
-      t.state.y = change.to(point.state(layout_.scale));
-      integrate_single(t, {}, [&](const Step& step) {
-        for (int k = 1; k <= 8; ++k) {
-          step.at(k / 8.0, y.data());
-          add();
-        }
-        return true;
-      });
       branch.starts.push_back(point.state(layout_.scale));
+      found = measure_orbit(*at, places, change.to(branch.starts.back()),
+                            layout_.period(branch.branch, point));
     }
-    branch.radii.push_back(std::move(largest));
+    branch.measures.push_back(std::move(found));
   }
 
   OrbitMethod method_;
@@ -249,7 +227,7 @@ Record points_record(const std::vector<TracedBranch>& branches, const BranchLayo
   for (std::size_t k = 0; k < branches.size(); ++k) {
     for (std::size_t i = 0; i < branches[k].branch.points.size(); ++i) {
       const BranchPoint& p = branches[k].branch.points[i];
-      const auto& radii = branches[k].radii[i];
+      const auto& [radii, work] = branches[k].measures[i];
       const double period = layout.period(branches[k].branch, p);
       Record r, duty = Record::array(), impacts = Record::array(), normal = Record::array(),
                 floquet = Record::array();
@@ -261,6 +239,7 @@ Record points_record(const std::vector<TracedBranch>& branches, const BranchLayo
       for (const Complex& m : p.multipliers) floquet.add(m);
       r.set("value", p.value).set("branch", static_cast<int>(k) + 1).set("period_revs", period);
       r.set("amplitude_m", radii.empty() ? Record(nullptr) : Record(radii[0]));
+      r.set("work_j", work);
       r.set("stable", p.multipliers.size() == 0 ? Record(nullptr) : Record(p.is_stable()));
       r.set("duty", duty).set("impacts_per_rev", impacts).set("max_normal_n", normal);
       r.set("floquet", floquet);

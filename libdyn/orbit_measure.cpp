@@ -1,0 +1,87 @@
+#include "libdyn/orbit_measure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libdyn/batch/batch.hpp"
+#include "libfe/base/quadrature.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr int quadrature_points = 10;  ///< of a step, whose series have order 12 or so
+
+/// Rows that are asked for at every instant.
+struct Instants {
+  Instants(const Scene& scene, std::span<const Point> stations)
+      : cosine(scene.reduced.M * scene.contacts.cosine_load()),
+        sine(scene.reduced.M * scene.contacts.sine_load()),
+        rows(2 * std::ssize(stations), scene.contacts.coordinates()) {
+    const Mat map = scene.displacement_map();
+    Eigen::Index k = 0;
+    for (const Point& p : stations) {
+      rows.row(k++) = map.row(scene.reduced.dofs.full_index(p, X));
+      rows.row(k++) = map.row(scene.reduced.dofs.full_index(p, Y));
+    }
+    found.radii.assign(stations.size(), 0.0);
+  }
+
+  /// @param weight  of the instant in the integral of the power [s]
+  void add(double phase, const Eigen::Ref<const Vec>& eta, const Eigen::Ref<const Vec>& rate,
+           double weight) {
+    found.work += weight * (std::cos(phase) * cosine + std::sin(phase) * sine).dot(rate);
+    const Vec places = rows * eta;
+    for (std::size_t i = 0; i < found.radii.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(2 * i);
+      found.radii[i] = std::max(found.radii[i], std::hypot(places(k), places(k + 1)));
+    }
+  }
+
+  Vec cosine, sine;  ///< of the unbalance, generalized forces
+  Mat rows;
+  OrbitMeasure found;
+};
+
+}  // namespace
+
+OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, const Vec& y,
+                           double revolutions) {
+  Instants instants(scene, stations);
+  const Eigen::Index n = scene.contacts.coordinates();
+  const Quadrature gauss = Quadrature::gauss(quadrature_points);
+  const double end = revolutions * turn;  // within the last revolution
+  Trajectory t{.system = &scene.contacts, .revolutions = static_cast<long>(std::ceil(revolutions))};
+  t.state.y = y;
+  Vec at(2 * n);
+  integrate_single(t, {}, [&](const Step& step) {
+    const double begin = static_cast<double>(step.revolution) * turn + step.phase;
+    const double share = std::clamp((end - begin) / step.turn, 0.0, 1.0);
+    for (int i = 0; i < quadrature_points && share > 0.0; ++i) {
+      const double s = share * gauss.x(i);
+      step.at(s, at.data());
+      instants.add(step.phase + s * step.turn, at.head(n), at.tail(n), share * gauss.w(i) * step.h);
+    }
+    return true;
+  });
+  instants.found.work /= revolutions;
+  return instants.found;
+}
+
+OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
+                           const Periodic& motion) {
+  Instants instants(scene, stations);
+  const int samples = 8 * motion.harmonics() + 8;
+  const double weight = turn / motion.rate * motion.period / samples;
+  for (int k = 0; k < samples; ++k) {
+    const double theta = turn * k / samples;
+    const Periodic::Instant at = motion.at(theta);
+    instants.add(motion.phase(theta), at.x, at.rate, weight);
+  }
+  instants.found.work /= motion.period;
+  return instants.found;
+}
+
+}  // namespace whirl

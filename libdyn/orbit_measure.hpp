@@ -1,0 +1,28 @@
+#pragma once
+/// What a periodic motion does at stations, and what it costs in energy.
+
+#include <span>
+#include <vector>
+
+#include "libdyn/fourier.hpp"
+#include "libdyn/scene.hpp"
+
+namespace whirl {
+
+struct OrbitMeasure {
+  std::vector<double> radii;  ///< largest distance of each station from the axis [m]
+  /// Work that the unbalance does in a revolution: what damping, contacts and films take, less what
+  /// friction at the rim brings in from the spin [J].
+  double work = 0.0;
+};
+
+/// Of the motion from a state at phase 0.
+/// @param revolutions  its period, any positive number
+OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, const Vec& y,
+                           double revolutions);
+
+/// Of a Fourier series of the reduced displacements.
+OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
+                           const Periodic& motion);
+
+}  // namespace whirl
