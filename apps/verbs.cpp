@@ -248,6 +248,8 @@ const std::vector<Verb>& verbs() {
        "whirl plot run.h5 orbit --out orbit.svg",
        {{"out", "FILE", "picture, .svg, .png or .pdf; left out: .svg beside the result"},
         {"which", "NAME", "of several of a kind: the station, contact or plane (the first)"},
+        {"with", "OTHER.h5",
+         "branches over bifurcation, borders over map, where both are of the same values"},
         frequency},
        run_plot,
        "KIND",

@@ -8,6 +8,7 @@
 
 namespace whirl {
 
+class Record;
 class ResultReader;
 class ResultWriter;
 
@@ -19,8 +20,11 @@ struct TracedBranch {
   double direction = 1.0;
   std::vector<std::vector<double>> radii;  ///< per point, largest distance of the stations [m]
   std::vector<Vec> starts;  ///< per point, state at phase 0, in the basis of the first value
-  BifurcationKind kind{};   ///< of a border: of which bifurcation
-  std::string contact;      ///< likewise: which grazes
+  /// Per point, x and y of the stations in turn (rows) once a revolution (columns) [m]; none for
+  /// orbits that are closed seen from the rotor.
+  std::vector<Mat> sections;
+  BifurcationKind kind{};  ///< of a border: of which bifurcation
+  std::string contact;     ///< likewise: which grazes
 };
 
 /// What all branches of a study have in common.
@@ -68,5 +72,8 @@ void write_borders(ResultWriter& file, const BranchLayout& layout, const BorderA
 /// The same borders again, bit by bit; none where there are none.
 /// @throws FileError  if the file holds something else
 std::vector<TracedBranch> read_borders(const ResultReader& file, const BranchLayout& layout);
+
+/// The bifurcations of all branches, for --json.
+Record bifurcations_record(const std::vector<TracedBranch>& branches);
 
 }  // namespace whirl

@@ -189,30 +189,43 @@ class Tracing {
                                : shooting_equations(flow_at(), layout_.scale);
   }
 
-  /// State at phase 0, and the largest distance of the stations from the axis over the period [m].
+  /// State at phase 0, the largest distance of the stations from the axis over the period, and where
+  /// they are once a revolution [m].
   void measure(TracedBranch& branch, const BranchPoint& point) const {
     std::vector<double> largest(stations_.size(), 0.0);
     const auto at = scene(point.value);
-    const Mat map = at->displacement_map();
-    const DofMap& dofs = at->reduced.dofs;
     const auto n = at->contacts.coordinates();
+    const Mat map = at->displacement_map();
+    Mat places(2 * std::ssize(stations_), map.cols());  // x and y of the stations, of coordinates
+    for (Eigen::Index i = 0; i < std::ssize(stations_); ++i) {
+      const Point station = stations_[static_cast<std::size_t>(i)].point;
+      places.row(2 * i) = map.row(at->reduced.dofs.full_index(station, X));
+      places.row(2 * i + 1) = map.row(at->reduced.dofs.full_index(station, Y));
+    }
     const BasisChange change(*at, *first_);
     Vec y(2 * n);
     const auto add = [&] {
+      const Vec seen = places * y.head(n);
       for (std::size_t i = 0; i < stations_.size(); ++i) {
-        const double x = map.row(dofs.full_index(stations_[i].point, X)) * y.head(n);
-        const double z = map.row(dofs.full_index(stations_[i].point, Y)) * y.head(n);
-        largest[i] = std::max(largest[i], std::hypot(x, z));
+        const auto k = static_cast<Eigen::Index>(2 * i);
+        largest[i] = std::max(largest[i], std::hypot(seen(k), seen(k + 1)));
       }
     };
+    Mat sections(places.rows(), layout_.is_rotating ? 0 : branch.branch.period);
     if (method_ == OrbitMethod::harmonic_balance) {
       const HarmonicOrbit orbit =
           orbit_of_unknowns(harmonic_problem(at->contacts), point.z.head(point.z.size() - 1),
                             options_.period, first_->contacts.length_scale());
+      const auto coordinates = [&](double share) {
+        return orbit.motion.at(2.0 * std::numbers::pi * share).x;
+      };
       const int samples = 8 * layout_.harmonics;
       for (int k = 0; k < samples; ++k) {
-        y.head(n) = orbit.motion.at(2.0 * std::numbers::pi * k / samples).x;
+        y.head(n) = coordinates(double(k) / samples);
         add();
+      }
+      for (Eigen::Index k = 0; k < sections.cols(); ++k) {
+        sections.col(k) = places * coordinates(double(k) / options_.period);
       }
       branch.starts.emplace_back(change.back(orbit.state()));
     } else {
@@ -221,16 +234,22 @@ class Tracing {
           .system = &at->contacts,
           .revolutions = static_cast<long>(std::ceil(layout_.period(branch.branch, point)))};
       t.state.y = change.to(point.state(layout_.scale));
-      integrate_single(t, {}, [&](const Step& step) {
+      integrate_single(t, {.sections = sections.cols() > 0}, [&](const Step& step) {
         for (int k = 1; k <= 8; ++k) {
           step.at(k / 8.0, y.data());
           add();
         }
         return true;
       });
+      if (std::ssize(t.sections) < 2 * n * sections.cols()) sections.resize(places.rows(), 0);
+      for (Eigen::Index k = 0; k < sections.cols(); ++k) {
+        const auto from = t.sections.data() + k * 2 * n;  // after each revolution
+        sections.col(k) = places * Eigen::Map<const Vec>(from, n);
+      }
       branch.starts.push_back(point.state(layout_.scale));
     }
     branch.radii.push_back(std::move(largest));
+    branch.sections.push_back(std::move(sections));
   }
 
   OrbitMethod method_;
@@ -264,22 +283,6 @@ Record points_record(const std::vector<TracedBranch>& branches, const BranchLayo
       r.set("stable", p.multipliers.size() == 0 ? Record(nullptr) : Record(p.is_stable()));
       r.set("duty", duty).set("impacts_per_rev", impacts).set("max_normal_n", normal);
       r.set("floquet", floquet);
-      list.add(r);
-    }
-  }
-  return list;
-}
-
-Record bifurcations_record(const std::vector<TracedBranch>& branches) {
-  Record list = Record::array();
-  for (std::size_t k = 0; k < branches.size(); ++k) {
-    for (const Bifurcation& b : branches[k].branch.bifurcations) {
-      Record r;
-      r.set("value", b.at.value).set("kind", name_of(b.kind));
-      r.set("branch", static_cast<int>(k) + 1).set("after_point", static_cast<long>(b.after) + 1);
-      const bool is_grazing = b.kind == BifurcationKind::grazing;
-      r.set("contact", is_grazing ? Record(b.contact) : Record(nullptr));
-      r.set("multiplier", is_grazing ? Record(nullptr) : Record(b.multiplier));
       list.add(r);
     }
   }
