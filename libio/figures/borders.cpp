@@ -142,8 +142,13 @@ std::vector<Figure> border_figures(const ResultView& result) {
     for (const std::size_t i : b.points) has_thin = has_thin || all.stable[i] == 0.0;
     constexpr std::size_t most_told = 6;
     if (all.borders.size() > most_told) continue;
-    f.notes.push_back(fmt::format("{} ends: {}{}.", b.name, b.ends[0],
-                                  b.ends.size() > 1 ? "; " + b.ends[1] : ""));
+    std::string why;  // the last part of "no orbit is found beyond 6e7: the range ends"
+    for (const std::string& end : b.ends) {
+      const auto colon = end.rfind(": ");
+      const std::string part = colon == std::string::npos ? end : end.substr(colon + 2);
+      if (!part.empty() && part != why) why += (why.empty() ? "" : "; ") + part;
+    }
+    if (!why.empty()) f.notes.push_back(fmt::format("{}: {}.", b.name, why));
   }
   if (has_thin) {
     f.notes.push_back(

@@ -87,9 +87,8 @@ void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
   found.has_marker = true;
   found.marker = Marker::diamond;
   found.size = 9.0;
-  f.table.header = {
-      "resonance [rpm]",    "ratio", "modes", "from the rotor [rpm]", "bouncing at [rpm]",
-      "repeats after [rev]"};
+  f.table.header = {"resonance [rpm]",   "ratio",       "modes", "from the rotor [rpm]",
+                    "bouncing at [rpm]", "period [rev]"};
   std::size_t left_out = 0;
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     const double speed = speeds[i] / rpm;
