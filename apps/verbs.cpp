@@ -153,9 +153,7 @@ const std::vector<Verb>& verbs() {
        "a quasi-periodic motion as an invariant circle, and along a parameter until it locks or "
        "breaks",
        "MODEL",
-       "whirl torus models/two_disk_oil_film.toml --speed 440rad/s --set "
-       "oil_film.1.viscosity=0.005 --set "
-       "oil_film.2.viscosity=0.005",
+       "whirl torus models/two_disk_mac.toml --discard 1500 --harmonics 33",
        {{"over", "PATH=A:B:STEP", "a value of the model along which the circle is followed"},
         points,
         {"at", "VALUE", "where the first circle is looked for, between first and last (first)"},
@@ -251,6 +249,8 @@ const std::vector<Verb>& verbs() {
        "whirl plot run.h5 orbit --out orbit.svg",
        {{"out", "FILE", "picture, .svg, .png or .pdf; left out: .svg beside the result"},
         {"which", "NAME", "of several of a kind: the station, contact or plane (the first)"},
+        {"with", "OTHER.h5",
+         "branches over bifurcation, borders over map, where both are of the same values"},
         frequency},
        run_plot,
        "KIND",

@@ -56,7 +56,7 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
   Trajectory t{.system = &scene.contacts, .revolutions = static_cast<long>(std::ceil(revolutions))};
   t.state.y = y;
   Vec at(2 * n);
-  integrate_single(t, {}, [&](const Step& step) {
+  integrate_single(t, {.sections = true}, [&](const Step& step) {
     const double begin = static_cast<double>(step.revolution) * turn + step.phase;
     const double share = std::clamp((end - begin) / step.turn, 0.0, 1.0);
     for (int i = 0; i < quadrature_points && share > 0.0; ++i) {
@@ -67,6 +67,14 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
     return true;
   });
   instants.found.work /= revolutions;
+  const auto whole = static_cast<Eigen::Index>(std::floor(revolutions));
+  if (t.outcome == Outcome::reached_end) {
+    instants.found.sections.resize(instants.rows.rows(), whole);
+    for (Eigen::Index k = 0; k < whole; ++k) {
+      instants.found.sections.col(k) =
+          instants.rows * Eigen::Map<const Vec>(t.sections.data() + k * 2 * n, n);
+    }
+  }
   return instants.found;
 }
 
@@ -81,6 +89,10 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
     instants.add(motion.phase(theta), at.x, at.rate, weight);
   }
   instants.found.work /= motion.period;
+  instants.found.sections.resize(instants.rows.rows(), motion.period);
+  for (int k = 0; k < motion.period; ++k) {
+    instants.found.sections.col(k) = instants.rows * motion.at(turn * k / motion.period).x;
+  }
   return instants.found;
 }
 

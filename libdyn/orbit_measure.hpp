@@ -14,6 +14,7 @@ struct OrbitMeasure {
   /// Work that the unbalance does in a revolution: what damping, contacts and films take, less what
   /// friction at the rim brings in from the spin [J].
   double work = 0.0;
+  Mat sections;  ///< x and y of the stations in turn (rows) after every whole revolution (columns) [m]
 };
 
 /// Of the motion from a state at phase 0.

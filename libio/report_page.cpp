@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include "libfe/base/error.hpp"
@@ -194,7 +195,12 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
     all.emplace_back();
     for (const FigureKind& kind : figure_kinds()) {
       try {
-        for (const Figure& f : figures_of(kind, *result)) {
+        std::vector<Figure> of_kind = figures_of(kind, *result);
+        for (const auto& other : results) {  // what fits is laid over it
+          if (other == result || !other_values(*result, *other).empty()) continue;
+          lay_over(of_kind, *result, *other, std::filesystem::path(other->path).filename());
+        }
+        for (const Figure& f : of_kind) {
           Record r = record_of(f, arrays);
           r.set("summary", kind.summary);
           figures.add(r);

@@ -6,7 +6,7 @@ const arrays = new Arrays(page.arrays);
 const NAMES = { layout: "Layout", campbell: "Campbell", log_decrement: "Log decrement", critical_map: "Critical speeds",
   modes: "Mode shapes", bode: "Bode", polar: "Polar", deflection: "Deflected shapes", orbit: "Orbit", time_history: "Time history",
   spectrum: "Spectrum", waterfall: "Waterfall", poincare: "Poincaré", contact_forces: "Contact forces", contact_angles: "Contact angles", mac: "MAC",
-  exponents: "Exponents", bifurcation: "Bifurcation", branches: "Branches", spectral_map: "Spectral map", cascade: "Cascade", map: "Map",
+  exponents: "Exponents", bifurcation: "Bifurcation", branches: "Branches", borders: "Borders", torus: "Quasi-periodic", spectral_map: "Spectral map", cascade: "Cascade", map: "Map",
   exponent_map: "Exponent map", regime_map: "Contact map", basins: "Basins", work_precision: "Speed against error" };
 
 function setTheme(theme) {

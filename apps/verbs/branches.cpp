@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "libio/hdf5.hpp"
+#include "libio/record.hpp"
 
 namespace whirl {
 
@@ -32,6 +34,8 @@ class Packed {
       put(static_cast<double>(m.radii.size()));
       for (const double r : m.radii) put(r);
       put(m.work);
+      put(static_cast<double>(m.sections.cols()));
+      put(Vec(m.sections.reshaped()));
       put(i < b.starts.size() ? b.starts[i] : Vec());
     }
     for (const Bifurcation& x : b.branch.bifurcations) {
@@ -57,6 +61,11 @@ class Packed {
       m.radii.resize(static_cast<std::size_t>(take_count()));
       for (double& r : m.radii) r = take();
       m.work = take();
+      const int revolutions = take_count();
+      const Vec sections = take_vector();
+      if (revolutions > 0) {
+        m.sections = sections.reshaped(sections.size() / revolutions, revolutions);
+      }
       b.measures.push_back(std::move(m));
       b.starts.push_back(take_vector());
     }
@@ -160,6 +169,34 @@ std::vector<TracedBranch> read_walk(const ResultReader& file, const std::string&
   return branches;
 }
 
+/// Where the stations are once a revolution, as a sweep has it: NaN beyond the period.
+void write_sections(ResultWriter& file, const std::vector<TracedBranch>& branches, Eigen::Index n,
+                    Eigen::Index stations) {
+  Eigen::Index longest = 0;
+  for (const TracedBranch& b : branches) {
+    for (const OrbitMeasure& m : b.measures) longest = std::max(longest, m.sections.cols());
+  }
+  if (longest == 0) return;
+  const std::vector<Eigen::Index> shape{n, stations, longest};
+  for (const Eigen::Index component : {0, 1}) {
+    std::vector<double> values;
+    for (const TracedBranch& b : branches) {
+      for (const OrbitMeasure& m : b.measures) {
+        const Mat& sections = m.sections;
+        for (Eigen::Index s = 0; s < stations; ++s) {
+          for (Eigen::Index k = 0; k < longest; ++k) {
+            values.push_back(k < sections.cols() ? sections(2 * s + component, k) : nan);
+          }
+        }
+      }
+    }
+    file.dataset(group + (component == 0 ? "/poincare_x" : "/poincare_y"), values, shape,
+                 {"m",
+                  component == 0 ? "x at phase 0" : "y at phase 0",
+                  {group + "/value", group + "/station", ""}});
+  }
+}
+
 }  // namespace
 
 void write_branches(ResultWriter& file, const BranchLayout& layout,
@@ -233,6 +270,7 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
     file.dataset(path("station"), layout.stations, {"", "station", {""}});
     file.dataset(path("max_radius"), radius, std::vector<Eigen::Index>{n, stations},
                  {"m", "largest distance from the axis", {along, path("station")}});
+    write_sections(file, branches, n, stations);
   }
   if (contacts > 0) {
     file.dataset(path("contact"), layout.contacts, {"", "contact", {""}});
@@ -314,6 +352,22 @@ std::vector<TracedBranch> read_borders(const ResultReader& file, const BranchLay
   const std::vector<std::string> contacts = file.strings("/border/contact");
   for (std::size_t i = 0; i < borders.size(); ++i) borders[i].contact = contacts[i];
   return borders;
+}
+
+Record bifurcations_record(const std::vector<TracedBranch>& branches) {
+  Record list = Record::array();
+  for (std::size_t k = 0; k < branches.size(); ++k) {
+    for (const Bifurcation& b : branches[k].branch.bifurcations) {
+      Record r;
+      r.set("value", b.at.value).set("kind", name_of(b.kind));
+      r.set("branch", static_cast<int>(k) + 1).set("after_point", static_cast<long>(b.after) + 1);
+      const bool is_grazing = b.kind == BifurcationKind::grazing;
+      r.set("contact", is_grazing ? Record(b.contact) : Record(nullptr));
+      r.set("multiplier", is_grazing ? Record(nullptr) : Record(b.multiplier));
+      list.add(r);
+    }
+  }
+  return list;
 }
 
 }  // namespace whirl

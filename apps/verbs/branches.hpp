@@ -9,6 +9,7 @@
 
 namespace whirl {
 
+class Record;
 class ResultReader;
 class ResultWriter;
 
@@ -69,5 +70,8 @@ void write_borders(ResultWriter& file, const BranchLayout& layout, const BorderA
 /// The same borders again, bit by bit; none where there are none.
 /// @throws FileError  if the file holds something else
 std::vector<TracedBranch> read_borders(const ResultReader& file, const BranchLayout& layout);
+
+/// The bifurcations of all branches, for --json.
+Record bifurcations_record(const std::vector<TracedBranch>& branches);
 
 }  // namespace whirl

@@ -208,6 +208,7 @@ class Tracing {
       found = measure_orbit(*at, places, change.to(branch.starts.back()),
                             layout_.period(branch.branch, point));
     }
+    if (layout_.is_rotating) found.sections.resize(found.sections.rows(), 0);
     branch.measures.push_back(std::move(found));
   }
 
@@ -227,7 +228,7 @@ Record points_record(const std::vector<TracedBranch>& branches, const BranchLayo
   for (std::size_t k = 0; k < branches.size(); ++k) {
     for (std::size_t i = 0; i < branches[k].branch.points.size(); ++i) {
       const BranchPoint& p = branches[k].branch.points[i];
-      const auto& [radii, work] = branches[k].measures[i];
+      const auto& [radii, work, sections] = branches[k].measures[i];
       const double period = layout.period(branches[k].branch, p);
       Record r, duty = Record::array(), impacts = Record::array(), normal = Record::array(),
                 floquet = Record::array();
@@ -243,22 +244,6 @@ Record points_record(const std::vector<TracedBranch>& branches, const BranchLayo
       r.set("stable", p.multipliers.size() == 0 ? Record(nullptr) : Record(p.is_stable()));
       r.set("duty", duty).set("impacts_per_rev", impacts).set("max_normal_n", normal);
       r.set("floquet", floquet);
-      list.add(r);
-    }
-  }
-  return list;
-}
-
-Record bifurcations_record(const std::vector<TracedBranch>& branches) {
-  Record list = Record::array();
-  for (std::size_t k = 0; k < branches.size(); ++k) {
-    for (const Bifurcation& b : branches[k].branch.bifurcations) {
-      Record r;
-      r.set("value", b.at.value).set("kind", name_of(b.kind));
-      r.set("branch", static_cast<int>(k) + 1).set("after_point", static_cast<long>(b.after) + 1);
-      const bool is_grazing = b.kind == BifurcationKind::grazing;
-      r.set("contact", is_grazing ? Record(b.contact) : Record(nullptr));
-      r.set("multiplier", is_grazing ? Record(nullptr) : Record(b.multiplier));
       list.add(r);
     }
   }

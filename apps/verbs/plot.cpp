@@ -147,13 +147,21 @@ Report run_plot(const Invocation& call) {
   set_frequency_unit(call, result);
   if (call.words.size() > 1) throw wrong(call.words[1], "one kind of figure at a time");
   if (call.words.empty()) {
-    if (call.has("out")) throw wrong("--out " + call.given.at("out"), "which kind of figure?");
+    for (const char* option : {"out", "with"}) {
+      if (!call.has(option)) continue;
+      throw wrong(fmt::format("--{} {}", option, call.given.at(option)), "which kind of figure?");
+    }
     return list_of(call, result);
   }
   const FigureKind& kind = kind_of(call.words[0], result);
-  const auto figures = figures_of(kind, result);
+  auto figures = figures_of(kind, result);
   if (figures.empty()) {
     throw wrong(call.words[0], "there is nothing to draw in this result");
+  }
+  if (const std::string with = call.text("with"); !with.empty()) {
+    const std::string problem =
+        lay_over(figures, result, ResultView(with), fs::path(with).filename());
+    if (!problem.empty()) throw wrong("--with " + with, problem);
   }
   const Figure& figure = chosen(figures, call.text("which"));
   const fs::path out = call.text(

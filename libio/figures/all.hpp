@@ -26,6 +26,8 @@ std::vector<Figure> bifurcation_figures(const ResultView& result);
 std::vector<Figure> spectral_map_figures(const ResultView& result);
 std::vector<Figure> cascade_figures(const ResultView& result);
 std::vector<Figure> branch_figures(const ResultView& result);
+std::vector<Figure> border_figures(const ResultView& result);
+std::vector<Figure> torus_figures(const ResultView& result);
 std::vector<Figure> map_figures(const ResultView& result);
 std::vector<Figure> exponent_map_figures(const ResultView& result);
 std::vector<Figure> regime_map_figures(const ResultView& result);

@@ -64,6 +64,78 @@ double between(const std::vector<double>& x, const Mat& m, Eigen::Index i, doubl
   return m(i, k - 1) + share * (m(i, k) - m(i, k - 1));
 }
 
+/// Marks of internal resonances, a line between both branches, and their table. Those at which bouncing
+/// was found are named.
+void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
+  constexpr std::size_t most = 10;  // that are named and told although nothing was found there
+  const auto speeds = result.file.numbers("/resonances/speed"),
+             seen = result.file.numbers("/resonances/frequency"),
+             bouncing = result.file.numbers("/resonances/bouncing_speed"),
+             revolutions = result.file.numbers("/resonances/bouncing_period"),
+             stable = result.file.numbers("/resonances/bouncing_stable");
+  const auto p = result.file.integers("/resonances/p"), q = result.file.integers("/resonances/q"),
+             fast = result.file.integers("/resonances/fast"),
+             slow = result.file.integers("/resonances/slow");
+  Panel& panel = f.panels.at(0);
+  Curve possible{.name = "p:q resonance seen from the rotor", .paint = Paint::gray};
+  possible.width = 0.8;
+  possible.dash = Dash::dotted;
+  possible.has_marker = true;
+  possible.size = 4.0;
+  Curve found{.name = "resonance above which bouncing was found", .paint = Paint::alarm};
+  found.width = 2.0;
+  found.has_marker = true;
+  found.marker = Marker::diamond;
+  found.size = 9.0;
+  f.table.header = {"resonance [rpm]",   "ratio",       "modes", "from the rotor [rpm]",
+                    "bouncing at [rpm]", "period [rev]"};
+  std::size_t left_out = 0;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const double speed = speeds[i] / rpm;
+    const Eigen::Index branches[] = {fast[i] - 1, slow[i] - 1};
+    const std::string ratio = fmt::format("{}:{}", p[i], q[i]);
+    const bool is_found = stable[i] >= 0.0;
+    const std::string motion = is_found ? fmt::format("{} at {:.1f} rpm, {:.4f} revolutions",
+                                                      stable[i] > 0.0 ? "stable" : "unstable",
+                                                      bouncing[i] / rpm, revolutions[i])
+                                        : "none found";
+    Curve& c = is_found ? found : possible;
+    double top = not_set;
+    for (const Eigen::Index k : branches) {
+      c.x.push_back(speed);
+      c.y.push_back(between(b.speed, b.frequency, k, speed));
+      top = std::fmax(top, c.y.back());
+      c.hover.push_back(fmt::format("{} of {} and {} at {:.1f} rpm; bouncing: {}", ratio,
+                                    b.name(branches[0]), b.name(branches[1]), speed, motion));
+    }
+    c.x.push_back(not_set);  // the next one is a line of its own
+    c.y.push_back(not_set);
+    c.hover.emplace_back();
+    if (!is_found && speeds.size() > most) {
+      ++left_out;
+      continue;
+    }
+    Label label{speed, top, ratio, Anchor::end, -6.0, -6.0};
+    label.paint = is_found ? Paint::alarm : Paint::gray;
+    if (top <= panel.y.last) panel.labels.push_back(label);
+    f.table.rows.push_back(
+        {fmt::format("{:.1f}", speed), ratio,
+         fmt::format("{}, {}", b.name(branches[0]), b.name(branches[1])),
+         fmt::format("{:.0f}, {:.0f}", p[i] * seen[i] / rpm, q[i] * seen[i] / rpm),
+         is_found
+             ? fmt::format("{:.1f}, {}", bouncing[i] / rpm, stable[i] > 0.0 ? "stable" : "unstable")
+             : "none found",
+         is_found ? fmt::format("{:.4f}", revolutions[i]) : ""});
+  }
+  for (Curve* c : {&possible, &found}) {
+    if (!c->x.empty()) panel.curves.push_back(std::move(*c));
+  }
+  if (left_out > 0) {
+    f.notes.push_back(fmt::format(
+        "{} more resonances, at which no bouncing was found, are drawn without a name.", left_out));
+  }
+}
+
 }  // namespace
 
 std::vector<Figure> campbell_figures(const ResultView& result) {
@@ -116,7 +188,13 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
   }
   p.cursor = "speed";
   f.panels.push_back(p);
-  return {f};
+  if (!result.file.has("/resonances/speed")) return {f};
+  Figure resonances = f;
+  resonances.variant = "resonances";
+  resonances.subtitle = "Campbell diagram with the internal resonances seen from the rotor";
+  resonances.table = {};
+  add_resonances(result, b, resonances);
+  return {resonances, f};
 }
 
 std::vector<Figure> log_decrement_figures(const ResultView& result) {

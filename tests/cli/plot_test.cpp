@@ -1,9 +1,11 @@
 // plot and report: pictures and pages of results.
 
+#include <complex>
 #include <regex>
 
 #include "libio/comparison.hpp"
 #include "libio/figures.hpp"
+#include "libio/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
@@ -29,7 +31,62 @@ class Plot : public Program {
     for (const json& k : list["kinds"]) names.push_back(k["kind"]);
     return names;
   }
+
+  /// A result of a torus with circles at rotations from 0.3 to 0.45, after each of `period`
+  /// revolutions.
+  void write_torus(const std::string& file, int period) const {
+    ResultWriter to(folder / file);
+    to.dataset("/model", std::vector<std::string>{rubbing}, {"", "model", {""}});
+    to.attribute("/model", "path", "rub.toml");
+    to.dataset("/arguments", std::vector<std::string>{"whirl"}, {"", "command line", {""}});
+    to.dataset("/torus/value", std::vector<double>{100.0, 110.0, 120.0},
+               {"rad/s", "operation.speed", {""}});
+    for (const auto& [name, values] :
+         {std::pair<const char*, std::vector<double>>{"rotation", {0.3, 0.37, 0.45}},
+          {"largest_exponent", {-0.2, -0.1, 0.1}},
+          {"tail", {1e-9, 1e-9, 1e-9}}}) {
+      to.dataset(std::string("/torus/") + name, values, {"", name, {"/torus/value"}});
+    }
+    to.attribute("/torus", "period_revolutions", period);
+    to.commit();
+  }
+
+  /// Words that follow the first period doubling of a stator's rub in friction and stiffness.
+  const std::vector<std::string> borders{
+      "continue", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml",
+      "--speed",  "138.4rad/s",
+      "--over",   "contact.ring.friction=0.1:0.15:0.002",
+      "--over",   "contact.ring.stiffness=50:80:0.5MN/m",
+      "--at",     "0.15,64MN/m"};
+
+  /// A report's figures of a kind, of its first result.
+  json in_report(const std::string& file, const std::string& kind) const {
+    const std::string page = content(folder / file);
+    const auto from = page.find("id=\"data\">") + 10;
+    const json data = json::parse(page.substr(from, page.find("</script>", from) - from));
+    for (const json& f : data["results"][0]["figures"]) {
+      if (f["kind"] == kind) return f;
+    }
+    return {};
+  }
 };
+
+/// Curves of a name.
+std::vector<Curve> named(const Panel& panel, const std::string& name) {
+  std::vector<Curve> curves;
+  for (const Curve& c : panel.curves) {
+    if (c.name == name) curves.push_back(c);
+  }
+  return curves;
+}
+
+/// Figures of a kind.
+std::vector<Figure> figures_in(std::string_view name, const ResultView& view) {
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.name == name) return figures_of(kind, view);
+  }
+  return {};
+}
 
 long count(const std::string& text, const std::string& part) {
   long n = 0;
@@ -51,6 +108,8 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
   const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
   const std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> cases{
       {{"campbell", disks, "--speeds", "0:8000:400rpm"}, {"layout", "campbell", "log_decrement"}},
+      {{"resonances", disks, "--speeds", "4000:5000:200rpm"},
+       {"layout", "campbell", "log_decrement"}},
       {{"critical", disks}, {"layout", "critical_map"}},
       {{"modes", disks}, {"layout", "modes"}},
       {{"unbalance", disks, "--speeds", "0:8000:100rpm"},
@@ -61,13 +120,23 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"classify", "rub.toml", "--discard", "20"}, {"layout", "exponents"}},
       {{"sweep", "rub.toml"}, {"layout", "bifurcation", "spectral_map", "cascade"}},
       {{"continue", "rub.toml"}, {"layout", "branches"}},
+      {borders, {"layout", "branches", "borders"}},
+      {{"torus"}, {"layout", "torus"}},
       {{"map", "rub.toml"}, {"layout", "map", "exponent_map", "regime_map"}},
       {{"basins", "rub.toml"}, {"layout", "basins"}},
       {{"bench", "rub.toml"}, {"layout", "work_precision"}}};
   std::vector<std::string> drawn;
   for (const auto& [words, expected] : cases) {
     SCOPED_TRACE(words[0]);
-    make(words, "r.h5");
+    if (words[0] == "torus") {  // a circle takes long to find
+      write_torus("r.h5", 1);
+    } else if (words == borders) {
+      std::vector<std::string> all = words;  // as they are: make() adds another --over
+      all.insert(all.end(), {"--out", "r.h5"});
+      ASSERT_EQ(whirl(all).status, 0);
+    } else {
+      make(words, "r.h5");
+    }
     EXPECT_EQ(kinds("r.h5"), expected);
     for (const std::string& kind : expected) {
       SCOPED_TRACE(kind);
@@ -103,6 +172,182 @@ TEST_F(Plot, ACampbellDiagramListsItsCriticalSpeeds) {
   }
   for (const char* name : {">1B</text>", ">2F</text>", ">3B</text>", ">4F</text>", ">1X</text>"}) {
     EXPECT_TRUE(has(svg, name)) << name;
+  }
+}
+
+// Of the resonances: both branches at their speed, seen from the rotor in the ratio p:q. A backward
+// mode is faster there by the speed, a forward one differs from it.
+TEST_F(Plot, ACampbellDiagramMarksResonances) {
+  const json r = result({"resonances", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--speeds",
+                         "3000:6500:50rpm", "--out", "c.h5"});
+  const ResultView view(folder / "c.h5");
+  const auto figures = figures_in("campbell", view);
+  ASSERT_EQ(figures.size(), 2u);
+  EXPECT_EQ(figures[0].variant, "resonances");
+  const auto marks = named(figures[0].panels.at(0), "p:q resonance seen from the rotor");
+  ASSERT_EQ(marks.size(), 1u);
+  ASSERT_GT(r["resonances"].size(), 3u);
+  ASSERT_EQ(marks[0].x.size(), 3 * r["resonances"].size());
+  constexpr double between_speeds = 0.2;  // [rpm], of lines between the speeds of the branches
+  for (std::size_t i = 0; i < r["resonances"].size(); ++i) {
+    const json& one = r["resonances"][i];
+    const double speed = one["speed_rpm"], seen = one["frequency_rpm"];
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_NEAR(marks[0].x[3 * i + k], speed, 1e-9 * speed);
+      const double frequency = 60.0 * marks[0].y[3 * i + k];
+      const double times = one[k == 0 ? "p" : "q"];
+      EXPECT_LT(std::min(std::abs(speed + frequency - times * seen),
+                         std::abs(std::abs(speed - frequency) - times * seen)),
+                between_speeds)
+          << marks[0].hover[3 * i];
+    }
+    EXPECT_TRUE(std::isnan(marks[0].y[3 * i + 2]));  // marks are not joined
+  }
+  EXPECT_TRUE(figures[1].variant.empty());
+  EXPECT_EQ(named(figures[1].panels.at(0), marks[0].name).size(), 0u);
+}
+
+// The curve of a period doubling, both ways from the bifurcation of the branch: the numbers of the
+// JSON in the units of the axes, over a map of the same values either way round.
+TEST_F(Plot, BordersLieInThePlaneOfTheMap) {
+  auto words = borders;
+  words.insert(words.end(), {"--out", "b.h5"});
+  const json r = result(words);
+  ASSERT_EQ(r["borders"].size(), 2u);
+  const ResultView view(folder / "b.h5");
+  const Figure own = figures_in("borders", view).at(0);
+  ASSERT_EQ(own.panels.at(0).curves.size(), 1u);
+  const Curve& curve = own.panels[0].curves[0];
+  EXPECT_EQ(curve.name, "period doubling");
+  EXPECT_EQ(curve.end_name, "1 period doubling");
+  EXPECT_EQ(own.panels[0].y.title, "contact.ring.stiffness [MN/m]");
+  const json &down = r["borders"][0]["points"], &up = r["borders"][1]["points"];
+  ASSERT_EQ(curve.x.size(), down.size() + up.size() - 1);
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const json& point = i < down.size() ? down[down.size() - 1 - i] : up[i + 1 - down.size()];
+    EXPECT_NEAR(curve.x[i], point[0], 1e-12);
+    EXPECT_NEAR(curve.y[i], 1e-6 * point[1].get<double>(), 1e-9);
+  }
+  double at_64 = 0.0;  // where the branch doubles its period
+  for (const json& b : r["bifurcations"]) {
+    if (b["kind"] == "period-doubling") at_64 = b["value"];
+  }
+  EXPECT_NEAR(curve.x[down.size() - 1], at_64, 1e-9);
+
+  const std::string friction = "contact.ring.friction=0.12,0.13",
+                    stiffness = "contact.ring.stiffness=63,65MN/m";
+  const auto map = [&](const std::vector<std::string>& over, const std::string& out) {
+    std::vector<std::string> line{"map",           WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml",
+                                  "--speed",       "138.4rad/s",
+                                  "--discard",     "5",
+                                  "--revolutions", "5",
+                                  "--out",         out,
+                                  "--quiet"};
+    for (const std::string& o : over) line.insert(line.end(), {"--over", o});
+    ASSERT_EQ(whirl(line).status, 0);
+  };
+  map({friction, stiffness}, "m.h5");
+  map({stiffness, friction}, "turned.h5");
+  for (const char* file : {"m.h5", "turned.h5"}) {
+    const ResultView study(folder / file);
+    auto figures = figures_in("map", study);
+    ASSERT_EQ(lay_over(figures, study, view, "b.h5"), "");
+    const Panel& p = figures.at(0).panels.at(0);
+    const Curve over = named(p, "period doubling").at(0);
+    const bool is_turned = file[0] == 't';
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      EXPECT_NEAR((is_turned ? over.y : over.x)[i], curve.x[i], 1e-12);
+      EXPECT_NEAR((is_turned ? over.x : over.y)[i], curve.y[i], 1e-9);
+    }
+    EXPECT_FALSE(over.is_key);  // what is seen is the map
+    EXPECT_EQ(whirl({"plot", file, "map", "--with", "b.h5", "--out", "m.svg"}).status, 0);
+    EXPECT_TRUE(has(content(folder / "m.svg"), ">1 period doubling</text>"));
+  }
+  map({friction, "contact.ring.clearance=4,5mm"}, "other.h5");
+  EXPECT_TRUE(has(whirl({"plot", "other.h5", "map", "--with", "b.h5"}).err,
+                  "its borders are in the plane of contact.ring.friction and "
+                  "contact.ring.stiffness, the map in that of contact.ring.friction and "
+                  "contact.ring.clearance"));
+}
+
+// A linear rotor, whose orbit is known: x at phase 0 is Re e m Omega^2 / (k - m Omega^2 + i c Omega),
+// and the exponent of a revolution -c / (2 m) times its time.
+TEST_F(Plot, BranchesLieOverTheSweep) {
+  constexpr double m = 2.0, k = 2e4, e = 1e-4, Omega = 60.0;
+  write("rotor.toml", std::string(jeffcott) + "[operation]\nspeed = 60\n");
+  const auto call = [&](std::vector<std::string> words, const std::string& out) {
+    words.insert(words.begin() + 1, "rotor.toml");
+    words.insert(words.end(), {"--set", "gravity=0", "--discard", "20", "--out", out, "--quiet"});
+    const Outcome outcome = whirl(words);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+  };
+  call({"sweep", "--over", "bearing.1.damping=40,80,120", "--revolutions", "5"}, "s.h5");
+  call({"continue", "--over", "bearing.1.damping=40:120:20"}, "b.h5");
+  const ResultView sweep(folder / "s.h5"), branches(folder / "b.h5");
+  auto figures = figures_in("bifurcation", sweep);
+  ASSERT_EQ(lay_over(figures, sweep, branches, "b.h5"), "");
+  const Figure& f = figures.at(0);
+  const Curve x = named(f.panels.at(0), "period 1, stable").at(0),
+              exponent = named(f.panels.at(1), "period 1, stable").at(0);
+  EXPECT_EQ(f.panels[0].y.title, "x once a revolution [µm]");
+  ASSERT_GE(x.x.size(), 4u);
+  for (std::size_t i = 0; i < x.x.size(); ++i) {
+    if (std::isnan(x.x[i])) continue;
+    const double c = x.x[i];
+    const std::complex<double> steady =
+        e * m * Omega * Omega / std::complex<double>(k - m * Omega * Omega, c * Omega);
+    EXPECT_NEAR(x.y[i], 1e6 * steady.real(), 1e-4);  // [um]
+    EXPECT_NEAR(exponent.y[i], -c / (2.0 * m) * 2.0 * pi / Omega, 1e-6);
+  }
+  EXPECT_EQ(f.notes.back(),
+            "Lines: periodic orbits of b.h5, solid where stable, dashed where unstable.");
+  ASSERT_EQ(whirl({"plot", "s.h5", "bifurcation", "--with", "b.h5"}).status, 0);
+  EXPECT_TRUE(has(content(folder / "s_bifurcation.svg"), "period 1, stable"));
+
+  // a report does it by itself; not where the models differ in something else
+  ASSERT_EQ(whirl({"report", "s.h5", "b.h5"}).status, 0);
+  EXPECT_TRUE(has(in_report("s.html", "bifurcation")["notes"].dump(), "periodic orbits of b.h5"));
+  call({"continue", "--over", "bearing.1.damping=40:120:20", "--set", "bearing.1.stiffness=3e4"},
+       "stiff.h5");
+  const ResultView stiff(folder / "stiff.h5");
+  EXPECT_EQ(other_values(sweep, stiff), std::vector<std::string>{"bearing.shaft.stiffness"});
+  ASSERT_EQ(whirl({"report", "s.h5", "stiff.h5"}).status, 0);
+  EXPECT_FALSE(has(in_report("s.html", "bifurcation")["notes"].dump(), "periodic orbits"));
+
+  call({"continue", "--over", "unbalance.1.offset=0.1:0.2:0.05mm"}, "other.h5");
+  const auto problem = [&](const std::vector<std::string>& words) {
+    const Outcome outcome = whirl(words);
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.err;
+  };
+  EXPECT_EQ(problem({"plot", "s.h5", "bifurcation", "--with", "other.h5"}),
+            "--with other.h5: its branches run along unbalance.1.offset, the sweep along "
+            "bearing.1.damping\n");
+  EXPECT_TRUE(has(problem({"plot", "s.h5", "bifurcation", "--with", "s.h5"}),
+                  "expected branches of whirl continue"));
+  EXPECT_TRUE(has(problem({"plot", "s.h5", "cascade", "--with", "b.h5"}), "only"));
+  EXPECT_TRUE(has(problem({"plot", "s.h5", "--with", "b.h5"}), "which kind of figure?"));
+}
+
+// Ratios of small integers that a rotation from 0.3 to 0.45 passes: 1/3, 2/5, 3/7, 3/8, 4/9, ...; of
+// circles of every second revolution 1/3 = (2/3)/2, 3/8 = (3/4)/2, 3/10 = (3/5)/2, ...
+TEST_F(Plot, LinesAtTheRatiosThatARotationPasses) {
+  for (const int period : {1, 2}) {
+    const std::string file = "t" + std::to_string(period) + ".h5";
+    write_torus(file, period);
+    const ResultView view(folder / file);
+    const Figure f = figures_in("torus", view).at(0);
+    EXPECT_EQ(f.panels.at(0).curves.at(0).y, (std::vector<double>{0.3, 0.37, 0.45}));
+    EXPECT_EQ(f.panels.at(0).x.title, "operation.speed [rpm]");
+    std::vector<std::string> names;
+    for (const Rule& r : f.panels[0].rules) {
+      names.push_back(r.name);
+      const auto slash = r.name.find('/');
+      EXPECT_NEAR(r.at, std::stod(r.name) / std::stod(r.name.substr(slash + 1)), 1e-12);
+    }
+    names.resize(std::min<std::size_t>(names.size(), 5));
+    EXPECT_EQ(names, period == 1 ? (std::vector<std::string>{"1/3", "2/5", "3/7", "3/8", "4/9"})
+                                 : (std::vector<std::string>{"1/3", "3/8", "3/10", "2/5", "5/12"}));
   }
 }
 

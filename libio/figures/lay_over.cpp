@@ -1,0 +1,206 @@
+// What a continuation followed, over figures of studies of the same model.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "libio/comparison.hpp"
+#include "libio/figures/border_lines.hpp"
+#include "libio/figures/branch_lines.hpp"
+#include "libio/units.hpp"
+
+namespace whirl {
+
+namespace {
+
+using namespace figures;
+
+/// Shown numbers in one of SI, from the title of their axis: "x [mm]".
+double shown_in_one(const std::string& title) {
+  const auto bracket = title.rfind(" [");
+  if (bracket == std::string::npos || !title.ends_with(']')) return 1.0;
+  const auto one = parse_quantity("1 " + title.substr(bracket + 2, title.size() - bracket - 3));
+  return one ? 1.0 / one->value : 1.0;
+}
+
+/// The largest of all contacts, point by point.
+std::vector<double> largest_of_contacts(const ResultView& over, const std::string& path) {
+  std::vector<double> most;
+  for (Eigen::Index i = 0; i < over.file.shape(path).at(1); ++i) {
+    const auto values = column_of(over, path, static_cast<std::size_t>(i));
+    most.resize(values.size(), 0.0);
+    for (std::size_t k = 0; k < values.size(); ++k) most[k] = std::max(most[k], values[k]);
+  }
+  return most;
+}
+
+/// Lays branches over the panels of a bifurcation diagram that show numbers which branches have.
+/// @param station  number of the figure's station among those of the branches
+void add_branches(Figure& f, const ResultView& over, const BranchPoints& b, std::size_t station) {
+  const bool has_sections = over.file.has("/branch/poincare_x");
+  const bool has_contacts = over.file.has("/branch/duty");
+  const BranchStyle style{.is_named = true, .is_ink = true};
+  for (Panel& p : f.panels) {
+    const auto is_of = [&](const char* title) { return p.y.title.starts_with(title); };
+    const auto add = [&](std::vector<double> values, double factor) {
+      add_branch_lines(p, b, scaled(std::move(values), factor), style);
+    };
+    if (is_of("x once a revolution") && has_sections) {
+      const auto shape = over.file.shape("/branch/poincare_x");
+      const auto all = over.file.numbers("/branch/poincare_x");
+      const auto stations = static_cast<std::size_t>(shape.at(1)),
+                 sections = static_cast<std::size_t>(shape.at(2));
+      const double factor = shown_in_one(p.y.title);
+      for (std::size_t k = 0; k < sections; ++k) {
+        std::vector<double> x;
+        for (std::size_t i = 0; i < b.size(); ++i) {
+          x.push_back(factor * all[(i * stations + station) * sections + k]);
+        }
+        add_branch_lines(p, b, x, style);
+        add_branch_marks(p, b, x);
+      }
+    } else if (is_of("exponent") && has_sections) {
+      std::vector<double> exponent = largest_multipliers(over);
+      for (std::size_t i = 0; i < b.size(); ++i) {
+        exponent[i] = std::log(exponent[i]) / b.period[static_cast<std::size_t>(b.branch[i]) - 1];
+      }
+      add(std::move(exponent), 1.0);
+    } else if (is_of("share in touch") && has_contacts) {
+      add(largest_of_contacts(over, "/branch/duty"), 1.0);
+    } else if (is_of("largest force") && has_contacts) {
+      add(largest_of_contacts(over, "/branch/max_normal"), shown_in_one(p.y.title));
+    } else if (is_of("largest radius")) {
+      add(column_of(over, "/branch/max_radius", station), shown_in_one(p.y.title));
+    }
+  }
+}
+
+std::string branches_over(std::vector<Figure>& figures, const ResultView& study,
+                          const ResultView& over) {
+  if (!over.file.has("/branch/max_radius")) {
+    return "expected branches of whirl continue over a bifurcation diagram";
+  }
+  const ShownAxis axis = shown_axis(study, "/sweep/axis_1");
+  BranchPoints b(over);
+  if (b.axis.path != axis.path) {
+    return fmt::format("its branches run along {}, the sweep along {}", b.axis.path, axis.path);
+  }
+  b.show_as(axis);
+  const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
+  const bool is_within = std::any_of(b.axis.values.begin(), b.axis.values.end(),
+                                     [&](double v) { return v >= *low && v <= *high; });
+  if (!is_within) return "its branches have no point within the sweep's values";
+  const auto stations = over.file.strings("/branch/station");
+  bool fits = false;
+  for (Figure& f : figures) {
+    const auto station = std::find(stations.begin(), stations.end(), f.variant);
+    if (station == stations.end()) continue;
+    add_branches(f, over, b, static_cast<std::size_t>(station - stations.begin()));
+    fits = true;
+  }
+  if (fits) return "";
+  return fmt::format("it has no station of the sweep; it has {}", fmt::join(stations, ", "));
+}
+
+std::string borders_over(std::vector<Figure>& figures, const ResultView& study,
+                         const ResultView& over) {
+  if (!over.file.has("/border/second")) {
+    return "expected borders over a map, of whirl continue with two --over";
+  }
+  if (study.file.has("/map/axis_3")) return "borders go over maps of two values, not of three";
+  const ShownAxis x = shown_axis(study, "/map/axis_1"), y = shown_axis(study, "/map/axis_2");
+  const BorderPoints b(over);
+  const bool is_same = b.first.path == x.path && b.second.path == y.path,
+             is_turned = b.first.path == y.path && b.second.path == x.path;
+  if (!is_same && !is_turned) {
+    return fmt::format("its borders are in the plane of {} and {}, the map in that of {} and {}",
+                       b.first.path, b.second.path, x.path, y.path);
+  }
+  const ShownAxis &along_x = is_same ? b.first : b.second, &along_y = is_same ? b.second : b.first;
+  const auto curves = border_curves(b, scaled(along_x.values, along_x.factor / x.factor),
+                                    scaled(along_y.values, along_y.factor / y.factor));
+  for (Figure& f : figures) {
+    for (Curve c : curves) {
+      c.is_key = false;  // the map says what is seen
+      f.panels.at(0).curves.push_back(std::move(c));
+    }
+  }
+  return "";
+}
+
+/// Whether two texts of a model say the same value: "0.001 m" and "1 mm".
+bool is_same_value(const std::string& a, const std::string& b) {
+  const auto x = parse_quantity(a), y = parse_quantity(b);
+  constexpr double rounding = 1e-12;
+  return x && y && std::abs(x->value - y->value) <= rounding * std::abs(x->value);
+}
+
+/// Parameters of a study or continuation, each path for itself.
+std::vector<std::string> varied(const ResultView& result) {
+  std::vector<std::string> paths;
+  for (const char* dataset : {"/sweep/axis_1", "/map/axis_1", "/map/axis_2", "/map/axis_3",
+                              "/branch/value", "/border/second"}) {
+    if (!result.file.has(dataset)) continue;
+    const std::string all = result.file.string_attribute(dataset, "long_name");
+    for (std::size_t from = 0; from <= all.size();) {
+      const std::size_t to = std::min(all.find(',', from), all.size());
+      paths.push_back(all.substr(from, to - from));
+      from = to + 1;
+    }
+  }
+  return paths;
+}
+
+}  // namespace
+
+std::vector<std::string> other_values(const ResultView& study, const ResultView& over) {
+  // what the study varies; of borders their second value is fixed for the branches
+  const std::vector<std::string> paths = varied(study);
+  const FigureTable table = differences(
+      {study.file.strings("/model").at(0), over.file.strings("/model").at(0)}, {"a", "b"});
+  std::vector<std::string> others;
+  for (const auto& row : table.rows) {
+    if (row[0] == "title" || is_same_value(row[1], row[2])) continue;
+    if (std::find(paths.begin(), paths.end(), row[0]) == paths.end()) others.push_back(row[0]);
+  }
+  return others;
+}
+
+std::string lay_over(std::vector<Figure>& figures, const ResultView& study, const ResultView& over,
+                     const std::string& name) {
+  constexpr std::array<std::string_view, 3> maps{"map", "exponent_map", "regime_map"};
+  if (figures.empty()) return "there is nothing to draw";
+  const std::string& kind = figures.front().kind;
+  std::string problem;
+  if (kind == "bifurcation") {
+    problem = branches_over(figures, study, over);
+  } else if (std::find(maps.begin(), maps.end(), kind) != maps.end()) {
+    problem = borders_over(figures, study, over);
+  } else {
+    problem = "something is laid over bifurcation, map, exponent_map and regime_map only";
+  }
+  if (!problem.empty()) return problem;
+  std::string note = kind == "bifurcation"
+                         ? fmt::format(
+                               "Lines: periodic orbits of {}, solid where stable, dashed "
+                               "where unstable.",
+                               name)
+                         : fmt::format(
+                               "Lines: borders of {}, thin where another multiplier is "
+                               "outside of the unit circle.",
+                               name);
+  if (kind == "bifurcation" && over.file.has("/border/second")) {
+    const ShownAxis second = shown_axis(over, "/border/second");  // borders begin on the branches
+    note += fmt::format(" They are at {} = {:.6g}.", second.title, second.values.at(0));
+  }
+  if (const auto others = other_values(study, over); !others.empty()) {
+    note += fmt::format(" Its model is another one in {}.", fmt::join(others, ", "));
+  }
+  for (Figure& f : figures) f.notes.push_back(note);
+  return "";
+}
+
+}  // namespace whirl
