@@ -15,8 +15,8 @@ constexpr int largest_number = 9;     ///< in a ratio p:q
 constexpr double good_enough = 0.01;  ///< error of a ratio from which smaller numbers are preferred
 
 /// The two strongest lines that turn in the rotating frame.
-std::optional<InternalResonance> resonance_of(const std::vector<IdentifiedPeak>& peaks,
-                                              double Omega, double bin) {
+std::optional<FrequencyRatio> resonance_of(const std::vector<IdentifiedPeak>& peaks, double Omega,
+                                           double bin) {
   std::vector<double> turning;
   for (const IdentifiedPeak& p : peaks) {
     const double seen = std::abs(p.frequency - Omega);
@@ -45,8 +45,8 @@ std::vector<Peak> distinct_peaks(const Vec& total, double bin, const IdentifyOpt
 
 }  // namespace
 
-InternalResonance ratio_of(double high, double low) {
-  InternalResonance best;
+FrequencyRatio ratio_of(double high, double low) {
+  FrequencyRatio best;
   double least = std::numeric_limits<double>::infinity();
   const double ratio = high / low;
   for (int sum = 2; sum <= 2 * largest_number; ++sum) {

@@ -26,7 +26,7 @@ struct IdentifiedPeak {
 };
 
 /// Ratio of the two strongest frequencies seen from the rotor.
-struct InternalResonance {
+struct FrequencyRatio {
   int p = 0, q = 0;              ///< p >= q
   double error = 0.0;            ///< |ratio / (p/q) - 1|
   double high = 0.0, low = 0.0;  ///< the frequencies, unsigned [rad/s]
@@ -35,7 +35,7 @@ struct InternalResonance {
 struct Identification {
   std::vector<Mode> modes;
   std::vector<IdentifiedPeak> peaks;  ///< strongest first
-  std::optional<InternalResonance> resonance;
+  std::optional<FrequencyRatio> resonance;
   double bin = 0.0;  ///< distance of spectral lines [rad/s]
 };
 
@@ -52,7 +52,7 @@ Identification identify(const Model& model, const Scene& scene, const Recording&
 Sparse mac_weights(const DofMap& dofs, double length);
 
 /// The ratio p:q of small numbers nearest to high / low; smaller numbers win among good ones.
-InternalResonance ratio_of(double high, double low);
+FrequencyRatio ratio_of(double high, double low);
 
 /// The system with the stiffness of its contacts added at their stations, as if closed for good.
 System stiffened(const Model& model, const Scene& scene);

@@ -112,7 +112,7 @@ TEST(RatioOf, FindsSmallNumbers) {
   for (int p = 1; p <= 9; ++p) {
     for (int q = 1; q <= p; ++q) {
       if (std::gcd(p, q) != 1) continue;
-      const InternalResonance r = ratio_of(100.0 * p, 100.0 * q);
+      const FrequencyRatio r = ratio_of(100.0 * p, 100.0 * q);
       EXPECT_NEAR(static_cast<double>(r.p) / r.q, static_cast<double>(p) / q, 0.01 * p / q);
       const bool has_smaller_neighbor = r.p + r.q < p + q;  // within a percent of it
       if (!has_smaller_neighbor) {
@@ -122,7 +122,7 @@ TEST(RatioOf, FindsSmallNumbers) {
       }
     }
   }
-  const InternalResonance near = ratio_of(3.006, 1.0);
+  const FrequencyRatio near = ratio_of(3.006, 1.0);
   EXPECT_EQ(near.p, 3);
   EXPECT_EQ(near.q, 1);
   EXPECT_NEAR(near.error, 0.002, 1e-12);
