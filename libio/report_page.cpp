@@ -12,6 +12,7 @@
 #include "libio/format.hpp"
 #include "libio/motion_json.hpp"
 #include "libio/page_assets.hpp"
+#include "libio/xml.hpp"
 
 namespace whirl {
 
@@ -120,14 +121,6 @@ std::string for_script(const std::string& json) {
   return out;
 }
 
-std::string for_html(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  }
-  return out;
-}
-
 /// The page with its parts in their places, "{{name}}"; what the parts hold is left as it is.
 std::string filled(std::string_view page,
                    const std::map<std::string_view, std::string_view>& parts) {
@@ -223,7 +216,7 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
   data.set("version", version).set("colors", color_record()).set("results", list);
   if (results.size() > 1) data.set("comparison", comparison_record(results, all, arrays));
   data.set("arrays", arrays.record());
-  const std::string title = for_html(results.empty() ? "whirl" : results.front()->title);
+  const std::string title = xml_text(results.empty() ? "whirl" : results.front()->title);
   const std::string json = for_script(data.json());
   made.html = filled(page_html, {{"title", title},
                                  {"style", page_style},

@@ -6,36 +6,14 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "libio/xml.hpp"
+
 namespace whirl {
 
 namespace {
 
 constexpr double exponent_size = 0.7, exponent_rise = 0.45;  ///< of the letters
 constexpr double letter_width = 0.6;  ///< mean one of a sans-serif font, of its size
-
-/// Text with the signs of XML replaced, and without those that XML 1.0 has no way to hold.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= ' ') out += c;
-    }
-  }
-  return out;
-}
 
 std::string number(double value) {
   return coordinate(value);
@@ -76,7 +54,7 @@ Svg::Svg(double width, double height, std::string_view title)
           "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
           "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, "
           "'Liberation Sans', 'DejaVu Sans', sans-serif\">\n<title>{2}</title>\n",
-          number(width), number(height), escaped(title))) {}
+          number(width), number(height), xml_text(title))) {}
 
 void Svg::rectangle(Pixel corner, double width, double height, std::string_view fill) {
   body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
@@ -181,19 +159,19 @@ void Svg::text(Pixel place, std::string_view text, const TextStyle& style) {
       const std::string down =
           i == 0 ? "" : fmt::format(" dy=\"{}\"", number(exponent_rise * style.size));
       if (parts[i].empty()) continue;
-      body_ +=
-          i == 0 ? escaped(parts[i]) : fmt::format("<tspan{}>{}</tspan>", down, escaped(parts[i]));
+      body_ += i == 0 ? xml_text(parts[i])
+                      : fmt::format("<tspan{}>{}</tspan>", down, xml_text(parts[i]));
     } else {
       body_ += fmt::format("<tspan dy=\"{}\" font-size=\"{}\">{}</tspan>",
                            number(-exponent_rise * style.size), number(exponent_size * style.size),
-                           escaped(parts[i]));
+                           xml_text(parts[i]));
     }
   }
   body_ += "</text>\n";
 }
 
 void Svg::begin_group(std::string_view name) {
-  body_ += fmt::format("<g data-name=\"{}\">\n", escaped(name));
+  body_ += fmt::format("<g data-name=\"{}\">\n", xml_text(name));
 }
 
 void Svg::end_group() {

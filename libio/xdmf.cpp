@@ -6,20 +6,13 @@
 
 #include "libio/hdf5.hpp"
 #include "libio/replace_file.hpp"
+#include "libio/xml.hpp"
 
 namespace whirl {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string xml_text(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : std::string(1, c);
-  }
-  return result;
-}
 
 /// A dataset in the HDF5 file, as XDMF names it.
 std::string item(const std::string& file, const std::string& path, const std::string& size,

@@ -22,6 +22,7 @@
 #include "libio/replace_file.hpp"
 #include "libio/vtk.hpp"
 #include "libio/vtk/surfaces.hpp"
+#include "libio/xml.hpp"
 
 namespace whirl {
 
@@ -138,26 +139,6 @@ void write_frame(const fs::path& path, vtkPolyData* data) {
     throw FileError(fmt::format("cannot write {}: {}", path.string(),
                                 vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
   }
-}
-
-std::string xml_text(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 }  // namespace
