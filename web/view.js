@@ -379,7 +379,8 @@ class FigureView {
     const copy = element("button", { type: "button", onclick: () => {
       navigator.clipboard?.writeText(text).then(() => { copy.textContent = "Copied"; }, () => {});
     } }, "Copy");
-    this.command.replaceChildren(...lines.map((l) => element("div", { class: "detail" }, l)), element("code", {}, text), copy);
+    const told = text ? [element("code", {}, text), copy] : [];
+    this.command.replaceChildren(...lines.map((l) => element("div", { class: "detail" }, l)), ...told);
     this.command.style.display = "flex";
     this.command.hidden = false;
   }

@@ -27,6 +27,13 @@ BranchPoints::BranchPoints(const ResultView& result)
       branch(result.file.numbers("/branch/branch")),
       stable(result.file.numbers("/branch/stable")),
       period(result.file.numbers("/branch/period")) {
+  // of orbits that are closed seen from the rotor: any number, that of the first point
+  if (result.file.has("/branch/revolutions")) {
+    const std::vector<double> revolutions = result.file.numbers("/branch/revolutions");
+    for (std::size_t i = branch.size(); i-- > 0;) {
+      period[static_cast<std::size_t>(branch[i]) - 1] = revolutions[i];
+    }
+  }
   if (!result.file.has("/branch/bifurcation")) return;
   bifurcation = scaled(result.file.numbers("/branch/bifurcation"), 1.0 / axis.factor);
   kind = result.file.strings("/branch/bifurcation_kind");
@@ -96,7 +103,7 @@ void add_branch_lines(Panel& p, const BranchPoints& b, const std::vector<double>
     const auto [number, stays] = key;
     const double period = b.period[static_cast<std::size_t>(number) - 1];
     if (style.is_named)
-      c.name = fmt::format("period {:.0f}, {}", period, stays ? "stable" : "unstable");
+      c.name = fmt::format("period {:.4g}, {}", period, stays ? "stable" : "unstable");
     c.paint = style.is_ink ? Paint::ink : series_paint(static_cast<std::size_t>(number) - 1);
     c.dash = stays ? Dash::solid : Dash::dashed;
     c.width = stays ? 1.8 : 1.2;

@@ -38,14 +38,14 @@ void add_points(Panel& p, const ResultView& result, const BranchPoints& b,
     Curve c{.paint = series_paint(number - 1), .has_line = false, .has_marker = true};
     c.size = 4.0;
     c.along_title = "point";
-    c.command = command;
+    if (std::floor(b.period[number - 1]) == b.period[number - 1]) c.command = command;
     for (std::size_t i = 0; i < b.size(); ++i) {
       if (b.branch[i] != static_cast<double>(number)) continue;
       c.x.push_back(b.axis.values[i]);
       c.y.push_back(y[i]);
       c.along.push_back(static_cast<double>(i + 1));
       const auto k = static_cast<Eigen::Index>(i);
-      std::string text = fmt::format("Point {} of branch {}: {} = {:.8g}, period {:.0f}, {}", i + 1,
+      std::string text = fmt::format("Point {} of branch {}: {} = {:.8g}, period {:.4g}, {}", i + 1,
                                      number, b.axis.title, b.axis.values[i], b.period[number - 1],
                                      b.stable[i] < 0.0   ? "begins on another branch"
                                      : b.stable[i] > 0.0 ? "stable"

@@ -62,14 +62,22 @@ class Study : public Program {
     words.back() = "killed.h5";
     std::mt19937 random(seed);
     long resumed = 0;
-    for (int k = 0; k < kills;) {
+    for (int k = 0; k < kills || resumed == 0;) {
       const pid_t child = start(WHIRL_PROGRAM, words);
-      std::this_thread::sleep_for(std::chrono::duration<double>(
-          takes * std::uniform_real_distribution<double>(0.05, 0.9)(random)));
+      if (k < kills) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(
+            takes * std::uniform_real_distribution<double>(0.05, 0.9)(random)));
+      } else {  // none of these moments was after something had been saved: such a one
+        while (!std::filesystem::exists(folder / "killed.h5") && ::kill(child, 0) == 0 &&
+               std::chrono::steady_clock::now() - begin < 60s) {
+          std::this_thread::sleep_for(1ms);
+        }
+      }
       ::kill(child, SIGKILL);
       const Outcome outcome = wait(child);
       if (outcome.status == 128 + SIGKILL) {
         ++k;
+        ASSERT_LT(k, kills + 20) << "nothing is saved before it ends";
         if (!std::filesystem::exists(folder / "killed.h5")) continue;
         const ResultReader file(folder / "killed.h5");  // whole, at whatever moment
         if (file.number_attribute(group, "complete") == 1.0) continue;
@@ -270,7 +278,7 @@ TEST_F(Study, SweepGoesOnWhereItWasKilled) {
 
 TEST_F(Study, BasinsGoesOnWhereItWasKilled) {
   kill_and_compare({"basins", stator, "--set", "contact.ring.stiffness=64e6", "--speed",
-                    "138.4rad/s", "--starts", "600", "--discard", "40", "--revolutions", "20"},
+                    "138.4rad/s", "--starts", "1500", "--discard", "40", "--revolutions", "20"},
                    "/basins", 6, 3);
 }
 
