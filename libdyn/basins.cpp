@@ -3,6 +3,8 @@
 #include <cmath>
 #include <random>
 
+#include "libdyn/random.hpp"
+
 namespace whirl {
 
 namespace {
@@ -30,11 +32,6 @@ bool is_same(const ContactSystem& system, const Ending& a, const Ending& b) {
   return !a.is_proven || is_on(system, a, b);
 }
 
-/// A number between 0 and 1.
-double share(std::mt19937_64& random) {
-  return std::ldexp(static_cast<double>(random() >> 11), -53);
-}
-
 }  // namespace
 
 std::vector<int> attractors(const ContactSystem& system, std::span<const Ending> endings) {
@@ -57,7 +54,7 @@ MotionState random_start(const ContactSystem& system, const MotionState& around,
   for (int draw = 0; draw < most_draws; ++draw) {
     start.y = around.y;
     for (Eigen::Index i = 0; i < start.y.size(); ++i) {
-      start.y(i) += size * (2.0 * share(random) - 1.0) * system.state_scale()(i);
+      start.y(i) += size * (2.0 * random_share(random) - 1.0) * system.state_scale()(i);
     }
     if (!system.left_bearing(start.y.data())) break;
   }

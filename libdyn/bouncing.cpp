@@ -6,8 +6,8 @@
 #include <random>
 
 #include "libdyn/batch/batch.hpp"
+#include "libdyn/random.hpp"
 #include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 
@@ -19,10 +19,6 @@ constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to c
 constexpr long watched = 20;          ///< revolutions in which it is seen whether a motion bounces
 constexpr double least_share = 0.05;  ///< of the second line, to count beside the first
 constexpr int tried_orbits = 6;       ///< motions at a speed that are closed by Newton's method
-
-double share(std::mt19937_64& random) {
-  return std::ldexp(static_cast<double>(random() >> 11), -53);
-}
 
 /// Value of a branch between the speeds of its diagram.
 double frequency_at(const Campbell& diagram, int branch, double speed) {
@@ -51,15 +47,7 @@ std::optional<Shape> shape_of(const Scene& scene, const Modes& modes, double fre
     }
   }
   if (!nearest) return std::nullopt;
-  const DenseLu<Mat> mass(scene.reduced.M);
-  const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
-  const auto reduced = [&](const CVec& q) {
-    CVec r(weighted.rows());
-    r.real() = mass.solve(weighted * q.real());
-    r.imag() = mass.solve(weighted * q.imag());
-    return r;
-  };
-  const CVec q = reduced(nearest->shape);
+  const CVec q = coordinates_of(scene).cast<Complex>() * nearest->shape;
   // radius of its circle at the contact that it reaches first, in clearances
   double reach = 0.0;
   for (const ReducedContact& c : scene.contacts.contacts()) {
@@ -130,7 +118,8 @@ std::optional<Bouncing> find_bouncing(
       Trajectory t{.system = &scene->contacts, .revolutions = options.transient};
       t.state.y = Vec::Zero(scene->contacts.size());
       for (const Shape* shape : {&*fast, &*slow}) {
-        const double amplitude = 0.2 * std::pow(10.0, share(random)), phase = turn * share(random);
+        const double amplitude = 0.2 * std::pow(10.0, random_share(random)),
+                     phase = turn * random_share(random);
         t.state.y += amplitude * (std::cos(phase) * shape->cosine - std::sin(phase) * shape->sine);
       }
       motions.push_back(std::move(t));

@@ -14,13 +14,10 @@ namespace {
 /// Reduced states of the modes, their displacements times Omega.
 std::vector<CVec> states_of_modes(const Scene& scene) {
   const Eigen::Index n = scene.contacts.coordinates();
-  const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
-  const DenseLu<Mat> mass(scene.reduced.M);
+  const CMat coordinates = coordinates_of(scene).cast<Complex>();
   std::vector<CVec> states;
   for (const Mode& m : complex_modes(scene.system, static_cast<int>(n)).oscillatory) {
-    CVec eta(n);
-    eta.real() = mass.solve(weighted * m.shape.real());
-    eta.imag() = mass.solve(weighted * m.shape.imag());
+    const CVec eta = coordinates * m.shape;
     CVec z(2 * n);
     z << scene.contacts.Omega() * eta, m.lambda * eta;
     states.push_back(std::move(z));

@@ -88,6 +88,11 @@ Scene make_scene(const Model& model, ReductionEstimate wanted) {
   return {std::move(assembler), std::move(system), std::move(reduced), error, std::move(contacts)};
 }
 
+Mat coordinates_of(const Scene& scene) {
+  const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
+  return DenseLu<Mat>(scene.reduced.M).solve(weighted);
+}
+
 FullState full_state(const Scene& scene, const MotionState& state) {
   const Mat map = scene.displacement_map();
   const auto n = scene.contacts.coordinates();

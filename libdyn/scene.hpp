@@ -29,6 +29,10 @@ enum class ReductionEstimate { no, yes };
 /// @throws NumericalError  as reduce
 Scene make_scene(const Model& model, ReductionEstimate wanted = ReductionEstimate::yes);
 
+/// What makes coordinates of a motion of all freedoms: those nearest to it in kinetic energy,
+/// eta = (Phi^T M Phi)^-1 Phi^T M q, coordinates x freedoms.
+Mat coordinates_of(const Scene& scene);
+
 /// Motion of all points at an instant, as stored in results.
 struct FullState {
   Vec displacement, velocity;  ///< full vectors

@@ -138,6 +138,15 @@ BranchEquations Borders::equations(const TracedBranch& border) const {
                           parameters_.along.high);
 }
 
+ContinuationOptions Borders::options(const TracedBranch& border) const {
+  ContinuationOptions how = parameters_.across->options();
+  how.direction = border.direction;
+  how.period = border.branch.period;
+  how.most_points = most_points_;
+  how.smallest_step = finest;
+  return how;
+}
+
 void Borders::begin(const std::vector<TracedBranch>& branches) {
   for (std::size_t k = 0; k < branches.size(); ++k) {
     for (const Bifurcation& b : branches[k].branch.bifurcations) {
@@ -146,16 +155,13 @@ void Borders::begin(const std::vector<TracedBranch>& branches) {
       for (const double direction :
            {-parameters_.across->direction, parameters_.across->direction}) {
         if (direction != parameters_.across->direction && !parameters_.across->goes_both) continue;
-        ContinuationOptions how = parameters_.across->options();
-        how.direction = direction;
-        how.period = branches[k].branch.period;
-        how.most_points = most_points_;
-        how.smallest_step = finest;
         border.direction = direction;
+        border.branch = {.period = branches[k].branch.period};
         try {
-          border.branch = Continuation(equations(border), b.at.z, how).branch();
+          border.branch = Continuation(equations(border), b.at.z, options(border)).branch();
         } catch (const NumericalError& error) {  // a point where two of them meet, say
-          border.branch = {.period = how.period, .points = {b.at}, .end = error.what()};
+          border.branch.points = {b.at};
+          border.branch.end = error.what();
           border.branch.points[0].value = parameters_.across->first;
           Vec z(b.at.z.size() + 1);  // the second parameter is appended
           z << b.at.z, 0.0;
@@ -174,12 +180,7 @@ bool Borders::walk(const std::vector<TracedBranch>& branches,
   std::size_t points = 0;
   for (TracedBranch& border : borders_) {
     if (!border.branch.end.empty()) continue;
-    ContinuationOptions how = parameters_.across->options();
-    how.direction = border.direction;
-    how.period = border.branch.period;
-    how.most_points = most_points_;
-    how.smallest_step = finest;
-    Continuation on(equations(border), border.branch, how);
+    Continuation on(equations(border), border.branch, options(border));
     while (!is_interrupted() && on.advance()) {
       border.branch = on.branch();
       added(++points);

@@ -69,6 +69,7 @@ class Borders {
  private:
   void begin(const std::vector<TracedBranch>& branches);
   BranchEquations equations(const TracedBranch& border) const;
+  ContinuationOptions options(const TracedBranch& border) const;
   BorderAxes axes() const;
 
   const BranchParameters& parameters_;

@@ -18,7 +18,7 @@ namespace whirl {
 
 namespace {
 
-constexpr int digits_of_ratio = 12;  ///< largest denominator of a locking that is named
+constexpr int largest_denominator = 12;  ///< of a locking that is named
 
 /// A circle at a value of the parameter.
 struct CirclePoint {
@@ -31,7 +31,7 @@ struct CirclePoint {
 /// The ratio of small integers next to a rotation, to name what it locks to.
 std::pair<int, int> nearest_ratio(double rotation) {
   std::pair<int, int> best{0, 1};
-  for (int q = 1; q <= digits_of_ratio; ++q) {
+  for (int q = 1; q <= largest_denominator; ++q) {
     const int p = static_cast<int>(std::lround(rotation * q));
     if (std::abs(rotation - double(p) / q) <
         std::abs(rotation - double(best.first) / best.second) - 1e-12) {
