@@ -92,6 +92,10 @@ double damped_speed(const ModeFinder& finder, const Critical& undamped,
 
 }  // namespace
 
+std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options) {
+  return of_pencil(system, options);
+}
+
 std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options) {
   require_supports(assembler, 0.0, "critical speeds need");
   std::vector<Critical> criticals = of_pencil(assembler.at(0.0), options);

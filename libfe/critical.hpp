@@ -33,4 +33,8 @@ struct Critical {
 /// @source [Friswell2010], sec. 6.5
 std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options);
 
+/// Those of one system without damping, the lowest ones in ascending order; damped_speed is NaN.
+/// @throws NumericalError  if the eigensolver fails, or the stiffness is not positive definite
+std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options);
+
 }  // namespace whirl

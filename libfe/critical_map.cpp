@@ -1,0 +1,290 @@
+#include "libfe/critical_map.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "libfe/base/error.hpp"
+#include "libfe/base/roots.hpp"
+#include "libfe/campbell.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double alike = 1e-3;       ///< relative difference of stiffnesses that count as one
+constexpr double same_curve = 1e-9;  ///< likewise of curves, which would lie on each other
+constexpr int curve_points = 200;    ///< at which curves are compared
+constexpr double crossing_tolerance = 1e-10;  ///< of log10 of a stiffness
+constexpr int most_criticals = 1000;          ///< below the top, before something is wrong
+
+using ChangeStiffness = std::function<void(BearingCoefficients&)>;
+
+bool is_flexible(const Connection& b) {
+  return !b.is_rigid && !b.is_clamped;
+}
+
+void change(AnyBearing& bearing, const ChangeStiffness& how) {
+  if (auto* constant = std::get_if<ConstantBearing>(&bearing)) how(constant->value);
+  if (auto* table = std::get_if<TableBearing>(&bearing)) {
+    for (BearingCoefficients& row : table->rows) how(row);
+  }
+}
+
+/// The structure without damping.
+Structure undamped(Structure s) {
+  const auto strip = [](BearingCoefficients& c) { c.C = c.Ct = Mat2::Zero(); };
+  for (auto* list : {&s.bearings, &s.links}) {
+    for (Connection& c : *list) change(c.coefficients, strip);
+  }
+  for (Segment& segment : s.shaft) segment.material.eta = 0.0;
+  s.damping = {};
+  return s;
+}
+
+/// Stiffnesses of the bearings, and how the map goes over them.
+struct StiffnessRange {
+  bool is_common = true;
+  double first = 0.0, last = 0.0;  ///< of x; first = 0: no bearing has a stiffness
+};
+
+StiffnessRange range_of(const Structure& s, double beyond) {
+  double softest = INFINITY, stiffest = 0.0, first = 0.0;
+  bool has_table = false, is_same = true;
+  for (const Connection& b : s.bearings) {
+    if (!is_flexible(b)) continue;
+    AnyBearing copy = b.coefficients;
+    change(copy, [&](const BearingCoefficients& c) {
+      for (const Eigen::Index i : {0, 1}) {
+        if (!(c.K(i, i) > 0.0)) continue;
+        softest = std::min(softest, c.K(i, i));
+        stiffest = std::max(stiffest, c.K(i, i));
+      }
+    });
+    const double k = coefficients(b.coefficients, 0.0).K(0, 0);
+    if (first == 0.0) first = k;
+    is_same = is_same && std::abs(k - first) <= alike * std::abs(first);
+    has_table = has_table || depends_on_speed(b.coefficients);
+  }
+  if (!(stiffest > 0.0)) return {};
+  if (has_table || is_same) return {true, softest / beyond, stiffest * beyond};
+  return {false, 1.0 / beyond, beyond};
+}
+
+/// Critical speeds of a structure whose bearings have another stiffness.
+class Criticals {
+ public:
+  Criticals(const Structure& structure, bool is_common, double order)
+      : structure_(undamped(structure)), is_common_(is_common), order_(order) {}
+
+  /// @param x  stiffness [N/m], or factor
+  System system(double x) const {
+    Structure s = structure_;
+    for (Connection& b : s.bearings) {
+      if (!is_flexible(b)) continue;
+      change(b.coefficients, [&](BearingCoefficients& c) {
+        c.K = is_common_ ? Mat2(Mat2::Identity() * x) : Mat2(x * c.K);
+      });
+    }
+    return Assembler(s).at(0.0);
+  }
+
+  std::vector<ShapedValue> lowest(double x, int count) const {
+    std::vector<ShapedValue> found;
+    for (Critical& c : undamped_criticals(system(x), {.count = count, .order = order_})) {
+      found.push_back({c.speed, std::move(c.shape)});
+    }
+    return found;
+  }
+
+  /// How many there are at x up to a speed, with one above it where there is one.
+  int count_up_to(double speed, double x, int guess) const {
+    for (int count = guess;; count *= 2) {
+      const auto found = lowest(x, count);
+      const bool is_all = static_cast<int>(found.size()) < count;
+      if (is_all || found.back().value > speed || count >= most_criticals) return count;
+    }
+  }
+
+ private:
+  Structure structure_;
+  bool is_common_;
+  double order_;
+};
+
+/// Logarithms of numbers at equal ratios.
+std::vector<double> logarithms(double first, double last, int per_decade) {
+  const double decades = std::log10(last / first);
+  const int steps = std::max(1, static_cast<int>(std::ceil(per_decade * decades)));
+  std::vector<double> values;
+  for (int k = 0; k <= steps; ++k) values.push_back(std::log10(first) + decades * k / steps);
+  return values;
+}
+
+/// What is found at the first of some places where anything is, and the place.
+struct FirstFound {
+  double at = 0.0;
+  std::vector<ShapedValue> found;
+};
+
+std::optional<FirstFound> first_found(const std::vector<double>& places, const SolveShapes& solve) {
+  for (const double at : places) {
+    try {
+      auto found = solve(at);
+      if (!found.empty()) return FirstFound{at, std::move(found)};
+    } catch (const NumericalError&) {
+      continue;  // told by the walk along the map
+    } catch (const ModelError&) {
+      continue;
+    }
+  }
+  return {};
+}
+
+/// A curve for every stiffness that is not like another one at these speeds [rad/s].
+std::vector<StiffnessCurve> stiffness_curves(const Structure& s, double low, double high) {
+  struct Group {
+    StiffnessCurve curve;
+    std::vector<std::string> bearings, directions;
+  };
+  const auto is_same = [&](const StiffnessCurve& a, const StiffnessCurve& b) {
+    for (int k = 0; k <= curve_points; ++k) {
+      const double Omega = low * std::pow(high / low, static_cast<double>(k) / curve_points);
+      if (std::abs(a.at(Omega) - b.at(Omega)) > same_curve * std::abs(a.at(Omega))) return false;
+    }
+    return true;
+  };
+  const auto add = [](std::vector<std::string>& list, const std::string& name) {
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+  };
+  std::vector<Group> groups;
+  std::ptrdiff_t flexible = 0;
+  for (const Connection& b : s.bearings) {
+    if (!is_flexible(b)) continue;
+    ++flexible;
+    for (const Eigen::Index direction : {0, 1}) {
+      const StiffnessCurve c{"", b.coefficients, direction};
+      auto group = std::find_if(groups.begin(), groups.end(),
+                                [&](const Group& g) { return is_same(c, g.curve); });
+      if (group == groups.end()) group = groups.insert(groups.end(), Group{c, {}, {}});
+      add(group->bearings, b.name);
+      add(group->directions, direction == 0 ? "Kxx" : "Kyy");
+    }
+  }
+  std::vector<StiffnessCurve> curves;
+  for (Group& g : groups) {
+    g.curve.name = fmt::format("{}", fmt::join(g.directions, ", "));
+    if (std::ssize(g.bearings) < flexible) {
+      g.curve.name += fmt::format(" of {}", fmt::join(g.bearings, ", "));
+    }
+    curves.push_back(std::move(g.curve));
+  }
+  return curves;
+}
+
+/// The critical speed at log10 of a stiffness, on a branch between two of its points.
+double speed_between(const ShapeBranch& branch, std::size_t i, double at, const SolveShapes& solve,
+                     const Sparse& W) {
+  const ShapedValue &left = branch.found[i], &right = branch.found[i + 1];
+  const double share = (at - branch.at[i]) / (branch.at[i + 1] - branch.at[i]);
+  if (share <= 0.0) return left.value;
+  if (share >= 1.0) return right.value;
+  const double expected = left.value * std::pow(right.value / left.value, share);
+  double best = -INFINITY, speed = std::nan("");
+  for (const ShapedValue& found : solve(at)) {
+    const double score =
+        std::max(mac(found.shape, left.shape, W), mac(found.shape, right.shape, W)) -
+        std::abs(found.value - expected) / (right.value - left.value + 1e-3 * expected);
+    if (score > best) best = score, speed = found.value;
+  }
+  return speed;
+}
+
+void add_crossings(CriticalMap& map, const std::vector<ShapeBranch>& branches,
+                   const SolveShapes& solve, const Sparse& W) {
+  for (std::size_t c = 0; c < map.curves.size(); ++c) {
+    const auto gap = [&](double at, double speed) {
+      const double k = map.curves[c].at(speed);
+      return k > 0.0 ? std::log10(k) - at : std::nan("");
+    };
+    for (std::size_t b = 0; b < branches.size(); ++b) {
+      const ShapeBranch& branch = branches[b];
+      for (std::size_t i = 0; i + 1 < branch.at.size(); ++i) {
+        const double before = gap(branch.at[i], branch.found[i].value);
+        const double after = gap(branch.at[i + 1], branch.found[i + 1].value);
+        if (!(before * after <= 0.0) || before == 0.0) continue;
+        const auto speed = [&](double at) {
+          try {
+            return speed_between(branch, i, at, solve, W);
+          } catch (const NumericalError&) {
+            return std::nan("");
+          }
+        };
+        const double at = bracketed_root([&](double x) { return gap(x, speed(x)); }, branch.at[i],
+                                         branch.at[i + 1], crossing_tolerance);
+        if (!std::isfinite(at)) continue;
+        map.crossings.push_back({c, b, std::pow(10.0, at), speed(at)});
+      }
+    }
+  }
+}
+
+Whirl most_frequent(const ShapeBranch& branch, const DofMap& dofs) {
+  std::map<Whirl, int> count;
+  for (const ShapedValue& found : branch.found) ++count[whirl_of(orbits(dofs, found.shape))];
+  const auto most = std::max_element(
+      count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most->first;
+}
+
+}  // namespace
+
+CriticalMap critical_map(const Structure& structure, const CriticalMapOptions& options) {
+  CriticalMap map;
+  const StiffnessRange range = range_of(structure, options.beyond);
+  if (!(range.first > 0.0)) return map;
+  map.is_common = range.is_common;
+  const Criticals criticals(structure, range.is_common, options.critical.order);
+  int count = options.critical.count;
+  const SolveShapes solve = [&](double at) { return criticals.lowest(std::pow(10.0, at), count); };
+
+  // the picture's top are the stiffest bearings; below it nothing is left out at any stiffness
+  const std::vector<double> at = logarithms(range.first, range.last, options.steps_per_decade);
+  const auto stiff = first_found({at.rbegin(), at.rend()}, solve);
+  const auto soft = first_found(at, solve);
+  if (!stiff || !soft) {
+    follow_shapes(at, solve, Sparse(), 0.0).gaps.swap(map.gaps);
+    return map;
+  }
+  map.top = stiff->found.back().value;
+  const double step = at[1] - at[0];
+  const double headroom = std::pow(10.0, 0.5 * step);  // speeds rise by the root of the stiffness
+  count = criticals.count_up_to(headroom * map.top, std::pow(10.0, soft->at), count) + 2;
+
+  const System system = criticals.system(std::pow(10.0, soft->at));
+  ShapeBranches followed = follow_shapes(at, solve, system.M, map.top);
+  std::erase_if(followed.branches,
+                [&](const ShapeBranch& b) { return b.found.front().value > map.top; });
+  for (const ShapeBranch& b : followed.branches) {
+    CriticalMapBranch branch{.whirl = most_frequent(b, system.dofs)};
+    for (std::size_t i = 0; i < b.at.size(); ++i) {
+      branch.x.push_back(std::pow(10.0, b.at[i]));
+      branch.speed.push_back(b.found[i].value);
+    }
+    map.branches.push_back(std::move(branch));
+  }
+  map.gaps = std::move(followed.gaps);
+  for (ShapeGap& gap : map.gaps) gap.at = std::pow(10.0, gap.at);
+  if (map.is_common && !map.branches.empty()) {
+    map.curves = stiffness_curves(structure, map.branches.front().speed.front(), map.top);
+    add_crossings(map, followed.branches, solve, system.M);
+  }
+  return map;
+}
+
+}  // namespace whirl
