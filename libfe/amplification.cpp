@@ -58,6 +58,10 @@ std::vector<ResponsePeak> response_peaks(const std::vector<double>& speeds, cons
     if (between < least) peak.below = peak.above = nan;
     peaks.push_back(peak);
   }
+  return highest_peaks(std::move(peaks), most);
+}
+
+std::vector<ResponsePeak> highest_peaks(std::vector<ResponsePeak> peaks, std::size_t most) {
   std::stable_sort(peaks.begin(), peaks.end(), [](const ResponsePeak& a, const ResponsePeak& b) {
     return a.amplitude > b.amplitude;
   });

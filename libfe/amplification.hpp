@@ -20,7 +20,8 @@ struct ResponsePeak {
   double amplification() const { return speed / (above - below); }
 };
 
-/// Peaks of the largest of several responses, ascending speeds.
+/// Peaks of the largest of several responses that are known at some speeds only, ascending speeds;
+/// response_curve knows the true ones.
 ///
 /// A peak lies on the parabola through its three highest samples, sides between two samples. Where
 /// less than five samples are between the sides, or the amplitude does not fall that far, they are
@@ -32,6 +33,9 @@ struct ResponsePeak {
 /// @source [API617], [API684]: amplification factor from the half-power points
 std::vector<ResponsePeak> response_peaks(const std::vector<double>& speeds, const Mat& amplitude,
                                          std::size_t most = 8);
+
+/// The highest of some peaks, ascending speeds.
+std::vector<ResponsePeak> highest_peaks(std::vector<ResponsePeak> peaks, std::size_t most);
 
 /// How far a peak is from the operating speed, and should be.
 struct SeparationMargin {

@@ -7,37 +7,57 @@
 
 namespace whirl {
 
+struct UnbalanceSolver::State {
+  const Assembler& assembler;
+  System system;
+  CVec force;  ///< over Omega^2, in the coordinates of the system
+  DynamicStiffness stiffness;
+};
+
+UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
+  System system = assembler.uncondensed(0.0);
+  CVec force = system.dofs.T.transpose() * assembler.unbalance();
+  DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
+  state_ = std::make_unique<State>(
+      State{assembler, std::move(system), std::move(force), std::move(stiffness)});
+}
+
+UnbalanceSolver::~UnbalanceSolver() = default;
+
+const DofMap& UnbalanceSolver::dofs() const {
+  return state_->system.dofs;
+}
+
+std::optional<CVec> UnbalanceSolver::at(double Omega) {
+  State& s = *state_;
+  if (Omega == 0.0) return CVec(CVec::Zero(s.system.dofs.full_size));
+  if (s.assembler.depends_on_speed()) {
+    s.system = s.assembler.uncondensed(Omega);
+    s.stiffness = DynamicStiffness(s.system.M, s.system.C, s.system.G, s.system.K);
+  }
+  const auto q = s.stiffness.solve(Omega, Omega, Omega * Omega * s.force);
+  if (!q) return {};
+  return CVec(s.system.dofs.T * *q);
+}
+
 UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vector<double>& speeds,
                                      const std::vector<Point>& points) {
   const auto np = static_cast<Eigen::Index>(points.size());
   const auto ns = static_cast<Eigen::Index>(speeds.size());
   UnbalanceResponse response{speeds, points, CMat(np, ns), CMat(np, ns)};
-  System system = assembler.uncondensed(0.0);
-  const CVec force = system.dofs.T.transpose() * assembler.unbalance();
-  DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
-
+  UnbalanceSolver solver(assembler);
   for (Eigen::Index s = 0; s < ns; ++s) {
     const double Omega = speeds[static_cast<std::size_t>(s)];
-    if (assembler.depends_on_speed()) {
-      system = assembler.uncondensed(Omega);
-      stiffness = DynamicStiffness(system.M, system.C, system.G, system.K);
-    }
-    if (Omega == 0.0) {
-      response.x.col(s).setZero();
-      response.y.col(s).setZero();
-      continue;
-    }
-    const auto q = stiffness.solve(Omega, Omega, Omega * Omega * force);
-    if (!q) {
+    const auto full = solver.at(Omega);
+    if (!full) {
       throw NumericalError(fmt::format(
           "the rotor has an undamped resonance at {:g} rad/s: the unbalance response is unbounded",
           Omega));
     }
-    const CVec full = system.dofs.T * *q;
     for (Eigen::Index p = 0; p < np; ++p) {
       const Point& point = points[static_cast<std::size_t>(p)];
-      response.x(p, s) = full(system.dofs.full_index(point, X));
-      response.y(p, s) = full(system.dofs.full_index(point, Y));
+      response.x(p, s) = (*full)(solver.dofs().full_index(point, X));
+      response.y(p, s) = (*full)(solver.dofs().full_index(point, Y));
     }
   }
   return response;

@@ -1,6 +1,8 @@
 #pragma once
 /// Steady response to unbalance.
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "libfe/assemble.hpp"
@@ -14,7 +16,24 @@ struct UnbalanceResponse {
   CMat x, y;  ///< points x speeds [m]
 };
 
-/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u at every speed.
+/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u at any speed.
+class UnbalanceSolver {
+ public:
+  explicit UnbalanceSolver(const Assembler& assembler);
+  ~UnbalanceSolver();
+
+  /// Complex amplitudes of the full vector at a speed [rad/s], see DofMap [m, rad]; nothing where
+  /// the dynamic stiffness is singular: the response is unbounded there.
+  std::optional<CVec> at(double Omega);
+
+  const DofMap& dofs() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The response at given speeds.
 ///
 /// @param points  where the response is wanted
 /// @throws NumericalError  at a speed where the dynamic stiffness is singular

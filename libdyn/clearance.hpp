@@ -1,0 +1,36 @@
+#pragma once
+/// How much of its clearances a rotor takes that moves as if there were no contacts.
+
+#include <string>
+#include <vector>
+
+#include "libdyn/model.hpp"
+#include "libfe/assemble.hpp"
+
+namespace whirl {
+
+/// A range of speeds [rad/s].
+struct SpeedRange {
+  double first = 0.0, last = 0.0;
+};
+
+/// What the steady response to unbalance takes of one clearance.
+struct ClearanceUse {
+  std::string name;                ///< "contact ring", "oil film left"
+  double clearance = 0.0;          ///< [m]
+  double largest = 0.0;            ///< distance from the middle of the clearance [m]
+  double at = 0.0;                 ///< where it is that far [rad/s]
+  std::vector<SpeedRange> beyond;  ///< where it is more than the clearance
+};
+
+/// Clearances of contacts and oil films beside the linear response to unbalance.
+///
+/// The distance is the largest in a period: of the orbit from the middle of the clearance circle,
+/// of a face that of its rim along the axis. Static sag is not part of the response. The ends of
+/// ranges lie between two of the speeds and are roots of distance - clearance, to 1e-9.
+///
+/// @param speeds  ascending, near enough to each other [rad/s]: those of a ResponseCurve
+std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& assembler,
+                                         const std::vector<double>& speeds);
+
+}  // namespace whirl

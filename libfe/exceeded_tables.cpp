@@ -1,0 +1,32 @@
+#include "libfe/exceeded_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "libfe/base/names.hpp"
+
+namespace whirl {
+
+std::vector<ExceededTable> exceeded_tables(const Structure& structure, double lowest,
+                                           double highest) {
+  constexpr double rounding = 1e-12;  // of a speed that was told in another unit
+  std::vector<ExceededTable> exceeded;
+  const std::pair<const char*, const std::vector<Connection>*> lists[] = {
+      {"bearing", &structure.bearings}, {"link", &structure.links}};
+  for (const auto& [kind, list] : lists) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const Connection& c = (*list)[i];
+      const auto* table = std::get_if<TableBearing>(&c.coefficients);
+      if (!table || c.is_clamped) continue;
+      const double first = table->speed.front(), last = table->speed.back();
+      const double margin = rounding * last;
+      if (lowest >= first - margin && highest <= last + margin) continue;
+      const std::string name = c.name.empty() ? fmt::format("{}", i + 1) : c.name;
+      exceeded.push_back({named(kind, name), first, last});
+    }
+  }
+  return exceeded;
+}
+
+}  // namespace whirl
