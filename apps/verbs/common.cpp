@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "apps/verbs/notes.hpp"
 #include "apps/version.hpp"
 #include "libfe/base/error.hpp"
+#include "libfe/critical_damping.hpp"
 #include "libio/figures.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
@@ -23,6 +25,7 @@ void add_modes(Record& record, const Modes& modes) {
         .set("frequency_rpm", mode.frequency() / rpm)
         .set("damping_ratio", mode.damping_ratio())
         .set("log_decrement", mode.log_decrement())
+        .set("heavily_damped", mode.damping_ratio() > heavy_damping)
         .set("whirl", name_of(mode.whirl))
         .set("eigenvalue", mode.lambda)
         .set("kappa", mode.kappa);
@@ -52,12 +55,17 @@ std::string modes_table(const Modes& modes) {
   Table table(
       {"mode", "frequency [rpm]", "[Hz]", "log decrement", "damping ratio", "whirl", "kappa"});
   int number = 0;
+  bool has_heavy = false;
   for (const Mode& m : modes.oscillatory) {
-    table.row({fmt::format("{}", ++number), fmt::format("{:.1f}", m.frequency() / rpm),
+    const bool is_heavy = m.damping_ratio() > heavy_damping;
+    has_heavy = has_heavy || is_heavy;
+    table.row({fmt::format("{}{}", ++number, is_heavy ? heavy_mark : ""),
+               fmt::format("{:.1f}", m.frequency() / rpm),
                fmt::format("{:.3f}", m.frequency() / rpm / 60.0), fixed(m.log_decrement(), 4),
                fixed(m.damping_ratio(), 5), std::string(name_of(m.whirl)), fixed(m.kappa, 3)});
   }
   std::string text = table.text();
+  if (has_heavy) text += heavy_legend;
   if (!modes.overdamped.empty()) {
     text += "\n  overdamped [1/s]:";
     for (const Complex& root : modes.overdamped) text += fmt::format(" {:.4g}", root.real());

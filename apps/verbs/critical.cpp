@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
+#include "libfe/base/error.hpp"
+#include "libfe/critical_damping.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 
@@ -22,24 +26,41 @@ Report run_critical(const Invocation& call) {
   const std::vector<Critical> criticals = critical_speeds(assembler, options);
 
   Report report{.record = begin_record(call, model)};
+  std::vector<double> damping(criticals.size(), std::nan(""));
+  try {
+    damping = critical_damping(assembler, criticals, options);
+  } catch (const NumericalError& error) {
+    report.notes.push_back(fmt::format("damping ratios are not known: {}", error.what()));
+  }
   const std::string excitation = fmt::format("{:g}x", options.order);
   Record list = Record::array();
-  Table table({"number", "speed [rpm]", "[Hz]", "damped [rpm]", "whirl", "excitation"});
-  int number = 0;
-  for (const Critical& c : criticals) {
+  Table table(
+      {"number", "speed [rpm]", "[Hz]", "damped [rpm]", "damping ratio", "whirl", "excitation"});
+  double lowest = model.speed, highest = model.speed;
+  bool has_heavy = false;
+  for (std::size_t i = 0; i < criticals.size(); ++i) {
+    const Critical& c = criticals[i];
+    const bool is_heavy = damping[i] > heavy_damping, is_met = std::isfinite(c.damped_speed);
+    has_heavy = has_heavy || is_heavy;
+    lowest = i == 0 ? c.speed : std::min(lowest, c.speed);
+    highest = i == 0 ? c.speed : std::max(highest, c.speed);
     Record r;
     r.set("speed_rpm", c.speed / rpm).set("whirl", name_of(c.whirl)).set("excitation", excitation);
     r.set("damped_speed_rpm", c.damped_speed / rpm);
+    r.set("damping_ratio", damping[i]).set("heavily_damped", is_heavy);
     list.add(r);
-    table.row({fmt::format("{}", ++number), fmt::format("{:.2f}", c.speed / rpm),
-               fmt::format("{:.3f}", c.speed / rpm / 60.0),
-               std::isfinite(c.damped_speed) ? fmt::format("{:.2f}", c.damped_speed / rpm) : "-",
+    table.row({fmt::format("{}{}", i + 1, is_heavy ? heavy_mark : ""),
+               fmt::format("{:.2f}", c.speed / rpm), fmt::format("{:.3f}", c.speed / rpm / 60.0),
+               is_met ? fmt::format("{:.2f}", c.damped_speed / rpm) : "-",
+               std::isfinite(damping[i]) ? fixed(damping[i], 5) : "-",
                std::string(name_of(c.whirl)), excitation});
   }
   report.record.set("criticals", list);
   report.text =
       "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" +
-      table.text();
+      table.text() + (has_heavy ? heavy_legend : "");
+  note_left_out(model, report);
+  note_tables(model, lowest, highest, report);
   if (const auto file = call.result_file(model)) {
     std::vector<double> speed, damped;
     std::vector<std::string> whirl;
@@ -50,6 +71,8 @@ Report run_critical(const Invocation& call) {
     }
     file->dataset("/critical/speed", speed, {"rad/s", "undamped critical speed", {""}});
     file->dataset("/critical/damped_speed", damped, {"rad/s", "damped critical speed", {""}});
+    file->dataset("/critical/damping_ratio", damping,
+                  {"", "damping ratio at the damped critical speed", {""}});
     file->dataset("/critical/whirl", whirl, {"", "sense of whirl", {""}});
     file->attribute("/critical", "order", options.order);
     commit(call, file.get(), report);

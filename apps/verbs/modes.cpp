@@ -2,6 +2,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "libio/hdf5.hpp"
 
 namespace whirl {
@@ -16,6 +17,8 @@ Report run_modes(const Invocation& call) {
   add_modes(report.record, modes);
   report.text =
       fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, modes_table(modes));
+  note_left_out(model, report);
+  note_tables(model, model.speed, model.speed, report);
   if (const auto file = call.result_file(model)) {
     file->attribute("/", "speed", model.speed);
     write_points(*file, model, assembler);

@@ -6,6 +6,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/bouncing.hpp"
 #include "libfe/base/error.hpp"
@@ -199,6 +200,8 @@ Report run_resonances(const Invocation& call) {
         "\n  at the contacts ({}): orbits of both modes by their largest on the rotor\n", names);
   }
   if (status == 130) report.text += "\n  stopped\n";
+  if (!confirms) note_left_out(model, report);
+  note_tables(model, speeds.front(), speeds.back(), report);
   const auto first = std::find_if(places.begin(), places.end(),
                                   [](const Place& place) { return place.bouncing.has_value(); });
   if (file) {

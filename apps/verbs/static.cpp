@@ -4,6 +4,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "libfe/bending.hpp"
 #include "libio/format.hpp"
 #include "libio/hdf5.hpp"
@@ -85,6 +86,8 @@ Report run_static(const Invocation& call) {
   report.text += "\n" + table.text() + "\n" + loads.text() +
                  "\n  A load is the force of the rotor on its bearing; y points up.\n";
   report.text += add_bending(line, report.record);
+  note_left_out(model, report);
+  note_tables(model, model.speed, model.speed, report);
   if (const auto file = call.result_file(model)) {
     write_points(*file, model, assembler);
     file->dataset("/static/displacement", at_rest.displacement,

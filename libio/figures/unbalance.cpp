@@ -16,12 +16,18 @@ using namespace figures;
 
 constexpr double degree = std::numbers::pi / 180.0;
 
+/// Group of the datasets that curves are drawn from: those with as many speeds as they need, which
+/// stand beside the speeds that were asked for.
+std::string curve_path(const ResultView& result) {
+  return result.file.has("/unbalance/curve_speed") ? "/unbalance/curve_" : "/unbalance/";
+}
+
 struct Response {
   explicit Response(const ResultView& result)
-      : speed(scaled(numbers(result.file.vector("/unbalance/speed")), 1.0 / rpm)),
+      : speed(scaled(numbers(result.file.vector(curve_path(result) + "speed")), 1.0 / rpm)),
         stations(result.file.strings("/unbalance/station")),
-        x(result.file.complex_matrix("/unbalance/x")),
-        y(result.file.complex_matrix("/unbalance/y")) {}
+        x(result.file.complex_matrix(curve_path(result) + "x")),
+        y(result.file.complex_matrix(curve_path(result) + "y")) {}
   std::vector<double> speed;  ///< [rpm]
   std::vector<std::string> stations;
   CMat x, y;
@@ -75,13 +81,33 @@ void mark_operation(const ResultView& result, const Response& r, Panel& panel) {
       {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
 }
 
+/// Peaks of the largest orbit; of a result that does not hold them, as its speeds show them.
+std::vector<ResponsePeak> peaks_in(const ResultView& result, const Response& r, const CMat& a) {
+  const ResultReader& file = result.file;
+  if (!file.has("/unbalance/peak_speed")) return response_peaks(r.speed, a.cwiseAbs());
+  const auto numbers_of = [&](const std::string& name) {
+    return numbers(file.vector("/unbalance/peak_" + name));
+  };
+  const auto speed = numbers_of("speed"), amplitude = numbers_of("amplitude"),
+             below = numbers_of("below"), above = numbers_of("above");
+  const std::vector<int> station = file.integers("/unbalance/peak_station");
+  std::vector<ResponsePeak> peaks;
+  for (std::size_t i = 0;
+       i < std::min({speed.size(), amplitude.size(), below.size(), above.size(), station.size()});
+       ++i) {
+    if (station[i] < 1 || static_cast<std::size_t>(station[i]) > r.stations.size()) continue;
+    peaks.push_back({station[i] - 1, speed[i] / rpm, amplitude[i], below[i] / rpm, above[i] / rpm});
+  }
+  return peaks;
+}
+
 /// Peaks with amplification factors, and their margins to the operating speed.
 FigureTable peaks_of(const ResultView& result, const Response& r, const CMat& a,
                      const DisplayUnit& unit) {
   FigureTable t{.header = {"peak [rpm]", "largest at", with_unit("p-p", unit), "amplification",
                            "margin", "required"}};
   const double operation = speed_of(result) / rpm;
-  for (const ResponsePeak& peak : response_peaks(r.speed, a.cwiseAbs())) {
+  for (const ResponsePeak& peak : peaks_in(result, r, a)) {
     const double factor = peak.amplification();
     std::vector<std::string> row{fmt::format("{:.0f}", peak.speed),
                                  r.stations[static_cast<std::size_t>(peak.row)],
@@ -231,7 +257,7 @@ std::vector<Figure> polar_figures(const ResultView& result) {
 
 std::vector<Figure> deflection_figures(const ResultView& result) {
   const Response r(result);
-  const Mat major = result.file.matrix("/unbalance/major");
+  const Mat major = result.file.matrix(curve_path(result) + "major");
   const auto z = numbers(result.file.vector("/points/z"));
   // stations along the shaft
   std::vector<std::pair<double, Eigen::Index>> places;

@@ -263,6 +263,146 @@ TEST_F(Linear, UnbalanceTellsAmplificationAndMargins) {
   EXPECT_TRUE(has(text, "13.0 % below") && has(text, "16.0 %, NOT KEPT")) << text;
 }
 
+// zeta = 1 / 350: highest at omega / (1 - 2 zeta^2)^(1/2) with e / (2 zeta (1 - zeta^2)^(1/2)), an
+// amplification of 175, whatever the speeds that were asked for, and without any.
+TEST_F(Linear, UnbalanceFindsSharpPeaksWhateverTheSteps) {
+  constexpr double sharp = 1.0 / 350.0, refined = 1e-6;  // relative, as documented
+  const std::string damping = "bearing.shaft.damping=" + std::to_string(2.0 * sharp * m * omega);
+  const double root = std::sqrt(1.0 - sharp * sharp), middle = 1.0 - 2.0 * sharp * sharp;
+  const double factor =
+      1.0 / std::sqrt(middle) /
+      (1.0 / std::sqrt(middle - 2.0 * sharp * root) - 1.0 / std::sqrt(middle + 2.0 * sharp * root));
+  EXPECT_NEAR(factor, 175.0, 0.01);
+  std::vector<std::vector<std::string>> calls{
+      {}, {"--speeds", "0:1500:20rpm"}, {"--speeds", "0:1500:1rpm"}, {"--speeds", "0:1500rpm"}};
+  for (const std::vector<std::string>& speeds : calls) {
+    std::vector<std::string> words{"unbalance", "rotor.toml", "--set", damping};
+    words.insert(words.end(), speeds.begin(), speeds.end());
+    const json r = result(words);
+    ASSERT_EQ(r["peaks"].size(), 1u);
+    const json& peak = r["peaks"][0];
+    EXPECT_NEAR(peak["speed_rpm"], omega / std::sqrt(middle) / rpm, refined * omega / rpm);
+    EXPECT_NEAR(peak["amplitude_m"], 0.5 * e / (sharp * root), refined * 0.5 * e / sharp);
+    EXPECT_NEAR(peak["amplification"], factor, refined * factor);
+  }
+  // the rows are those that were asked for
+  EXPECT_EQ(result({"unbalance", "rotor.toml", "--speeds", "0:1500:20rpm"})["speeds_rpm"].size(),
+            76u);
+}
+
+// r = e w^2 / ((1 - w^2)^2 + (2 zeta w)^2)^(1/2) is the clearance c where, with s = w^2,
+//   ((e / c)^2 - 1) s^2 + (2 - 4 zeta^2) s - 1 = 0
+TEST_F(Linear, UnbalanceBeyondAClearanceSaysWhereAndByHowMuch) {
+  write("rubbing.toml", rubbing);
+  const double z = 0.5, offset = 1e-3, clearance = 5e-4, ends = 1e-6;  // ends: relative
+  const json r = result({"unbalance", "rubbing.toml", "--speeds", "0:3000:100rpm"});
+  ASSERT_EQ(r["clearances"].size(), 1u);
+  const json& use = r["clearances"][0];
+  EXPECT_EQ(use["name"], "contact ring");
+  EXPECT_NEAR(use["clearance_m"], clearance, 1e-15);
+  EXPECT_NEAR(use["largest_m"], offset / (2.0 * z * std::sqrt(1.0 - z * z)), 1e-9);
+  const double a = offset * offset / (clearance * clearance) - 1.0, b = 2.0 - 4.0 * z * z;
+  const double first = omega * std::sqrt((-b + std::sqrt(b * b + 4.0 * a)) / (2.0 * a));
+  ASSERT_EQ(use["beyond_rpm"].size(), 1u);
+  EXPECT_NEAR(use["beyond_rpm"][0][0], first / rpm, ends * first / rpm);
+  EXPECT_NEAR(use["beyond_rpm"][0][1], 3000.0, 1e-9);
+  const std::string text = whirl({"unbalance", "rubbing.toml", "--speeds", "0:3000:100rpm"}).out;
+  EXPECT_TRUE(has(text, "note: the response goes beyond the clearance of contact ring")) << text;
+  EXPECT_TRUE(has(text, "note: left out: contact ring")) << text;
+  // within it there is nothing to say
+  const json small = result({"unbalance", "rubbing.toml", "--set", "unbalance.1.offset=0.1mm"});
+  EXPECT_EQ(small["clearances"][0]["beyond_rpm"].size(), 0u);
+}
+
+TEST_F(Linear, VerbsThatLeaveContactsAndOilFilmsOutSaySo) {
+  write("oil.toml", R"(format = 1
+[operation]
+speed = "3000 rpm"
+[[body]]
+name = "journal"
+mass = 20
+spins = true
+[[oil_film]]
+name = "left"
+body = "journal"
+radius = "25 mm"
+length = "12 mm"
+clearance = "0.11 mm"
+viscosity = "18 mPa.s"
+)");
+  write("rubbing.toml", rubbing);
+  for (const std::string verb : {"modes", "campbell", "unbalance", "resonances"}) {
+    SCOPED_TRACE(verb);
+    EXPECT_TRUE(has(result({verb, "oil.toml"})["notes"].at(0), "left out: oil film left"));
+  }
+  for (const std::string verb : {"static", "modes", "campbell", "critical", "unbalance"}) {
+    SCOPED_TRACE(verb);
+    EXPECT_TRUE(has(result({verb, "rubbing.toml"})["notes"].dump(), "left out: contact ring"));
+    EXPECT_EQ(result({verb, "rotor.toml"})["notes"].size(), 0u);
+  }
+  const Outcome stored = whirl({"modes", "rubbing.toml", "--out", "r.h5"});
+  EXPECT_EQ(stored.status, 0) << stored.err;
+  EXPECT_TRUE(has(stored.out, "note: left out: contact ring")) << stored.out;
+}
+
+TEST_F(Linear, BearingTablesHeldConstantBeyondTheirEndsAreTold) {
+  write("k.csv", "speed [rpm],kxx,kyy,cxx,cyy\n500,2e4,2e4,4,4\n2000,4e4,4e4,4,4\n");
+  write("table.toml", R"(format = 1
+[operation]
+speed = "1000 rpm"
+[[body]]
+name = "rotor"
+mass = 2
+spins = true
+[[bearing]]
+name = "seat"
+body = "rotor"
+table = "k.csv"
+[[unbalance]]
+body = "rotor"
+offset = "0.1 mm"
+)");
+  const auto notes = [&](const std::vector<std::string>& words) { return result(words)["notes"]; };
+  EXPECT_EQ(notes({"modes", "table.toml"}).size(), 0u);
+  const json above = notes({"modes", "table.toml", "--speed", "2500rpm"});
+  ASSERT_EQ(above.size(), 1u);
+  EXPECT_EQ(above[0],
+            "the table of bearing seat goes from 500 to 2000 rpm; its ends are held constant above "
+            "(asked: 2500 rpm)");
+  const json both = notes({"campbell", "table.toml", "--speeds", "0:3000:100rpm"});
+  ASSERT_EQ(both.size(), 1u);
+  EXPECT_TRUE(has(both[0], "below (asked: 0 rpm) and above (asked: 3000 rpm)")) << both;
+  EXPECT_EQ(notes({"unbalance", "table.toml", "--speeds", "600:1900:100rpm"}).size(), 0u);
+}
+
+// zeta = 0.6: above 0.5 a mode of the bearings
+TEST_F(Linear, HeavilyDampedModesAreMarked) {
+  const std::string heavy = "bearing.shaft.damping=240", light = "bearing.shaft.damping=160";
+  for (const auto& [verb, list] : {std::pair{"modes", "modes"}, {"critical", "criticals"}}) {
+    SCOPED_TRACE(verb);
+    const json marked = result({verb, "rotor.toml", "--set", heavy})[list];
+    ASSERT_EQ(marked.size(), 2u);
+    EXPECT_EQ(marked[0]["heavily_damped"], true);
+    EXPECT_NEAR(marked[0]["damping_ratio"], 0.6, 1e-6);
+    EXPECT_EQ(result({verb, "rotor.toml", "--set", light})[list][0]["heavily_damped"], false);
+  }
+  for (const std::string verb : {"modes", "critical", "campbell"}) {
+    SCOPED_TRACE(verb);
+    EXPECT_TRUE(has(whirl({verb, "rotor.toml", "--set", heavy}).out, "*: heavily damped"));
+    EXPECT_FALSE(has(whirl({verb, "rotor.toml", "--set", light}).out, "*: heavily damped"));
+  }
+}
+
+TEST_F(Linear, CampbellSaysWhichSpeedsItShowsAndTheDecrements) {
+  const std::string text = whirl({"campbell", "rotor.toml", "--speeds", "0:1000rpm"}).out;
+  EXPECT_TRUE(has(text, "every 5th of 101 speeds and the last")) << text;
+  EXPECT_TRUE(has(text, "Logarithmic decrements")) << text;
+  EXPECT_TRUE(has(text, "0.0628")) << text;  // 2 pi zeta / (1 - zeta^2)^(1/2)
+  EXPECT_TRUE(has(text, "1000.0")) << text;
+  EXPECT_TRUE(
+      has(whirl({"campbell", "rotor.toml", "--speeds", "0:1000:100rpm"}).out, "(all speeds)"));
+}
+
 TEST_F(Linear, UnbalanceAtChosenStations) {
   const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
   const auto names = [&](const std::string& list) {
