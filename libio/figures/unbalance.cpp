@@ -167,6 +167,10 @@ Figure bode(const ResultView& result, const Response& r, const CMat& a, const ch
   phase.y.last = 90.0 * std::ceil(high / 90.0 + 1e-6);
   f.panels = {amplitude, phase};
   f.table = peaks_of(result, r, a, unit);
+  if (result.file.has("/unbalance/peak_speed")) {
+    f.notes.push_back(
+        "Peaks are those of the largest orbit of all stations, along its major axis.");
+  }
   return f;
 }
 
