@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "libfe/eigen/sparse_lu.hpp"
-#include "libfe/elements/beam.hpp"
 #include "libfe/elements/body.hpp"
 #include "libfe/elements/connection.hpp"
 #include "libfe/elements/disk.hpp"
+#include "libfe/shaft_elements.hpp"
 
 namespace whirl {
 
@@ -53,19 +53,6 @@ class Collector {
   }
   std::vector<Triplet> M_, C_, G_, K_, H_;
 };
-
-Beam beam_of(const MeshElement& element, const Structure& structure, const Mesh& mesh) {
-  const Segment& segment = structure.shaft[static_cast<std::size_t>(element.segment)];
-  return {.L = mesh.z[element.right] - mesh.z[element.left],
-          .left = segment.at(element.from),
-          .right = segment.at(element.to),
-          .material = segment.material,
-          .theory = segment.theory,
-          .shear = segment.shear,
-          .axial_force = segment.axial_force,
-          .torque = segment.torque,
-          .internal_functions = segment.internal_functions};
-}
 
 std::vector<int> indices(const DofMap& dofs, const Point& point) {
   std::vector<int> index(4);

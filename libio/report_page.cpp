@@ -200,13 +200,18 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
           ++made.figures;
           if (results.size() > 1) all.back().push_back(f);
         }
-      } catch (const FileError& error) {  // one damaged dataset does not cost the others
+      } catch (const std::exception& error) {  // what fails of one does not cost the others
         missing.push_back(fmt::format("no figure \"{}\": {}", kind.name, error.what()));
       }
     }
     Record r;
     r.set("title", result->title).set("path", result->path).set("facts", facts_of(*result));
-    const Record motion = motion_record(*result, arrays);
+    Record motion;
+    try {
+      motion = motion_record(*result, arrays);
+    } catch (const std::exception& error) {
+      missing.push_back(fmt::format("no picture in space: {}", error.what()));
+    }
     moves = moves || motion.json().find("motions") != std::string::npos;
     r.set("figures", figures).set("motion", motion).set("contacts", contacts_of(*result));
     r.set("model", result->file.strings("/model").at(0));
