@@ -57,8 +57,10 @@ class Invocation {
 
 /// What a verb found.
 struct Report {
-  Record record;        ///< for --json, without the entries that all verbs have
-  std::string text;     ///< for people
+  Record record;     ///< for --json, without the entries that all verbs have
+  std::string text;  ///< for people
+  /// What the numbers leave out or go beyond, a sentence each: printed below the text, in JSON.
+  std::vector<std::string> notes{};
   std::string failure;  ///< goes to standard error, --quiet or not
   int status = 0;       ///< 0; 3: failed, what was computed is in the report; 130: stopped
 };

@@ -141,8 +141,18 @@ std::string misplaced(const CLI::App& app, const std::vector<std::string>& words
   return what;
 }
 
+/// Notes as they stand below a verb's text.
+std::string notes_text(const std::vector<std::string>& notes) {
+  std::string text;
+  for (const std::string& note : notes) text += fmt::format("\n  note: {}\n", note);
+  return text;
+}
+
 void write_json(const Report& report, const std::string& to) {
-  const std::string text = report.record.json();
+  Record record = report.record, notes = Record::array();
+  for (const std::string& note : report.notes) notes.add(note);
+  record.set("notes", notes);
+  const std::string text = record.json();
   if (to == "-") {
     std::fputs(text.c_str(), stdout);
   } else {
@@ -249,7 +259,7 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
     call.integer("threads", 1);
     call.require_free_places(json);
     const Report report = verb->run(call);
-    if (json != "-" && !quiet) fmt::print("{}", report.text);
+    if (json != "-" && !quiet) fmt::print("{}{}", report.text, notes_text(report.notes));
     if (!report.failure.empty()) fmt::print(stderr, "{}: failed: {}\n", call.file, report.failure);
     if (!json.empty()) write_json(report, json);
     return after_printing(report.status);

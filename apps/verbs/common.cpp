@@ -137,6 +137,9 @@ void set_frequency_unit(const Invocation& call, ResultView& result) {
 
 void commit(const Invocation& call, ResultWriter* file, Report& report) {
   if (!file) return;
+  if (!report.notes.empty()) {
+    file->attribute("/", "notes", fmt::format("{}", fmt::join(report.notes, "\n")));
+  }
   file->commit();
   report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
 }

@@ -44,7 +44,7 @@ std::string point_label(const NamedPoint& point);
 /// Shows frequencies in the unit of --frequency, if it is given.
 void set_frequency_unit(const Invocation& call, ResultView& result);
 
-/// Commits a result file, if there is one, and says so.
+/// Writes the report's notes into a result file, if there is one, commits it, and says so.
 void commit(const Invocation& call, ResultWriter* file, Report& report);
 
 }  // namespace whirl
