@@ -4,16 +4,54 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "libfe/bending.hpp"
 #include "libio/format.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 
 namespace whirl {
 
+namespace {
+
+/// The bending line as JSON, and a sentence about its largest moment.
+std::string add_bending(const BendingLine& line, Record& record) {
+  Record shaft;
+  const auto column = [](const Mat& of, Eigen::Index plane) { return Vec(of.col(plane)); };
+  shaft.set("z_m", line.z);
+  shaft.set("x_m", column(line.deflection, 0)).set("y_m", column(line.deflection, 1));
+  shaft.set("moment_x_n_m", column(line.moment, 0)).set("moment_y_n_m", column(line.moment, 1));
+  shaft.set("shear_x_n", column(line.shear, 0)).set("shear_y_n", column(line.shear, 1));
+  record.set("shaft", shaft);
+  if (line.moment.isZero(0.0)) return "";  // no weight, or no shaft
+  Eigen::Index largest = 0, lowest = 0;
+  line.moment.rowwise().norm().maxCoeff(&largest);
+  line.deflection.rowwise().norm().maxCoeff(&lowest);
+  return fmt::format(
+      "  The shaft bends most at z = {:.1f} mm, by {:.4g} N.m, and sags most at z = {:.1f} mm, by "
+      "{} um.\n",
+      1e3 * line.z(largest), line.moment.row(largest).norm(), 1e3 * line.z(lowest),
+      fixed(1e6 * line.deflection.row(lowest).norm(), 3));
+}
+
+void write_bending(ResultWriter& file, const BendingLine& line) {
+  if (line.z.size() == 0) return;
+  const std::vector<std::string> axes{"/static/z", ""};
+  file.dataset("/static/z", line.z,
+               {"m", "position along the shaft, both ends of every beam", {""}});
+  file.dataset("/static/deflection", line.deflection, {"m", "static deflection (x, y)", axes});
+  file.dataset("/static/moment", line.moment,
+               {"N.m", "bending moment (of the planes x-z, y-z)", axes});
+  file.dataset("/static/shear", line.shear,
+               {"N", "shear force of the right part on the left one (x, y)", axes});
+}
+
+}  // namespace
+
 Report run_static(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
   const StaticEquilibrium at_rest = static_equilibrium(assembler, model.speed);
+  const BendingLine line = bending_line(assembler, model.speed, at_rest.displacement);
   const DofMap dofs = assembler.uncondensed(model.speed).dofs;
 
   Report report{.record = begin_record(call, model)};
@@ -46,6 +84,7 @@ Report run_static(const Invocation& call) {
     report.text += "(the model has no gravity: add gravity = \"9.81 m/s^2\")\n";
   report.text += "\n" + table.text() + "\n" + loads.text() +
                  "\n  A load is the force of the rotor on its bearing; y points up.\n";
+  report.text += add_bending(line, report.record);
   if (const auto file = call.result_file(model)) {
     write_points(*file, model, assembler);
     file->dataset("/static/displacement", at_rest.displacement,
@@ -63,6 +102,7 @@ Report run_static(const Invocation& call) {
       file->dataset("/static/bearing_load", forces,
                     {"N", "force of the rotor on the bearing (x, y)", {"/static/bearing", ""}});
     }
+    write_bending(*file, line);
     commit(call, file.get(), report);
   }
   return report;
