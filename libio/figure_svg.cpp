@@ -215,6 +215,11 @@ double fit(Figure& figure, double top, std::vector<std::string>& left_out) {
         continue;
       }
     }
+    if (!figure.notes.empty()) {
+      figure.notes.clear();
+      left_out.emplace_back("the notes");
+      continue;
+    }
     if (figure.panels.size() == 1) break;
     panels.insert(panels.begin(), named(figure.panels.back()));
     figure.panels.pop_back();

@@ -61,7 +61,7 @@ double room_right(const Panel& p, const Rooms& rooms) {
   }
   for (const Rule& r : p.rules) {
     if (r.kind == Rule::Kind::vertical || r.name.empty()) continue;
-    if (is_tight && r.kind == Rule::Kind::horizontal) continue;  // named inside
+    if (is_tight) continue;  // named inside
     longest = std::max(longest, 12.0 + 0.9 * text_width(r.name, small_letters));
   }
   if (!p.cells.empty() && p.cells.categories.empty()) longest = std::max(longest, rooms.bar_room);
@@ -76,7 +76,12 @@ std::string fitting_title(const std::string& title, double width) {
     if (bold * text_width(text, letters) <= width) break;
     text.erase(at);
   }
-  return text;
+  if (bold * text_width(text, letters) <= width) return text;
+  for (auto at = text.rfind(' '); at != std::string::npos; at = text.rfind(' ')) {
+    text.erase(at);
+    if (bold * text_width(text + "…", letters) <= width) break;
+  }
+  return text + "…";
 }
 
 namespace {
@@ -218,9 +223,9 @@ std::vector<Tick> named_ticks(const std::vector<double>& places,
   return ticks;
 }
 
-std::vector<Tick> ticks_every(const Axis& axis, double step) {
+std::vector<Tick> ticks_every(const Axis& axis, double step, double most) {
   std::vector<Tick> ticks;
-  while ((axis.last - axis.first) / step > 8.0) step *= 2.0;
+  while ((axis.last - axis.first) / step > most) step *= 2.0;
   for (double i = std::ceil(axis.first / step); i * step <= axis.last; ++i) {
     ticks.push_back({i * step, fmt::format("{}{:g}", i < 0.0 ? "−" : "", std::abs(i * step))});
   }
@@ -233,14 +238,17 @@ std::vector<Tick> ticks_along(const PanelFrame& f) {
   if (!p.cells.x_names.empty()) {
     return named_ticks(p.cells.x, p.cells.x_names, f.width, is_tight(f) ? room : 66.0);
   }
-  if (std::isfinite(p.x.step)) return ticks_every(f.x, p.x.step);
+  const double most = is_tight(f) ? std::max(2.0, std::floor(f.width / room)) : 8.0;
+  if (std::isfinite(p.x.step)) return ticks_every(f.x, p.x.step, most);
   return f.x.ticks(std::max(2, static_cast<int>(f.width / room)));
 }
 
 std::vector<Tick> ticks_up(const PanelFrame& f) {
   const Panel& p = *f.panel;
   if (!p.cells.y_names.empty()) return named_ticks(p.cells.y, p.cells.y_names, f.height, 15.0);
-  if (std::isfinite(p.y.step)) return ticks_every(f.y, p.y.step);
+  const double most =
+      is_tight(f) ? std::max(2.0, std::floor(f.height / f.rooms->per_label_y)) : 8.0;
+  if (std::isfinite(p.y.step)) return ticks_every(f.y, p.y.step, most);
   return f.y.ticks(std::max(2, static_cast<int>(f.height / f.rooms->per_label_y)));
 }
 
@@ -251,7 +259,7 @@ void draw_titles(Svg& svg, const PanelFrame& f) {
   const double above = f.has_title_above ? small_letters + 2.0 : 0.0;
   if (!p.title.empty()) {
     svg.text({f.corner.x + 0.5 * f.width, f.corner.y - above - (is_tight(f) ? 6.0 : 9.0)},
-             fitting_title(p.title, f.width + 30.0),
+             is_tight(f) ? fitting_title(p.title, f.width + 16.0) : p.title,
              {.size = letters, .color = ink, .anchor = Anchor::middle, .is_bold = true});
   }
   if (!p.has_frame) return;
@@ -467,9 +475,13 @@ void draw_rules(Svg& svg, const PanelFrame& f, PanelTexts& texts) {
       svg.line(f.at(from, r.at * from), f.at(x, y), stroke);
       const Pixel end = f.at(x, y);
       const bool is_right = x >= f.x.last * (1.0 - 1e-9);
-      svg.text({end.x + (is_right ? 5.0 : -4.0), end.y + (is_right ? 4.0 : 14.0)}, r.name,
-               {small_letters, text_color_of(r.paint), is_right ? Anchor::start : Anchor::end, 0.0,
-                false, true});
+      const bool is_outside =
+          is_right && !is_tight(f);  // inside, names of curves are not in the way
+      style.anchor = is_outside ? Anchor::start : Anchor::end;
+      texts.add({end.x + (is_outside ? 5.0 : -4.0), end.y + (is_outside ? 4.0
+                                                             : is_right ? -3.0
+                                                                        : 14.0)},
+                r.name, style);
     }
     svg.end_group();
   }

@@ -31,7 +31,7 @@ constexpr Rooms wide{82.0, 82.0, 19.0, 30.0, 54.0, 21.0, 42.0, 8.0, 10.0,
                      26.0, 30.0, 22.0, 14.0, 14.0, 84.0, 62.0, 40.0};
 /// Of a picture of a given size: what is left goes to the panels.
 constexpr Rooms tight{46.0, 8.0,  15.0, 18.0, 38.0, 16.0, 32.0, 7.0, 8.0,
-                      19.0, 16.0, 12.0, 8.0,  10.0, 64.0, 50.0, 30.0};
+                      19.0, 16.0, 12.0, 8.0,  10.0, 64.0, 50.0, 25.0};
 
 /// Colors on white.
 const char* color_of(Paint paint);
@@ -65,7 +65,7 @@ struct PanelFrame {
 std::vector<PanelFrame> frames_of(const Figure& figure, double top,
                                   const figure_style::Rooms& rooms = figure_style::wide);
 
-/// The parts of a title, divided by " | ", that fit a width: the last ones are left out.
+/// The parts of a title, divided by " | ", that fit a width: the last ones are left out, then words.
 std::string fitting_title(const std::string& title, double width);
 
 /// Draws a panel with its axes.
