@@ -220,6 +220,11 @@ double fit(Figure& figure, double top, std::vector<std::string>& left_out) {
       left_out.emplace_back("the notes");
       continue;
     }
+    if (!figure.table.rows.empty()) {
+      figure.table = {};
+      left_out.emplace_back("the table");
+      continue;
+    }
     if (figure.panels.size() == 1) break;
     panels.insert(panels.begin(), named(figure.panels.back()));
     figure.panels.pop_back();

@@ -745,7 +745,8 @@ class Drawing {
     this.dark = false;
     const rows = Math.ceil(this.panels.length / this.columnsAt(width)), most = rows > 1 ? 640 : 0.85 * Math.min(width, 460);
     const shrink = Math.min(1, Math.max(0.62, width / this.figure.width));
-    const height = Math.round(Math.min(this.heightAt(width) * shrink, most));
+    const least = rows > 1 ? 60 + 135 * rows : 0;  // names of y stand beside their panels
+    const height = Math.round(Math.max(least, Math.min(this.heightAt(width) * shrink, most)));
     const ctx = new SvgContext(width, height);
     this.draw(ctx, width, height);
     ctx.height = this.drawLegend(ctx, width, height + 6);
