@@ -27,9 +27,9 @@ constexpr std::array<Analysis, 16> analyses{{{"static", "Sag and bearing loads"}
                                              {"identify", "Modes in the motion"},
                                              {"classify", "Kind of motion"},
                                              {"orbit", "Periodic orbit"},
+                                             {"sweep", "Along a parameter"},
                                              {"continue", "Branches of periodic orbits"},
                                              {"torus", "Quasi-periodic motion"},
-                                             {"sweep", "Along a parameter"},
                                              {"map", "In a plane of two parameters"},
                                              {"basins", "Coexisting motions"},
                                              {"bench", "Speed against error"}}};

@@ -480,7 +480,7 @@ TEST_F(Plot, TellsWhatCanBeDrawn) {
     return outcome.err;
   };
   EXPECT_EQ(problem({"orbitt"}), "orbitt: unknown kind of figure, did you mean \"orbit\"?\n");
-  EXPECT_TRUE(has(problem({"xyzzy"}), "there are layout, campbell, "));
+  EXPECT_TRUE(has(problem({"xyzzy"}), "there are layout, static, modes, "));
   EXPECT_TRUE(has(problem({"campbell"}), "does not hold what this figure needs"));
   EXPECT_TRUE(has(problem({"orbit", "--which", "moon"}), "there are rotor"));
   EXPECT_TRUE(has(problem({"orbit", "--out", "x.jpg"}), ".svg, .png or .pdf"));
@@ -526,17 +526,18 @@ TEST_F(Plot, AReportIsOneFile) {
   const auto from = page.find("id=\"data\">") + 10;
   const json data = json::parse(page.substr(from, page.find("</script>", from) - from));
   ASSERT_EQ(data["results"].size(), 2u);
-  std::size_t figures = 0;
+  std::size_t figures = data["machine"]["figures"].size();  // of both
   for (const json& one : data["results"]) figures += one["figures"].size();
   EXPECT_EQ(figures, r["figures"]);
-  EXPECT_EQ(data["results"][0]["figures"][1]["kind"], "orbit");
+  const json &linear = data["results"][0], &motion = data["results"][1];
+  EXPECT_EQ(motion["figures"][0]["kind"], "orbit");
   std::vector<std::string> facts;
-  for (const json& fact : data["results"][0]["facts"]) facts.push_back(fact[0]);
+  for (const json& fact : motion["facts"]) facts.push_back(fact[0]);
   EXPECT_EQ(facts, (std::vector<std::string>{"result", "model", "command", "made by", "made at",
                                              "speed", "recorded", "cost", "rotor"}));
-  EXPECT_TRUE(has(data["results"][0]["model"], "clearance = \"0.5 mm\""));
-  EXPECT_TRUE(data["results"][0]["motion"].contains("motions"));
-  EXPECT_FALSE(data["results"][1]["motion"].contains("motions"));
+  EXPECT_TRUE(has(motion["model"], "clearance = \"0.5 mm\""));
+  EXPECT_TRUE(motion["motion"].contains("motions"));
+  EXPECT_FALSE(linear["motion"].contains("motions"));
   // program, style and libraries: below 1 MB
   EXPECT_LT(page.size() - data.dump().size(), 1'000'000u);
 }
