@@ -20,6 +20,7 @@
 #include "libio/model_schema.hpp"
 #include "libio/nearest.hpp"
 #include "libio/replace_file.hpp"
+#include "libio/terminal.hpp"
 
 namespace {
 
@@ -259,7 +260,9 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
     call.integer("threads", 1);
     call.require_free_places(json);
     const Report report = verb->run(call);
-    if (json != "-" && !quiet) fmt::print("{}{}", report.text, notes_text(report.notes));
+    if (json != "-" && !quiet) {
+      fmt::print("{}", folded(report.text + notes_text(report.notes), terminal_columns()));
+    }
     if (!report.failure.empty()) fmt::print(stderr, "{}: failed: {}\n", call.file, report.failure);
     if (!json.empty()) write_json(report, json);
     return after_printing(report.status);

@@ -22,8 +22,9 @@ ResultView::ResultView(const std::filesystem::path& file_path)
     model = parse_model(file.strings("/model").at(0), path, {},
                         std::filesystem::path(model_path).parent_path());
     assembler.emplace(model->structure);
-  } catch (const ModelError& error) {
+  } catch (const std::exception& error) {  // figures of numbers alone are drawn nevertheless
     model.reset();
+    assembler.reset();
     problem = error.what();
   }
 }
@@ -39,6 +40,12 @@ std::optional<DisplayUnit> frequency_unit(std::string_view name) {
 const std::vector<FigureKind>& figure_kinds() {
   static const std::vector<FigureKind> kinds{
       {"layout", "the rotor to scale, with disks, bearings and contacts", {}, true, layout_figures},
+      {"static",
+       "sag under gravity, bearing loads, bending moment and shear force",
+       {"/static/z", "/static/deflection", "/static/moment", "/static/shear"},
+       false,
+       static_figures},
+      {"modes", "mode shapes along the rotor", {"/modes/shape", "/points/z"}, false, mode_figures},
       {"campbell",
        "natural frequencies over speed, with the critical speeds",
        {"/campbell/frequency"},
@@ -54,7 +61,6 @@ const std::vector<FigureKind>& figure_kinds() {
        {"/critical/speed"},
        true,
        critical_figures},
-      {"modes", "mode shapes along the rotor", {"/modes/shape", "/points/z"}, false, mode_figures},
       {"bode",
        "amplitude and phase of the unbalance response",
        {"/unbalance/x"},

@@ -7,9 +7,11 @@
 #include <map>
 
 #include "libfe/base/error.hpp"
+#include "libfe/properties.hpp"
 #include "libio/comparison.hpp"
 #include "libio/figure_json.hpp"
 #include "libio/format.hpp"
+#include "libio/machine_report.hpp"
 #include "libio/motion_json.hpp"
 #include "libio/page_assets.hpp"
 #include "libio/xml.hpp"
@@ -18,13 +20,42 @@ namespace whirl {
 
 namespace {
 
+/// Adds a name and a value, if there is one.
+void add_fact(Record& facts, const char* name, const std::string& value) {
+  if (value.empty()) return;
+  Record::Array pair{Record(name), Record(value)};
+  facts.add(Record(pair));
+}
+
+/// What the rotor is made of.
+std::string parts_of(const ResultView& result) {
+  if (!result.assembler) return "";
+  const Model& m = *result.model;
+  return fmt::format("{} nodes, {} bodies, {} disks, {} bearings, {} contacts",
+                     result.assembler->mesh().nodes(), m.structure.bodies.size(),
+                     m.structure.disks.size(), m.structure.bearings.size(), m.contacts.size());
+}
+
+/// The machine that several results are of.
+Record machine_record(const ResultView& result, const std::string& model) {
+  Record facts = Record::array();
+  add_fact(facts, "title", result.title);
+  add_fact(facts, "model", result.model_path);
+  add_fact(facts, "rotor", parts_of(result));
+  if (result.assembler) {
+    const Structure& s = result.model->structure;
+    const RotorProperties rotor = rotor_properties(s, result.assembler->mesh());
+    add_fact(facts, "mass", fmt::format("{:.4g} kg", rotor.mass));
+    if (s.length() > 0.0) add_fact(facts, "length", format_length(s.length()));
+  }
+  return Record().set("facts", facts).set("model", model);
+}
+
 /// What was run, name by name.
 Record facts_of(const ResultView& result) {
   Record facts = Record::array();
   const auto add = [&](const char* name, const std::string& value) {
-    if (value.empty()) return;
-    Record::Array pair{Record(name), Record(value)};
-    facts.add(Record(pair));
+    add_fact(facts, name, value);
   };
   const auto attribute = [&](const char* name) {
     return result.file.has_attribute("/", name) ? result.file.string_attribute("/", name) : "";
@@ -52,13 +83,7 @@ Record facts_of(const ResultView& result) {
   if (result.file.has_attribute("/classify", "motion")) {
     add("motion", result.file.string_attribute("/classify", "motion"));
   }
-  if (result.assembler) {
-    const Model& m = *result.model;
-    add("rotor",
-        fmt::format("{} nodes, {} bodies, {} disks, {} bearings, {} contacts",
-                    result.assembler->mesh().nodes(), m.structure.bodies.size(),
-                    m.structure.disks.size(), m.structure.bearings.size(), m.contacts.size()));
-  }
+  add("rotor", parts_of(result));
   return facts;
 }
 
@@ -173,57 +198,113 @@ Record comparison_record(const std::vector<std::unique_ptr<ResultView>>& results
       .set("differences", table_record(differences(texts, names)));
 }
 
+/// What is said of a result, but what fails, which is told.
+template <class Make>
+Record attempt(const char* what, std::vector<std::string>& missing, const Make& make) {
+  try {
+    return make();
+  } catch (const std::exception& error) {
+    missing.push_back(fmt::format("no {}: {}", what, error.what()));
+    return {};
+  }
+}
+
+/// A page on its way.
+struct PageBuilder {
+  const std::vector<std::unique_ptr<ResultView>>& results;
+  ArrayStore arrays = {};
+  int figures = 0;
+  bool moves = false;
+
+  /// The figures of a kind, with what other results lay over them.
+  std::vector<Figure> figures_with_others(const FigureKind& kind, const ResultView& result) const {
+    std::vector<Figure> of_kind = figures_of(kind, result);
+    for (const auto& other : results) {  // what fits is laid over it
+      if (other.get() == &result || !other_values(result, *other).empty()) continue;
+      lay_over(of_kind, result, *other, std::filesystem::path(other->path).filename());
+    }
+    return of_kind;
+  }
+
+  /// Adds the figures of a kind; why there is none goes to what is missing.
+  std::vector<Figure> add(const FigureKind& kind, const ResultView& result, Record& to,
+                          std::vector<std::string>& missing) {
+    try {
+      std::vector<Figure> made = figures_with_others(kind, result);
+      for (const Figure& f : made) {
+        to.add(record_of(f, arrays).set("summary", kind.summary));
+        ++figures;
+      }
+      return made;
+    } catch (const std::exception& error) {  // what fails of one does not cost the others
+      missing.push_back(fmt::format("no figure \"{}\": {}", kind.name, error.what()));
+      return {};
+    }
+  }
+
+  /// A result with all its figures; of one of a machine without the layout, which is drawn once.
+  Record add(const ResultView& result, bool is_of_machine, std::vector<Figure>& made) {
+    Record list = Record::array();
+    std::vector<std::string> missing;
+    for (const FigureKind& kind : figure_kinds()) {
+      if (is_of_machine && kind.name == "layout") continue;
+      const std::vector<Figure> of_kind = add(kind, result, list, missing);
+      made.insert(made.end(), of_kind.begin(), of_kind.end());
+    }
+    Record r;
+    r.set("title", result.title).set("path", result.path);
+    r.set("heading", heading_of(result));
+    r.set("facts", attempt("facts", missing, [&] { return facts_of(result); }));
+    const Record motion =
+        attempt("picture in space", missing, [&] { return motion_record(result, arrays); });
+    moves = moves || motion.json().find("motions") != std::string::npos;
+    r.set("figures", list).set("motion", motion);
+    r.set("contacts", attempt("table of contacts", missing, [&] { return contacts_of(result); }));
+    r.set("model", result.file.strings("/model").at(0));
+    return r.set("warnings", warnings_of(result, missing));
+  }
+};
+
 }  // namespace
 
 ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
                        const std::string& version) {
-  ReportPage made;
-  ArrayStore arrays;
-  Record list = Record::array();
-  bool moves = false;
-  std::vector<std::vector<Figure>> all;
-  for (const auto& result : results) {
-    Record figures = Record::array();
-    std::vector<std::string> missing;
-    all.emplace_back();
-    for (const FigureKind& kind : figure_kinds()) {
-      try {
-        std::vector<Figure> of_kind = figures_of(kind, *result);
-        for (const auto& other : results) {  // what fits is laid over it
-          if (other == result || !other_values(*result, *other).empty()) continue;
-          lay_over(of_kind, *result, *other, std::filesystem::path(other->path).filename());
-        }
-        for (const Figure& f : of_kind) {
-          Record r = record_of(f, arrays);
-          r.set("summary", kind.summary);
-          figures.add(r);
-          ++made.figures;
-          if (results.size() > 1) all.back().push_back(f);
-        }
-      } catch (const FileError& error) {  // one damaged dataset does not cost the others
-        missing.push_back(fmt::format("no figure \"{}\": {}", kind.name, error.what()));
-      }
-    }
-    Record r;
-    r.set("title", result->title).set("path", result->path).set("facts", facts_of(*result));
-    const Record motion = motion_record(*result, arrays);
-    moves = moves || motion.json().find("motions") != std::string::npos;
-    r.set("figures", figures).set("motion", motion).set("contacts", contacts_of(*result));
-    r.set("model", result->file.strings("/model").at(0));
-    list.add(r.set("warnings", warnings_of(*result, missing)));
+  PageBuilder builder{results};
+  const bool is_machine = is_one_machine(results);
+  std::vector<const ResultView*> ordered;
+  if (is_machine) {
+    ordered = in_order(results);
+  } else {
+    for (const auto& result : results) ordered.push_back(result.get());
   }
-  Record data;
-  data.set("version", version).set("colors", color_record()).set("results", list);
-  if (results.size() > 1) data.set("comparison", comparison_record(results, all, arrays));
-  data.set("arrays", arrays.record());
+  Record list = Record::array(), data;
+  data.set("version", version).set("colors", color_record());
+  if (is_machine) {
+    const ResultView& first = *ordered.front();
+    Record drawings = Record::array();
+    std::vector<std::string> missing;
+    builder.add(figure_kinds().front(), first, drawings, missing);
+    Record machine = machine_record(first, first.file.strings("/model").at(0));
+    data.set("machine", machine.set("figures", drawings));
+  }
+  std::vector<std::vector<Figure>> all(ordered.size());
+  for (std::size_t i = 0; i < ordered.size(); ++i) {
+    list.add(builder.add(*ordered[i], is_machine, all[i]));
+  }
+  data.set("results", list);
+  if (results.size() > 1 && !is_machine) {
+    data.set("comparison", comparison_record(results, all, builder.arrays));
+  }
+  data.set("arrays", builder.arrays.record());
   const std::string title = xml_text(results.empty() ? "whirl" : results.front()->title);
   const std::string json = for_script(data.json());
-  made.html = filled(page_html, {{"title", title},
-                                 {"style", page_style},
-                                 {"three", moves ? page_three : std::string_view{}},
-                                 {"data", json},
-                                 {"script", page_script}});
-  return made;
+  const std::string html =
+      filled(page_html, {{"title", title},
+                         {"style", page_style},
+                         {"three", builder.moves ? page_three : std::string_view{}},
+                         {"data", json},
+                         {"script", page_script}});
+  return {html, builder.figures};
 }
 
 }  // namespace whirl

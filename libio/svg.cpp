@@ -50,11 +50,17 @@ std::string coordinate(double value) {
 }
 
 Svg::Svg(double width, double height, std::string_view title)
-    : head_(fmt::format(
-          "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
-          "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, "
-          "'Liberation Sans', 'DejaVu Sans', sans-serif\">\n<title>{2}</title>\n",
-          number(width), number(height), xml_text(title))) {}
+    : width_(number(width)),
+      height_(number(height)),
+      head_(fmt::format(
+          "viewBox=\"0 0 {} {}\" font-family=\"Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', "
+          "sans-serif\">\n<title>{}</title>\n",
+          width_, height_, xml_text(title))) {}
+
+void Svg::set_size(std::string width, std::string height) {
+  width_ = std::move(width);
+  height_ = std::move(height);
+}
 
 void Svg::rectangle(Pixel corner, double width, double height, std::string_view fill) {
   body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
@@ -188,7 +194,11 @@ void Svg::begin_clip(Pixel corner, double width, double height) {
 }
 
 std::string Svg::document() const {
-  return head_ + body_ + "</svg>\n";
+  return fmt::format(
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
+             "xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" ",
+             width_, height_) +
+         head_ + body_ + "</svg>\n";
 }
 
 double text_width(std::string_view text, double size) {

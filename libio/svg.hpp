@@ -37,6 +37,9 @@ class Svg {
   /// @param title  for screen readers and tabs of browsers
   Svg(double width, double height, std::string_view title);
 
+  /// Prints the picture this large, such as "85mm" by "60mm", instead of a pixel as one of a screen.
+  void set_size(std::string width, std::string height);
+
   void rectangle(Pixel corner, double width, double height, std::string_view fill);
   void line(Pixel from, Pixel to, const Stroke& stroke);
   void polyline(const std::vector<Pixel>& points, const Stroke& stroke);
@@ -59,7 +62,7 @@ class Svg {
   std::string document() const;
 
  private:
-  std::string head_, body_;
+  std::string width_, height_, head_, body_;
   int clips_ = 0;
 };
 

@@ -1,50 +1,140 @@
 #include "libio/table.hpp"
 
 #include <algorithm>
+#include <string_view>
+
+#include "libio/table_text.hpp"
+#include "libio/terminal.hpp"
 
 namespace whirl {
 
-std::size_t display_width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;  // not a continuation byte
-  }));
+namespace {
+
+constexpr std::size_t gap = 2;         ///< before a column
+constexpr std::size_t narrowest = 18;  ///< of a folded column
+
+std::string times(std::string_view sign, std::size_t count) {
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) text += sign;
+  return text;
 }
 
-std::string Table::text() const {
-  const std::size_t columns = head_.size();
-  std::vector<std::size_t> width(columns);
-  std::vector<bool> is_number(columns, true);
-  for (std::size_t c = 0; c < columns; ++c) {
-    width[c] = display_width(head_[c]);
-    for (const auto& cells : rows_) {
+struct Column {
+  std::size_t width = 0;
+  bool is_number = true;
+};
+
+using Cells = std::vector<std::string>;
+
+std::vector<Column> columns_of(const Cells& head, const std::vector<Cells>& rows) {
+  std::vector<Column> columns(head.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    columns[c].width = display_width(head[c]);
+    for (const auto& cells : rows) {
       if (c >= cells.size()) continue;
-      width[c] = std::max(width[c], display_width(cells[c]));
+      columns[c].width = std::max(columns[c].width, display_width(cells[c]));
       const bool is_nothing = cells[c].empty() || cells[c] == "·";
       const char first = is_nothing ? '-' : cells[c][0];
       if (!(first >= '0' && first <= '9') && first != '-' && first != '+' && first != '.') {
-        is_number[c] = false;
+        columns[c].is_number = false;
       }
     }
   }
-  const auto line = [&](const std::vector<std::string>& cells) {
-    std::string out;
-    for (std::size_t c = 0; c < columns; ++c) {
-      const std::string cell = c < cells.size() ? cells[c] : "";
-      const std::string blanks(width[c] - display_width(cell), ' ');
-      out += "  " + (is_number[c] ? blanks + cell : cell + blanks);
+  return columns;
+}
+
+/// Some of the columns, with head and rule.
+std::string block(const Cells& head, const std::vector<Cells>& rows,
+                  const std::vector<Column>& columns, const std::vector<std::size_t>& shown) {
+  const auto lines = [&](const std::vector<std::string>& cells) {
+    std::vector<std::vector<std::string>> folded;
+    std::size_t height = 1;
+    for (const std::size_t c : shown) {
+      folded.push_back(folded_words(c < cells.size() ? cells[c] : "", columns[c].width));
+      height = std::max(height, folded.back().size());
     }
-    out.erase(out.find_last_not_of(' ') + 1);
-    return out + "\n";
+    std::string text;
+    for (std::size_t i = 0; i < height; ++i) {
+      std::string line;
+      for (std::size_t k = 0; k < shown.size(); ++k) {
+        const Column& column = columns[shown[k]];
+        const std::string cell = i < folded[k].size() ? folded[k][i] : "";
+        const std::string blanks(column.width - std::min(column.width, display_width(cell)), ' ');
+        line += std::string(gap, ' ') + (column.is_number ? blanks + cell : cell + blanks);
+      }
+      line.erase(line.find_last_not_of(' ') + 1);
+      text += line + "\n";
+    }
+    return text;
   };
-  std::string out = line(head_);
+  std::string out = lines(head);
   std::vector<std::string> rule;
-  for (std::size_t c = 0; c < columns; ++c) {
-    std::string dashes;
-    for (std::size_t i = 0; i < width[c]; ++i) dashes += "─";
-    rule.push_back(dashes);
+  for (const Column& column : columns) rule.push_back(times("─", column.width));
+  out += lines(rule);
+  for (const auto& cells : rows) out += lines(cells);
+  return out;
+}
+
+}  // namespace
+
+std::string Table::text() const {
+  return table_text(head_, rows_, terminal_columns());
+}
+
+std::string table_text(const Cells& head, const std::vector<Cells>& rows, std::size_t limit) {
+  std::vector<Column> all = columns_of(head, rows);
+  const auto total = [&] {
+    std::size_t sum = 0;
+    for (const Column& column : all) sum += gap + column.width;
+    return sum;
+  };
+  // heads of numbers are folded first
+  for (std::size_t c = 0; c < all.size() && limit > 0 && total() > limit; ++c) {
+    if (!all[c].is_number) continue;
+    std::size_t width = 0;
+    for (const std::string& word : folded_words(head[c], 1)) {
+      width = std::max(width, display_width(word));
+    }
+    for (const auto& cells : rows) {
+      if (c < cells.size()) width = std::max(width, display_width(cells[c]));
+    }
+    all[c].width = width;
   }
-  out += line(rule);
-  for (const auto& cells : rows_) out += line(cells);
+  // then texts, the widest one as long as it is far wider than the others
+  while (limit > 0 && total() > limit) {
+    Column* widest = nullptr;
+    for (Column& column : all) {
+      if (column.is_number || column.width <= narrowest) continue;
+      if (!widest || column.width > widest->width) widest = &column;
+    }
+    if (!widest) break;
+    widest->width = std::max(narrowest, widest->width - std::min(total() - limit, widest->width));
+  }
+  // a word may be longer than a folded column
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const auto widen = [&](const std::string& cell) {
+      for (const std::string& part : folded_words(cell, all[c].width)) {
+        all[c].width = std::max(all[c].width, display_width(part));
+      }
+    };
+    widen(head[c]);
+    for (const auto& cells : rows) {
+      if (c < cells.size()) widen(cells[c]);
+    }
+  }
+  std::string out;
+  for (std::size_t next = 0; next < all.size();) {
+    std::vector<std::size_t> shown;
+    std::size_t width = 0;
+    if (next > 0) shown.push_back(0), width = gap + all[0].width;
+    const std::size_t begin = next;
+    while (next < all.size() &&
+           (limit == 0 || next == begin || width + gap + all[next].width <= limit)) {
+      width += gap + all[next].width;
+      shown.push_back(next++);
+    }
+    out += (begin > 0 ? "\n" : "") + block(head, rows, all, shown);
+  }
   return out;
 }
 

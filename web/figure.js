@@ -95,10 +95,12 @@ class Axis {
 
 // ---------------------------------------------------------------- drawing as SVG
 
+let clipNumber = 0;  // several pictures may stand in one document
+
 /** Takes the calls of a canvas and writes SVG; only what figures use. */
 class SvgContext {
   constructor(width, height) {
-    Object.assign(this, { width, height, body: [], path: "", depth: 0, clips: 0, stack: [],
+    Object.assign(this, { width, height, body: [], path: "", depth: 0, stack: [],
       fillStyle: "#000", strokeStyle: "#000", lineWidth: 1, globalAlpha: 1, font: "12px sans-serif",
       textAlign: "start", dash: [], lineCap: "butt", lineJoin: "miter" });
     this.measure = document.createElement("canvas").getContext("2d");
@@ -143,7 +145,7 @@ class SvgContext {
       this.fillStyle}"${this.alpha("fill")}/>`);
   }
   clip() {
-    const id = `c${++this.clips}`;
+    const id = `c${++clipNumber}`;
     this.body.push(`<clipPath id="${id}"><path d="${this.path}"/></clipPath>`);
     this.open(`clip-path="url(#${id})"`);
   }
@@ -176,6 +178,8 @@ class SvgContext {
 const FONT = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 const DASHES = { solid: [], dashed: [6, 4], dotted: [1.5, 3.5], dash_dot: [8, 3, 2, 3] };
 const LEFT = 80, UNDER = 50;
+const LEFT_SMALL = 58, SMALL_PLOT = 470;  // room left of narrow panels
+const NARROW_PANEL = 300;  // panels beside each other are no narrower
 
 function drawMarker(ctx, shape, x, y, size) {
   const r = 0.5 * size;
@@ -251,8 +255,18 @@ class Drawing {
     for (const p of this.panels) p.view = { x: [p.x.first, p.x.last], y: [p.y.first, p.y.last] };
   }
 
+  /** Panels beside each other at a width: one on a phone. */
+  columnsAt(width) { return width < NARROW_PANEL * this.figure.columns ? 1 : this.figure.columns; }
+
+  /** Height that fits a width, the figure's own where it has room for what it wants. */
+  heightAt(width) {
+    const { height, columns } = this.figure, count = this.panels.length;
+    const rows = Math.ceil(count / columns), stacked = Math.ceil(count / this.columnsAt(width));
+    return height * (stacked / rows);
+  }
+
   sharesBelow(i) {
-    const below = this.panels[i + this.figure.columns];
+    const below = this.panels[i + this.columns];
     return below && this.panels[i].x.title !== "" && below.x.title === this.panels[i].x.title;
   }
 
@@ -267,7 +281,9 @@ class Drawing {
   }
 
   layout(ctx, width, height, top = 4) {
-    const { columns } = this.figure, count = this.panels.length, rows = Math.ceil(count / columns);
+    const columns = (this.columns = this.columnsAt(width)), count = this.panels.length, rows = Math.ceil(count / columns);
+    const hasNames = this.panels.some((p) => p.cells?.y_names);  // longer than numbers
+    const left = (this.left = width / columns < SMALL_PLOT && !hasNames ? LEFT_SMALL : LEFT);
     const right = Math.max(...this.panels.map((p) => this.roomRight(ctx, p)));
     let shares = 0, rooms = 0;
     for (let r = 0; r < rows; ++r) {
@@ -281,7 +297,7 @@ class Drawing {
       y += first.title ? 24 : 8;
       for (let c = 0; c < columns && r * columns + c < count; ++c) {
         const p = this.panels[r * columns + c];
-        p.box = { x: (width * c) / columns + LEFT, y, w: width / columns - LEFT - right, h };
+        p.box = { x: (width * c) / columns + left, y, w: width / columns - left - right, h };
         p.lowest = !this.sharesBelow(r * columns + c);
         this.place(p);
       }
@@ -339,6 +355,13 @@ class Drawing {
     }
   }
 
+  /** The parts of a title, divided by " | ", that fit a width. */
+  fittingTitle(ctx, title, width) {
+    const parts = title.split(" | ");
+    while (parts.length > 1 && ctx.measureText(parts.join(" | ")).width > width) parts.pop();
+    return parts.join(" | ");
+  }
+
   halo(ctx, text, x, y, color) {
     ctx.lineWidth = 3;
     ctx.lineJoin = "round";
@@ -357,7 +380,7 @@ class Drawing {
       ctx.font = `bold 13px ${FONT}`;
       ctx.textAlign = "center";
       ctx.fillStyle = ink;
-      ctx.fillText(p.title, x + w / 2, y - 8);
+      ctx.fillText(this.fittingTitle(ctx, p.title, w + 24), x + w / 2, y - 8);
     }
     if (p.frame === false) return;
     const named = (middles, names, length, room) => {
@@ -408,7 +431,7 @@ class Drawing {
     ctx.fillStyle = ink;
     if (p.lowest) ctx.fillText(p.x.title, x + w / 2, y + h + 40);
     ctx.save();
-    ctx.translate(x - 62, y + h / 2);
+    ctx.translate(x - this.left + 18, y + h / 2);
     ctx.rotate(-Math.PI / 2);
     ctx.fillText(p.y.title, 0, 0);
     ctx.restore();
@@ -451,7 +474,7 @@ class Drawing {
         }
       }
     }
-    if (!cells.prints_values) return;
+    if (!cells.prints_values || p.box.w / nx < 25) return;
     ctx.font = `11px ${FONT}`;
     ctx.textAlign = "center";
     for (let j = 0; j < ny; ++j) {
@@ -683,6 +706,25 @@ class Drawing {
     if (c.marker) drawMarker(ctx, c.marker, x + 15, y, Math.min(9, Math.max(4, c.size)));
   }
 
+  /** The legend from a height on; the height below it. */
+  drawLegend(ctx, width, y) {
+    const left = this.left;
+    let x = left;
+    ctx.textAlign = "left";
+    for (const e of this.legend()) {
+      if (this.hidden.has(e.name)) continue;
+      ctx.font = `12px ${FONT}`;
+      const wide = 56 + ctx.measureText(e.name).width;
+      if (x > left && x + wide > width) x = left, y += 18;
+      this.drawSample(ctx, e, x, y);
+      ctx.textAlign = "left";
+      ctx.fillStyle = this.color("ink");
+      ctx.fillText(e.name, x + 36, y + 4);
+      x += wide;
+    }
+    return y + 12;
+  }
+
   /** The whole figure with its titles and legend, for a file. */
   drawWhole(ctx, width, height) {
     ctx.fillStyle = "#ffffff";
@@ -695,17 +737,20 @@ class Drawing {
     ctx.font = `12px ${FONT}`;
     ctx.fillText(this.figure.subtitle, LEFT, 42);
     this.draw(ctx, width, height, 50);
-    let x = LEFT, y = height + 12;
-    for (const e of this.legend()) {
-      if (this.hidden.has(e.name)) continue;
-      ctx.font = `12px ${FONT}`;
-      const wide = 56 + ctx.measureText(e.name).width;
-      if (x > LEFT && x + wide > width) x = LEFT, y += 18;
-      this.drawSample(ctx, e, x, y);
-      ctx.textAlign = "left";
-      ctx.fillStyle = this.color("ink");
-      ctx.fillText(e.name, x + 36, y + 4);
-      x += wide;
-    }
+    this.drawLegend(ctx, width, height + 12);
+  }
+
+  /** Panels and legend for paper, in SVG; the page has its titles beside it. */
+  printed(width) {
+    this.dark = false;
+    const rows = Math.ceil(this.panels.length / this.columnsAt(width)), most = rows > 1 ? 640 : 0.85 * Math.min(width, 460);
+    const shrink = Math.min(1, Math.max(0.62, width / this.figure.width));
+    const least = rows > 1 ? 60 + 135 * rows : 0;  // names of y stand beside their panels
+    const height = Math.round(Math.max(least, Math.min(this.heightAt(width) * shrink, most)));
+    const ctx = new SvgContext(width, height);
+    this.draw(ctx, width, height);
+    ctx.height = this.drawLegend(ctx, width, height + 6);
+    this.dark = null;
+    return ctx.document();
   }
 }

@@ -3,7 +3,7 @@
 const page = JSON.parse(document.getElementById("data").textContent);
 const arrays = new Arrays(page.arrays);
 
-const NAMES = { layout: "Layout", campbell: "Campbell", log_decrement: "Log decrement", critical_map: "Critical speeds",
+const NAMES = { layout: "Layout", static: "Sag and bending", campbell: "Campbell", log_decrement: "Log decrement", critical_map: "Critical speeds",
   modes: "Mode shapes", bode: "Bode", polar: "Polar", deflection: "Deflected shapes", orbit: "Orbit", time_history: "Time history",
   spectrum: "Spectrum", waterfall: "Waterfall", poincare: "Poincaré", contact_forces: "Contact forces", contact_angles: "Contact angles", mac: "MAC",
   exponents: "Exponents", bifurcation: "Bifurcation", branches: "Branches", borders: "Borders", torus: "Quasi-periodic", spectral_map: "Spectral map", cascade: "Cascade", map: "Map",
@@ -25,6 +25,93 @@ function kindsOf(result) {
   return [...kinds.values()];
 }
 
+/** A part of the page that fails says so and leaves the others alone. */
+function attempt(what, place, make) {
+  try {
+    return make();
+  } catch (error) {
+    place.append(element("div", { class: "warning", role: "alert" }, `no figure "${what}": ${error.message || error}`));
+    return null;
+  }
+}
+
+const warningsOf = (result) => result.warnings.map((w) => element("div", { class: "warning", role: "alert" }, w));
+
+/** A card of names and values, with what more is to be said below. */
+function factsCard(id, title, facts, ...more) {
+  const rows = (Array.isArray(facts) ? facts : []).map(([k, v]) => element("tr", {}, element("td", {}, k), element("td", {}, k === "command" ? element("code", {}, v) : v)));
+  return element("article", { class: "card facts-card", id }, element("h3", {}, title),
+    element("div", { class: "scroll" }, element("table", { class: "facts" }, ...rows)), ...more);
+}
+
+const modelText = (text) => element("details", {}, element("summary", {}, "model file"), element("pre", {}, text));
+
+/** The figures of a result as cards, and what moves in space after its layout, or last. */
+function addFigures(result, grid, link) {
+  for (const figures of kindsOf(result)) {
+    const kind = figures[0].kind, name = NAMES[kind] || kind;
+    const view = attempt(name, grid, () => new FigureView(figures, result, arrays));
+    if (!view) continue;
+    grid.append(view.card);
+    link(view.card.id, name);
+    if (kind === "layout" && result.motion.motions && !page.machine) addSpace(result, grid, link);
+  }
+  if (result.motion.motions && !spaces.some((s) => s.result === result)) addSpace(result, grid, link);
+}
+
+/** Results of one machine: its drawing first, then a section per analysis. */
+function addMachine(main, contents) {
+  const { machine, results } = page;
+  const link = (id, name) => contents.append(element("a", { href: `#${id}` }, name));
+  const grid = element("div", { class: "grid" });
+  grid.append(factsCard("facts-machine", "The machine", machine.facts, modelText(machine.model)));
+  main.append(element("section", {}, grid));
+  const drawing = { number: "machine", figures: machine.figures, motion: {}, warnings: [] };
+  addFigures(drawing, grid, link);
+  results.forEach((result, number) => {
+    result.number = number;
+    const own = element("div", { class: "grid" }), heading = element("h2", { id: `analysis-${number}` }, result.heading);
+    const more = result.contacts.rows ? [tableOf(result.contacts.header, result.contacts.rows)] : [];
+    main.append(element("section", {}, heading, ...warningsOf(result), own));
+    link(heading.id, result.heading);
+    addFigures(result, own, () => {});
+    own.append(factsCard(`facts-${number}`, "How it was computed", result.facts, ...more));
+  });
+}
+
+/** Each result by itself. */
+function addResults(main, contents) {
+  page.results.forEach((result, number) => {
+    result.number = number;
+    const several = page.results.length > 1;
+    const section = element("section", {});
+    if (several) section.append(element("h2", {}, `${result.title} (${result.path})`));
+    section.append(...warningsOf(result));
+    const grid = element("div", { class: "grid" });
+    const more = result.contacts.rows ? [tableOf(result.contacts.header, result.contacts.rows)] : [];
+    grid.append(factsCard(`facts-${number}`, "Facts", result.facts, ...more, modelText(result.model)));
+    section.append(grid);
+    main.append(section);
+    addFigures(result, grid, (id, name) => contents.append(element("a", { href: `#${id}` }, several ? `${number + 1} ${name}` : name)));
+  });
+}
+
+/** Pictures for paper take the place of what is drawn for the screen. */
+function listenToPrinter() {
+  const cards = () => [...views, ...spaces];
+  addEventListener("beforeprint", () => {
+    const theme = document.documentElement.dataset.theme;
+    if (theme === "dark") setTheme("light");
+    printedFrom = theme;
+    for (const card of cards()) attempt("on paper", card.card, () => card.prepareToPrint());
+  });
+  addEventListener("afterprint", () => {
+    for (const card of cards()) card.endPrint();
+    if (printedFrom === "dark") setTheme("dark");
+  });
+}
+let printedFrom = "light";
+
 function build() {
   const wanted = matchMedia("(prefers-color-scheme: dark)");
   document.documentElement.dataset.theme = wanted.matches ? "dark" : "light";
@@ -37,36 +124,18 @@ function build() {
   const contents = element("div"), main = document.getElementById("main");
   document.getElementById("contents").append(contents);
   if (compared) addComparison(compared, main, contents);
-  page.results.forEach((result, number) => {
-    result.number = number;
-    const several = page.results.length > 1;
-    const section = element("section", {});
-    if (several) section.append(element("h2", {}, `${result.title} (${result.path})`));
-    for (const w of result.warnings) section.append(element("div", { class: "warning", role: "alert" }, w));
-    const grid = element("div", { class: "grid" });
-    const facts = element("article", { class: "card", id: `facts-${number}` }, element("h3", {}, "Facts"),
-      element("div", { class: "scroll" }, element("table", { class: "facts" }, ...result.facts.map(([k, v]) =>
-        element("tr", {}, element("td", {}, k), element("td", {}, k === "command" ? element("code", {}, v) : v))))));
-    if (result.contacts.rows) facts.append(tableOf(result.contacts.header, result.contacts.rows));
-    facts.append(element("details", {}, element("summary", {}, "model file"), element("pre", {}, result.model)));
-    grid.append(facts);
-    section.append(grid);
-    main.append(section);
-    const link = (id, name) => contents.append(element("a", { href: `#${id}` }, several ? `${number + 1} ${name}` : name));
-    for (const figures of kindsOf(result)) {
-      const view = new FigureView(figures, result, arrays);
-      grid.append(view.card);
-      link(view.card.id, NAMES[figures[0].kind] || figures[0].kind);
-      if (figures[0].kind === "layout" && result.motion.motions) addSpace(result, grid, link);
-    }
-    if (result.motion.motions && !spaces.some((s) => s.result === result)) addSpace(result, grid, link);
-  });
+  if (page.machine) addMachine(main, contents);
+  else addResults(main, contents);
+  listenToPrinter();
 
   // what is seen first is drawn first, the rest while nobody waits
   const waiting = [...views];
   const drawSome = () => {
     const start = performance.now();
-    while (waiting.length && performance.now() - start < 30) waiting.shift().draw();
+    while (waiting.length && performance.now() - start < 30) {
+      const view = waiting.shift();
+      attempt(NAMES[view.figure.kind] || view.figure.kind, view.card, () => view.draw());
+    }
     if (waiting.length) setTimeout(drawSome, 0);
     else document.documentElement.dataset.state = "drawn";
   };
@@ -87,7 +156,8 @@ function addComparison(compared, main, contents) {
   contents.append(element("a", { href: "#differences" }, "differences"));
   const result = { number: "compared", figures: compared.figures };
   for (const figures of kindsOf(result)) {
-    const view = new FigureView(figures, result, arrays);
+    const view = attempt(figures[0].kind, grid, () => new FigureView(figures, result, arrays));
+    if (!view) continue;
     grid.append(view.card);
     contents.append(element("a", { href: `#${view.card.id}` }, `compared ${NAMES[figures[0].kind] || figures[0].kind}`));
   }

@@ -365,6 +365,25 @@ class SpaceView {
     this.wake();
   }
 
+  /** A still picture on white paper. */
+  prepareToPrint() {
+    if (!this.scene && !this.hasFailed) this.start();
+    if (!this.scene) return;
+    const held = { moment: this.at, width: this.host.clientWidth, height: this.host.clientHeight };
+    if (!held.width || !held.height) [held.width, held.height] = [900, 460];
+    this.renderer.setSize(held.width, held.height);
+    this.camera.aspect = held.width / held.height;
+    this.camera.updateProjectionMatrix();
+    this.recolor();
+    this.paper = element("img", { class: "paper", alt: "the motion in space", src: this.renderer.domElement.toDataURL() });
+    this.host.append(this.paper);
+  }
+  endPrint() {
+    this.paper?.remove();
+    this.paper = null;
+    this.resize();
+  }
+
   recolor() {
     if (!this.scene) return;
     for (const { mesh, paintName } of this.meshes) mesh.material.color.set(paint(paintName));

@@ -41,6 +41,8 @@ const unitOf = (title) => (title.match(/\[([^\]]*)\]\s*$/) || [, ""])[1];
 const withoutUnit = (title) => title.replace(/\s*\[[^\]]*\]\s*$/, "");
 const LENGTHS = { m: 1, mm: 1e-3, "µm": 1e-6, nm: 1e-9 };
 
+const ON_PAPER = 400, WIDE_ON_PAPER = 820;  // [pixels] of a printed figure: letters are of some 7 pt on A4
+
 class FigureView {
   /** @param figures all of one kind: the stations, contacts or planes to choose from */
   constructor(figures, result, arrays) {
@@ -133,12 +135,14 @@ class FigureView {
   draw() {
     this.width = Math.floor(this.plot.clientWidth);
     if (!this.width) return;
-    const { width, height } = this.figure;
+    const { width } = this.figure, height = this.drawing.heightAt(this.width);
+    const isStacked = height !== this.figure.height;  // panels below each other: as high as that takes
     const scale = this.width / width;
     // wide pages make wide plots, but circles need height too
     const isSquare = this.figure.panels.some((p) => p.equal || p.cells);
     this.height = Math.round(Math.min(isSquare ? height * scale : height * Math.min(1.15, scale), 900) - 40);
     this.height = Math.max(this.height, isSquare ? Math.min(260, height) : 0.8 * height - 40);
+    if (isStacked) this.height = Math.max(this.height, Math.round(0.85 * height));
     const dots = devicePixelRatio || 1;
     for (const c of [this.canvas, this.over]) {
       c.width = this.width * dots;
@@ -165,10 +169,10 @@ class FigureView {
   setView(panel, x, y) {
     const d = this.drawing, wasX = panel.view.x;
     panel.view = { x: x || panel.view.x, y: y || panel.view.y };
-    const column = d.panels.indexOf(panel) % this.figure.columns;
+    const column = d.panels.indexOf(panel) % d.columns;
     if (x && x !== wasX) {
       d.panels.forEach((p, i) => {
-        if (p !== panel && i % this.figure.columns === column && p.x.title === panel.x.title) p.view.x = x;
+        if (p !== panel && i % d.columns === column && p.x.title === panel.x.title) p.view.x = x;
       });
     }
     this.draw();
@@ -454,6 +458,21 @@ class FigureView {
       ctx.fillRect(x0, y0, x1 - x0, y1 - y0);
       ctx.globalAlpha = 1;
     }
+  }
+
+  // ---- paper
+
+  /** Puts a picture for white paper beside the canvas, which is not printed. */
+  prepareToPrint() {
+    const width = this.isWide ? WIDE_ON_PAPER : ON_PAPER;
+    this.paper = element("div", { class: "paper" });
+    this.paper.innerHTML = this.drawing.printed(width).replace(/^<\?xml.*?\?>/, "");
+    this.plot.append(this.paper);
+  }
+  endPrint() {
+    this.paper?.remove();
+    this.paper = null;
+    if (this.isDrawn) this.draw();
   }
 
   // ---- downloads

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "libfe/properties.hpp"
@@ -7,6 +9,7 @@
 #include "libio/hdf5.hpp"
 #include "libio/layout.hpp"
 #include "libio/table.hpp"
+#include "libio/terminal.hpp"
 
 namespace whirl {
 
@@ -29,7 +32,12 @@ Report run_check(const Invocation& call) {
 
   std::string& text = report.text;
   text = (model.title.empty() ? call.file : model.title) + "\n\n";
-  if (!s.shaft.empty()) text += draw_layout(model, assembler) + "\n";
+  if (!s.shaft.empty()) {
+    constexpr std::size_t most = 72, margin = 4;
+    const std::size_t columns = terminal_columns();
+    const std::size_t width = columns == 0 ? most : std::min(most, columns - margin);
+    text += draw_layout(model, assembler, static_cast<int>(width)) + "\n";
+  }
   Table table({"what", "value"});
   table.row({"mass of the rotor", format_engineering(rotor.mass, "kg")});
   if (!s.shaft.empty()) {

@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <regex>
 
 #include "apps/program.hpp"
 #include "apps/verbs/all.hpp"
@@ -31,15 +34,19 @@ ModelError wrong(const std::string& what, std::string message) {
 struct Choice {
   const FigureKind* kind;
   std::vector<std::string> variants;
+  std::string problem = {};  ///< why it cannot be drawn; empty: it can
 };
 
 std::vector<Choice> choices_of(const ResultView& result) {
   std::vector<Choice> choices;
   for (const FigureKind& kind : figure_kinds()) {
     Choice choice{&kind, {}};
-    const auto figures = figures_of(kind, result);
-    for (const Figure& f : figures) choice.variants.push_back(f.variant);
-    if (!figures.empty()) choices.push_back(std::move(choice));
+    try {
+      for (const Figure& f : figures_of(kind, result)) choice.variants.push_back(f.variant);
+    } catch (const std::exception& error) {  // what fails of one does not cost the others
+      choice.problem = error.what();
+    }
+    if (!choice.variants.empty() || !choice.problem.empty()) choices.push_back(std::move(choice));
   }
   return choices;
 }
@@ -48,7 +55,12 @@ Report list_of(const Invocation& call, const ResultView& result) {
   Report report;
   Table table({"kind", "shows", "--which"});
   Record kinds = Record::array();
+  std::string problems;
   for (const Choice& c : choices_of(result)) {
+    if (!c.problem.empty()) {
+      problems += fmt::format("  {} cannot be drawn: {}\n", c.kind->name, c.problem);
+      continue;
+    }
     Record variants = Record::array();
     std::string names;
     for (const std::string& v : c.variants) {
@@ -61,8 +73,8 @@ Report list_of(const Invocation& call, const ResultView& result) {
   }
   report.record.set("model", call.file).set("version", version).set("kinds", kinds);
   report.record.set("files", Record::array());
-  report.text = fmt::format("{} can be drawn as\n\n{}\n  whirl plot {} KIND --out FILE.svg\n",
-                            call.file, table.text(), call.file);
+  report.text = fmt::format("{} can be drawn as\n\n{}{}\n  whirl plot {} KIND --out FILE.svg\n",
+                            call.file, table.text(), problems, call.file);
   return report;
 }
 
@@ -104,10 +116,74 @@ const Figure& chosen(const std::vector<Figure>& figures, const std::string& whic
               fmt::format("there is no such figure; there are {}", fmt::join(names, ", ")));
 }
 
+constexpr double least_size = 20.0, most_size = 2000.0;  ///< sides of a picture [mm]
+constexpr double least_font = 4.0, most_font = 40.0;     ///< [pt]
+
+/// A size such as 85x60mm: two numbers, and a unit of both or one of each.
+/// @throws ModelError
+PictureSize size_of(const Invocation& call) {
+  PictureSize size{.has_title = !call.has("no-title")};
+  if (call.has("font")) {
+    const std::string text = call.text("font");
+    size.font = std::strtod(text.c_str(), nullptr);
+    if (text.find_first_not_of("0123456789.") != std::string::npos ||
+        !(size.font >= least_font && size.font <= most_font)) {
+      throw wrong("--font " + text,
+                  fmt::format("expected points, {:g} to {:g}", least_font, most_font));
+    }
+  }
+  if (!call.has("size")) return size;
+  const std::string text = call.text("size");
+  const std::regex pattern(R"(([0-9]*\.?[0-9]+)(mm|cm|in|pt)?x([0-9]*\.?[0-9]+)(mm|cm|in|pt))");
+  const std::map<std::string, double> units{
+      {"mm", 1.0}, {"cm", 10.0}, {"in", 25.4}, {"pt", 25.4 / 72.0}};
+  std::smatch parts;
+  if (std::regex_match(text, parts, pattern)) {
+    const std::string unit = parts[4], first = parts[2].length() > 0 ? parts[2].str() : unit;
+    size.width = std::stod(parts[1]) * units.at(first);
+    size.height = std::stod(parts[3]) * units.at(unit);
+  }
+  const auto is_fit = [](double side) { return side >= least_size && side <= most_size; };
+  if (!is_fit(size.width) || !is_fit(size.height)) {
+    throw wrong("--size " + text,
+                fmt::format("expected a size such as 85x60mm (mm, cm, in, pt), of {:g} to {:g} mm",
+                            least_size, most_size));
+  }
+  return size;
+}
+
+/// "svg", "png" or "pdf", of --format or of the file's name.
+std::string format_of(const Invocation& call) {
+  const fs::path out = call.text("out");
+  std::string format = call.text("format");
+  const std::vector<std::string> known{"svg", "png", "pdf"};
+  const auto is_known = [&] {
+    return std::find(known.begin(), known.end(), format) != known.end();
+  };
+  if (!format.empty() || call.has("format")) {
+    if (!is_known()) throw wrong("--format " + format, "expected svg, png or pdf");
+    return format;
+  }
+  if (out.empty()) return "svg";
+  const std::string ending = out.extension();
+  format = ending.empty() ? "" : ending.substr(1);
+  if (!is_known()) {
+    throw wrong("--out " + out.string(),
+                "expected a file that ends in .svg, .png or .pdf, or --format");
+  }
+  return format;
+}
+
 /// Lets rsvg-convert make another format of an SVG file.
-void convert(const fs::path& svg, const fs::path& to, const std::string& format) {
+void convert(const fs::path& svg, const fs::path& to, const std::string& format, bool is_printed) {
   std::vector<std::string> words{"rsvg-convert", "--format", format};
-  if (format == "png") words.insert(words.end(), {"--zoom", "2"});
+  if (format == "png" && is_printed) {
+    words.insert(words.end(), {"--dpi-x", "600", "--dpi-y", "600"});
+  } else if (format == "png") {
+    words.insert(words.end(), {"--zoom", "2"});
+  } else {  // a pixel is 1/96 inch, as in browsers
+    words.insert(words.end(), {"--dpi-x", "96", "--dpi-y", "96"});
+  }
   words.insert(words.end(), {"--output", to.string(), svg.string()});
   const std::optional<int> status = run_program(words);
   if (!status) {
@@ -121,16 +197,17 @@ void convert(const fs::path& svg, const fs::path& to, const std::string& format)
   }
 }
 
-void write_picture(const std::string& svg, const fs::path& to) {
-  const std::string ending = to.extension();
-  if (ending == ".svg") return replace_file(to, svg);
+/// @param is_printed  whether its size is one on paper
+void write_picture(const std::string& svg, const fs::path& to, const std::string& format,
+                   bool is_printed) {
+  if (format == "svg") return replace_file(to, svg);
   FileReplacement{to};  // a directory that is not there is said first
   const fs::path source = to.string() + fmt::format(".{}.svg", ::getpid());
   const fs::path target = to.string() + fmt::format(".{}.part", ::getpid());
   std::error_code ignored;
   try {
     replace_file(source, svg);
-    convert(source, target, ending.substr(1));
+    convert(source, target, format, is_printed);
     fs::rename(target, to);
   } catch (...) {
     fs::remove(source, ignored);
@@ -147,7 +224,7 @@ Report run_plot(const Invocation& call) {
   set_frequency_unit(call, result);
   if (call.words.size() > 1) throw wrong(call.words[1], "one kind of figure at a time");
   if (call.words.empty()) {
-    for (const char* option : {"out", "with"}) {
+    for (const char* option : {"out", "with", "size", "font", "format", "no-title"}) {
       if (!call.has(option)) continue;
       throw wrong(fmt::format("--{} {}", option, call.given.at(option)), "which kind of figure?");
     }
@@ -164,14 +241,13 @@ Report run_plot(const Invocation& call) {
     if (!problem.empty()) throw wrong("--with " + with, problem);
   }
   const Figure& figure = chosen(figures, call.text("which"));
-  const fs::path out = call.text(
-      "out",
-      fmt::format("{}_{}.svg", fs::path(call.file).replace_extension("").string(), kind.name));
-  const std::string ending = out.extension();
-  if (ending != ".svg" && ending != ".png" && ending != ".pdf") {
-    throw wrong("--out " + out.string(), "expected a file that ends in .svg, .png or .pdf");
-  }
-  write_picture(svg_of(figure), out);
+  const PictureSize size = size_of(call);
+  const std::string format = format_of(call);
+  const fs::path out =
+      call.text("out", fmt::format("{}_{}.{}", fs::path(call.file).replace_extension("").string(),
+                                   kind.name, format));
+  const Picture picture = picture_of(figure, size);
+  write_picture(picture.svg, out, format, size.is_given() || size.font > 0.0);
   Report report;
   report.record.set("model", call.file).set("version", version);
   report.record.set("kind", kind.name).set("variant", figure.variant);
@@ -179,6 +255,12 @@ Report run_plot(const Invocation& call) {
   files.add(out.string());
   report.record.set("files", files);
   report.text = fmt::format("  {}: {}\n", out.string(), figure.subtitle);
+  Record left_out = Record::array();
+  for (const std::string& what : picture.left_out) {
+    left_out.add(what);
+    report.text += fmt::format("  no room for {}; a larger --size shows it\n", what);
+  }
+  report.record.set("left_out", left_out);
   return report;
 }
 

@@ -50,4 +50,28 @@ Quadrature Quadrature::gauss(int n) {
   return q;
 }
 
+Mat Quadrature::interpolation(const Vec& at) const {
+  constexpr double capacity = 4.0;  // keeps the products below near one on [0, 1]
+  const auto n = x.size();
+  Vec weight(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    double product = 1.0;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      if (k != j) product *= capacity * (x(j) - x(k));
+    }
+    weight(j) = 1.0 / product;
+  }
+  Mat values(at.size(), n);
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    Vec terms = weight.cwiseQuotient((at(i) - x.array()).matrix());
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (at(i) != x(j)) continue;
+      terms.setZero();
+      terms(j) = 1.0;
+    }
+    values.row(i) = terms.transpose() / terms.sum();
+  }
+  return values;
+}
+
 }  // namespace whirl

@@ -17,6 +17,15 @@ struct Quadrature {
 
   /// @param n  number of points, n >= 1
   static Quadrature gauss(int n);
+
+  /// Matrix from values at the points to those of the polynomial through them at other places.
+  ///
+  /// Barycentric formula; exact for polynomials up to degree n - 1.
+  ///
+  /// @param at  places, 0 to 1
+  /// @return    places x n
+  /// @source    [Trefethen2013], ch. 5
+  Mat interpolation(const Vec& at) const;
 };
 
 }  // namespace whirl

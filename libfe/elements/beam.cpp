@@ -187,4 +187,9 @@ ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam) {
   return e;
 }
 
+Mat deflection_functions(const Beam& beam, const Vec& xi) {
+  static const Quadrature q = Quadrature::gauss(points);
+  return q.interpolation(xi) * shape_functions(beam, properties(beam, q), q).w;
+}
+
 }  // namespace whirl

@@ -44,4 +44,20 @@ struct Beam {
 ///         [ZorziNelson1977] for rotating damping; [ZorziNelson1980], [Greenhill1883] for torque
 ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam);
 
+/// Deflection between the nodes: all shape functions of one plane at places along the element.
+///
+///   w(xi) = N(xi) . (w, theta of the left node, w, theta of the right node, internal amplitudes)
+///
+/// For a cylinder without internal functions, with Phi = 12 E I / (kappa G A L^2):
+///
+///   N_1 = (1 - 3 xi^2 + 2 xi^3 + Phi (1 - xi)) / (1 + Phi)
+///   N_2 = L (xi - 2 xi^2 + xi^3 + Phi (xi - xi^2) / 2) / (1 + Phi)
+///
+/// and their mirror images. In the x-z plane theta is theta_y, in the y-z plane -theta_x.
+///
+/// @param xi  places, 0 at the left node, 1 at the right one
+/// @return    places x (4 + internal functions of a plane) [m/m, m/rad]
+/// @source [Przemieniecki1968] ch. 11
+Mat deflection_functions(const Beam& beam, const Vec& xi);
+
 }  // namespace whirl

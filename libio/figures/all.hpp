@@ -6,6 +6,7 @@
 namespace whirl {
 
 std::vector<Figure> layout_figures(const ResultView& result);
+std::vector<Figure> static_figures(const ResultView& result);
 std::vector<Figure> campbell_figures(const ResultView& result);
 std::vector<Figure> log_decrement_figures(const ResultView& result);
 std::vector<Figure> critical_figures(const ResultView& result);

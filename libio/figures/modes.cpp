@@ -2,78 +2,196 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
+#include "libfe/base/error.hpp"
+#include "libfe/shaft_line.hpp"
 #include "libio/figures/all.hpp"
+#include "libio/figures/rotor_backdrop.hpp"
 
 namespace whirl {
 
 using namespace figures;
 
+namespace {
+
+constexpr int parts = 8;  ///< of an element, between which a shape is drawn straight
+
+/// Lateral shapes along the shaft, left to right.
+struct Shapes {
+  std::vector<double> z;           ///< [m]
+  CMat x, y;                       ///< places x modes
+  std::vector<std::string> names;  ///< of the places: "node 3: seal", or nothing between nodes
+};
+
+/// The shapes between the nodes too, by the shape functions of the elements; at the nodes only where
+/// the model cannot be read again.
+Shapes shapes_of(const ResultView& result) {
+  const CMat full = result.file.complex_matrix("/modes/shape");
+  const Vec z = result.file.vector("/points/z");
+  const auto nodes = z.size();
+  if (full.rows() < 4 * nodes) throw FileError("/modes/shape and /points/z do not fit");
+  std::vector<std::string> what(static_cast<std::size_t>(nodes));
+  if (result.file.has("/points/node_name")) what = result.file.strings("/points/node_name");
+  const auto name = [&](Eigen::Index i) {
+    const std::string& at = what.at(static_cast<std::size_t>(i));
+    return fmt::format("node {}{}{}", i + 1, at.empty() ? "" : ": ", at);
+  };
+  Shapes s;
+  if (result.assembler) {
+    const ShaftLine line = shaft_line(*result.assembler, parts);
+    if (line.x.cols() == full.rows() && line.z.size() > 0) {
+      const auto places = line.z.size();
+      s.z = numbers(line.z);
+      s.x = line.x * full;
+      s.y = line.y * full;
+      s.names.resize(static_cast<std::size_t>(places));
+      const auto& order = result.assembler->mesh().left_to_right;
+      for (std::size_t i = 0; i < order.size(); ++i) s.names.at(i * parts) = name(order[i]);
+      return s;
+    }
+  }
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(nodes));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return z(a) < z(b); });
+  s.x.resize(nodes, full.cols());
+  s.y.resize(nodes, full.cols());
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    const Eigen::Index node = order[static_cast<std::size_t>(i)];
+    s.z.push_back(z(node));
+    s.names.push_back(name(node));
+    s.x.row(i) = full.row(4 * node);
+    s.y.row(i) = full.row(4 * node + 1);
+  }
+  return s;
+}
+
+/// The factor that makes the largest entry real and one of size; 0 for nothing.
+Complex turn_of(const CVec& values) {
+  Eigen::Index at = 0;
+  const double top = values.cwiseAbs().maxCoeff(&at);
+  return top > 0.0 ? std::conj(values(at)) / top : Complex(0.0);
+}
+
+/// What a mode is called, the most telling parts first.
+std::string title_of(const ResultView& result, Eigen::Index k, double frequency, double decrement,
+                     const std::string& sense) {
+  return fmt::format("Mode {} | {:.4g} {} | {} | log dec {:.3g}", k + 1,
+                     frequency * result.frequency.factor, result.frequency.name, sense, decrement);
+}
+
+Panel shape_panel(const ResultView& result, const Shapes& shapes, Eigen::Index k,
+                  const std::string& sense) {
+  Panel p;
+  p.x = {.title = "position along the shaft [mm]"};
+  p.y = {.title = "displacement", .first = -1.15, .last = 1.15};
+  const double length = 1e3 * (shapes.z.back() - shapes.z.front()), room = 0.03 * length;
+  p.x.first = 1e3 * shapes.z.front() - room;
+  p.x.last = 1e3 * shapes.z.back() + room;
+  add_rotor(p, result, 0.0, 0.5);
+  // phases at which x, y are largest: their shapes are real then, nearly
+  Curve x{.name = "x at its largest", .paint = Paint::series};
+  Curve y{.name = "y at its largest", .paint = series_paint(1)};
+  y.dash = Dash::dashed;
+  Curve outline{.name = "envelope of the orbits: " + sense, .paint = whirl_style(sense).paint};
+  outline.has_line = false;
+  outline.fill = 0.16;
+  const CVec a = shapes.x.col(k), b = shapes.y.col(k);
+  const Vec major = 0.5 * ((a + Complex(0, 1) * b).cwiseAbs() + (a - Complex(0, 1) * b).cwiseAbs());
+  const double largest = major.maxCoeff();
+  if (!(largest > 0.0)) return {};
+  const Complex turn_x = turn_of(a), turn_y = turn_of(b);
+  for (std::size_t i = 0; i < shapes.z.size(); ++i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    for (Curve* c : {&x, &y, &outline}) c->x.push_back(1e3 * shapes.z[i]);
+    x.y.push_back((turn_x * a(place)).real() / largest);
+    y.y.push_back((turn_y * b(place)).real() / largest);
+    outline.y.push_back(major(place) / largest);
+    x.hover.push_back(shapes.names[i]);
+    y.hover.push_back(shapes.names[i]);
+  }
+  for (std::size_t i = shapes.z.size(); i-- > 0;) {
+    outline.x.push_back(1e3 * shapes.z[i]);
+    outline.y.push_back(-outline.y[i]);
+  }
+  p.curves.insert(p.curves.end(), {outline, x, y});
+  p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::dash_dot});
+  return p;
+}
+
+/// What a mode's damping means for a machine.
+std::string remark_on(double damping_ratio) {
+  constexpr double damped =
+      2.5;  // amplification factor below which a peak counts for none, [API617]
+  if (damping_ratio < 0.0) return "unstable";
+  if (2.0 * damping_ratio * damped > 1.0) return "critically damped";
+  return "";
+}
+
+FigureTable table_of_modes(const ResultView& result) {
+  const Vec frequency = result.file.vector("/modes/frequency");
+  const Vec damping = result.file.vector("/modes/damping_ratio");
+  const Vec decrement = result.file.vector("/modes/log_decrement");
+  const auto whirl = result.file.strings("/modes/whirl");
+  const double speed = speed_of(result);
+  const bool spins = std::isfinite(speed) && speed > 0.0;
+  FigureTable t{.header = {"mode", with_unit("frequency", result.frequency), "damping ratio",
+                           "log decrement", "whirl"}};
+  if (spins) t.header.emplace_back("from the speed");
+  t.header.emplace_back("remark");
+  for (Eigen::Index k = 0; k < frequency.size(); ++k) {
+    const double ratio = damping(k);
+    std::vector<std::string> row{
+        fmt::format("{}", k + 1), fmt::format("{:.5g}", frequency(k) * result.frequency.factor),
+        with_minus(fmt::format("{:.5f}", ratio)), with_minus(fmt::format("{:.4f}", decrement(k))),
+        whirl.at(static_cast<std::size_t>(k))};
+    if (spins) {
+      const double off = frequency(k) / speed - 1.0;
+      row.push_back(
+          fmt::format("{:.1f} % {}", 100.0 * std::abs(off), off < 0.0 ? "below" : "above"));
+    }
+    row.push_back(remark_on(ratio));
+    t.rows.push_back(std::move(row));
+  }
+  const auto says_nothing = [](const auto& row) { return row.back().empty(); };
+  if (std::all_of(t.rows.begin(), t.rows.end(), says_nothing)) {
+    t.header.pop_back();
+    for (auto& row : t.rows) row.pop_back();
+  }
+  return t;
+}
+
+}  // namespace
+
 std::vector<Figure> mode_figures(const ResultView& result) {
-  const CMat shape = result.file.complex_matrix("/modes/shape");
   const Vec frequency = result.file.vector("/modes/frequency");
   const Vec decrement = result.file.vector("/modes/log_decrement");
   const auto whirl = result.file.strings("/modes/whirl");
-  const auto z = numbers(result.file.vector("/points/z"));
-  const auto nodes = static_cast<Eigen::Index>(z.size());
-  std::vector<std::size_t> order(z.size());  // along the shaft
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return z[a] < z[b]; });
-  constexpr Eigen::Index most = 6;
-  const Eigen::Index count = std::min<Eigen::Index>(most, shape.cols());
-  Figure f{.width = 1080.0};
-  f.columns = count > 1 ? 2 : 1;
-  f.height = 80.0 + 200.0 * static_cast<double>((count + 1) / 2);
-  const std::string speed = speed_text(result);
-  f.subtitle = "Mode shapes" + (speed.empty() ? "" : " at " + speed);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const std::string sense = whirl[static_cast<std::size_t>(k)];
-    const WhirlStyle style = whirl_style(sense);
-    Panel p;
-    p.title = fmt::format("Mode {} | {:.2f} Hz ({:.0f} cpm) | {} | log dec {:.3f}", k + 1,
-                          frequency(k) / hertz, frequency(k) / rpm, sense, decrement(k));
-    p.x.title = "position along the shaft [mm]";
-    p.y = {.title = "displacement", .first = -1.15, .last = 1.15};
-    // phases at which x, y are largest: their shapes are real then, nearly
-    Curve x{.name = "x at its largest", .paint = Paint::series};
-    Curve y{.name = "y at its largest", .paint = series_paint(1)};
-    y.dash = Dash::dashed;
-    Curve outline{.name = "envelope of the orbits", .paint = style.paint, .has_line = false};
-    outline.name = "envelope of the orbits: " + sense;
-    outline.fill = 0.16;
-    Eigen::Index at_x = 0, at_y = 0;
-    double top_x = 0.0, top_y = 0.0, largest = 0.0;
-    const auto full = [&](Eigen::Index node, int c) { return shape(4 * node + c, k); };
-    const auto major = [&](Eigen::Index node) {  // of the ellipse of x, y
-      const Complex r = full(node, 0) + Complex(0, 1) * full(node, 1);
-      const Complex l = full(node, 0) - Complex(0, 1) * full(node, 1);
-      return 0.5 * (std::abs(r) + std::abs(l));
-    };
-    for (Eigen::Index i = 0; i < nodes; ++i) {
-      if (std::abs(full(i, 0)) > top_x) top_x = std::abs(full(i, 0)), at_x = i;
-      if (std::abs(full(i, 1)) > top_y) top_y = std::abs(full(i, 1)), at_y = i;
-      largest = std::max(largest, major(i));
-    }
-    if (!(largest > 0.0)) continue;
-    const Complex turn_x = top_x > 0.0 ? std::conj(full(at_x, 0)) / top_x : Complex(0.0);
-    const Complex turn_y = top_y > 0.0 ? std::conj(full(at_y, 1)) / top_y : Complex(0.0);
-    for (const std::size_t i : order) {
-      const auto node = static_cast<Eigen::Index>(i);
-      for (Curve* c : {&x, &y, &outline}) c->x.push_back(1e3 * z[i]);
-      x.y.push_back((turn_x * full(node, 0)).real() / largest);
-      y.y.push_back((turn_y * full(node, 1)).real() / largest);
-      outline.y.push_back(major(node) / largest);
-      x.hover.push_back(fmt::format("node {}", i + 1));
-    }
-    for (std::size_t i = order.size(); i-- > 0;) {
-      outline.x.push_back(1e3 * z[order[i]]);
-      outline.y.push_back(-outline.y[i]);
-    }
-    p.curves = {outline, x, y};
-    p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::dash_dot});
-    f.panels.push_back(std::move(p));
+  const Shapes shapes = shapes_of(result);
+  constexpr Eigen::Index most = 6;  // beside each other
+  const std::string speed = speed_text(result).empty() ? "" : " at " + speed_text(result);
+  Figure all{.variant = "all", .subtitle = "Mode shapes" + speed, .width = 1080.0};
+  all.table = table_of_modes(result);
+  std::vector<Figure> singles;
+  for (Eigen::Index k = 0; k < std::min(shapes.x.cols(), frequency.size()); ++k) {
+    const std::string sense = whirl.at(static_cast<std::size_t>(k));
+    Panel p = shape_panel(result, shapes, k, sense);
+    if (p.curves.empty()) continue;
+    p.title = title_of(result, k, frequency(k), decrement(k), sense);
+    Figure f{.variant = fmt::format("mode {}", k + 1), .height = 340.0};
+    f.subtitle = "Mode shape" + speed;
+    f.panels.push_back(p);
+    singles.push_back(std::move(f));
+    if (k < most) all.panels.push_back(std::move(p));
   }
-  return f.panels.empty() ? std::vector<Figure>{} : std::vector<Figure>{f};
+  if (singles.empty()) return {};
+  const std::size_t rows = (all.panels.size() + 1) / 2;
+  all.columns = all.panels.size() > 1 ? 2 : 1;
+  all.height = 80.0 + 200.0 * static_cast<double>(rows);
+  std::vector<Figure> figures{std::move(all)};
+  if (singles.size() > 1) std::move(singles.begin(), singles.end(), std::back_inserter(figures));
+  return figures;
 }
 
 std::vector<Figure> mac_figures(const ResultView& result) {

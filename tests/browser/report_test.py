@@ -3,8 +3,10 @@
     report_test.py WHIRL MODELS        exit status 77 where there is no chromium
 """
 
+import base64
 import json
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -178,6 +180,72 @@ def check_comparison(browser, whirl, folder, model):
         print(f"compared {verb}", flush=True)
 
 
+def check_phone(browser, name):
+    """On a phone nothing is wider than the screen: panels are below each other, wide tables scroll in their place."""
+    browser.resize(390, 844)
+    browser.wait_for("views.every(v => !v.width || v.width < 390)")
+    check(browser.value("document.documentElement.scrollWidth") <= 390, f"{name}: the page is wider than a phone")
+    side_by_side = browser.value("views.filter(v => v.isDrawn && new Set(v.drawing.panels.map(p => p.box.x)).size > 1).map(v => v.figure.kind)")
+    check(side_by_side == [], f"{name}: panels beside each other on a phone: {side_by_side}")
+    high = browser.value("views.filter(v => v.drawing.panels.some(p => p.box && p.box.h < 60)).map(v => v.figure.kind)")
+    check(high == [], f"{name}: panels too low to read on a phone: {high}")
+    tables = browser.value("""[...document.querySelectorAll('table')].filter(t => t.scrollWidth > t.parentElement.clientWidth
+      && getComputedStyle(t.parentElement).overflowX !== 'auto').length""")
+    check(tables == 0, f"{name}: {tables} tables are cut off on a phone")
+    browser.resize(1400, 1000)
+    browser.wait_for("views.every(v => !v.width || v.width > 390)")
+
+
+def check_paper(browser, name):
+    """On paper: white, no buttons, a picture of every figure, and of what moves in space."""
+    browser.dark()
+    browser.value("""addEventListener('beforeprint', () => { window.onPaper = {
+      pictures: document.querySelectorAll('.plot .paper svg').length, spaces: document.querySelectorAll('.space img.paper').length }; })""")
+    pdf = base64.b64decode(browser.call("Page.printToPDF", printBackground=True)["data"])
+    pages = len(re.findall(rb"/Type\s*/Page\b", pdf))
+    held = browser.value("window.onPaper")
+    check(held["pictures"] == browser.value("views.length"), f"{name}: {held['pictures']} figures on paper")
+    check(held["spaces"] == browser.value("spaces.length"), f"{name}: no picture of what moves on paper")
+    check(0 < pages <= 1 + browser.value("views.length") / 1.5, f"{name}: {pages} pages for {browser.value('views.length')} figures")
+    check(browser.value("document.querySelectorAll('.paper').length") == 0, f"{name}: pictures for paper stay")
+    browser.call("Emulation.setEmulatedMedia", media="print", features=[{"name": "prefers-color-scheme", "value": "dark"}])
+    check(browser.value("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)", f"{name}: the paper is not white")
+    seen = browser.value("[...document.querySelectorAll('button, select, input, nav')].filter(e => e.getClientRects().length).length")
+    check(seen == 0, f"{name}: {seen} buttons on paper")
+    browser.call("Emulation.setEmulatedMedia", media="", features=[])
+
+
+def check_machine(browser, whirl, folder, model):
+    """Analyses of one model are one report: its drawing once, a section per analysis, in their order."""
+    files = []
+    for verb in ("unbalance", "modes", "static"):
+        files.append(os.path.join(folder, f"machine_{verb}.h5"))
+        subprocess.run([whirl, verb, model, "--out", files[-1], "--quiet"], check=True)
+    page = os.path.join(folder, "machine.html")
+    subprocess.run([whirl, "report", *files, "--out", page, "--quiet"], check=True)
+    browser.open(page)
+    browser.wait_for("document.documentElement.dataset.state === 'drawn'")
+    check(browser.value("views.filter(v => v.figure.kind === 'layout').length") == 1, "the machine is not drawn once")
+    headings = browser.value("[...document.querySelectorAll('h2')].map(h => h.innerText)")
+    check(headings == ["Sag and bearing loads", "Modes", "Unbalance response"], f"sections are {headings}")
+    check(browser.value("!document.getElementById('differences')"), "a machine is compared with itself")
+    check_figures(browser, "machine")
+    # a figure that fails leaves the others
+    text = open(page).read()
+    begin = text.index('id="data">') + 10
+    end = text.index("</script>", begin)
+    data = json.loads(text[begin:end])
+    data["results"][1]["figures"][0]["panels"] = None
+    with open(page, "w") as file:
+        file.write(text[:begin] + json.dumps(data).replace("</", "<\\/") + text[end:])
+    browser.open(page)
+    browser.wait_for("document.documentElement.dataset.state === 'drawn'")
+    told = browser.value("[...document.querySelectorAll('.warning')].map(e => e.innerText)")
+    check(len(told) == 1 and told[0].startswith('no figure "Mode shapes": '), f"a broken figure says {told}")
+    check(browser.value("views.filter(v => v.isDrawn).length") >= 4, "a broken figure costs the others")
+    print("machine", flush=True)
+
+
 def check_speed(browser, folder, page):
     """35 000 cells and 200 000 points put into a page of the program are drawn in time."""
     text = open(page).read()
@@ -185,7 +253,6 @@ def check_speed(browser, folder, page):
     end = text.index("</script>", begin)
     data = json.loads(text[begin:end])
     import array
-    import base64
     import math
 
     def stored(values):
@@ -259,6 +326,8 @@ def main():
                 check_space(browser, name)
             if name == "identify":
                 check_hands(browser, name)
+                check_phone(browser, name)
+                check_paper(browser, name)
             if name == "map":
                 command = check_map(browser, name).split()
                 done = subprocess.run([whirl, *command[1:], *study, "--quiet"], capture_output=True, text=True)
@@ -271,6 +340,8 @@ def main():
         check_branches(browser, whirl, folder, model("jeffcott_stator"))
         browser.problems.clear()
         check_comparison(browser, whirl, folder, model("jeffcott"))
+        browser.problems.clear()
+        check_machine(browser, whirl, folder, model("two_disk_double_rub"))
         browser.problems.clear()
         check_speed(browser, folder, os.path.join(folder, "map.html"))
         check(not browser.problems, f"many: {browser.problems}")

@@ -112,6 +112,7 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
        {"layout", "campbell", "log_decrement"}},
       {{"critical", disks}, {"layout", "critical_map"}},
       {{"modes", disks}, {"layout", "modes"}},
+      {{"static", WHIRL_SOURCE_DIR "/models/two_disk_double_rub.toml"}, {"layout", "static"}},
       {{"unbalance", disks, "--speeds", "0:8000:100rpm"},
        {"layout", "bode", "polar", "deflection"}},
       {{"identify", disks, "--revolutions", "64"},
@@ -479,7 +480,7 @@ TEST_F(Plot, TellsWhatCanBeDrawn) {
     return outcome.err;
   };
   EXPECT_EQ(problem({"orbitt"}), "orbitt: unknown kind of figure, did you mean \"orbit\"?\n");
-  EXPECT_TRUE(has(problem({"xyzzy"}), "there are layout, campbell, "));
+  EXPECT_TRUE(has(problem({"xyzzy"}), "there are layout, static, modes, "));
   EXPECT_TRUE(has(problem({"campbell"}), "does not hold what this figure needs"));
   EXPECT_TRUE(has(problem({"orbit", "--which", "moon"}), "there are rotor"));
   EXPECT_TRUE(has(problem({"orbit", "--out", "x.jpg"}), ".svg, .png or .pdf"));
@@ -525,17 +526,18 @@ TEST_F(Plot, AReportIsOneFile) {
   const auto from = page.find("id=\"data\">") + 10;
   const json data = json::parse(page.substr(from, page.find("</script>", from) - from));
   ASSERT_EQ(data["results"].size(), 2u);
-  std::size_t figures = 0;
+  std::size_t figures = data["machine"]["figures"].size();  // of both
   for (const json& one : data["results"]) figures += one["figures"].size();
   EXPECT_EQ(figures, r["figures"]);
-  EXPECT_EQ(data["results"][0]["figures"][1]["kind"], "orbit");
+  const json &linear = data["results"][0], &motion = data["results"][1];
+  EXPECT_EQ(motion["figures"][0]["kind"], "orbit");
   std::vector<std::string> facts;
-  for (const json& fact : data["results"][0]["facts"]) facts.push_back(fact[0]);
+  for (const json& fact : motion["facts"]) facts.push_back(fact[0]);
   EXPECT_EQ(facts, (std::vector<std::string>{"result", "model", "command", "made by", "made at",
                                              "speed", "recorded", "cost", "rotor"}));
-  EXPECT_TRUE(has(data["results"][0]["model"], "clearance = \"0.5 mm\""));
-  EXPECT_TRUE(data["results"][0]["motion"].contains("motions"));
-  EXPECT_FALSE(data["results"][1]["motion"].contains("motions"));
+  EXPECT_TRUE(has(motion["model"], "clearance = \"0.5 mm\""));
+  EXPECT_TRUE(motion["motion"].contains("motions"));
+  EXPECT_FALSE(linear["motion"].contains("motions"));
   // program, style and libraries: below 1 MB
   EXPECT_LT(page.size() - data.dump().size(), 1'000'000u);
 }
@@ -584,6 +586,225 @@ TEST_F(Plot, AReportComparesResults) {
   const double in_nm = largest_of(y.panels.at(0).curves.at(0).y);
   EXPECT_NEAR(largest_of(small), 1e-3 * in_nm, 1e-9 * in_nm);
   for (const json& f : compared["figures"]) EXPECT_NE(f["kind"], "layout");
+}
+
+/// Texts of an SVG picture that are not turned: where they are, from left to right and up to down.
+struct ShownText {
+  double left, right, top, floor, size;
+  std::string text;
+};
+
+std::vector<ShownText> texts_in(const std::string& svg) {
+  // letters of the fonts that SVG names are half as wide as high at least in the mean
+  constexpr double letter_width = 0.5;
+  std::vector<ShownText> all;
+  const std::regex pattern(
+      "<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" font-size=\"([0-9.]+)\"([^>]*)>([^<]+)</text>");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), pattern), end; it != end; ++it) {
+    const std::string more = (*it)[4];
+    if (has(more, "rotate")) continue;
+    const double x = std::stod((*it)[1]), y = std::stod((*it)[2]), size = std::stod((*it)[3]);
+    const std::string text = (*it)[5];
+    const double width = letter_width * size *
+                         static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) {
+                           return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;
+                         }));
+    const double left = has(more, "\"end\"")      ? x - width
+                        : has(more, "\"middle\"") ? x - 0.5 * width
+                                                  : x;
+    all.push_back({left, left + width, y - 0.7 * size, y, size, text});
+  }
+  return all;
+}
+
+// A column of a journal, 85 x 60 mm at 8 pt: the picture has that size and its letters theirs, and no
+// text lies on another one or reaches out.
+TEST_F(Plot, APictureOfAJournalColumnIsReadable) {
+  make({"unbalance", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--speeds", "0:8000:100rpm"},
+       "u.h5");
+  make({"campbell", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--speeds", "0:8000:400rpm"},
+       "c.h5");
+  make({"modes", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml"}, "m.h5");
+  make({"static", WHIRL_SOURCE_DIR "/models/two_disk_double_rub.toml"}, "s.h5");
+  constexpr double pixel = 8.0 / 12.0;  // [pt]: 12 pixels of the drawing are 8 pt
+  constexpr double smallest = 11.0;     // [pixels], letters at points and in cells
+  constexpr double width = 85.0 / 25.4 * 72.0 / pixel, height = 60.0 / 25.4 * 72.0 / pixel;
+  for (const auto& [file, kind] : {std::pair{"u.h5", "bode"},
+                                   {"u.h5", "polar"},
+                                   {"u.h5", "deflection"},
+                                   {"c.h5", "campbell"},
+                                   {"c.h5", "log_decrement"},
+                                   {"c.h5", "layout"},
+                                   {"m.h5", "modes"},
+                                   {"s.h5", "static"}}) {
+    SCOPED_TRACE(kind);
+    const std::string picture = std::string(kind) + ".picture";
+    const json r = result({"plot", file, kind, "--size", "85x60mm", "--font", "8", "--no-title",
+                           "--format", "svg", "--out", picture});
+    EXPECT_EQ(r["files"], json::array({picture}));
+    const std::string svg = content(folder / picture);
+    EXPECT_TRUE(has(svg, "width=\"85mm\" height=\"60mm\""));
+    EXPECT_FALSE(std::regex_search(svg, std::regex("Two-disk rotor [a-z ]+</text>")));
+    const auto texts = texts_in(svg);
+    EXPECT_GT(texts.size(), 5u);
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      const ShownText& a = texts[i];
+      EXPECT_GE(a.size, smallest) << a.text;
+      EXPECT_GE(a.left, -1.0) << a.text;
+      EXPECT_LE(a.right, width + 1.0) << a.text;
+      EXPECT_GE(a.top, -1.0) << a.text;
+      EXPECT_LE(a.floor, height + 1.0) << a.text;
+      for (std::size_t k = 0; k < i; ++k) {
+        const ShownText& b = texts[k];
+        const bool cross =
+            a.left < b.right && b.left < a.right && a.top < b.floor && b.top < a.floor;
+        EXPECT_FALSE(cross) << a.text << " on " << b.text;
+      }
+    }
+  }
+  // what has no room is said
+  const Outcome told = whirl({"plot", "m.h5", "modes", "--size", "85x60mm", "--out", "m.svg"});
+  EXPECT_TRUE(has(told.out, "no room for the table")) << told.out;
+  EXPECT_TRUE(has(told.out, "of 6 panels")) << told.out;
+  // a larger picture holds all
+  EXPECT_EQ(result({"plot", "m.h5", "modes", "--size", "17x20cm", "--out", "m.svg"})["left_out"],
+            json::array());
+}
+
+TEST_F(Plot, RefusesSizesThatAreNone) {
+  make({"modes", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml"}, "m.h5");
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"--size", "85"},
+                                             {"--size", "85x60"},
+                                             {"--size", "1x1mm"},
+                                             {"--size", "axbmm"},
+                                             {"--size", "85x9999999mm"},
+                                             {"--font", "0"},
+                                             {"--font", "8pt"},
+                                             {"--font", "nan"},
+                                             {"--format", "gif"},
+                                             {"--format", ""}}) {
+    std::vector<std::string> call{"plot", "m.h5", "modes", "--out", "p.svg"};
+    call.insert(call.end(), words.begin(), words.end());
+    const Outcome outcome = whirl(call);
+    EXPECT_EQ(outcome.status, 2) << words[1];
+    EXPECT_TRUE(has(outcome.err, words[0])) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "p.svg")) << words[1];
+  }
+}
+
+// The sag of a shaft between bearings: reactions bear the rotor's weight, the moment is zero at both
+// ends and largest between.
+TEST_F(Plot, ASagShowsReactionsAndMoments) {
+  const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_double_rub.toml";
+  make({"static", model}, "s.h5");
+  const ResultView view(folder / "s.h5");
+  const std::vector<Figure> figures = figures_in("static", view);
+  ASSERT_EQ(figures.size(), 1u);
+  const Figure& f = figures.front();
+  ASSERT_EQ(f.panels.size(), 3u);
+  const Mat load = view.file.matrix("/static/bearing_load");
+  EXPECT_EQ(f.table.rows.size(), static_cast<std::size_t>(load.rows()));
+  const auto rises = std::count_if(f.panels[0].labels.begin(), f.panels[0].labels.end(),
+                                   [](const Label& l) { return l.text.starts_with("↑ "); });
+  EXPECT_EQ(rises, load.rows());
+  const auto moment = named(f.panels[1], "in the y-z plane");
+  ASSERT_EQ(moment.size(), 1u);
+  constexpr double rounding = 1e-6;  // of the largest moment
+  const double largest = largest_of(moment[0].y);
+  EXPECT_NEAR(moment[0].y.front(), 0.0, rounding * largest);
+  EXPECT_NEAR(moment[0].y.back(), 0.0, rounding * largest);
+  EXPECT_FALSE(named(f.panels[0], "disk").empty());
+  EXPECT_FALSE(named(f.panels[0], "bearing").empty());
+}
+
+// Modes are told in a table and drawn one by one too, between the nodes as well.
+TEST_F(Plot, ModesHaveATableAndShapesBetweenTheNodes) {
+  const json r = result({"modes", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--out", "m.h5"});
+  ResultView view(folder / "m.h5");
+  view.frequency = *frequency_unit("cpm");
+  const std::vector<Figure> figures = figures_in("modes", view);
+  ASSERT_EQ(figures.size(), 1 + r["modes"].size());  // all, and each
+  const FigureTable& table = figures[0].table;
+  EXPECT_EQ(table.header[1], "frequency [cpm]");
+  ASSERT_EQ(table.rows.size(), r["modes"].size());
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const double told = std::stod(table.rows[i][1]), exact = r["modes"][i]["frequency_rpm"];
+    EXPECT_NEAR(told, exact, 1e-4 * exact);  // five digits
+    EXPECT_EQ(table.rows[i][4], r["modes"][i]["whirl"]);
+  }
+  const Panel& panel = figures[1].panels.at(0);
+  EXPECT_EQ(figures[1].variant, "mode 1");
+  const auto x = named(panel, "x at its largest");
+  ASSERT_EQ(x.size(), 1u);
+  EXPECT_GT(x[0].x.size(), 4 * view.file.vector("/points/z").size());
+  EXPECT_FALSE(named(panel, "disk").empty());
+  EXPECT_FALSE(named(panel, "bearing").empty());
+}
+
+/// What a report's page holds.
+json page_data(const std::string& page) {
+  const auto from = page.find("id=\"data\">") + 10;
+  return json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+// Analyses of one model are one report of one machine, drawn once, in the order of a report; other
+// speeds are no other machine. Another model, or a verb twice, is compared.
+TEST_F(Plot, AnalysesOfOneModelAreOneReport) {
+  const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  make({"unbalance", disks, "--speeds", "0:8000:200rpm"}, "u.h5");
+  make({"modes", disks, "--speed", "3000rpm"}, "m.h5");
+  make({"modes", disks, "--speed", "5000rpm"}, "n.h5");
+  make({"campbell", disks, "--speeds", "0:8000:800rpm", "--set", "disk.1.width=12mm"}, "c.h5");
+  ASSERT_EQ(whirl({"report", "u.h5", "m.h5", "--out", "one.html"}).status, 0);
+  const json one = page_data(content(folder / "one.html"));
+  ASSERT_TRUE(one.contains("machine"));
+  EXPECT_FALSE(one.contains("comparison"));
+  EXPECT_EQ(one["machine"]["figures"].size(), 1u);
+  EXPECT_EQ(one["machine"]["figures"][0]["kind"], "layout");
+  ASSERT_EQ(one["results"].size(), 2u);
+  EXPECT_EQ(one["results"][0]["heading"], "Modes");
+  EXPECT_EQ(one["results"][1]["heading"], "Unbalance response");
+  for (const json& r : one["results"]) {
+    for (const json& f : r["figures"]) EXPECT_NE(f["kind"], "layout");
+  }
+  for (const char* other : {"n.h5", "c.h5"}) {
+    ASSERT_EQ(whirl({"report", "m.h5", other, "--out", "two.html"}).status, 0);
+    const json two = page_data(content(folder / "two.html"));
+    EXPECT_TRUE(two.contains("comparison")) << other;
+    EXPECT_FALSE(two.contains("machine")) << other;
+  }
+}
+
+// Shapes of another size than the points, as of a damaged file: the page says which figure failed and
+// why, and draws the others.
+TEST_F(Plot, AFigureThatFailsLeavesTheOthers) {
+  const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  {
+    ResultWriter to(folder / "d.h5");
+    to.dataset("/model", std::vector<std::string>{content(disks)}, {"", "model", {""}});
+    to.attribute("/model", "path", disks);
+    to.dataset("/arguments", std::vector<std::string>{"whirl", "modes"},
+               {"", "command line", {""}});
+    to.dataset("/points/z", Vec(Vec::LinSpaced(50, 0.0, 1.0)), {"m", "z", {""}});
+    to.dataset("/modes/shape", CMat(CMat::Ones(8, 2)), {"m", "shape", {"", ""}});
+    to.dataset("/modes/frequency", Vec(Vec::Ones(2)), {"rad/s", "frequency", {""}});
+    to.dataset("/modes/damping_ratio", Vec(Vec::Ones(2)), {"", "damping", {""}});
+    to.dataset("/modes/log_decrement", Vec(Vec::Ones(2)), {"", "decrement", {""}});
+    to.dataset("/modes/whirl", std::vector<std::string>{"forward"}, {"", "whirl", {""}});
+    to.commit();
+  }
+  const Outcome made = whirl({"report", "d.h5"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const json data = page_data(content(folder / "d.html"));
+  ASSERT_EQ(data["results"][0]["figures"].size(), 1u);
+  EXPECT_EQ(data["results"][0]["figures"][0]["kind"], "layout");
+  EXPECT_TRUE(has(data["results"][0]["warnings"].dump(), "no figure \\\"modes\\\": "))
+      << data["results"][0]["warnings"];
+  const Outcome list = whirl({"plot", "d.h5"});
+  EXPECT_EQ(list.status, 0);
+  EXPECT_TRUE(has(list.out, "modes cannot be drawn: ")) << list.out;
+  EXPECT_TRUE(has(list.out, "layout"));
 }
 
 // What a model's text says cannot leave the place where it is shown.

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
+
+#include "libio/table_text.hpp"
+#include "libio/terminal.hpp"
 
 namespace whirl::table_test {
 
@@ -58,6 +62,62 @@ TEST(Table, ShortRowsAndNoRowsAreFine) {
   table.row({"x"});
   table.row({});
   EXPECT_EQ(table.text(), "  a  b\n  ─  ─\n  x\n\n");
+}
+
+/// The widest line.
+std::size_t width_of(const std::string& text) {
+  std::size_t width = 0;
+  for (const std::string& line : lines(text)) width = std::max(width, display_width(line));
+  return width;
+}
+
+// Heads of numbers are folded first: nothing else changes.
+TEST(Table, FoldsHeadsOfNumbersWhereTheyDoNotFit) {
+  const std::vector<std::string> head{"mode", "natural frequency [rpm]", "whirl"};
+  const std::vector<std::vector<std::string>> rows{{"1", "1664.6", "backward"}};
+  EXPECT_EQ(table_text(head, rows, 30),
+            "  mode    natural  whirl\n"
+            "        frequency\n"
+            "            [rpm]\n"
+            "  ────  ─────────  ────────\n"
+            "     1     1664.6  backward\n");
+  EXPECT_EQ(table_text(head, rows, 0), table_text(head, rows, 80));
+}
+
+TEST(Table, FoldsItsWidestText) {
+  const std::vector<std::vector<std::string>> rows{
+      {"orbit", "path of a station, seen from the ground and from the rotor"}, {"mac", "short"}};
+  EXPECT_EQ(table_text({"kind", "shows"}, rows, 40),
+            "  kind   shows\n"
+            "  ─────  ───────────────────────────────\n"
+            "  orbit  path of a station, seen from\n"
+            "         the ground and from the rotor\n"
+            "  mac    short\n");
+}
+
+// Columns of numbers that find no place follow below, each block with the first column: every cell is
+// there, once.
+TEST(Table, ContinuesBelowWithTheFirstColumnAgain) {
+  std::vector<std::string> head{"speed"}, cells{"4430"};
+  for (int i = 0; i < 20; ++i) {
+    head.push_back("mode" + std::to_string(i));
+    cells.push_back(std::to_string(1000 + i) + ".5");
+  }
+  const std::string text = table_text(head, {cells}, 80);
+  EXPECT_LE(width_of(text), 80u);
+  for (int i = 0; i < 20; ++i) {
+    const std::string cell = std::to_string(1000 + i) + ".5";
+    EXPECT_NE(text.find(cell), std::string::npos) << cell;
+    EXPECT_EQ(text.find(cell), text.rfind(cell)) << cell;
+  }
+  EXPECT_EQ(text.find("4430") == text.rfind("4430"), false);  // in every block
+}
+
+TEST(Folded, BreaksLinesAtBlanksAndKeepsTheirIndent) {
+  EXPECT_EQ(folded("  one two three\nshort\n", 9), "  one two\n  three\nshort\n");
+  EXPECT_EQ(folded("  one two three", 0), "  one two three");
+  EXPECT_EQ(folded("/a/path/without/blanks\n", 10), "/a/path/without/blanks\n");
+  EXPECT_EQ(folded("\n\na  b\n", 10), "\n\na  b\n");
 }
 
 }  // namespace whirl::table_test

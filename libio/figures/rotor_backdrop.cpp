@@ -1,0 +1,102 @@
+#include "libio/figures/rotor_backdrop.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "libio/vtk_scene.hpp"
+
+namespace whirl::figures {
+
+namespace {
+
+constexpr double mm = 1e3;
+constexpr double symbol = 0.011;          ///< half width of a bearing, of the shaft's length
+constexpr double bearing_height = 0.42;   ///< of the largest radius
+constexpr double contact_height = 0.16;   ///< likewise
+constexpr double narrowest_disk = 0.008;  ///< of the shaft's length: it is seen
+
+/// A closed area behind the curves; it does not decide about axes.
+Curve area(const std::string& name, Paint paint, std::vector<double> x, std::vector<double> y,
+           double fill, const std::string& hover = "") {
+  Curve c{.name = name, .paint = paint};
+  c.x = std::move(x);
+  c.y = std::move(y);
+  c.width = 0.7;
+  c.fill = fill;
+  c.has_line = false;
+  c.is_key = false;
+  if (!hover.empty()) c.hover.assign(c.x.size(), hover);
+  return c;
+}
+
+Curve box(const std::string& name, Paint paint, double from, double to, double low, double high,
+          double fill, const std::string& hover) {
+  return area(name, paint, {from, to, to, from, from}, {low, low, high, high, low}, fill, hover);
+}
+
+}  // namespace
+
+void add_rotor(Panel& panel, const ResultView& result, double axis, double height) {
+  if (!result.assembler) return;
+  const Model& model = *result.model;
+  const Structure& s = model.structure;
+  const double length = s.length();
+  if (!(length > 0.0)) return;
+  const VtkScene scene = vtk_scene(model, *result.assembler);
+  const Mesh& mesh = result.assembler->mesh();
+  double largest = 0.0;
+  for (const VtkShaftPiece& p : scene.shaft) {
+    largest = std::max({largest, p.left_radius, p.right_radius});
+  }
+  for (const VtkDisk& d : scene.disks) largest = std::max(largest, d.outer_radius);
+  if (!(largest > 0.0)) return;
+  const double factor = height / largest;
+  const auto position = [&](const Station& station) {  // [m]; -1: not on the shaft
+    const Point p = result.assembler->point(station);
+    return p.kind == Point::Kind::node ? mesh.z[static_cast<std::size_t>(p.index)] : -1.0;
+  };
+
+  double z = 0.0;
+  for (const Segment& segment : s.shaft) {
+    const double to = z + segment.length;
+    const double left = 0.5 * factor * segment.left.outer,
+                 right = 0.5 * factor * segment.right.outer;
+    panel.curves.push_back(area("", Paint::shaft, {mm * z, mm * to, mm * to, mm * z, mm * z},
+                                {axis + left, axis + right, axis - right, axis - left, axis + left},
+                                0.3));
+    z = to;
+  }
+  for (std::size_t i = 0; i < s.disks.size(); ++i) {
+    const double at = position(s.disks[i].at);
+    if (at < 0.0) continue;
+    const double half = std::max(0.5 * scene.disks[i].width, 0.5 * narrowest_disk * length);
+    const double radius = factor * scene.disks[i].outer_radius;
+    panel.curves.push_back(box("disk", Paint::disk, mm * (at - half), mm * (at + half),
+                               axis - radius, axis + radius, 0.35, s.disks[i].name));
+  }
+  const double half = mm * symbol * length;
+  const auto add_bearing = [&](const Station& station, const std::string& name) {
+    const double at = mm * position(station);
+    if (at < 0.0) return;
+    const double top = axis - 0.5 * factor * shaft_diameter(s, at / mm);
+    panel.curves.push_back(
+        area("bearing", Paint::bearing, {at, at + half, at - half, at},
+             {top, top - bearing_height * height, top - bearing_height * height, top}, 0.75, name));
+  };
+  for (const Connection& b : s.bearings) add_bearing(b.from, b.name);
+  for (const OilFilm& f : model.films) add_bearing(f.at, f.name);
+  for (const Contact& c : model.contacts) {
+    const double at = mm * position(c.at);
+    if (at < 0.0) continue;
+    const double radius =
+        c.friction.radius > 0.0 ? c.friction.radius : 0.5 * shaft_diameter(s, at / mm);
+    for (const double side : {1.0, -1.0}) {
+      const double low = axis + side * 1.08 * factor * radius;
+      panel.curves.push_back(box("contact", Paint::stator, at - half, at + half, low,
+                                 low + side * contact_height * height, 0.6, c.name));
+    }
+  }
+}
+
+}  // namespace whirl::figures

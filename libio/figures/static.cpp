@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "libfe/base/error.hpp"
+#include "libio/figures/all.hpp"
+#include "libio/figures/rotor_backdrop.hpp"
+
+namespace whirl {
+
+using namespace figures;
+
+namespace {
+
+constexpr double mm = 1e3;
+constexpr double still = 1e-6;  ///< of the largest: a plane in which nothing happens
+
+/// Lines along the shaft in both planes, and what they are called.
+struct Line {
+  std::string what, si_unit;
+  Mat values;  ///< places x 2
+};
+
+/// The two planes, that of gravity first.
+struct Plane {
+  Eigen::Index column;
+  const char* name;
+  Paint paint;
+  Dash dash;
+};
+constexpr std::array<Plane, 2> planes{
+    {{1, "y", Paint::series, Dash::solid}, {0, "x", series_paint(1), Dash::dashed}}};
+
+/// A label at the largest magnitude of a column.
+void label_largest(Panel& p, const Vec& z, const Vec& values, const DisplayUnit& unit) {
+  Eigen::Index at = 0;
+  values.cwiseAbs().maxCoeff(&at);
+  const double top = unit.factor * values(at), place = mm * z(at);
+  const double middle = 0.5 * mm * (z(0) + z(z.size() - 1));
+  Label l{place, top, with_minus(fmt::format("{:.4g} {}", top, unit.name))};
+  l.anchor = place > middle ? Anchor::end : Anchor::start;
+  l.dx = place > middle ? -6.0 : 6.0;
+  l.dy = top < 0.0 ? 14.0 : -6.0;
+  p.labels.push_back(l);
+}
+
+Panel panel_of(const Vec& z, const Line& line, bool is_filled) {
+  Panel p;
+  const double length = mm * (z.maxCoeff() - z.minCoeff()), room = 0.03 * length;
+  p.x = {.title = "position along the shaft [mm]",
+         .first = mm * z.minCoeff() - room,
+         .last = mm * z.maxCoeff() + room};
+  const double largest = line.values.cwiseAbs().maxCoeff();
+  const DisplayUnit unit =
+      line.si_unit == "N.m" ? DisplayUnit{"N·m", 1.0} : unit_for(largest, line.si_unit);
+  p.y.title = with_unit(line.what, unit);
+  for (const Plane& plane : planes) {
+    const Vec values = line.values.col(plane.column);
+    if (plane.column == 0 && values.cwiseAbs().maxCoeff() <= still * largest) continue;
+    Curve c{.name = plane.column == 0 ? "in the x-z plane" : "in the y-z plane",
+            .paint = plane.paint};
+    c.dash = plane.dash;
+    c.width = 1.8;
+    c.x = scaled(numbers(z), mm);
+    c.y = scaled(numbers(values), unit.factor);
+    if (is_filled && plane.column == 1) {
+      Curve under{.paint = plane.paint, .has_line = false};
+      under.fill = 0.13;
+      under.x = c.x;
+      under.y = c.y;
+      under.x.insert(under.x.begin(), c.x.front());
+      under.y.insert(under.y.begin(), 0.0);
+      under.x.push_back(c.x.back());
+      under.y.push_back(0.0);
+      p.curves.push_back(std::move(under));
+    }
+    p.curves.push_back(std::move(c));
+  }
+  p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::dash_dot});
+  label_largest(p, z, line.values.col(1), unit);
+  return p;
+}
+
+/// The rotor behind its sag, and what its bearings bear.
+void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& table) {
+  double low = 0.0, high = 0.0;
+  for (const Curve& c : p.curves) {
+    for (const double v : c.y) low = std::min(low, v), high = std::max(high, v);
+  }
+  const double span = high - low;
+  p.y.first = low - 0.22 * span;
+  p.y.last = high + 0.48 * span;
+  Panel behind;
+  add_rotor(behind, result, 0.0, 0.22 * span);
+  p.curves.insert(p.curves.begin(), behind.curves.begin(), behind.curves.end());
+  if (!result.file.has("/static/bearing_load")) return;
+  const auto names = result.file.strings("/static/bearing");
+  const Mat load = result.file.matrix("/static/bearing_load");
+  if (load.rows() != static_cast<Eigen::Index>(names.size()) || load.cols() != 2) {
+    throw FileError("/static/bearing_load and /static/bearing do not fit");
+  }
+  const DisplayUnit unit = unit_for(load.cwiseAbs().maxCoeff(), "N");
+  table.header = {"bearing", with_unit("load x", unit), with_unit("load y", unit)};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const auto text = [&](double force) {
+      const double shown = unit.factor * force;
+      return with_minus(fmt::format(
+          "{:.4g}", std::abs(force) > still * load.cwiseAbs().maxCoeff() ? shown : 0.0));
+    };
+    table.rows.push_back({names[i], text(load(k, 0)), text(load(k, 1))});
+    if (!result.assembler || i >= result.model->structure.bearings.size()) continue;
+    const Point at = result.assembler->point(result.model->structure.bearings[i].from);
+    if (at.kind != Point::Kind::node) continue;
+    const double z = mm * result.assembler->mesh().z[static_cast<std::size_t>(at.index)];
+    const double reaction = -unit.factor * load(k, 1);
+    Label l{z, 0.3 * span,
+            fmt::format("{} {:.4g} {}", reaction < 0.0 ? "↓" : "↑", std::abs(reaction), unit.name)};
+    const double along = (z - p.x.first) / (p.x.last - p.x.first);
+    l.anchor = along < 0.1 ? Anchor::start : along > 0.9 ? Anchor::end : Anchor::middle;
+    l.dx = l.dy = 0.0;
+    l.paint = Paint::bearing;
+    p.labels.push_back(l);
+  }
+}
+
+}  // namespace
+
+std::vector<Figure> static_figures(const ResultView& result) {
+  const Vec z = result.file.vector("/static/z");
+  const std::array<Line, 3> lines{{{"deflection", "m", result.file.matrix("/static/deflection")},
+                                   {"bending moment", "N.m", result.file.matrix("/static/moment")},
+                                   {"shear force", "N", result.file.matrix("/static/shear")}}};
+  for (const Line& line : lines) {
+    if (line.values.rows() != z.size() || line.values.cols() != 2) {
+      throw FileError("/static/z and what stands over it do not fit");
+    }
+  }
+  if (z.size() < 2 || lines[0].values.isZero(0.0)) return {};  // nothing has a weight
+  Figure f{.subtitle =
+               "Static deflection under gravity, with the reactions of the bearings; "
+               "bending moment and shear force",
+           .height = 640.0};
+  for (const Line& line : lines) f.panels.push_back(panel_of(z, line, &line != lines.data()));
+  f.panels.front().share = 1.3;
+  add_rotor_and_reactions(f.panels.front(), result, f.table);
+  f.notes = {
+      "Loads are forces of the rotor on its bearings, arrows those of the bearings on the "
+      "rotor; y points up. A shaft that sags between bearings has a moment above zero."};
+  return {f};
+}
+
+}  // namespace whirl

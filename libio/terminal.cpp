@@ -1,0 +1,84 @@
+#include "libio/terminal.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
+
+#include "libio/table.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr std::size_t least = 40;  ///< columns; a table of less says nothing
+
+}  // namespace
+
+std::size_t terminal_columns() {
+  if (const char* text = std::getenv("COLUMNS")) {
+    const std::string_view digits(text);
+    std::size_t columns = 0;
+    const auto [end, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), columns);
+    if (error == std::errc() && end == digits.data() + digits.size() && columns > 0) {
+      return std::max(least, columns);
+    }
+  }
+  winsize size{};
+  const bool is_known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? std::max<std::size_t>(least, size.ws_col) : 0;
+}
+
+std::size_t display_width(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;  // not a continuation byte
+  }));
+}
+
+std::vector<std::string> folded_words(const std::string& line, std::size_t columns) {
+  if (display_width(line) <= columns) return {line};
+  std::vector<std::string> lines(1);
+  for (std::size_t from = 0; from < line.size();) {
+    const std::size_t to = std::min(line.find(' ', from), line.size());
+    const std::string word = line.substr(from, to - from);
+    if (lines.back().empty()) {
+      lines.back() = word;
+    } else if (display_width(lines.back()) + 1 + display_width(word) <= columns) {
+      lines.back() += " " + word;
+    } else {
+      lines.push_back(word);
+    }
+    from = to + 1;
+  }
+  return lines;
+}
+
+std::string folded(const std::string& text, std::size_t columns) {
+  if (columns == 0) return text;
+  std::string out;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t end = text.find('\n', from);
+    const std::string line = text.substr(from, end == std::string::npos ? end : end - from);
+    if (display_width(line) <= columns) {
+      out += line;
+    } else {
+      const std::size_t first = std::min(line.find_first_not_of(' '), columns / 2);
+      const std::string indent(first, ' ');
+      bool is_first = true;
+      for (const std::string& part : folded_words(line.substr(first), columns - first)) {
+        out += (is_first ? "" : "\n") + indent + part;
+        is_first = false;
+      }
+    }
+    if (end == std::string::npos) break;
+    out += '\n';
+    from = end + 1;
+  }
+  return out;
+}
+
+}  // namespace whirl

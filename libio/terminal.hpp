@@ -1,0 +1,21 @@
+#pragma once
+/// How wide what is printed may be.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace whirl {
+
+/// Columns of the terminal: those of the environment's COLUMNS, else those of standard output. 0 where
+/// it is no terminal, as in a pipe: as wide as it takes.
+std::size_t terminal_columns();
+
+/// A text whose longer lines go on below, broken at blanks and indented as they are.
+/// @param columns  0: no limit
+std::string folded(const std::string& text, std::size_t columns);
+
+/// Parts of a line at blanks, none wider than so many columns unless it is one word.
+std::vector<std::string> folded_words(const std::string& line, std::size_t columns);
+
+}  // namespace whirl
