@@ -18,6 +18,9 @@ const OptionSpec frequency{"frequency", "U", "unit of frequency axes: Hz, cpm or
 const OptionSpec orbit_method_option{"method", "M", "shooting (the default), or harmonic-balance"};
 const OptionSpec harmonics{"harmonics", "N",
                            "of harmonic balance, of the orbit's frequency (as many as it takes)"};
+const OptionSpec from_revolution{"from-revolution", "N",
+                                 "first revolution of a motion, counted from its start"};
+const OptionSpec times{"times", "A:B", "instead of revolutions, from A to B [s] of a motion"};
 const OptionSpec points{"points", "N", "how many values a range without a step has"};
 
 std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
@@ -216,7 +219,9 @@ const std::vector<Verb>& verbs() {
          "abaqus, nastran, gmsh, exodus, "
          "med, stl, ..."},
         {"out", "NAME", "where the files go, without an ending; left out: beside FILE"},
-        {"revolutions", "N", "last revolutions of a motion (4; xdmf: 64)"},
+        from_revolution,
+        {"revolutions", "N", "revolutions of a motion, left alone: the last ones (4; xdmf: 64)"},
+        times,
         {"frames", "N", "frames of a motion at most (128; xdmf: all)"},
         {"modes", "N", "mode shapes (4)"}},
        run_export},
@@ -228,7 +233,9 @@ const std::vector<Verb>& verbs() {
        {{"out", "FILE",
          "film .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE"},
         {"mode", "N", "this mode (the motion of a result; of others, 1)"},
-        {"revolutions", "N", "last revolutions of a motion (4)"},
+        from_revolution,
+        {"revolutions", "N", "revolutions of a motion, left alone: the last ones (4)"},
+        times,
         {"frames", "N", "pictures: of a motion at most (120), of a mode's cycle (60)"},
         {"size", "WxH", "pixels (960x540)"},
         {"rate", "N", "pictures per second of a film (25)"}},
@@ -255,6 +262,10 @@ const std::vector<Verb>& verbs() {
         {"font", "PT", "letters of axes and legend in points (9; of a given size 8)"},
         {"no-title", "", "without title and subtitle, for a caption below"},
         {"format", "F", "svg, png or pdf, whatever --out ends in"},
+        from_revolution,
+        {"revolutions", "N",
+         "revolutions of a motion, left alone: the last ones (8; orbit: 48; poincare: all)"},
+        times,
         frequency},
        run_plot,
        "KIND",

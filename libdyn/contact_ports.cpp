@@ -281,9 +281,8 @@ std::string sticks_on(const ContactSystem& system, const Periodic& motion) {
       Vec y(2 * x.size());
       y << x, rate;
       const double phase = motion.phase(span.from);
-      const double T = system.sticking_force(phase, y.data(), system.classify(phase, y.data()),
-                                             static_cast<int>(i));
-      if (std::abs(T) <= c.friction.mu * path.at(span.from).normal) return c.name;
+      const ContactStates states = system.classify(phase, y.data());
+      if (system.hold(phase, y.data(), states, static_cast<int>(i)).is_enough()) return c.name;
     }
   }
   return {};

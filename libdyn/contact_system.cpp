@@ -14,6 +14,17 @@ namespace whirl {
 namespace {
 
 constexpr double rest_slip = 1e-12;  ///< of the rim speed: as good as no slip
+/// Relative difference of rows, centers and rim speeds up to which contacts slip alike: more than
+/// rounding in a reduction, less than anybody can mean.
+constexpr double alike = 1e-9;
+
+/// Whether the slip of two contacts is the same in every motion.
+bool slip_alike(const ReducedContact& a, const ReducedContact& b) {
+  if (!a.friction.is_exact() || !b.friction.is_exact()) return false;
+  return (a.U - b.U).cwiseAbs().maxCoeff() <= alike * a.U.cwiseAbs().maxCoeff() &&
+         (a.offset - b.offset).norm() <= alike * std::min(a.clearance, b.clearance) &&
+         std::abs(a.rim_speed - b.rim_speed) <= alike * std::abs(a.rim_speed);
+}
 
 PlaneRows rows(const DofMap& dofs, const Point& p) {
   PlaneRows r(2, dofs.size());
@@ -118,6 +129,7 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
     }
     clearance = std::min(clearance, c.clearance);
   }
+  find_slip_groups();
 
   for (const OilFilm& film : films) {
     ReducedFilm r{
@@ -160,6 +172,32 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
     }
     scale_(i) = largest > 0.0 ? clearance / largest : clearance;
     scale_(n + i) = scale_(i) * phase_rate();
+  }
+}
+
+void ContactSystem::find_slip_groups() {
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    contacts_[i].slip_group = static_cast<int>(i);
+    if (!contacts_[i].friction.is_exact()) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!whirl::slip_alike(contacts_[i], contacts_[j])) continue;
+      contacts_[i].slip_group = contacts_[j].slip_group;
+      break;
+    }
+  }
+}
+
+bool ContactSystem::leads(const ContactStates& states, std::size_t i) const {
+  if (states[i].touch != Touch::sticking) return false;
+  for (std::size_t j = 0; j < i; ++j) {
+    if (states[j].touch == Touch::sticking && slip_alike(i, j)) return false;
+  }
+  return true;
+}
+
+void ContactSystem::set_group(ContactStates& states, int i, const ContactState& to) const {
+  for (std::size_t j = 0; j < states.size(); ++j) {
+    if (states[j].in_touch() && slip_alike(j, static_cast<std::size_t>(i))) states[j] = to;
   }
 }
 
@@ -214,7 +252,7 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
     out[i] = {};
     if (contacts_[i].is_blade() && states[i].touch == Touch::apart) continue;  // most of many
     out[i] = kinematics(contacts_[i], phase, y, n);
-    if (states[i].touch == Touch::sticking) {
+    if (leads(states, i)) {
       sticking.push_back(static_cast<int>(i));
     } else if (states[i].touch == Touch::sliding) {
       out[i].friction = sliding_friction(contacts_[i], states[i], out[i]);
@@ -246,6 +284,29 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   const Vec T = DenseLu<Mat>(influence).solve(slip_rate);
   for (Eigen::Index j = 0; j < m; ++j) {
     out[static_cast<std::size_t>(sticking[static_cast<std::size_t>(j)])].friction = T(j);
+  }
+  share_friction(states, out);
+}
+
+void ContactSystem::share_friction(const ContactStates& states,
+                                   std::vector<ContactForces>& forces) const {
+  const auto limit = [&](std::size_t i) {
+    return contacts_[i].friction.mu * std::max(forces[i].normal, 0.0);
+  };
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (!leads(states, i)) continue;
+    const auto holds = [&](std::size_t j) {
+      return states[j].touch == Touch::sticking && slip_alike(i, j);
+    };
+    double sum = 0.0;
+    for (std::size_t j = i; j < contacts_.size(); ++j) {
+      if (holds(j)) sum += limit(j);
+    }
+    if (!(sum > limit(i))) continue;  // it holds alone
+    const double share = forces[i].friction / sum;
+    for (std::size_t j = i; j < contacts_.size(); ++j) {
+      if (holds(j)) forces[j].friction = share * limit(j);
+    }
   }
 }
 
@@ -285,17 +346,25 @@ void ContactSystem::acceleration(double phase, const double* y, double* a) const
   }
 }
 
-double ContactSystem::sticking_force(double phase, const double* y, const ContactStates& states,
-                                     int i) const {
+Hold ContactSystem::hold(double phase, const double* y, const ContactStates& states, int i) const {
+  const auto at = static_cast<std::size_t>(i);
   ContactStates trial = states;
-  trial[static_cast<std::size_t>(i)].touch = Touch::sticking;
+  trial[at].touch = Touch::sticking;
+  set_group(trial, i, {Touch::sticking, 1.0});
   std::vector<ContactForces> all;
   forces(phase, y, trial, all);
-  return all[static_cast<std::size_t>(i)].friction;
+  Hold hold;
+  for (std::size_t j = 0; j < contacts_.size(); ++j) {
+    if (trial[j].touch != Touch::sticking || !slip_alike(at, j)) continue;
+    hold.force += all[j].friction;
+    hold.limit += contacts_[j].friction.mu * all[j].normal;
+  }
+  return hold;
 }
 
 ContactStates ContactSystem::classify(double phase, const double* y) const {
   ContactStates states(contacts_.size());
+  std::vector<int> at_rest;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ReducedContact& c = contacts_[i];
     const ContactForces f = kinematics(c, phase, y, coordinates());
@@ -306,14 +375,14 @@ ContactStates ContactSystem::classify(double phase, const double* y) const {
     }
     states[i] = {Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
     const double rest = rest_slip * std::max(std::abs(c.rim_speed), length_scale_ * phase_rate());
-    if (c.friction.is_exact() && std::abs(f.slip) <= rest) {
-      const double T = sticking_force(phase, y, states, static_cast<int>(i));
-      if (std::abs(T) <= c.friction.mu * f.normal) {
-        states[i].touch = Touch::sticking;
-      } else {
-        states[i].sign = T > 0.0 ? 1.0 : -1.0;
-      }
-    }
+    if (c.friction.is_exact() && std::abs(f.slip) <= rest) at_rest.push_back(static_cast<int>(i));
+  }
+  for (const int i : at_rest) {
+    if (states[static_cast<std::size_t>(i)].touch == Touch::sticking) continue;  // with another
+    const Hold needed = hold(phase, y, states, i);
+    set_group(states, i,
+              needed.is_enough() ? ContactState{Touch::sticking, 1.0}
+                                 : ContactState{Touch::sliding, needed.force > 0.0 ? 1.0 : -1.0});
   }
   return states;
 }
@@ -321,7 +390,7 @@ ContactStates ContactSystem::classify(double phase, const double* y) const {
 void ContactSystem::remove_slip(double* y, const ContactStates& states) const {
   const int n = coordinates();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    if (states[i].touch != Touch::sticking) continue;
+    if (!leads(states, i)) continue;
     const ContactForces f = kinematics(contacts_[i], y, n);
     const Vec impulse = contacts_[i].B * f.t();  // velocity from one along t: keeps the momentum
     Eigen::Map<Vec>(y + n, n) -= impulse * (f.slip / f.t().dot(contacts_[i].U * impulse));

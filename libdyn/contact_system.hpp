@@ -44,7 +44,10 @@ struct ReducedContact {
   double rim_speed;  ///< Omega R [m/s]
   Friction friction;
   AnyContactLaw<> law;
-  int owner = 0;       ///< number of the model's contact, from 0
+  int owner = 0;  ///< number of the model's contact, from 0
+  /// Contacts of equal number slip alike at every instant and stick together: between the same
+  /// stations, about one center, at one radius, with friction that switches exactly.
+  int slip_group = 0;
   PlaneRows V{};       ///< of a face: lateral displacement, whose rate is in the slip; else empty
   PlaneColumns B_t{};  ///< of a face: the same as B of the friction force; else empty
 
@@ -67,6 +70,14 @@ struct ReducedContact {
     const double c = std::cos(blade.turns * phase), s = std::sin(blade.turns * phase);
     return {c * blade.cosine - s * blade.sine, s * blade.cosine + c * blade.sine};
   }
+};
+
+/// What holds contacts that slip alike.
+struct Hold {
+  double force = 0.0;  ///< the friction that keeps them from sliding, of all together, along t [N]
+  double limit = 0.0;  ///< the most that theirs can be, the sum of mu N [N]
+
+  bool is_enough() const { return std::abs(force) <= limit; }
 };
 
 /// Kinematics and forces of one contact at one instant.
@@ -131,12 +142,23 @@ class ContactSystem {
   void acceleration(double phase, const double* y, double* a) const;
 
   /// Normal force, slip and friction of every contact; friction of sticking ones is solved for.
-  /// Of blades that are apart nothing is said.
+  /// Contacts of one slip group share theirs in proportion to mu N: only its sum is determined, and
+  /// so they all slip at the same instant. Of blades that are apart nothing is said.
   void forces(double phase, const double* y, const ContactStates& states,
               std::vector<ContactForces>& out) const;
 
-  /// The friction force that would keep contact i from sliding, the others as they are [N].
-  double sticking_force(double phase, const double* y, const ContactStates& states, int i) const;
+  /// What would hold contact i and those in touch that slip with it, the others as they are.
+  Hold hold(double phase, const double* y, const ContactStates& states, int i) const;
+
+  /// Whether contact i and another slip alike.
+  bool slip_alike(std::size_t i, std::size_t j) const {
+    return contacts_[i].slip_group == contacts_[j].slip_group;
+  }
+  /// Whether contact i is the first that sticks of its slip group: its condition of no slip is that
+  /// of all.
+  bool leads(const ContactStates& states, std::size_t i) const;
+  /// Lets all contacts in touch of the group of contact i stick, or slide with a sign.
+  void set_group(ContactStates& states, int i, const ContactState& to) const;
 
   /// States that a motion has at an instant if nothing is known of its past.
   ContactStates classify(double phase, const double* y) const;
@@ -145,6 +167,9 @@ class ContactSystem {
   void remove_slip(double* y, const ContactStates& states) const;
 
  private:
+  void find_slip_groups();
+  /// Shares what the leaders of slip groups hold among all that stick.
+  void share_friction(const ContactStates& states, std::vector<ContactForces>& forces) const;
   /// Adds a contact as many times as it has blades.
   void add_blades(ReducedContact& contact);
   /// Without contacts.

@@ -1,5 +1,6 @@
 #include "libdyn/events.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -44,7 +45,9 @@ bool may_reach(const ReducedContact& blade, const Step& step) {
 }  // namespace
 
 EventWatcher::EventWatcher(const ContactSystem& system)
-    : system_(system), surface_(system.contacts().size(), 0u) {
+    : system_(system),
+      surface_(system.contacts().size(), 0u),
+      is_level_(system.contacts().size(), 0) {
   for (const ReducedContact& c : system.contacts()) {
     const double speed = std::max(std::abs(c.rim_speed), c.clearance * system.phase_rate());
     speed_scale_.push_back(speed);
@@ -52,22 +55,23 @@ EventWatcher::EventWatcher(const ContactSystem& system)
   }
 }
 
-std::span<const EventKind> EventWatcher::kinds(int contact, const ContactState& state) const {
+std::span<const EventKind> EventWatcher::kinds(int contact, const ContactStates& states) const {
   using enum EventKind;
+  const auto i = static_cast<std::size_t>(contact);
   static constexpr EventKind of_apart[] = {touch}, of_receding[] = {retouch, part},
                              of_sticking[] = {release, stick_limit},
                              of_sliding[] = {release, slip_stop};
-  switch (state.touch) {
+  switch (states[i].touch) {
     case Touch::apart:
       return of_apart;
     case Touch::receding:
       return of_receding;
     case Touch::sticking:
-      return of_sticking;
+      return std::span<const EventKind>(of_sticking).first(system_.leads(states, i) ? 2 : 1);
     case Touch::sliding:
       break;
   }
-  const auto& friction = system_.contacts()[static_cast<std::size_t>(contact)].friction;
+  const auto& friction = system_.contacts()[i].friction;
   return std::span<const EventKind>(of_sliding).first(friction.is_exact() ? 2 : 1);
 }
 
@@ -75,14 +79,24 @@ bool EventWatcher::on_surface(int contact, EventKind kind) const {
   return (surface_[static_cast<std::size_t>(contact)] & bit(kind)) != 0u;
 }
 
+bool EventWatcher::is_level(int contact, EventKind kind) const {
+  return kind == EventKind::slip_stop && is_level_[static_cast<std::size_t>(contact)] != 0;
+}
+
 double EventWatcher::value(const Event& event, double phase, const double* y,
                            const ContactStates& states) const {
-  const auto i = static_cast<std::size_t>(event.contact);
-  ContactForces f = kinematics(system_.contacts()[i], phase, y, system_.coordinates());
   if (event.kind == EventKind::stick_limit) {
-    f.friction = system_.sticking_force(phase, y, states, event.contact);
+    return stick_margin(event.contact, system_.hold(phase, y, states, event.contact));
   }
-  return value(event, f, states[i]);
+  const auto i = static_cast<std::size_t>(event.contact);
+  return value(event, kinematics(system_.contacts()[i], phase, y, system_.coordinates()),
+               states[i]);
+}
+
+double EventWatcher::stick_margin(int contact, const Hold& hold) const {
+  const double scale = force_scale_[static_cast<std::size_t>(contact)];
+  const double limit = hold.limit / scale, force = hold.force / scale;
+  return limit * limit - force * force;
 }
 
 double EventWatcher::value(const Event& event, const ContactForces& f,
@@ -105,9 +119,8 @@ double EventWatcher::value(const Event& event, const ContactForces& f,
     case EventKind::stick_limit:
       break;
   }
-  const double limit = c.friction.mu * f.normal / force_scale_[i];
-  const double force = f.friction / force_scale_[i];
-  return limit * limit - force * force;
+  assert(false);  // asks for all contacts
+  return 0.0;
 }
 
 Polynomial EventWatcher::polynomial(const Step& step, int contact, EventKind kind) const {
@@ -155,8 +168,10 @@ std::optional<Event> EventWatcher::first(const Step& step) const {
       if (c.blade.number == 0) comes_near = may_reach(c, step);
       if (!comes_near && !step.contacts[static_cast<std::size_t>(i)].in_touch()) continue;
     }
-    for (const EventKind kind : kinds(i, step.contacts[static_cast<std::size_t>(i)])) {
-      const auto s = first_fall(polynomial(step, i, kind), on_surface(i, kind));
+    for (const EventKind kind : kinds(i, step.contacts)) {
+      Polynomial g = polynomial(step, i, kind);
+      if (is_level(i, kind)) g.c[1] = 0.0;
+      const auto s = first_fall(g, on_surface(i, kind));
       if (s && (!earliest || *s < earliest->s)) earliest = Event{*s, i, kind};
     }
   }
@@ -166,6 +181,11 @@ std::optional<Event> EventWatcher::first(const Step& step) const {
 void EventWatcher::enter_touch(int contact, double phase, const double* y, ContactStates& states) {
   const auto i = static_cast<std::size_t>(contact);
   const ReducedContact& c = system_.contacts()[i];
+  for (std::size_t j = 0; j < states.size(); ++j) {  // its slip is known from others
+    if (j == i || !states[j].in_touch() || !system_.slip_alike(i, j)) continue;
+    states[i] = states[j];
+    return;
+  }
   const ContactForces f = kinematics(c, phase, y, system_.coordinates());
   states[i] = {Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
   const bool is_at_rest = std::abs(f.slip) <= 1e-12 * speed_scale_[i];
@@ -174,11 +194,24 @@ void EventWatcher::enter_touch(int contact, double phase, const double* y, Conta
   }
 }
 
+void EventWatcher::set_group(int contact, const ContactState& to, bool is_level,
+                             ContactStates& states) {
+  system_.set_group(states, contact, to);
+  for (std::size_t j = 0; j < states.size(); ++j) {
+    if (!states[j].in_touch() || !system_.slip_alike(static_cast<std::size_t>(contact), j))
+      continue;
+    surface_[j] &= ~bit(EventKind::slip_stop);
+    if (to.touch == Touch::sliding) surface_[j] |= bit(EventKind::slip_stop);
+    is_level_[j] = is_level ? 1 : 0;
+  }
+}
+
 void EventWatcher::apply(const Event& event, double phase, const double* y, ContactStates& states) {
   const auto i = static_cast<std::size_t>(event.contact);
   const ReducedContact& c = system_.contacts()[i];
   unsigned& surface = surface_[i];
   surface = 0u;
+  is_level_[i] = 0;
   switch (event.kind) {
     case EventKind::touch:
       surface = is_continuous(c.law) ? bit(EventKind::release) : 0u;
@@ -202,20 +235,17 @@ void EventWatcher::apply(const Event& event, double phase, const double* y, Cont
       }
       break;
     case EventKind::slip_stop: {
-      const double limit = c.friction.mu * kinematics(c, phase, y, system_.coordinates()).normal;
-      const double force = system_.sticking_force(phase, y, states, event.contact);
-      if (std::abs(force) <= limit) {
-        states[i] = {Touch::sticking, 1.0};
+      const Hold hold = system_.hold(phase, y, states, event.contact);
+      if (hold.is_enough()) {
+        set_group(event.contact, {Touch::sticking, 1.0}, false, states);
       } else {  // even full friction does not hold it: it slides on, or back
-        surface = bit(EventKind::slip_stop);
-        states[i] = {Touch::sliding, force > 0.0 ? 1.0 : -1.0};
+        set_group(event.contact, {Touch::sliding, hold.force > 0.0 ? 1.0 : -1.0}, false, states);
       }
       break;
     }
     case EventKind::stick_limit: {
-      const double force = system_.sticking_force(phase, y, states, event.contact);
-      surface = bit(EventKind::slip_stop);
-      states[i] = {Touch::sliding, force > 0.0 ? 1.0 : -1.0};
+      const double force = system_.hold(phase, y, states, event.contact).force;
+      set_group(event.contact, {Touch::sliding, force > 0.0 ? 1.0 : -1.0}, true, states);
       break;
     }
   }
@@ -223,6 +253,7 @@ void EventWatcher::apply(const Event& event, double phase, const double* y, Cont
 
 void EventWatcher::moved_on() {
   std::fill(surface_.begin(), surface_.end(), 0u);
+  std::fill(is_level_.begin(), is_level_.end(), char{0});
 }
 
 }  // namespace whirl

@@ -16,7 +16,7 @@ enum class EventKind : unsigned char {
   retouch,      ///< receding:  -N
   part,         ///< receding:  r^2 / clearance^2 - 1
   slip_stop,    ///< sliding:   sign of the slip times the slip velocity
-  stick_limit,  ///< sticking:  (mu N)^2 - T^2
+  stick_limit,  ///< sticking:  (mu N)^2 - T^2, sums over those that slip alike
 };
 
 struct Event {
@@ -37,27 +37,38 @@ class EventWatcher {
   double value(const Event& event, double phase, const double* y,
                const ContactStates& states) const;
 
-  /// The same from the forces of its contact, with the friction that holds it if it sticks.
+  /// The same from the forces of its contact, for kinds that ask for them alone: not stick_limit.
   double value(const Event& event, const ContactForces& f, const ContactState& state) const;
 
-  /// Changes the states of the contacts at an event.
+  /// The function of stick_limit.
+  double stick_margin(int contact, const Hold& hold) const;
+
+  /// Changes the states of the contacts at an event. Contacts that slip alike begin and end to stick
+  /// together.
   void apply(const Event& event, double phase, const double* y, ContactStates& states);
 
   /// A step without an event was made: nothing starts on a surface any more.
   void moved_on();
 
-  /// Kinds that can end a contact's state.
-  std::span<const EventKind> kinds(int contact, const ContactState& state) const;
+  /// Kinds that can end a contact's state. Of contacts that stick and slip alike, the first is asked
+  /// for all of them.
+  std::span<const EventKind> kinds(int contact, const ContactStates& states) const;
 
   /// Whether the function of this kind is zero by definition at the start of the next step.
   bool on_surface(int contact, EventKind kind) const;
 
+  /// Whether its slope is zero there, too: a slip that begins where sticking ends, as T is mu N then.
+  bool is_level(int contact, EventKind kind) const;
+
  private:
   Polynomial polynomial(const Step& step, int contact, EventKind kind) const;
   void enter_touch(int contact, double phase, const double* y, ContactStates& states);
+  /// Sets the contacts in touch that slip as one does, and what is known of their slip there.
+  void set_group(int contact, const ContactState& to, bool is_level, ContactStates& states);
 
   const ContactSystem& system_;
   std::vector<unsigned> surface_;  ///< per contact, a bit per kind
+  std::vector<char> is_level_;     ///< per contact, of its slip
   std::vector<double> force_scale_, speed_scale_;
 };
 

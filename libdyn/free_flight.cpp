@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 
 namespace whirl {
@@ -73,10 +74,19 @@ std::optional<Mat> lyapunov(const Mat& A, const Mat& Q) {
   return std::nullopt;
 }
 
+/// Nothing where a revolution is too long beside the fastest motion.
+std::optional<LinearFlow> flow_over_a_revolution(const ContactSystem& system) {
+  try {
+    return LinearFlow(system, system.period(), 1);
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 FreeFlight::FreeFlight(const ContactSystem& system)
-    : system_(system), flow_(system, system.period(), 1) {}
+    : system_(system), flow_(flow_over_a_revolution(system)) {}
 
 void FreeFlight::prepare() {
   is_prepared_ = true;
@@ -112,6 +122,7 @@ void FreeFlight::prepare() {
 }
 
 bool FreeFlight::is_certain(const MotionState& state) {
+  if (!flow_) return false;
   if (system_.contacts().empty()) return true;
   for (const ContactState& c : state.contacts) {
     if (c.touch != Touch::apart) return false;
@@ -127,7 +138,7 @@ void FreeFlight::finish(MotionState& state, long last_revolution) {
   if (!is_prepared_) prepare();
   const double whole = 2.0 * std::numbers::pi;
   if (state.phase > 0.0 && state.revolution < last_revolution) {
-    flow_.advance(0, 1.0 - state.phase / whole, load_at(state.phase), {}, {}, state.y);
+    flow_->advance(0, 1.0 - state.phase / whole, load_at(state.phase), {}, {}, state.y);
     state.phase = 0.0;
     ++state.revolution;
   }
@@ -136,8 +147,8 @@ void FreeFlight::finish(MotionState& state, long last_revolution) {
   // y <- (I + X) y + b for one revolution; about y_p there is no b
   const bool has_center = periodic_.size() > 0;
   const Eigen::Vector3d load = load_at(0.0);
-  Mat X = flow_.table(0).X;
-  Vec b = flow_.table(0).L * load, center = Vec::Zero(state.y.size());
+  Mat X = flow_->table(0).X;
+  Vec b = flow_->table(0).L * load, center = Vec::Zero(state.y.size());
   if (has_center) {
     center = periodic_ * load;
     b.setZero();

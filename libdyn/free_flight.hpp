@@ -1,6 +1,8 @@
 #pragma once
 /// Motion that touches nothing: whether it stays so for good, and where it is then.
 
+#include <optional>
+
 #include "libdyn/linear_flow.hpp"
 #include "libdyn/trajectory.hpp"
 
@@ -16,7 +18,8 @@ namespace whirl {
 ///
 /// where A^T P + P A = -Q with Q > 0: z^T P z never grows, and it bounds |U z| by the inequality of
 /// Cauchy and Schwarz. No eigenvector is involved, so that defective modes are no exception. If the
-/// free motion does not decay (undamped or rigid-body modes), nothing is certain.
+/// free motion does not decay (undamped or rigid-body modes), nothing is certain; nor where a
+/// revolution is too long beside the fastest motion to be computed at once (see LinearFlow).
 ///
 /// @source [Kailath1980], sec. 2.6 (Lyapunov's equation); P by doubling [Smith1968]
 class FreeFlight {
@@ -34,7 +37,7 @@ class FreeFlight {
   void prepare();
 
   const ContactSystem& system_;
-  LinearFlow flow_;
+  std::optional<LinearFlow> flow_;
   bool is_prepared_ = false, decays_ = false;
   Mat periodic_;              ///< y_p = periodic_ (1, cos phase, sin phase)
   Mat P_;                     ///< of the quadratic bound

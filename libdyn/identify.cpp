@@ -13,6 +13,7 @@ namespace {
 
 constexpr int largest_number = 9;     ///< in a ratio p:q
 constexpr double good_enough = 0.01;  ///< error of a ratio from which smaller numbers are preferred
+constexpr double located = 0.25;      ///< error of a peak's place, in bins
 
 /// The two strongest lines that turn in the rotating frame.
 std::optional<FrequencyRatio> resonance_of(const std::vector<IdentifiedPeak>& peaks, double Omega,
@@ -20,8 +21,7 @@ std::optional<FrequencyRatio> resonance_of(const std::vector<IdentifiedPeak>& pe
   std::vector<double> turning;
   for (const IdentifiedPeak& p : peaks) {
     const double seen = std::abs(p.frequency - Omega);
-    const bool stands_still = seen < 1.5 * bin;
-    if (!stands_still) turning.push_back(seen);
+    if (!is_forced(p.frequency, Omega, bin)) turning.push_back(seen);
   }
   if (turning.size() < 2) return std::nullopt;
   return ratio_of(std::max(turning[0], turning[1]), std::min(turning[0], turning[1]));
@@ -43,7 +43,22 @@ std::vector<Peak> distinct_peaks(const Vec& total, double bin, const IdentifyOpt
   return kept;
 }
 
+/// Names the peaks that are combinations of stronger ones.
+void find_combinations(std::vector<IdentifiedPeak>& peaks, double Omega, double bin) {
+  std::vector<double> stronger;
+  for (IdentifiedPeak& p : peaks) {
+    if (std::abs(p.frequency) < 1.5 * bin) continue;  // it rests
+    const bool turns_with_it = is_forced(p.frequency, Omega, bin);
+    if (!turns_with_it) p.combination = combination_of(p.frequency, stronger, located * bin);
+    if (!p.combination) stronger.push_back(turns_with_it ? Omega : p.frequency);
+  }
+}
+
 }  // namespace
+
+bool is_forced(double frequency, double Omega, double bin) {
+  return std::abs(frequency - Omega) < 1.5 * bin;
+}
 
 FrequencyRatio ratio_of(double high, double low) {
   FrequencyRatio best;
@@ -76,15 +91,31 @@ Sparse mac_weights(const DofMap& dofs, double length) {
   return dofs.T.transpose() * Sparse(W * dofs.T);
 }
 
+PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs) {
+  const Point at = assembler.point(contact.at), against = assembler.point(contact.against);
+  const auto* face = std::get_if<Face<>>(&contact.law);
+  const double arm = face ? face->radius : 1.0;
+  PlaneRows rows(2, dofs.size());
+  for (const int i : {0, 1}) {
+    const int component = (face ? THETA_X : X) + i;
+    rows.row(i) = arm * (dofs.row(at, component) - dofs.row(against, component)).transpose();
+  }
+  return rows;
+}
+
 System stiffened(const Model& model, const Scene& scene) {
   System system = scene.system;
-  for (const Contact& c : model.contacts) {
+  int owner = -1;
+  for (const ReducedContact& reduced : scene.contacts.contacts()) {
+    if (reduced.owner == owner) continue;  // another blade
+    owner = reduced.owner;
+    const Contact& c = model.contacts[static_cast<std::size_t>(owner)];
     const double depth = 1e-3 * c.clearance;
-    const double k = normal_force(c.law, depth, 0.0) / depth;
-    const Point at = scene.assembler.point(c.at), against = scene.assembler.point(c.against);
-    for (const int component : {X, Y}) {
-      const Vec row = system.dofs.row(at, component) - system.dofs.row(against, component);
-      const Sparse column = row.sparseView();
+    // of the reduced contact, whose law knows how a blade bends
+    const double k = normal_force(reduced.law, depth, 0.0) / depth;
+    const PlaneRows rows = closing_rows(c, scene.assembler, system.dofs);
+    for (const int i : {0, 1}) {
+      const Sparse column = Vec(rows.row(i).transpose()).sparseView();
       system.K += k * Sparse(column * Sparse(column.transpose()));
     }
   }
@@ -122,6 +153,7 @@ Identification identify(const Model& model, const Scene& scene, const Recording&
     }
     result.peaks.push_back(std::move(found));
   }
+  find_combinations(result.peaks, system.Omega, spectra.bin());
   result.resonance = resonance_of(result.peaks, system.Omega, spectra.bin());
   return result;
 }

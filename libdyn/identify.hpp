@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "libdyn/combinations.hpp"
 #include "libdyn/response.hpp"
 #include "libfe/modes.hpp"
 
@@ -18,11 +19,12 @@ struct IdentifyOptions {
 };
 
 struct IdentifiedPeak {
-  double frequency = 0.0;   ///< signed: forward > 0 [rad/s]
-  double amplitude = 0.0;   ///< largest radius of a point at this frequency [m]
-  std::vector<double> mac;  ///< against each mode
-  int mode = 0;             ///< best one, from 0
-  double shift = 0.0;       ///< |frequency| over that mode's, less one
+  double frequency = 0.0;                  ///< signed: forward > 0 [rad/s]
+  double amplitude = 0.0;                  ///< largest radius of a point at this frequency [m]
+  std::vector<double> mac;                 ///< against each mode
+  int mode = 0;                            ///< best one, from 0
+  double shift = 0.0;                      ///< |frequency| over that mode's, less one
+  std::optional<Combination> combination;  ///< of stronger peaks that are none themselves
 };
 
 /// Ratio of the two strongest frequencies seen from the rotor.
@@ -43,7 +45,8 @@ struct Identification {
 ///
 /// Peaks are those of the spectrum over all points together; at each, the deflection shape is the
 /// complex amplitude of every displacement at the frequency's magnitude, so that a mode's forward
-/// and backward parts are compared together.
+/// and backward parts are compared together. Contacts make combinations of the frequencies of a
+/// motion: such peaks have the shape of a mode and not its frequency.
 Identification identify(const Model& model, const Scene& scene, const Recording& recording,
                         const IdentifyOptions& options);
 
@@ -54,7 +57,17 @@ Sparse mac_weights(const DofMap& dofs, double length);
 /// The ratio p:q of small numbers nearest to high / low; smaller numbers win among good ones.
 FrequencyRatio ratio_of(double high, double low);
 
-/// The system with the stiffness of its contacts added at their stations, as if closed for good.
+/// Whether a peak is the response to what turns with the rotor.
+///
+/// @param bin  distance of spectral lines [rad/s]
+bool is_forced(double frequency, double Omega, double bin);
+
+/// Rows of the displacement that closes a contact, over the coordinates of a system: of its station
+/// against the other one [m]; of a face its tilts times its radius.
+PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs);
+
+/// The system with the stiffness of its contacts added at their stations, as if closed for good: of
+/// rings and blades to lateral displacements, of faces to tilts.
 System stiffened(const Model& model, const Scene& scene);
 
 }  // namespace whirl

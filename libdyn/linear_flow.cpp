@@ -1,7 +1,10 @@
 #include "libdyn/linear_flow.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 
 namespace whirl {
@@ -9,7 +12,6 @@ namespace whirl {
 namespace {
 
 constexpr int series_terms = 13;  ///< (1/4)^14 / 14! is below rounding
-constexpr int most_levels = 64;
 
 }  // namespace
 
@@ -78,12 +80,20 @@ LinearFlow::LinearFlow(const ContactSystem& system, double longest, int terms)
       first_half_(restriction(0.0, 0.5, rule_)),
       second_half_(restriction(0.5, 1.0, rule_)),
       to_powers_(legendre_to_powers(terms)),
-      tables_(most_levels),
+      tables_(levels),
       work_(2 * n_),
       term_(2 * n_),
       a_(2 * contacts_ * terms),
       whole_(a_) {
   norm_ = std::max(balanced_norm(A_), rate_);
+  if (!is_small(levels - 1)) {
+    throw NumericalError(fmt::format(
+        "the linear motion of the rotor has rates of {:.3g} 1/s, and {:.3g} s are to be computed "
+        "at "
+        "once: more than 2^{} times as long; is the speed too low, or a stiffness or damping too "
+        "high?",
+        norm_, longest, levels));
+  }
   F_.bottomRows(n_) << system.constant_load(), system.cosine_load(), system.sine_load();
   for (int c = 0; c < contacts_; ++c) {
     B_.block(n_, 2 * c, n_, 2) = system.contacts()[static_cast<std::size_t>(c)].B;

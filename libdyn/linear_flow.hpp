@@ -26,8 +26,13 @@ namespace whirl {
 /// @source [MolerVanLoan2003], method 3 (scaling and squaring)
 class LinearFlow {
  public:
+  /// Step sizes that there are: levels count from 0.
+  static constexpr int levels = 64;
+
   /// @param longest  size at level 0 [s]
   /// @param terms    of the polynomials f
+  /// @throws NumericalError  where the fastest motion of the system is too fast beside `longest`: no
+  ///                         level is as short as its Taylor series asks for
   LinearFlow(const ContactSystem& system, double longest, int terms);
 
   /// Matrices of one step size.

@@ -1,5 +1,6 @@
 #include "libdyn/saltation.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace whirl {
@@ -20,6 +21,7 @@ std::optional<Saltation> saltation(const ContactSystem& system, const Event& eve
   if (change.isZero(0.0)) return std::nullopt;
 
   const ReducedContact& contact = system.contacts()[static_cast<std::size_t>(event.contact)];
+  assert(!contact.is_face() && !contact.is_blade());
   const Vec2 d = contact.U * y.head(n) - contact.offset, d_rate = contact.U * y.tail(n);
   const double r = d.norm();
   const Vec2 normal = d / r, t(-normal(1), normal(0));

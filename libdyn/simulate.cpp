@@ -69,6 +69,7 @@ Simulation simulate(const Scene& scene, MotionState start, const SimulationOptio
   const long first = result.end.revolution;
   long done = first;
   const auto goes_on = [&](const Step& step) {
+    if (options.is_stopped && options.is_stopped()) return false;
     if (!options.progress || step.revolution == done) return true;
     done = step.revolution;
     return options.progress(done - first);
@@ -78,7 +79,7 @@ Simulation simulate(const Scene& scene, MotionState start, const SimulationOptio
   if (options.discard > 0) {
     // without an observer, methods may jump where nothing happens
     total = integrate(options.method, system, result.end, options.discard, options.integration,
-                      options.progress ? Observer(goes_on) : Observer());
+                      options.progress || options.is_stopped ? Observer(goes_on) : Observer());
   }
   Recording& recording = result.recording;
   recording.samples = options.samples;

@@ -17,6 +17,8 @@ struct SimulationOptions {
   IntegrationOptions integration;
   /// Called once per revolution with those done; returns false to stop. May be empty.
   std::function<bool(long)> progress;
+  /// Asked at every step whether to stop. May be empty.
+  std::function<bool()> is_stopped;
 };
 
 /// A recorded stretch of motion in reduced coordinates.

@@ -169,19 +169,24 @@ void add_columns(const ResultReader& file, const std::string& path,
   }
 }
 
-std::string csv_of(const ResultReader& file, const CsvTable& table) {
+std::string csv_of(const ResultReader& file, const CsvTable& table,
+                   const std::optional<MotionSamples>& samples) {
   std::string out;
   std::vector<std::vector<std::string>> along;  // values of the rows' axes
   Index count = 1;
+  std::vector<Index> first, last;
   for (const Dimension& d : table.rows) {
-    count *= d.size;
+    const bool is_cut = samples && d.axis == "/trajectory/time";
+    first.push_back(is_cut ? samples->first : 0);
+    last.push_back(is_cut ? samples->last : d.size - 1);
+    count *= last.back() - first.back() + 1;
     out += (along.empty() ? "" : ",") +
            (d.axis.empty() ? "number" : csv_text(heading(file, d.axis, "")));
     along.push_back(d.axis.empty() ? std::vector<std::string>{} : read_texts(file, d.axis));
   }
   for (const Column& c : table.columns) out += ',' + csv_text(c.head);
   out += '\n';
-  std::vector<Index> at(table.rows.size(), 0);
+  std::vector<Index> at = first;
   for (Index row = 0; row < count; ++row) {
     for (std::size_t i = 0; i < at.size(); ++i) {
       if (i > 0) out += ',';
@@ -195,8 +200,8 @@ std::string csv_of(const ResultReader& file, const CsvTable& table) {
     }
     out += '\n';
     for (std::size_t i = at.size(); i-- > 0;) {
-      if (++at[i] < table.rows[i].size) break;
-      at[i] = 0;
+      if (++at[i] <= last[i]) break;
+      at[i] = first[i];
     }
   }
   return out;
@@ -204,7 +209,8 @@ std::string csv_of(const ResultReader& file, const CsvTable& table) {
 
 }  // namespace
 
-std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::path& stem) {
+std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::path& stem,
+                                       const std::optional<MotionSamples>& samples) {
   std::vector<std::pair<std::string, std::string>> datasets;  // group, path
   std::set<std::string> is_axis;
   for (const std::string& group : result.list("/")) {
@@ -245,7 +251,7 @@ std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::pat
   std::vector<fs::path> files;
   for (const CsvTable& table : tables) {
     const fs::path place = fmt::format("{}_{}.csv", stem.string(), table.name);
-    replace_file(place, csv_of(result, table));
+    replace_file(place, csv_of(result, table, samples));
     files.push_back(place);
   }
   return files;

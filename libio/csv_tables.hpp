@@ -2,9 +2,11 @@
 /// A result as tables for spreadsheets.
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "libio/hdf5.hpp"
+#include "libio/motion_window.hpp"
 
 namespace whirl {
 
@@ -16,9 +18,11 @@ namespace whirl {
 /// stands in each column, with its SI unit: "x left disk [m]". Numbers are as exact as in the file;
 /// what is not a number is left empty. Left out are datasets that only this program goes on from.
 ///
+/// @param samples  of the motion, the rows of its tables; left out: all
 /// @return  the files, in the order of the groups
 /// @throws FileError  if one cannot be read or written
-std::vector<std::filesystem::path> write_csv_tables(const ResultReader& result,
-                                                    const std::filesystem::path& stem);
+std::vector<std::filesystem::path> write_csv_tables(
+    const ResultReader& result, const std::filesystem::path& stem,
+    const std::optional<MotionSamples>& samples = {});
 
 }  // namespace whirl

@@ -12,6 +12,7 @@
 #include "libfe/assemble.hpp"
 #include "libio/figure.hpp"
 #include "libio/hdf5.hpp"
+#include "libio/motion_window.hpp"
 
 namespace whirl {
 
@@ -28,6 +29,7 @@ struct ResultView {
   std::optional<Assembler> assembler;
   std::string problem;  ///< why there is no model, such as a bearing table that is gone
   DisplayUnit frequency{"Hz", 0.15915494309189535};  ///< of frequency axes; speeds are in rpm
+  MotionWindow window;  ///< of motions that are drawn in time; left open: their end
 };
 
 /// A unit for frequency axes: "Hz", "cpm" or "rad/s"; nothing for other names.
@@ -40,6 +42,7 @@ struct FigureKind {
   std::vector<std::string_view> needs;  ///< datasets; without all of them there is no figure
   bool needs_model = false;
   std::vector<Figure> (*make)(const ResultView&);  ///< the most telling one first; may be none
+  bool takes_window = false;  ///< whether ResultView::window says what is drawn
 };
 
 /// All kinds, in the order of a report. A new kind is a file in figures/ and an entry here.

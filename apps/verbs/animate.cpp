@@ -138,11 +138,17 @@ Report run_animate(const Invocation& call) {
   const auto size = size_of(call.text("size", "960x540"));
   const long number = call.integer("mode", 0);
   std::vector<VtkFrame> frames;
-  std::string title;
+  std::string title, shown;
   if (number == 0 && source.has_motion()) {
-    frames = source.motion(call.integer("revolutions", 4), call.integer("frames", 120));
-    title = source.model.title.empty() ? "the end of the motion" : source.model.title;
+    const MotionSamples samples = source.samples(call, 4.0);
+    frames = source.motion(samples, call.integer("frames", 120));
+    title = source.model.title.empty() ? samples.text : source.model.title;
+    shown = ", " + samples.text;
   } else {
+    if (window_of(call).is_given()) {
+      throw wrong("--revolutions, --from-revolution, --times",
+                  "are of motions, and this is a mode");
+    }
     const long wanted = std::max(1L, number);
     source.each_mode(wanted, static_cast<int>(call.integer("frames", 60)),
                      [&](int n, const Mode& mode, const std::vector<VtkFrame>& cycle) {
@@ -178,7 +184,8 @@ Report run_animate(const Invocation& call) {
   for (const fs::path& f : files) list.add(f.string());
   report.record.set("files", list);
   report.record.set("frames", static_cast<int>(frames.size()));
-  report.text = fmt::format("  {}: {} frames, {}\n", files.front().string(), frames.size(), title);
+  report.text =
+      fmt::format("  {}: {} frames{}, {}\n", files.front().string(), frames.size(), shown, title);
   return report;
 }
 

@@ -9,6 +9,7 @@
 #include "libio/figures.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
+#include "libio/value_range.hpp"
 
 namespace whirl {
 
@@ -141,6 +142,29 @@ void set_frequency_unit(const Invocation& call, ResultView& result) {
   const auto unit = frequency_unit(name);
   if (!unit) throw ModelError({"--frequency " + name}, "", "expected Hz, cpm or rad/s");
   result.frequency = *unit;
+}
+
+MotionWindow window_of(const Invocation& call) {
+  MotionWindow window;
+  if (call.has("times")) {
+    const std::string text = call.text("times");
+    for (const char* other : {"from-revolution", "revolutions"}) {
+      if (call.has(other)) {
+        throw ModelError({"--times " + text}, "", fmt::format("does not go with --{}", other));
+      }
+    }
+    const auto range = parse_range(text, "s");
+    if (!range) throw ModelError({"--times " + text}, "", range.problem);
+    if (range->step) throw ModelError({"--times " + text}, "", "expected two times, first:last");
+    window.times = {range->first, range->last};
+  }
+  if (call.has("from-revolution")) {
+    window.from_revolution = static_cast<double>(call.integer("from-revolution", 0, 0));
+  }
+  if (call.has("revolutions")) {
+    window.revolutions = static_cast<double>(call.integer("revolutions", 1));
+  }
+  return window;
 }
 
 void commit(const Invocation& call, ResultWriter* file, Report& report) {

@@ -9,6 +9,7 @@
 #include "libdyn/stations.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/modes.hpp"
+#include "libio/motion_window.hpp"
 
 namespace whirl {
 
@@ -43,6 +44,9 @@ std::string point_label(const NamedPoint& point);
 
 /// Shows frequencies in the unit of --frequency, if it is given.
 void set_frequency_unit(const Invocation& call, ResultView& result);
+
+/// The stretch of a motion that --from-revolution, --revolutions or --times ask for.
+MotionWindow window_of(const Invocation& call);
 
 /// Writes the report's notes into a result file, if there is one, commits it, and says so.
 void commit(const Invocation& call, ResultWriter* file, Report& report);

@@ -64,10 +64,9 @@ Written export_series(const Invocation& call, const SceneSource& source, const f
     written.text += fmt::format("  {}: {} frames, {}\n", place.string(), frames.size(), what);
   };
   if (source.has_motion()) {
-    write("",
-          source.motion(call.integer("revolutions", is_xdmf ? 64 : 4),
-                        call.integer("frames", is_xdmf ? 100'000 : 128)),
-          "the end of the motion");
+    const MotionSamples samples = source.samples(call, is_xdmf ? 64.0 : 4.0);
+    write("", source.motion(samples, call.integer("frames", is_xdmf ? 100'000 : 128)),
+          samples.text);
   }
   if (source.has_modes()) {
     source.each_mode(call.integer("modes", 4), mode_frames,
@@ -78,11 +77,14 @@ Written export_series(const Invocation& call, const SceneSource& source, const f
   return written;
 }
 
-Written export_csv(const SceneSource& source, const fs::path& stem) {
+Written export_csv(const Invocation& call, const SceneSource& source, const fs::path& stem) {
   if (!source.result) {
     throw ModelError({"--format csv"}, "", "a model holds no tables; take the result of a verb");
   }
-  Written written{write_csv_tables(*source.result, stem), ""};
+  std::optional<MotionSamples> samples;
+  if (source.has_motion() && window_of(call).is_given()) samples = source.samples(call, 1e9);
+  Written written{write_csv_tables(*source.result, stem, samples), ""};
+  if (samples) written.text = fmt::format("  of the motion {}\n", samples->text);
   for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
   if (written.files.empty()) written.text = "There are no tables in this result\n";
   return written;
@@ -97,7 +99,10 @@ Written export_mesh(const Invocation& call, const SceneSource& source, const Mes
     told_fields += fmt::format("    {}: {}\n", name, what);
   };
   if (source.has_motion()) {
-    add("displacement_m", source.motion(1, 1'000'000).back().motion, "at the end of the motion");
+    MotionSamples samples = source.samples(call, 1.0);
+    samples.first = samples.last;
+    add("displacement_m", source.motion(samples, 1).back().motion,
+        fmt::format("at the end of {}", samples.text));
   }
   if (source.has_modes()) {
     source.each_mode(
@@ -129,9 +134,13 @@ Report run_export(const Invocation& call) {
   if (!mesh && name != "vtk" && name != "xdmf" && name != "csv") throw unknown_format(name);
   const SceneSource source(call);
   const std::string ending = mesh ? std::string(mesh->ending) : name == "vtk" ? ".pvd" : "." + name;
+  if (!source.has_motion() && window_of(call).is_given()) {
+    throw ModelError({"--revolutions, --from-revolution, --times"}, "",
+                     "are of motions, and this file holds none");
+  }
   const fs::path stem = without_ending(call.text("out", call.file), ending);
   const Written written = mesh            ? export_mesh(call, source, *mesh, stem)
-                          : name == "csv" ? export_csv(source, stem)
+                          : name == "csv" ? export_csv(call, source, stem)
                                           : export_series(call, source, stem, name == "xdmf");
   Report report{.record = begin_record(call, source.model), .text = written.text};
   Record list = Record::array();

@@ -13,6 +13,14 @@ namespace whirl {
 
 namespace {
 
+Record record_of(const Combination& combination) {
+  Record terms = Record::array();
+  for (const Combination::Term& t : combination.terms) {
+    terms.add(Record().set("times", t.times).set("frequency_rpm", t.frequency / rpm));
+  }
+  return terms;
+}
+
 Record record_of(const IdentifiedPeak& peak, double Omega) {
   Record r;
   r.set("frequency_rpm", peak.frequency / rpm)
@@ -21,6 +29,7 @@ Record record_of(const IdentifiedPeak& peak, double Omega) {
   r.set("mode", peak.mac.empty() ? Record(nullptr) : Record(peak.mode + 1))
       .set("shift", peak.shift);
   r.set("frequency_rotating_rpm", (peak.frequency - Omega) / rpm);
+  r.set("combination", peak.combination ? record_of(*peak.combination) : Record(nullptr));
   return r;
 }
 
@@ -28,6 +37,29 @@ Record record_of(const IdentifiedPeak& peak, double Omega) {
 std::string signed_rpm(double frequency) {
   const std::string text = fmt::format("{:+.1f}", frequency / rpm);
   return text == "-0.0" ? "+0.0" : text;
+}
+
+/// "2 x 2377.2 - 4430.0", in rpm.
+std::string combination_text(const Combination& combination) {
+  std::string text;
+  for (const Combination::Term& t : combination.terms) {
+    const bool is_minus = t.times < 0;
+    text += text.empty() ? (is_minus ? "-" : "") : is_minus ? " - " : " + ";
+    if (std::abs(t.times) > 1) text += fmt::format("{} x ", std::abs(t.times));
+    text += t.frequency < 0.0 ? fmt::format("({:.1f})", t.frequency / rpm)
+                              : fmt::format("{:.1f}", t.frequency / rpm);
+  }
+  return text;
+}
+
+/// What a peak is beside the mode of its shape: forced, a combination, or that mode, shifted.
+std::string shift_text(const IdentifiedPeak& p, const Identification& id, double Omega) {
+  constexpr double far = 0.1;  // of a mode's frequency: a peak beyond is not that mode's own
+  if (is_forced(p.frequency, Omega, id.bin)) return "forced (1X)";
+  const std::string shift = fmt::format("{:+.1f} %", 100.0 * p.shift);
+  if (!p.combination) return shift;
+  const std::string made_of = combination_text(*p.combination);
+  return std::abs(p.shift) > far ? made_of : shift + ", " + made_of;
 }
 
 /// Table peaks x modes; the best mode of a peak is marked.
@@ -49,9 +81,8 @@ std::string mac_table(const Identification& id, double Omega) {
                                    format_length(p.amplitude)};
     for (const double value : p.mac)
       cells.push_back(value < 0.005 ? "·" : fmt::format("{:.2f}", value));
-    const bool forced = std::abs(p.frequency - Omega) < 1.5 * id.bin;
     cells.push_back(p.mac.empty() ? "-" : fmt::format("mode {}", p.mode + 1));
-    cells.push_back(forced ? "forced (1X)" : fmt::format("{:+.1f} %", 100.0 * p.shift));
+    cells.push_back(shift_text(p, id, Omega));
     table.row(cells);
   }
   return table.text();
@@ -115,16 +146,20 @@ Report run_identify(const Invocation& call) {
                  nm = static_cast<Eigen::Index>(id.modes.size());
       Mat mac(np, nm);
       Vec frequency(np), amplitude(np);
+      std::vector<std::string> combination;
       for (Eigen::Index i = 0; i < np; ++i) {
         const IdentifiedPeak& p = id.peaks[static_cast<std::size_t>(i)];
         frequency(i) = p.frequency;
         amplitude(i) = p.amplitude;
+        combination.push_back(p.combination ? combination_text(*p.combination) : "");
         mac.row(i) = Eigen::Map<const Eigen::RowVectorXd>(p.mac.data(), nm);
       }
       if (np > 0) {
         file->dataset("/mac/frequency", frequency, {"rad/s", "signed frequency of the peak", {""}});
         file->dataset("/mac/amplitude", amplitude,
                       {"m", "largest radius at the peak", {"/mac/frequency"}});
+        file->dataset("/mac/combination", combination,
+                      {"", "stronger peaks that make up the frequency [rpm]", {"/mac/frequency"}});
         file->dataset("/mac/mac", mac,
                       {"", "modal assurance criterion", {"/mac/frequency", "/modes/number"}});
       }

@@ -102,6 +102,15 @@ const FigureKind& kind_of(const std::string& name, const ResultView& result) {
   return kind;
 }
 
+/// Kinds of which a stretch of the motion can be drawn.
+std::vector<std::string_view> kinds_in_time() {
+  std::vector<std::string_view> names;
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.takes_window) names.push_back(kind.name);
+  }
+  return names;
+}
+
 const Figure& chosen(const std::vector<Figure>& figures, const std::string& which) {
   if (which.empty()) return figures.front();
   std::vector<std::string> names;
@@ -231,6 +240,11 @@ Report run_plot(const Invocation& call) {
     return list_of(call, result);
   }
   const FigureKind& kind = kind_of(call.words[0], result);
+  result.window = window_of(call);
+  if (result.window.is_given() && !kind.takes_window) {
+    throw wrong("--revolutions, --from-revolution, --times",
+                fmt::format("are of motions in time: {}", fmt::join(kinds_in_time(), ", ")));
+  }
   auto figures = figures_of(kind, result);
   if (figures.empty()) {
     throw wrong(call.words[0], "there is nothing to draw in this result");
@@ -254,6 +268,7 @@ Report run_plot(const Invocation& call) {
   Record files = Record::array();
   files.add(out.string());
   report.record.set("files", files);
+  report.notes = figure.notes;
   report.text = fmt::format("  {}: {}\n", out.string(), figure.subtitle);
   Record left_out = Record::array();
   for (const std::string& what : picture.left_out) {

@@ -9,6 +9,7 @@
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/bouncing.hpp"
+#include "libdyn/identify.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/resonance.hpp"
 #include "libio/hdf5.hpp"
@@ -20,18 +21,13 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Orbit of a mode at the station of each contact, by the largest of the rotor.
+/// Orbit of a mode in each contact, by the largest of the rotor.
 std::vector<double> sizes_at_contacts(const Model& model, const Assembler& assembler,
                                       const System& system, const Mode& mode) {
   std::vector<double> sizes;
   for (const Contact& c : model.contacts) {
-    const Point at = assembler.point(c.at), against = assembler.point(c.against);
-    const auto component = [&](Component of) {
-      return (system.dofs.row(at, of) - system.dofs.row(against, of))
-          .cast<Complex>()
-          .dot(mode.shape);
-    };
-    sizes.push_back(Orbit(component(X), component(Y)).major());
+    const Eigen::Vector2cd d = closing_rows(c, assembler, system.dofs).cast<Complex>() * mode.shape;
+    sizes.push_back(Orbit(d(0), d(1)).major());
   }
   return sizes;
 }

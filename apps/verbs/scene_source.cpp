@@ -26,13 +26,20 @@ SceneSource::SceneSource(const Invocation& call)
       assembler(model.structure),
       scene(vtk_scene(model, assembler)) {}
 
-std::vector<VtkFrame> SceneSource::motion(long revolutions, long most) const {
+MotionSamples SceneSource::samples(const Invocation& call, double usual) const {
+  const MotionWindow window = window_of(call);
+  MotionSamples samples = samples_of(window, recorded_motion(*result), usual);
+  // of the last revolutions both ends are the same phase: a film that is played in a loop shows one
+  const bool is_end = !window.from_revolution && !window.times;
+  if (is_end && samples.first > 0) ++samples.first;
+  return samples;
+}
+
+std::vector<VtkFrame> SceneSource::motion(const MotionSamples& samples, long most) const {
   const Mat basis = result->matrix("/trajectory/basis");
   const Mat coordinates = result->matrix("/trajectory/coordinates");
   const Vec time = result->vector("/trajectory/time");
-  const auto per_revolution =
-      static_cast<Eigen::Index>(result->number_attribute("/trajectory", "samples_per_revolution"));
-  const auto count = std::min<Eigen::Index>(time.size(), revolutions * per_revolution);
+  const auto count = samples.size();
   const auto frames = std::min<Eigen::Index>(count, most);
   const auto contacts = static_cast<Eigen::Index>(model.contacts.size());
   Mat normal = Mat::Zero(contacts, time.size()), friction = normal;
@@ -51,7 +58,7 @@ std::vector<VtkFrame> SceneSource::motion(long revolutions, long most) const {
   }
   std::vector<VtkFrame> list;
   for (Eigen::Index k = 0; k < frames; ++k) {
-    const auto j = time.size() - count + k * count / frames;
+    const auto j = samples.first + k * count / frames;
     list.push_back(vtk_frame(model, assembler, time(j), basis * coordinates.col(j), normal.col(j),
                              friction.col(j)));
   }

@@ -10,6 +10,7 @@
 #include "libfe/assemble.hpp"
 #include "libfe/modes.hpp"
 #include "libio/hdf5.hpp"
+#include "libio/motion_window.hpp"
 #include "libio/vtk_scene.hpp"
 
 namespace whirl {
@@ -26,9 +27,13 @@ struct SceneSource {
   bool has_motion() const { return result && result->has("/trajectory/coordinates"); }
   bool has_modes() const { return !result || result->has("/modes"); }
 
-  /// The last revolutions of a motion, evenly thinned to a number of frames.
+  /// Which samples of the motion a call asks for: the last revolutions, so many if it does not say.
+  /// @throws ModelError  if they were not recorded
+  MotionSamples samples(const Invocation& call, double usual) const;
+
+  /// Those samples, evenly thinned to a number of frames.
   /// @throws ModelError  if the motion is of another rotor than the model as set
-  std::vector<VtkFrame> motion(long revolutions, long most) const;
+  std::vector<VtkFrame> motion(const MotionSamples& samples, long most) const;
 
   /// Calls for every mode at the operating speed with its number from 1, itself and a cycle of it.
   void each_mode(

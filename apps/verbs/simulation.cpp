@@ -164,10 +164,14 @@ Run run_simulation(const Invocation& call, const Model& model) {
   }
   const long total = options.discard + options.revolutions;
   Progress progress("simulating", total, call.shows_progress);
-  is_interrupted();  // from now on Ctrl-C stops between revolutions
+  is_interrupted();  // from now on Ctrl-C stops after the revolution under way
   options.progress = [&](long done) {
     progress.update(done);
     return !is_interrupted();
+  };
+  options.is_stopped = [steps = 0]() mutable {  // or within it, if it has no end
+    constexpr int patience = 10'000;
+    return is_interrupted() && ++steps > patience;
   };
   Simulation simulation = simulate(scene, start, options);
   Run run{std::move(scene), std::move(simulation), std::move(stations),

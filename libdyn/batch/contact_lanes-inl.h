@@ -51,8 +51,10 @@ struct ContactLanes {
 
   // state, a bit per lane
   uint64_t touching = 0, receding = 0, sticking = 0;
-  P sign{1.0};  // of the slip
+  uint64_t leading = 0;  // sticking, the first of those that slip alike: tau is that of all of them
+  P sign{1.0};           // of the slip
   uint64_t surface_distance = 0, surface_force = 0, surface_slip = 0;
+  uint64_t level_slip = 0;  // on the surface, and the rate of the slip is zero too
 
   // this step
   bool is_evaluated = false;             // whether any lane needs the force
@@ -110,6 +112,7 @@ struct ContactLanes {
     put(surface_distance, bit, false);
     put(surface_force, bit, false);
     put(surface_slip, bit, false);
+    put(level_slip, bit, false);
     for (P* sum : {&duty, &stuck, &max_normal, &max_friction}) set_lane(*sum, l, 0.0);
   }
 

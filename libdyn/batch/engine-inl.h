@@ -50,6 +50,7 @@ class Engine {
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
     falls_.resize(contacts_.size());
     disks_ = disks_of(pattern, contacts_);
+    alike_.assign(pattern.alike.size(), 0);
     for (const Pattern::ContactRows& rows : pattern.contacts) {
       is_analytic_ = is_analytic_ && rows.is_analytic;
     }
@@ -134,6 +135,7 @@ class Engine {
   template <int Bodies>
   HWY_ATTR void evaluate(const P* terms, const P& h, P* y) const;
   HWY_ATTR void measure(const P& h);
+  HWY_ATTR P shared_friction(size_t i, const P& t) const;
   HWY_ATTR void fly_on(int l);
   HWY_ATTR void remove_slip(int l);
   HWY_ATTR bool tell(const Observer& observer, double h);
@@ -147,6 +149,7 @@ class Engine {
   __attribute__((flatten)) HWY_ATTR void series_of_bodies(Law& law);
   HWY_ATTR inline void accelerate(int k, P* to);
   HWY_ATTR void find_load();
+  void find_leaders();
   HWY_ATTR void stick(int k);
   HWY_ATTR void solve_influence();
 
@@ -159,6 +162,7 @@ class Engine {
   HWY_ATTR void note(size_t i, uint64_t Falls::*kind, const Mask& fell);
   HWY_ATTR void apply_events(uint64_t instant);
   HWY_ATTR void apply_rare_event(int l, size_t i);
+  uint64_t joins_sticking(size_t i) const;
 
   // engine_tangents-inl.h
   /// Packs of several registers are for motions alone: their tangents would not fit the caches.
@@ -198,6 +202,7 @@ class Engine {
   EquationLanes<P> equations_;
   std::vector<P> scale_;
   std::vector<ContactLanes<P>> contacts_;
+  std::vector<uint64_t> alike_;  // per pair of Pattern::alike, the lanes in which they slip alike
   std::vector<std::unique_ptr<BladeLanes<P>>> disks_;  // of contacts with blades
   std::vector<std::unique_ptr<FilmLanes<P>>> films_;
   bool is_analytic_ = true;  // all laws are, and there is no film
@@ -258,6 +263,9 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   set_lane(time_, l, Number(t.state.phase) / rate);
   for (size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
+  }
+  for (size_t p = 0; p < alike_.size(); ++p) {
+    put(alike_[p], bit, s.slip_alike(pattern_.alike[p].first, pattern_.alike[p].second));
   }
   for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
   for (const auto& disk : disks_) disk->load(s.contacts()[disk->first], l, rate);

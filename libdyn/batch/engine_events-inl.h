@@ -47,7 +47,7 @@ HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
     if (!c.is_evaluated) continue;
     if (((c.touching | c.receding) & active_ & ~c.continuous) != 0) watch_force(i, h);
     if ((c.touching & active_ & c.exact & ~c.sticking) != 0) watch_slip(i, h);
-    if ((c.sticking & active_) != 0) watch_stick(i, h);
+    if ((c.leading & active_) != 0) watch_stick(i, h);
   }
   uint64_t fell = 0;
   for (const Falls& f : falls_) fell |= f.any();
@@ -95,27 +95,39 @@ HWY_ATTR void Engine<P>::watch_slip(size_t i, P& h) {
   // sign * (Omega R r + d x d'), which has the sign of the slip times the sense it had
   P* g = c.slip;
   for (int k = 0; k <= N; ++k) g[k] = c.add_turn(c.rim * c.r[k], k);
+  if (c.level_slip != 0) g[1] = select(mask_of<P>(c.level_slip), P(0.0), g[1]);
   note(i, &Falls::slip,
        first_fall(g, N, c.sign, c.slip_scale, h, mask_of<P>(asked), mask_of<P>(c.surface_slip)));
 }
 
 /// Sticking ends where the friction it needs is more than mu N:  (mu q)^2 - tau^2 falls below zero.
+/// With others that slip alike, mu q is the sum of theirs; tau is that of all already.
 template <class P>
 HWY_ATTR void Engine<P>::watch_stick(size_t i, P& h) {
   ContactLanes<P>& c = contacts_[i];
+  P q[P::most_terms];
+  std::copy(c.q, c.q + N + 1, q);
+  for (size_t p = 0; p < alike_.size(); ++p) {
+    if (pattern_.alike[p].first != i) continue;
+    const ContactLanes<P>& other = contacts_[pattern_.alike[p].second];
+    const Mask sticks = mask_of<P>(other.sticking & alike_[p] & c.leading);
+    for (int k = 0; k <= N; ++k) {
+      q[k] = q[k] + select(sticks, other.q[k] * (other.mu / c.mu), P(0.0));
+    }
+  }
   P* g = c.slip;
   const P mu2 = c.mu * c.mu;
   for (int k = 0; k <= N; ++k) {
     P qq(0.0), tt(0.0);
     for (int j = 0; j <= k; ++j) {
-      qq = fma(c.q[j], c.q[k - j], qq);
+      qq = fma(q[j], q[k - j], qq);
       tt = fma(c.tau[j], c.tau[k - j], tt);
     }
     g[k] = fma(mu2, qq, -tt);
   }
   const P scale = c.force_scale / c.clearance;
   note(i, &Falls::stick,
-       first_fall(g, N, P(1.0), scale * scale, h, mask_of<P>(c.sticking & active_), mask_of<P>(0)));
+       first_fall(g, N, P(1.0), scale * scale, h, mask_of<P>(c.leading & active_), mask_of<P>(0)));
 }
 
 template <class P>
@@ -140,7 +152,7 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
         const uint64_t at_rest =
             enters & c.exact &
             bits(slip, less_equal(abs(slip), c.slip_scale * P(1e3 * P::rounding)));
-        common &= ~at_rest;
+        common &= ~(at_rest | (enters & joins_sticking(i)));
       }
       if ((enters & ~c.exact) != 0) c.sign = select(mask_of<P>(enters & ~c.exact), P(1.0), c.sign);
       c.touching ^= common;
@@ -161,6 +173,18 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
       }
     }
   }
+}
+
+/// Lanes in which a contact sticks that slips as contact i would.
+template <class P>
+uint64_t Engine<P>::joins_sticking(size_t i) const {
+  uint64_t lanes = 0;
+  for (size_t p = 0; p < alike_.size(); ++p) {
+    const auto [first, second] = pattern_.alike[p];
+    if (first == i) lanes |= alike_[p] & contacts_[second].sticking;
+    if (second == i) lanes |= alike_[p] & contacts_[first].sticking;
+  }
+  return lanes;
 }
 
 /// Events that need a decision (sticking, damped laws), one lane at a time, by the common rules.
@@ -189,16 +213,15 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   const double phase = lane(rate_ * time_, l);
   const ContactStates before = states;
   t.system->remove_slip(y.data(), before);  // what sticking has gathered must not look like slip
+  book.watcher->moved_on();                 // what it notes now is of this event
   book.watcher->apply(event, phase, y.data(), states);
   if constexpr (!P::is_double) {
     // where double cannot tell, it sticks: whether it can, the series of its friction tells at once
     constexpr double undecided = 1e-9;
-    const ReducedContact& contact = t.system->contacts()[i];
-    const double limit = contact.friction.mu * kinematics(contact, y.data(), n_).normal;
     if (kind == EventKind::slip_stop) {
-      const double force = t.system->sticking_force(phase, y.data(), before, index);
-      if (std::abs(std::abs(force) - limit) <= undecided * limit)
-        states[i] = {Touch::sticking, 1.0};
+      const Hold hold = t.system->hold(phase, y.data(), before, index);
+      if (std::abs(std::abs(hold.force) - hold.limit) <= undecided * hold.limit)
+        t.system->set_group(states, index, {Touch::sticking, 1.0});
     }
   }
   if (has_tangents()) {
@@ -217,6 +240,15 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   put(c.surface_force, bit,
       starts(EventKind::retouch) || (starts(EventKind::release) && !(c.continuous & bit)));
   put(c.surface_slip, bit, starts(EventKind::slip_stop));
+  put(c.level_slip, bit, book.watcher->is_level(index, EventKind::slip_stop));
+  for (size_t j = 0; j < contacts_.size(); ++j) {  // others stick and slip with it
+    if (j == i || !t.system->slip_alike(i, j)) continue;
+    contacts_[j].set_state(states[j], l);
+    const int other = static_cast<int>(j);
+    if (!book.watcher->on_surface(other, EventKind::slip_stop)) continue;
+    contacts_[j].surface_slip |= bit;
+    put(contacts_[j].level_slip, bit, book.watcher->is_level(other, EventKind::slip_stop));
+  }
 }
 
 }  // namespace HWY_NAMESPACE

@@ -53,10 +53,21 @@ HWY_ATTR inline void Engine<P>::accelerate(int k, P* to) {
   }
 }
 
+/// Of contacts that slip alike, the first that sticks carries the friction of all that do.
+template <class P>
+void Engine<P>::find_leaders() {
+  for (ContactLanes<P>& c : contacts_) c.leading = c.sticking;
+  for (size_t p = 0; p < alike_.size(); ++p) {
+    const auto [first, second] = pattern_.alike[p];
+    contacts_[second].leading &= ~(contacts_[first].sticking & alike_[p]);
+  }
+}
+
 /// Coefficients x_{k+2} from those up to k + 1:  x'' = f - K x - D x' - sum B F.
 template <class P>
 HWY_ATTR void Engine<P>::series() {
   laws_.clear();
+  find_leaders();
   for (ContactLanes<P>& c : contacts_) {
     c.begin(active_);
     if (c.disk && !c.is_evaluated) {  // most of many blades: nothing is built for their force
@@ -140,7 +151,8 @@ HWY_ATTR void Engine<P>::solve_influence() {
 ///   Omega R + (d x d') / r = 0   =>   d x d'' = -Omega R r'
 ///
 /// Coefficient k of this is linear in the tau_k of all sticking contacts; lanes and contacts that
-/// do not stick have a one on the diagonal and zero on the right.
+/// do not stick, or leave it to another that slips alike, have a one on the diagonal and zero on the
+/// right.
 template <class P>
 HWY_ATTR void Engine<P>::stick(int k) {
   const size_t m = contacts_.size();
@@ -155,7 +167,7 @@ HWY_ATTR void Engine<P>::stick(int k) {
         const ContactLanes<P>& c = contacts_[i];
         c.displacement(work_.data(), ax, ay);
         const P effect = fma(c.dy[0], ax, -(c.dx[0] * ay));
-        influence_[i * m + j] = select(mask_of<P>(c.sticking), effect, P(i == j ? 1.0 : 0.0));
+        influence_[i * m + j] = select(mask_of<P>(c.leading), effect, P(i == j ? 1.0 : 0.0));
       }
     }
     for (size_t p = 0; p < m; ++p) {  // L U; the matrix is that of a kinetic energy: no pivoting
@@ -176,7 +188,7 @@ HWY_ATTR void Engine<P>::stick(int k) {
     P sum = fma(c.dx[0], ay, -(c.dy[0] * ax));
     for (int j = 1; j <= k; ++j) sum = fma(c.dx[j], c.ay[k - j], fnma(c.dy[j], c.ax[k - j], sum));
     sum = fma(c.rim, P(k + 1.0) * c.r[k + 1], sum);
-    work_[i] = select(mask_of<P>(c.sticking), sum, P(0.0));
+    work_[i] = select(mask_of<P>(c.leading), sum, P(0.0));
   }
   solve_influence();
   for (size_t i = 0; i < m; ++i) {

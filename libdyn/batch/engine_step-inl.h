@@ -125,7 +125,8 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   // where next to no time passed, a contact is still on its surface: others touch at the same instant
   const uint64_t brief = bits(h, less_equal(h, period_ * P(brief_step)));
   for (ContactLanes<P>& c : contacts_) {
-    for (uint64_t* surface : {&c.surface_distance, &c.surface_force, &c.surface_slip}) {
+    for (uint64_t* surface :
+         {&c.surface_distance, &c.surface_force, &c.surface_slip, &c.level_slip}) {
       *surface &= brief;
     }
   }
@@ -203,6 +204,36 @@ HWY_ATTR inline P top(const P& a, const P& b, const P& c) {
   return select(inside, at_top, max(b, max(a, c)));
 }
 
+/// Size of the friction of a sticking contact at a time, its share of what holds all that slip
+/// alike: in proportion to mu N.
+template <class P>
+HWY_ATTR P Engine<P>::shared_friction(size_t i, const P& t) const {
+  P unused, tau, r;
+  const auto limit = [&](const ContactLanes<P>& c) HWY_ATTR {
+    P normal;
+    horner(c.N, N, t, normal, unused);
+    return c.mu * max(normal, P(0.0));
+  };
+  const auto held = [&](const ContactLanes<P>& c) HWY_ATTR {
+    horner(c.tau, N, t, tau, unused);
+    horner(c.r, N, t, r, unused);
+    return select(mask_of<P>(c.leading), abs(tau * r), P(0.0));
+  };
+  const P own = limit(contacts_[i]);
+  P force = held(contacts_[i]), sum = own;
+  for (size_t p = 0; p < alike_.size(); ++p) {
+    const auto [first, second] = pattern_.alike[p];
+    if (first != i && second != i) continue;
+    const ContactLanes<P>& other = contacts_[first == i ? second : first];
+    const Mask sticks = mask_of<P>(other.sticking & alike_[p]);
+    if ((other.sticking & alike_[p]) == 0) continue;
+    force = force + select(sticks, held(other), P(0.0));
+    sum = sum + select(sticks, limit(other), P(0.0));
+  }
+  const Mask is_shared = less(own, sum);
+  return select(is_shared, force * (own / select(is_shared, sum, P(1.0))), force);
+}
+
 /// Time in touch and sticking; largest forces, by parabolas through samples of the series.
 template <class P>
 HWY_ATTR void Engine<P>::measure(const P& h) {
@@ -229,6 +260,10 @@ HWY_ATTR void Engine<P>::measure(const P& h) {
         horner(c.tau, N, t, tau, unused);
         horner(c.r, N, t, r, unused);
         friction[j] = select(c.has_tau, abs(tau * r), friction[j]);
+      }
+      if (!alike_.empty() && (c.sticking & active_) != 0) {
+        const P share = shared_friction(static_cast<size_t>(&c - contacts_.data()), t);
+        friction[j] = select(mask_of<P>(c.sticking), share, friction[j]);
       }
     }
     for (int j = 1; j < intervals; ++j) {

@@ -281,7 +281,7 @@ HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k)
     for (int j = 1; j <= k; ++j) sum = fma(c.dx[j], u.ay[k - j], fnma(c.dy[j], u.ax[k - j], sum));
     for (int j = 0; j <= k; ++j) sum = fma(u.dx[j], c.ay[k - j], fnma(u.dy[j], c.ax[k - j], sum));
     sum = fma(c.rim, P(k + 1.0) * u.r[k + 1], sum);
-    work_[i] = select(mask_of<P>(c.sticking), sum, P(0.0));
+    work_[i] = select(mask_of<P>(c.leading), sum, P(0.0));
   }
   solve_influence();
   for (size_t i = 0; i < m; ++i) {

@@ -62,6 +62,23 @@ void add_films(Pattern& p, const ContactSystem& s) {
   }
 }
 
+/// Pairs of contacts that slip alike in any of the systems.
+std::vector<Pattern::Alike> alike_in(std::span<const ContactSystem* const> systems) {
+  std::vector<Pattern::Alike> pairs;
+  for (const ContactSystem* s : systems) {
+    for (std::size_t j = 0; j < s->contacts().size(); ++j) {
+      const auto first = static_cast<std::size_t>(s->contacts()[j].slip_group);
+      for (std::size_t i = first; i < j; ++i) {
+        const Pattern::Alike pair{i, j};
+        if (s->slip_alike(i, j) && std::find(pairs.begin(), pairs.end(), pair) == pairs.end()) {
+          pairs.push_back(pair);
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
 void insert_friction(Pattern::ContactRows& rows, const ReducedContact& face, int n) {
   rows.is_face = true;
   for (int j = 0; j < n; ++j) {
@@ -145,6 +162,7 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     row.begin = p.off_diagonals;
     p.off_diagonals += static_cast<int>(row.of_x.size() + row.of_rate.size());
   }
+  p.alike = alike_in(systems);
   p.bodies = bodies_in(p);
   p.is_isotropic = p.bodies > 0 && are_isotropic(systems);
   return p;

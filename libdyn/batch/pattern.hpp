@@ -48,6 +48,13 @@ struct Pattern {
   };
   std::vector<BladeGroup> blade_groups;
 
+  /// Two contacts that slip alike in any of the systems (see ReducedContact::slip_group).
+  struct Alike {
+    std::size_t first = 0, second = 0;  ///< first < second
+    bool operator==(const Alike&) const = default;
+  };
+  std::vector<Alike> alike;
+
   /// How many bodies there are, where the coordinates are their (x, y) and nothing couples them but a contact that all are in, whose law does not know the
   /// rate of the depth, and there is no film; else 0.
   int bodies = 0;

@@ -40,7 +40,8 @@ class Run {
     }
     if (is_fixed()) return;
     const double w = contact_frequency(system);
-    if (w > 0.0) touch_ = step_.rung_for(std::min(system.period(), 1.0 / w));
+    const double shortest = too_small * system.period();
+    if (w > 0.0) touch_ = step_.rung_for(std::clamp(1.0 / w, shortest, system.period()));
     flight_ = {4};
   }
 

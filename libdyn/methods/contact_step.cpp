@@ -124,9 +124,9 @@ const ContactStep::Nodes& ContactStep::nodes_of(Rung rung, bool is_touching) {
   auto& family = families_[static_cast<std::size_t>(rung.family())];
   if (!family) {
     family.reset(new Family{{system_, size({rung.family()}), terms}, {}, {}, {}});
-    family->touch.resize(64);
-    family->flight.resize(64);
-    family->dense.resize(64);
+    family->touch.resize(LinearFlow::levels);
+    family->flight.resize(LinearFlow::levels);
+    family->dense.resize(LinearFlow::levels);
   }
   const auto level = static_cast<std::size_t>(rung.level());
   Nodes& table = is_touching ? family->touch[level] : family->flight[level];
@@ -147,6 +147,7 @@ bool ContactStep::solve(Rung rung, const MotionState& from) {
     touching_.push_back(static_cast<int>(c));
     sticks = sticks || from.contacts[c].touch == Touch::sticking;
   }
+  size_ = std::max(1.0, (from.y.array() / system_.state_scale().array()).abs().maxCoeff() / grown);
   load_ = load_at(from.phase);
   extended_ << from.y, load_;
   const Nodes& table = nodes_of(rung, !touching_.empty());
@@ -209,7 +210,7 @@ bool ContactStep::picard(const MotionState& from) {
       next.noalias() = project_.lazyProduct(node_forces_);
       const double size_of_change = (next - a).cwiseAbs().maxCoeff();
       change = std::max(change, size_of_change);
-      effect = std::max(effect, size_of_change * weight_[i] * h);
+      effect = std::max(effect, size_of_change * weight_[i] * h / size_);
       largest = std::max(largest, next.cwiseAbs().maxCoeff());
       a = next;
     }
@@ -232,6 +233,10 @@ void ContactStep::residual(const MotionState& from, int contact, const double* d
   ++evaluations_;
   const ContactForces f = kinematics(c, Vec2(dw[0], dw[1]) - c.offset, Vec2(dw[2], dw[3]));
   const Vec2 t = f.t();
+  if (!system_.leads(from.contacts, i)) {  // another one carries its friction
+    out = force - f.normal * f.n;
+    return;
+  }
   const double mobility = size(rung_) * t.dot(c.U * (c.B * t));
   out = (f.n.dot(force) - f.normal) * f.n - (f.slip / mobility) * t;
 }
@@ -307,8 +312,8 @@ bool ContactStep::newton(const MotionState& from) {
       const int c = touching_[static_cast<std::size_t>(p)];
       const auto part = change.segment(2 * p * terms, 2 * terms);
       forces_of(c) -= part;
-      effect =
-          std::max(effect, part.cwiseAbs().maxCoeff() * weight_[static_cast<std::size_t>(c)] * h);
+      effect = std::max(
+          effect, part.cwiseAbs().maxCoeff() * weight_[static_cast<std::size_t>(c)] * h / size_);
     }
     if (size_of_change <= rounding * a_.cwiseAbs().maxCoeff() || effect <= 1e-3) return true;
     if (size_of_change > 0.1 * before) has_jacobian = false;
@@ -327,7 +332,7 @@ void ContactStep::estimate() {
     const double fall =
         std::sqrt(std::min(1.0, (a.row(terms - 1).norm() + a.row(terms - 2).norm()) /
                                     (a.row(terms - 3).norm() + a.row(terms - 4).norm())));
-    error_ = std::max(error_, weight_[static_cast<std::size_t>(c)] * size(rung_) * last *
+    error_ = std::max(error_, weight_[static_cast<std::size_t>(c)] * size(rung_) * last / size_ *
                                   (std::isfinite(fall) ? fall : 1.0));
   }
 }

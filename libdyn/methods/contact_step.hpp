@@ -28,12 +28,13 @@ struct Rung {
 /// with a the Legendre coefficients of all forces. They are those of the forces that the laws give
 /// at the nodes: a = projection f(u), solved by Picard iteration, by Newton's method where that
 /// does not contract. A contact that sticks has in place of its friction law the condition of no
-/// slip.
+/// slip; of several that slip alike the first has it, and carries the friction of all.
 class ContactStep {
  public:
-  static constexpr int terms = 8;     ///< of a force polynomial
-  static constexpr int samples = 14;  ///< of free motion: Chebyshev points
-  static constexpr int rows = 4;      ///< d_x, d_y, w_x, w_y of a contact
+  static constexpr int terms = 8;       ///< of a force polynomial
+  static constexpr int samples = 14;    ///< of free motion: Chebyshev points
+  static constexpr double grown = 1e3;  ///< scales: a state beyond has errors by its size
+  static constexpr int rows = 4;        ///< d_x, d_y, w_x, w_y of a contact
 
   /// With modes much faster than the contacts, forces are evaluated at more points than they have
   /// coefficients: their projection leaves out what a fast mode adds to a displacement, which few
@@ -50,7 +51,8 @@ class ContactStep {
   /// motion is not finite.
   bool solve(Rung rung, const MotionState& from);
 
-  /// Error of the last solve that the step makes, over the tolerance.
+  /// Error of the last solve that the step makes, over the tolerance; by the scale of the state, or
+  /// by its size where it has grown.
   double error() const { return error_; }
   /// Error of the contacts' displacements between samples, by the clearance.
   double path_error() const { return path_error_; }
@@ -86,6 +88,11 @@ class ContactStep {
   struct Path {
     Mat values;  ///< d_x, d_y, w_x, w_y at places of the step, both ends included
     Mat powers;  ///< of s: d_x, d_y over the clearance
+
+    ContactForces forces(const ReducedContact& contact, Eigen::Index place) const {
+      const auto at = values.row(place);
+      return kinematics(contact, Vec2(at(0), at(1)), Vec2(at(2), at(3)));
+    }
   };
   /// How values at places give polynomials.
   struct Places {
@@ -105,7 +112,9 @@ class ContactStep {
   bool make_paths(const MotionState& from);
   void estimate();
   Polynomial polynomial(const EventWatcher& watcher, int contact, EventKind kind, double limit,
-                        const ContactState& state) const;
+                        const ContactStates& states) const;
+  /// What holds the contacts that slip as one does at a place of the step.
+  Hold hold_at(Eigen::Index place, int contact, const ContactStates& states) const;
   struct Part {  ///< of the step, as fractions of it
     int level;   ///< of its own size
     double start, width;
@@ -126,6 +135,7 @@ class ContactStep {
   Mat at_nodes_;   ///< the same at the nodes
   std::vector<char> rate_matters_;
   std::vector<double> weight_;  ///< velocity per force and time, in units of the tolerance
+  double size_ = 1.0;           ///< of the state where the step starts, over `grown`; 1 or more
 
   // of the last solve
   Rung rung_;

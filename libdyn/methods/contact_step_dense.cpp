@@ -62,9 +62,13 @@ bool ContactStep::dense_piece(const MotionState& from, const Part& part, double 
     Eigen::Map<Vec>(values.col(1).data(), 2 * n * (points - 1)).noalias() =
         dense_table(part.level) * all;
     const Mat legendre = values * table.to_legendre.transpose();
+    // a motion that has grown has no finer digits than its size allows
+    const Vec weight =
+        system_.state_scale().cwiseMax(values.cwiseAbs().rowwise().maxCoeff() / grown);
     const double error =
-        (legendre.rightCols(2).array().colwise() / system_.state_scale().array()).abs().maxCoeff();
-    is_short = error <= tolerance_ || part.level >= rung_.level() + finest;
+        (legendre.rightCols(2).array().colwise() / weight.array()).abs().maxCoeff();
+    is_short = error <= tolerance_ ||
+               part.level >= std::min(rung_.level() + finest, LinearFlow::levels - 1);
     // the next step begins with pieces as long as these, or longer ones if they are too good
     longest_piece_ = is_short ? flow.size(part.level) * (error < 1e-2 * tolerance_ ? 2.1 : 1.1)
                               : flow.size(part.level) * 0.6;

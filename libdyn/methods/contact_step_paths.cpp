@@ -91,8 +91,24 @@ bool ContactStep::make_paths(const MotionState& from) {
   return true;
 }
 
+Hold ContactStep::hold_at(Eigen::Index place, int contact, const ContactStates& states) const {
+  Hold hold;
+  for (std::size_t j = 0; j < states.size(); ++j) {
+    if (states[j].touch != Touch::sticking) continue;
+    if (!system_.slip_alike(j, static_cast<std::size_t>(contact))) continue;
+    const ReducedContact& c = system_.contacts()[j];
+    const ContactForces f = paths_[j].forces(c, place);
+    hold.limit += c.friction.mu * f.normal;
+    for (int d = 0; d < 2; ++d) {
+      const auto component = (2 * static_cast<Eigen::Index>(j) + d) * terms;
+      hold.force += f.t()(d) * at_places_.row(place).dot(a_.segment(component, terms));
+    }
+  }
+  return hold;
+}
+
 Polynomial ContactStep::polynomial(const EventWatcher& watcher, int contact, EventKind kind,
-                                   double limit, const ContactState& state) const {
+                                   double limit, const ContactStates& states) const {
   const auto i = static_cast<std::size_t>(contact);
   const ReducedContact& c = system_.contacts()[i];
   const Path& path = paths_[i];
@@ -115,15 +131,11 @@ Polynomial ContactStep::polynomial(const EventWatcher& watcher, int contact, Eve
     const Places& places = touching_.empty() ? flight_places_ : touch_places_;
     Vec values(m);
     for (int k = 0; k < m; ++k) {
-      const auto at = path.values.row(k);
-      ContactForces f = kinematics(c, Vec2(at(0), at(1)), Vec2(at(2), at(3)));
-      if (state.touch == Touch::sticking) {
-        for (int d = 0; d < 2; ++d) {
-          f.friction +=
-              f.t()(d) * at_places_.row(k).dot(a_.segment((2 * contact + d) * terms, terms));
-        }
+      if (kind == EventKind::stick_limit) {
+        values(k) = watcher.stick_margin(contact, hold_at(k, contact, states));
+      } else {
+        values(k) = watcher.value({0.0, contact, kind}, path.forces(c, k), states[i]);
       }
-      values(k) = watcher.value({0.0, contact, kind}, f, state);
     }
     const Vec powers = places.to_powers * (places.to_legendre * values);
     g.degree = m - 1;
@@ -142,8 +154,9 @@ std::optional<Event> ContactStep::first_event(const EventWatcher& watcher, doubl
   is_sure = true;
   for (int i = 0; i < static_cast<int>(from.contacts.size()); ++i) {
     const ContactState& state = from.contacts[static_cast<std::size_t>(i)];
-    for (const EventKind kind : watcher.kinds(i, state)) {
-      Polynomial g = polynomial(watcher, i, kind, limit, state);
+    for (const EventKind kind : watcher.kinds(i, from.contacts)) {
+      Polynomial g = polynomial(watcher, i, kind, limit, from.contacts);
+      if (watcher.is_level(i, kind)) g.c[1] = 0.0;
       const auto s = first_fall_in_parts(g, watcher.on_surface(i, kind));
       if (s && (!earliest || *s * limit < earliest->s)) {
         earliest = Event{*s * limit, i, kind};

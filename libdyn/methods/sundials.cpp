@@ -73,7 +73,7 @@ int Motion::root_functions(realtype t, N_Vector y, realtype* g, void* motion) {
 void Motion::find_roots() {
   roots_.clear();
   for (int i = 0; i < static_cast<int>(state_.contacts.size()); ++i) {
-    for (const EventKind kind : watcher_.kinds(i, state_.contacts[static_cast<std::size_t>(i)])) {
+    for (const EventKind kind : watcher_.kinds(i, state_.contacts)) {
       roots_.emplace_back(i, kind);
     }
   }

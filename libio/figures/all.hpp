@@ -41,6 +41,8 @@ constexpr double rpm = 3.14159265358979323846 / 30.0;  ///< [rad/s]
 constexpr double hertz = 60.0 * rpm;                   ///< [rad/s]
 
 std::vector<double> row(const Mat& m, Eigen::Index i);
+/// The samples of a row.
+std::vector<double> row(const Mat& m, Eigen::Index i, const MotionSamples& samples);
 std::vector<double> numbers(const Vec& v);
 
 /// "4430 rpm"; empty for a result without a speed.
@@ -93,11 +95,18 @@ struct Motion {
   bool spins = false;
   std::vector<std::string> stations;
 
+  MotionWindow window;
+
+  /// What is seen at first, so many of the last revolutions if nothing else was asked for.
+  MotionSamples shown(double revolutions) const;
+  /// What curves are made of: the same if it was asked for, else all, to be moved along.
+  MotionSamples drawn(double revolutions) const;
+  /// Says what is seen at first; nothing where it is all.
+  std::vector<std::string> notes(double revolutions) const;
+
   Eigen::Index size() const { return time.size(); }
   double phase(Eigen::Index i) const;  ///< of the rotor at a sample [rad]
   bool ends_revolution(Eigen::Index i) const;
-  /// First sample of the last revolutions.
-  Eigen::Index last_revolutions(double revolutions) const;
 };
 
 }  // namespace figures

@@ -14,6 +14,11 @@ std::vector<double> row(const Mat& m, Eigen::Index i) {
   return values;
 }
 
+std::vector<double> row(const Mat& m, Eigen::Index i, const MotionSamples& samples) {
+  const Eigen::RowVectorXd values = m.row(i).segment(samples.first, samples.size());
+  return {values.begin(), values.end()};
+}
+
 std::vector<double> numbers(const Vec& v) {
   return {v.begin(), v.end()};
 }
@@ -117,7 +122,8 @@ Curve circle(const std::string& name, double radius, double x, double y) {
   return c;
 }
 
-Motion::Motion(const ResultView& result) : time(result.file.vector("/trajectory/time")) {
+Motion::Motion(const ResultView& result)
+    : time(result.file.vector("/trajectory/time")), window(result.window) {
   const auto number = [&](const char* name) {
     return result.file.number_attribute("/trajectory", name);
   };
@@ -139,9 +145,22 @@ bool Motion::ends_revolution(Eigen::Index i) const {
   return spins && std::abs(turns - std::round(turns)) * static_cast<double>(per_revolution) < 0.5;
 }
 
-Eigen::Index Motion::last_revolutions(double revolutions) const {
-  const auto samples = static_cast<Eigen::Index>(revolutions * static_cast<double>(per_revolution));
-  return std::max<Eigen::Index>(0, size() - 1 - samples);
+MotionSamples Motion::shown(double revolutions) const {
+  return samples_of(window, {time, period, per_revolution, spins}, revolutions);
+}
+
+MotionSamples Motion::drawn(double revolutions) const {
+  return window.is_given() ? shown(revolutions) : MotionSamples{0, size() - 1, ""};
+}
+
+std::vector<std::string> Motion::notes(double revolutions) const {
+  if (window.is_given()) {
+    std::string text = shown(revolutions).text;
+    text[0] = static_cast<char>(std::toupper(text[0]));
+    return {text + "."};
+  }
+  if (shown(revolutions).first == 0) return {};
+  return {fmt::format("The last {:g} revolutions.", revolutions)};
 }
 
 }  // namespace whirl::figures

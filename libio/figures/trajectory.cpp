@@ -13,11 +13,13 @@ using namespace figures;
 
 constexpr double seen_revolutions = 8.0;  ///< at first, of a time history
 constexpr double drawn_orbits = 48.0;     ///< revolutions, of an orbit
+constexpr double all_sections = 1e9;      ///< revolutions, of a Poincare section
 
-/// Ranges of x that show the last revolutions.
-void show_end(const Motion& m, Panel& p) {
-  p.x.first = m.time(m.last_revolutions(seen_revolutions));
-  p.x.last = m.time(m.size() - 1);
+/// Ranges of x that show the last revolutions, or what was asked for.
+void show(const Motion& m, Panel& p) {
+  const MotionSamples shown = m.shown(seen_revolutions);
+  p.x.first = m.time(shown.first);
+  p.x.last = m.time(shown.last);
   p.x.title = "time [s]";
   p.cursor = "time";
 }
@@ -34,14 +36,15 @@ void add_forces(const ResultView& result, const Motion& m, Eigen::Index contact,
   const Mat friction = result.file.matrix("/trajectory/friction_force");
   const DisplayUnit unit = unit_for(normal.row(contact).cwiseAbs().maxCoeff(), "N");
   p.y.title = with_unit(name.empty() ? "force" : name, unit);
-  const auto time = numbers(m.time);
+  const MotionSamples drawn = m.drawn(seen_revolutions);
+  const auto time = row(m.time.transpose(), 0, drawn);
   Curve n{.name = "normal force", .paint = series_paint(1), .x = time};
-  n.y = scaled(row(normal, contact), unit.factor);
+  n.y = scaled(row(normal, contact, drawn), unit.factor);
   n.width = 1.3;
   p.curves.push_back(std::move(n));
   if (friction.row(contact).cwiseAbs().maxCoeff() > 0.0) {
     Curve t{.name = "friction force", .paint = series_paint(4), .x = time};
-    t.y = scaled(row(friction, contact), unit.factor);
+    t.y = scaled(row(friction, contact, drawn), unit.factor);
     t.width = 1.1;
     p.curves.push_back(std::move(t));
   }
@@ -52,7 +55,8 @@ void add_forces(const ResultView& result, const Motion& m, Eigen::Index contact,
 std::vector<Figure> time_history_figures(const ResultView& result) {
   const Motion m(result);
   const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
-  const auto time = numbers(m.time);
+  const MotionSamples drawn = m.drawn(seen_revolutions);
+  const auto time = row(m.time.transpose(), 0, drawn);
   std::vector<Figure> figures;
   for (const std::size_t i : stations_by_interest(result, m.stations)) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -63,12 +67,12 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
         unit_for(std::max(x.row(k).cwiseAbs().maxCoeff(), y.row(k).cwiseAbs().maxCoeff()), "m");
     for (const auto& [name, values] : {std::pair{"x", &x}, std::pair{"y", &y}}) {
       Panel p;
-      show_end(m, p);
+      show(m, p);
       p.y.title = with_unit(name, unit);
       Curve c{.name = name[0] == 'x' ? "x" : "y",
               .paint = name[0] == 'x' ? Paint::series : series_paint(2),
               .x = time};
-      c.y = scaled(row(*values, k), unit.factor);
+      c.y = scaled(row(*values, k, drawn), unit.factor);
       c.width = 1.3;
       p.curves.push_back(std::move(c));
       f.panels.push_back(std::move(p));
@@ -76,14 +80,12 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
     const int contact = contact_at(result, m.stations[i]);
     if (contact >= 0 && result.file.has("/trajectory/normal_force")) {
       Panel p;
-      show_end(m, p);
+      show(m, p);
       add_forces(result, m, contact, p, "contact force");
       f.panels.push_back(std::move(p));
       f.height = 620.0;
     }
-    f.notes = {fmt::format("The last {:g} revolutions.", seen_revolutions)};
-    if (static_cast<double>(m.size()) <= seen_revolutions * static_cast<double>(m.per_revolution))
-      f.notes.clear();
+    f.notes = m.notes(seen_revolutions);
     figures.push_back(std::move(f));
   }
   return figures;
@@ -92,7 +94,7 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
 std::vector<Figure> orbit_figures(const ResultView& result) {
   const Motion m(result);
   const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
-  const Eigen::Index from = m.last_revolutions(drawn_orbits);
+  const MotionSamples shown = m.shown(drawn_orbits);
   std::vector<Figure> figures;
   for (const std::size_t i : stations_by_interest(result, m.stations)) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -116,7 +118,7 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
       Curve dots{.name = "once a revolution", .paint = Paint::alarm, .has_line = false};
       dots.has_marker = true;
       dots.size = 4.5;
-      for (Eigen::Index j = from; j < m.size(); ++j) {
+      for (Eigen::Index j = shown.first; j <= shown.last; ++j) {
         const Complex q =
             Complex(x(k, j), y(k, j)) * (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
         c.x.push_back(unit.factor * q.real());
@@ -161,7 +163,7 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
       f.panels.push_back(std::move(p));
     }
     if (f.panels.size() == 1) f.width = 540.0, f.columns = 1;
-    if (from > 0) f.notes = {fmt::format("The last {:g} revolutions.", drawn_orbits)};
+    f.notes = m.notes(drawn_orbits);
     figures.push_back(std::move(f));
   }
   return figures;
@@ -190,7 +192,8 @@ std::vector<Figure> poincare_figures(const ResultView& result) {
     c.size = 4.0;
     c.along_title = "time";
     Curve after = c;
-    for (Eigen::Index j = 0; j < m.size(); ++j) {
+    const MotionSamples drawn = m.drawn(all_sections);
+    for (Eigen::Index j = drawn.first; j <= drawn.last; ++j) {
       if (!m.ends_revolution(j)) continue;
       c.x.push_back(unit.factor * x(k, j));
       c.y.push_back(unit.factor * y(k, j));
@@ -225,6 +228,7 @@ std::vector<Figure> poincare_figures(const ResultView& result) {
     next.curves = {std::move(diagonal), std::move(after)};
     f.panels = {std::move(plane), std::move(next)};
     f.notes = {fmt::format("{} revolutions.", count)};
+    if (result.window.is_given()) f.notes = m.notes(all_sections);
     figures.push_back(std::move(f));
   }
   return figures;
@@ -304,13 +308,13 @@ std::vector<Figure> contact_force_figures(const ResultView& result) {
                            speed_text(result));
   for (std::size_t i = 0; i < names.size(); ++i) {
     Panel p;
-    show_end(m, p);
+    show(m, p);
     p.title = names[i];
     add_forces(result, m, static_cast<Eigen::Index>(i), p, "");
     if (p.curves[0].y.empty() || largest_of(p.curves[0].y) == 0.0) p.title += " (never touches)";
     f.panels.push_back(std::move(p));
   }
-  f.notes = {fmt::format("The last {:g} revolutions.", seen_revolutions)};
+  f.notes = m.notes(seen_revolutions);
   return f.panels.empty() ? std::vector<Figure>{} : std::vector<Figure>{f};
 }
 

@@ -142,6 +142,16 @@ TEST_F(Simulation, Identify) {
   EXPECT_EQ(r["resonance"]["ratio"], json::array({3, 1}));
   EXPECT_LT(r["resonance"]["error"], 1e-4);
   EXPECT_EQ(r["contacts"][0]["regime"], "intermittent");
+
+  // the fourth peak is made of the second and of the speed
+  ASSERT_EQ(r["peaks"].size(), 4u);
+  for (const int i : {0, 1, 2}) EXPECT_TRUE(r["peaks"][i]["combination"].is_null());
+  const json made = r["peaks"][3]["combination"];
+  ASSERT_EQ(made.size(), 2u);
+  EXPECT_EQ(made[0]["times"], 2);
+  EXPECT_EQ(made[0]["frequency_rpm"], r["peaks"][1]["frequency_rpm"]);
+  EXPECT_EQ(made[1]["times"], -1);
+  EXPECT_NEAR(made[1]["frequency_rpm"], 4430.0, 1e-9);
 }
 
 TEST_F(Simulation, IdentifyOfALinearMotionHasNoResonance) {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "libdyn/free_flight.hpp"
+#include "libfe/base/error.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::collocation_test {
@@ -331,6 +333,65 @@ TEST(Collocation, TakesAnUnreducedModel) {
   // there and 7.5e-5 in velocities of the fastest modes, collocation's 4e-10 in all of them
   const ReducedContact& ring = scene.contacts.contacts()[0];
   EXPECT_LT((ring.U * (a.y - b.y).head(52)).norm(), 1e-9 * ring.clearance);
+}
+
+// ---- what has no end ----------------------------------------------------------------------------
+
+/// A rotor that cross-coupled stiffness drives out, in a soft guard: it grows without bound.
+Model growing() {
+  MassInRing p{
+      .Omega = 314.16, .m = 10.0, .U = 2e-5, .kC = 1e4, .mu = 0.05, .R = 0.03, .clearance = 5e-4};
+  Model model = p.model();
+  BearingCoefficients b;
+  b.K << 1e6, 1.5e5, -1.5e5, 1e6;
+  b.C << 200.0, 0.0, 0.0, 200.0;
+  model.structure.bearings = {test::bearing(test::body("mass"), b)};
+  return model;
+}
+
+// A motion that grows by e^14 in a second passes 1e10 clearances within 150 revolutions. Pieces of the
+// dense output have an error relative to it: absolute ones would be halved to no end.
+TEST(Collocation, ShowsAMotionThatGrowsInAsManyPiecesAsItTakes) {
+  constexpr long too_many = 20'000;  // pieces; some ten a revolution are enough
+  const Model model = growing();
+  const Scene scene = make_scene(model);
+  ASSERT_TRUE(prefers_collocation(scene.contacts));
+  MotionState state = test::start_of(model, scene), other = state;
+  long pieces = 0;
+  const Integration run = test::run(scene, state, 150, {.method = collocation},
+                                    [&](const Step&) { return ++pieces < too_many; });
+  ASSERT_EQ(run.outcome, Outcome::reached_end) << pieces << " " << run.diagnosis;
+  EXPECT_GT(state.y.head(2).norm(), 1e10 * 5e-4);
+  test::run(scene, other, 150, {.method = AnyMethod(Taylor{})});
+  EXPECT_LT((state.y - other.y).norm(), 1e-6 * other.y.norm());
+}
+
+// Beyond its tables of step sizes a revolution cannot be computed: it says so.
+TEST(Collocation, RefusesARevolutionOfTooManyPeriods) {
+  for (const MassInRing& p : {MassInRing{.Omega = 1e-18, .k = 1e6, .c = 10.0},
+                              MassInRing{.Omega = 100.0, .k = 1e6, .c = 1e21}}) {
+    const Scene scene = p.scene();
+    MotionState state = test::state_of({1e-4, 0.0}, {0.0, 0.0});
+    EXPECT_THROW(test::run(scene, state, 1, {.method = collocation}), NumericalError) << p.Omega;
+  }
+}
+
+// Without an end that is certain, Taylor series go on step by step until they are stopped.
+TEST(FreeFlight, IsNotCertainWhereARevolutionIsOfTooManyPeriods) {
+  const Scene scene = MassInRing{.Omega = 1e-18, .k = 1e6, .c = 10.0}.scene();
+  FreeFlight flight(scene.contacts);
+  MotionState state = test::state_of({1e-4, 0.0}, {0.0, 0.0});
+  state.contacts = scene.contacts.classify(0.0, state.y.data());
+  EXPECT_FALSE(flight.is_certain(state));
+}
+
+// Contacts far stiffer than any step can follow end in a message, whatever the tables hold.
+TEST(Collocation, FailsAtAContactBeyondItsShortestStep) {
+  const Scene scene = MassInRing{.Omega = 1.0, .kC = 1e40}.scene();
+  MotionState state = test::state_of({0.0, 0.0}, {1.0, 0.0});
+  const Integration run = test::run(scene, state, 1, {.method = collocation});
+  EXPECT_NE(run.outcome, Outcome::reached_end);
+  EXPECT_FALSE(run.diagnosis.empty());
 }
 
 }  // namespace whirl::collocation_test

@@ -106,6 +106,21 @@ TEST(Stiffened, HasTheStiffnessOfItsContacts) {
             1.1 * complex_modes(scene.system, 1).oscillatory[0].frequency());
 }
 
+// A closed face holds the tilts of its disk, by its radius squared, and no displacement.
+TEST(Stiffened, HoldsTheTiltsAtAFace) {
+  constexpr double k = 1e7, radius = 0.12;
+  Model model = two_disks();
+  model.contacts[0].friction = {};
+  model.contacts[0].law = Face<>{.k = k, .radius = radius};
+  const Scene scene = make_scene(model);
+  const Mat added = Mat(stiffened(model, scene).K) - Mat(scene.system.K);
+  const DofMap& dofs = scene.system.dofs;
+  const Vec across = dofs.row({Point::Kind::node, 6}, X),
+            tilt = dofs.row({Point::Kind::node, 6}, THETA_Y);
+  EXPECT_NEAR(across.dot(added * across), 0.0, 1e-12 * k);
+  EXPECT_NEAR(tilt.dot(added * tilt), k * radius * radius, 1e-6 * k * radius * radius);
+}
+
 // ---- ratios -------------------------------------------------------------------------------------
 
 TEST(RatioOf, FindsSmallNumbers) {

@@ -93,6 +93,25 @@ TEST(Simulate, ReportsProgressAndKeepsWhatItHasWhenStopped) {
   EXPECT_EQ(none.recording.revolutions, 0);
 }
 
+// Whether to stop is asked at every step, so that even a revolution without end can be stopped.
+TEST(Simulate, StopsWithinARevolution) {
+  const Scene scene = test::P1.scene();
+  const MotionState start = test::start_of(test::P1.model(), scene);
+  for (const long discard : {0L, 2L}) {
+    for (const std::string_view name : method_names()) {
+      SimulationOptions how{.revolutions = 8, .discard = discard, .samples = 16};
+      how.method = method_named(name);
+      int asked = 0;
+      how.is_stopped = [&] { return ++asked == 3; };
+      const Simulation s = simulate(scene, start, how);
+      EXPECT_EQ(s.integration.outcome, Outcome::stopped_by_observer) << name;
+      EXPECT_EQ(asked, 3) << name;
+      EXPECT_EQ(s.end.revolution, 0) << name;
+      EXPECT_EQ(s.recording.revolutions, 0) << name;
+    }
+  }
+}
+
 // ---- contact measures ---------------------------------------------------------------------------
 
 // A mass crosses a ring along a diameter: each contact lasts half a period pi / w of the mass on

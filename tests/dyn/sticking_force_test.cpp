@@ -58,7 +58,7 @@ TEST(StickingForce, KeepsTheSlipVelocityConstant) {
               differences);
 }
 
-// sticking_force() asks what would hold a contact that slides now; it is the T of forces() as if it
+// hold() asks what would hold a contact that slides now; it is the T of forces() as if it
 // stuck, and its sign is that of the slip that would begin.
 TEST(StickingForce, IsWhatASlidingContactIsComparedWith) {
   const RotorStator p{.mu = 0.3};
@@ -69,7 +69,7 @@ TEST(StickingForce, IsWhatASlidingContactIsComparedWith) {
   scene.contacts.remove_slip(y.data(), sticking);
   std::vector<ContactForces> forces;
   scene.contacts.forces(0.3, y.data(), sticking, forces);
-  const double T = scene.contacts.sticking_force(0.3, y.data(), sliding, 0);
+  const double T = scene.contacts.hold(0.3, y.data(), sliding, 0).force;
   EXPECT_NEAR(T, forces[0].friction, rounding * std::abs(T));
 
   RotorStator frictionless = p;

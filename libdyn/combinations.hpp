@@ -1,0 +1,36 @@
+#pragma once
+/// Frequencies of a motion that are made of others.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace whirl {
+
+/// A frequency that is a combination of others:
+///
+///   f = sum over terms of times * frequency
+struct Combination {
+  struct Term {
+    int times = 0;
+    double frequency = 0.0;  ///< signed [rad/s]
+  };
+  std::vector<Term> terms;  ///< the largest number of times first
+
+  double frequency() const;
+  /// The sum of all |times|.
+  int order() const;
+};
+
+/// The simplest combination of other frequencies that gives one, if there is any.
+///
+/// Simple is what has a low order, then what has few terms. With enough numbers to choose from, some
+/// combination meets any frequency by chance: the search ends where one of twenty would.
+///
+/// @param f          signed [rad/s]
+/// @param others     signed, none of them near zero [rad/s]
+/// @param tolerance  how far f may be from the combination [rad/s]
+std::optional<Combination> combination_of(double f, std::span<const double> others,
+                                          double tolerance);
+
+}  // namespace whirl
