@@ -8,6 +8,8 @@
 #include <memory>
 #include <set>
 
+#include "libio/own_file.hpp"
+
 namespace whirl {
 
 namespace fs = std::filesystem;
@@ -204,11 +206,12 @@ std::string csv_of(const ResultReader& file, const CsvTable& table) {
 
 }  // namespace
 
-std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::path& stem) {
+std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::path& stem,
+                                       Replaces replaces) {
   std::vector<std::pair<std::string, std::string>> datasets;  // group, path
   std::set<std::string> is_axis;
   for (const std::string& group : result.list("/")) {
-    if (result.kind('/' + group) != ObjectKind::group) continue;
+    if (group == "call" || result.kind('/' + group) != ObjectKind::group) continue;
     for (const std::string& name : result.list('/' + group)) {
       const std::string path = fmt::format("/{}/{}", group, name);
       const ObjectKind kind = result.kind(path);
@@ -245,7 +248,9 @@ std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::pat
   std::vector<fs::path> files;
   for (const CsvTable& table : tables) {
     const fs::path place = fmt::format("{}_{}.csv", stem.string(), table.name);
-    replace_file(place, csv_of(result, table));
+    const std::string text = csv_of(result, table);
+    const bool is_same = first_line(place) == text.substr(0, text.find('\n'));
+    replace_file(place, text, is_same ? Replaces::anything : replaces);
     files.push_back(place);
   }
   return files;

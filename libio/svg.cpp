@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "libio/own_file.hpp"
 #include "libio/xml.hpp"
 
 namespace whirl {
@@ -51,10 +52,11 @@ std::string coordinate(double value) {
 
 Svg::Svg(double width, double height, std::string_view title)
     : head_(fmt::format(
-          "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
+          "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{3}\n<svg "
+          "xmlns=\"http://www.w3.org/2000/svg\" "
           "width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-family=\"Helvetica, Arial, "
           "'Liberation Sans', 'DejaVu Sans', sans-serif\">\n<title>{2}</title>\n",
-          number(width), number(height), xml_text(title))) {}
+          number(width), number(height), xml_text(title), xml_mark)) {}
 
 void Svg::rectangle(Pixel corner, double width, double height, std::string_view fill) {
   body_ += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",

@@ -58,8 +58,10 @@ Written export_series(const Invocation& call, const SceneSource& source, const f
   const auto write = [&](const std::string& suffix, const std::vector<VtkFrame>& frames,
                          const std::string& what) {
     const fs::path place = stem.string() + suffix + ending;
-    const auto files = is_xdmf ? write_xdmf_series(place, source.scene, frames)
-                               : write_vtk_series(place, source.scene, frames);
+    const Replaces replaces = call.picture_replaces();
+    const auto files = is_xdmf
+                           ? write_xdmf_series(place, source.scene, frames, replaces)
+                           : write_vtk_series(place, source.scene, frames, {.replaces = replaces});
     written.files.insert(written.files.end(), files.begin(), files.end());
     written.text += fmt::format("  {}: {} frames, {}\n", place.string(), frames.size(), what);
   };
@@ -78,11 +80,11 @@ Written export_series(const Invocation& call, const SceneSource& source, const f
   return written;
 }
 
-Written export_csv(const SceneSource& source, const fs::path& stem) {
+Written export_csv(const Invocation& call, const SceneSource& source, const fs::path& stem) {
   if (!source.result) {
     throw ModelError({"--format csv"}, "", "a model holds no tables; take the result of a verb");
   }
-  Written written{write_csv_tables(*source.result, stem), ""};
+  Written written{write_csv_tables(*source.result, stem, call.picture_replaces()), ""};
   for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
   if (written.files.empty()) written.text = "There are no tables in this result\n";
   return written;
@@ -114,7 +116,7 @@ Written export_mesh(const Invocation& call, const SceneSource& source, const Mes
                                                       std::string(format.group))
                                           : surface_mesh(source.scene, fields);
   const fs::path place = stem.string() + std::string(format.ending);
-  write_mesh(place, format, mesh);
+  write_mesh(place, format, mesh, call.picture_replaces());
   return {{place},
           fmt::format("  {}: {} {} and {} points; where the format takes fields\n{}",
                       place.string(), mesh.cells.size(), format.has_lines ? "lines" : "triangles",
@@ -131,7 +133,7 @@ Report run_export(const Invocation& call) {
   const std::string ending = mesh ? std::string(mesh->ending) : name == "vtk" ? ".pvd" : "." + name;
   const fs::path stem = without_ending(call.text("out", call.file), ending);
   const Written written = mesh            ? export_mesh(call, source, *mesh, stem)
-                          : name == "csv" ? export_csv(source, stem)
+                          : name == "csv" ? export_csv(call, source, stem)
                                           : export_series(call, source, stem, name == "xdmf");
   Report report{.record = begin_record(call, source.model), .text = written.text};
   Record list = Record::array();

@@ -9,11 +9,13 @@
 #include "apps/program.hpp"
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures.hpp"
 #include "libio/nearest.hpp"
+#include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/table.hpp"
 
@@ -108,7 +110,8 @@ const Figure& chosen(const std::vector<Figure>& figures, const std::string& whic
 void convert(const fs::path& svg, const fs::path& to, const std::string& format) {
   std::vector<std::string> words{"rsvg-convert", "--format", format};
   if (format == "png") words.insert(words.end(), {"--zoom", "2"});
-  words.insert(words.end(), {"--output", to.string(), svg.string()});
+  // absolute, so that no name is taken for an option
+  words.insert(words.end(), {"--output", fs::absolute(to).string(), fs::absolute(svg).string()});
   const std::optional<int> status = run_program(words);
   if (!status) {
     throw FileError(fmt::format(
@@ -121,20 +124,19 @@ void convert(const fs::path& svg, const fs::path& to, const std::string& format)
   }
 }
 
-void write_picture(const std::string& svg, const fs::path& to) {
+void write_picture(const std::string& svg, const fs::path& to, Replaces replaces) {
   const std::string ending = to.extension();
-  if (ending == ".svg") return replace_file(to, svg);
-  FileReplacement{to};  // a directory that is not there is said first
+  if (ending == ".svg") return replace_file(to, svg, replaces);
+  FileReplacement file(to, replaces);
   const fs::path source = to.string() + fmt::format(".{}.svg", ::getpid());
-  const fs::path target = to.string() + fmt::format(".{}.part", ::getpid());
   std::error_code ignored;
   try {
     replace_file(source, svg);
-    convert(source, target, ending.substr(1));
-    fs::rename(target, to);
+    convert(source, file.temporary(), ending.substr(1));
+    mark_as_own(file.temporary());
+    file.commit();
   } catch (...) {
     fs::remove(source, ignored);
-    fs::remove(target, ignored);
     throw;
   }
   fs::remove(source, ignored);
@@ -143,6 +145,7 @@ void write_picture(const std::string& svg, const fs::path& to) {
 }  // namespace
 
 Report run_plot(const Invocation& call) {
+  require_result(call, call.words.empty() ? "" : call.words[0]);
   ResultView result(call.file);
   set_frequency_unit(call, result);
   if (call.words.size() > 1) throw wrong(call.words[1], "one kind of figure at a time");
@@ -171,7 +174,7 @@ Report run_plot(const Invocation& call) {
   if (ending != ".svg" && ending != ".png" && ending != ".pdf") {
     throw wrong("--out " + out.string(), "expected a file that ends in .svg, .png or .pdf");
   }
-  write_picture(svg_of(figure), out);
+  write_picture(svg_of(figure), out, call.picture_replaces());
   Report report;
   report.record.set("model", call.file).set("version", version);
   report.record.set("kind", kind.name).set("variant", figure.variant);
