@@ -10,7 +10,7 @@ std::string bash_completion() {
   std::string words, cases, takes_value = "--set|--speed|--threads";
   for (const Verb& verb : verbs()) {
     words += std::string(verb.name) + ' ';
-    std::string options = "--set --speed --out --json --threads --quiet --help";
+    std::string options = "--set --speed --out --json --threads --force --quiet --help";
     for (const OptionSpec& o : verb.options) {
       const std::string name = "--" + std::string(o.name);
       if (name != "--out") options += ' ' + name;

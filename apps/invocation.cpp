@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
@@ -31,19 +31,6 @@ std::string utc_now() {
   return text;
 }
 
-/// The command line as a shell would take it.
-std::string shell_line(const std::vector<std::string>& words) {
-  std::string line;
-  for (const std::string& word : words) {
-    const bool is_plain =
-        !word.empty() && word.find_first_of(" \t\n\"'\\$`*?[]{}()<>|&;#~!") == std::string::npos;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += (line.empty() ? "" : " ") + (is_plain ? word : quoted + "'");
-  }
-  return line;
-}
-
 namespace fs = std::filesystem;
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
@@ -51,24 +38,6 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   return fs::weakly_canonical(fs::absolute(a), ignored) ==
              fs::weakly_canonical(fs::absolute(b), ignored) ||
          fs::equivalent(a, b, ignored);
-}
-
-/// Whether a file is there that has something in it and is not what its name's ending says: a
-/// picture or page that this program writes, else HDF5.
-bool holds_something_else(const fs::path& place) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(place, ignored)) return false;
-  char begin[4] = {};
-  std::ifstream(place, std::ios::binary).read(begin, sizeof begin);
-  const std::string ending = place.extension();
-  const std::string_view expected = ending == ".svg"    ? "<?xm"
-                                    : ending == ".png"  ? "\x89PNG"
-                                    : ending == ".pdf"  ? "%PDF"
-                                    : ending == ".html" ? "<!DO"
-                                    : ending == ".ogv"  ? "OggS"
-                                    : ending == ".gif"  ? "GIF8"
-                                                        : "\x89HDF";
-  return begin[0] != '\0' && std::string_view(begin, sizeof begin) != expected;
 }
 
 }  // namespace
@@ -116,24 +85,65 @@ Model Invocation::model() const {
   return parse_model(model_text, file, sets, std::filesystem::path(file).parent_path());
 }
 
+Call Invocation::parts() const {
+  Call parts{.verb = verb, .file = file, .words = words, .sets = sets_before};
+  parts.sets.insert(parts.sets.end(), sets.begin(), sets.end());
+  for (const std::string& values : over) parts.options.push_back("--over=" + values);
+  for (const auto& [name, value] : given) {
+    const auto& own = verb_named(verb)->options;
+    const bool is_own_flag = std::any_of(own.begin(), own.end(), [&](const OptionSpec& option) {
+      return option.name == name && option.value.empty();
+    });
+    const bool is_flag = is_own_flag || name == "force";
+    parts.options.push_back(is_flag ? "--" + name : "--" + name + "=" + value);
+  }
+  return parts;
+}
+
+Replaces Invocation::result_replaces() const {
+  return has("force") ? Replaces::anything : Replaces::own_results;
+}
+
+Replaces Invocation::picture_replaces() const {
+  return has("force") ? Replaces::anything : Replaces::own_pictures;
+}
+
 void Invocation::require_free_places(const std::string& json) const {
   const auto refuse = [](const std::string& place, std::string_view reason) {
     throw FileError(fmt::format("cannot write {}: {}", place, reason));
   };
   const std::string out = text("out");
-  if (!out.empty() && holds_something_else(out)) {
-    refuse(out, "this file is no result of whirl and would be lost; take another name");
+  // what is read is not to be lost, whether --force is given or not; a stored model needs no file
+  const auto require_no_input = [&](const std::string& place) {
+    if (model_text.empty() && is_same_file(place, file)) {
+      refuse(place, "it is the input of this command");
+    }
+    for (const std::string& other : words) {
+      if (is_same_file(place, other)) refuse(place, "this command reads it");
+    }
+  };
+  const auto& own = verb_named(verb)->options;
+  const auto own_out =
+      std::find_if(own.begin(), own.end(), [](const OptionSpec& o) { return o.name == "out"; });
+  if (!out.empty() && own_out == own.end()) {
+    FileReplacement{out, result_replaces()};  // what is wrong with it is said before the work
+  }
+  const bool is_stem = own_out != own.end() && own_out->value == "NAME";
+  if (!out.empty() && !is_stem) require_no_input(out);
+  if (has("svg")) {
+    require_no_input(text("svg"));
+    FileReplacement{text("svg"), picture_replaces()};
   }
   if (json.empty() || json == "-") return;
-  if (is_same_file(json, file)) refuse(json, "it is the input of this command");
+  require_no_input(json);
   if (has("from") && is_same_file(json, text("from"))) refuse(json, "--from reads it");
   if (!out.empty() && is_same_file(json, out)) refuse(json, "--out and --json name the same file");
-  FileReplacement{json};  // a directory that is not there is said before the work
+  FileReplacement{json, picture_replaces()};
 }
 
 std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const {
   if (!has("out")) return nullptr;
-  auto writer = std::make_unique<ResultWriter>(given.at("out"));
+  auto writer = std::make_unique<ResultWriter>(given.at("out"), result_replaces());
   writer->attribute("/", "whirl_version", version);
   writer->attribute("/", "command", shell_line(line));
   writer->attribute("/", "created", utc_now());
@@ -141,6 +151,7 @@ std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const 
   writer->dataset("/model", std::vector<std::string>{model.source}, {"", "model file", {""}});
   writer->attribute("/model", "path", model.path);
   writer->dataset("/arguments", line, {"", "words of the command line", {""}});
+  write_call(*writer, parts());
   return writer;
 }
 

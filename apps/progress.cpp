@@ -24,20 +24,16 @@ std::string clock_text(double s) {
 
 std::atomic<bool> interrupted = false;
 
-/// The first Ctrl-C asks to stop; the second one ends the program as usual.
-struct Handler {
-  Handler() {
-    std::signal(SIGINT, [](int) {
-      interrupted = true;
-      std::signal(SIGINT, SIG_DFL);
-    });
-  }
-};
-
 }  // namespace
 
+void install_interrupt_handler() {
+  std::signal(SIGINT, [](int) {
+    interrupted = true;
+    std::signal(SIGINT, SIG_DFL);
+  });
+}
+
 bool is_interrupted() {
-  static const Handler handler;
   return interrupted;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// What a verb of the command line is: its options, and a function from an invocation to a report.
 
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -10,7 +11,9 @@
 #include <vector>
 
 #include "libdyn/model.hpp"
+#include "libio/call.hpp"
 #include "libio/record.hpp"
+#include "libio/replace_file.hpp"
 
 namespace whirl {
 
@@ -30,6 +33,7 @@ class Invocation {
   std::string file;                          ///< model or result
   std::vector<std::string> words;            ///< after the file, of verbs that take more
   std::vector<std::string> sets;             ///< PATH=VALUE lines, --speed included
+  std::vector<std::string> sets_before;      ///< those that model_text has in it already
   std::vector<std::string> over;             ///< values of --over, which may be given several times
   std::map<std::string, std::string> given;  ///< options and their values; flags have an empty one
   std::vector<std::string> line;             ///< the command line, to be stored in results
@@ -46,7 +50,14 @@ class Invocation {
 
   Model model() const;
 
-  /// Checks that results take the place of nothing but results.
+  /// Its parts, to be stored in results.
+  Call parts() const;
+
+  /// What results may take the place of, and what pictures, pages and other files may.
+  Replaces result_replaces() const;
+  Replaces picture_replaces() const;
+
+  /// Checks that results take the place of nothing but results, before the work.
   /// @param json  value of --json
   /// @throws FileError  naming what would be lost: the model, another file, the other result
   void require_free_places(const std::string& json) const;
@@ -77,10 +88,17 @@ struct Verb {
   std::string_view takes_more_help = "";  ///< what they are
 };
 
+/// Options that name a place to write.
+constexpr std::array<std::string_view, 3> writing_options{"out", "json", "svg"};
+
 /// All verbs, in the order of the help.
 const std::vector<Verb>& verbs();
+/// The one of a name; null: there is none.
+const Verb* verb_named(std::string_view name);
 
-/// Set by Ctrl-C; long work looks at it and stops with what it has.
+/// From now on the first Ctrl-C asks to stop, and the second one ends the program as usual.
+void install_interrupt_handler();
+/// Whether it did; long work looks at it and stops with what it has.
 bool is_interrupted();
 
 /// A line on standard error that is rewritten while something long goes on; only on a terminal.

@@ -274,4 +274,11 @@ const std::vector<Verb>& verbs() {
   return all;
 }
 
+const Verb* verb_named(std::string_view name) {
+  for (const Verb& verb : verbs()) {
+    if (verb.name == name) return &verb;
+  }
+  return nullptr;
+}
+
 }  // namespace whirl

@@ -12,6 +12,7 @@
 #include <map>
 #include <sstream>
 
+#include "apps/bare_speeds.hpp"
 #include "apps/completion.hpp"
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
@@ -19,6 +20,7 @@
 #include "libio/hdf5.hpp"
 #include "libio/model_schema.hpp"
 #include "libio/nearest.hpp"
+#include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/terminal.hpp"
 
@@ -102,7 +104,7 @@ std::string overview() {
                       "whirl schema --out whirl.schema.json");
   return text +
          "\nCommon options: --set PATH=VALUE, --speed S, --out FILE.h5, --json FILE, --threads N, "
-         "--quiet\n"
+         "--force, --quiet\n"
          "More: whirl VERB --help, docs/command-line.md, docs/model-file.md\n";
 }
 
@@ -149,16 +151,21 @@ std::string notes_text(const std::vector<std::string>& notes) {
   return text;
 }
 
-void write_json(const Report& report, const std::string& to) {
+void write_json(const Report& report, const std::string& to, Replaces replaces) {
   Record record = report.record, notes = Record::array();
   for (const std::string& note : report.notes) notes.add(note);
   record.set("notes", notes);
+  record.set(json_mark_key, json_mark);
   const std::string text = record.json();
   if (to == "-") {
     std::fputs(text.c_str(), stdout);
   } else {
-    replace_file(to, text);
+    replace_file(to, text, replaces);
   }
+}
+
+void tell_taken(const TakenPlace& error) {
+  fmt::print(stderr, "whirl: {}; take another name, or --force to replace it\n", error.what());
 }
 
 /// A status, unless what was printed did not arrive, on a full disk for instance.
@@ -168,13 +175,20 @@ int after_printing(int status) {
   return wrong_input;
 }
 
-int run(const std::vector<std::string>& words, const std::string& model_text) {
+/// A model with what was set of it, of a result whose command is run again.
+struct StoredModel {
+  std::string text;  ///< empty: there is none
+  std::vector<std::string> sets{};
+};
+
+int run(const std::vector<std::string>& words, const StoredModel& stored) {
   CLI::App app("whirl");
   app.set_help_flag();
   app.allow_windows_style_options(false);
   Invocation call;
   call.line = words;
-  call.model_text = model_text;
+  call.model_text = stored.text;
+  call.sets_before = stored.sets;
   std::vector<std::string> sets;
   std::map<std::string, std::string> values;
   std::map<std::string, bool> flags;
@@ -182,9 +196,8 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   bool quiet = false;
 
   const std::string word = words.size() > 1 ? words[1] : "";
-  const auto verb =
-      std::find_if(verbs().begin(), verbs().end(), [&](const Verb& v) { return v.name == word; });
-  if (verb == verbs().end()) return unknown_verb(word);
+  const Verb* const verb = verb_named(word);
+  if (!verb) return unknown_verb(word);
   call.verb = word;
 
   app.name("whirl " + word);
@@ -230,6 +243,7 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   app.add_option("--threads", values["threads"], "processors to use at most; left out: all")
       ->type_name("N")
       ->take_last();
+  app.add_flag("--force", flags["force"], "replace files that whirl did not write, too");
   app.add_flag("--quiet", quiet, "print nothing but errors");
   try {
     std::vector<std::string> arguments(words.rbegin(), words.rend() - 2);
@@ -259,15 +273,25 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
   try {
     call.integer("threads", 1);
     call.require_free_places(json);
-    const Report report = verb->run(call);
+    const std::vector<BareSpeed> bare = bare_speeds(call, speed);
+    if (!quiet) {
+      for (const BareSpeed& s : bare) fmt::print(stderr, "whirl: warning: {}\n", s.warning());
+    }
+    Report report = verb->run(call);
     if (json != "-" && !quiet) {
-      fmt::print("{}", folded(report.text + notes_text(report.notes), terminal_columns()));
+      for (const BareSpeed& s : bare) fmt::print("{}\n", s.reading());
+      fmt::print("{}{}", bare.empty() ? "" : "\n",
+                 folded(report.text + notes_text(report.notes), terminal_columns()));
     }
     if (!report.failure.empty()) fmt::print(stderr, "{}: failed: {}\n", call.file, report.failure);
-    if (!json.empty()) write_json(report, json);
+    for (const BareSpeed& s : bare) report.notes.push_back(s.warning());
+    if (!json.empty()) write_json(report, json, call.picture_replaces());
     return after_printing(report.status);
   } catch (const ModelError& error) {
     print_problems(error, call, app.count("--speed") > 0 ? &speed : nullptr);
+    return wrong_input;
+  } catch (const TakenPlace& error) {
+    tell_taken(error);
     return wrong_input;
   } catch (const FileError& error) {
     fmt::print(stderr, "whirl: {}\n", error.what());
@@ -283,42 +307,42 @@ int run(const std::vector<std::string>& words, const std::string& model_text) {
 
 /// Runs the command stored in a result again, on the model stored there.
 int rerun(const std::string& file, std::vector<std::string> further) {
-  std::vector<std::string> words;
+  Call call;
   std::string text;
   try {
     const ResultReader result(file);
-    words = result.strings("/arguments");
+    call = read_call(result);
     text = result.strings("/model").at(0);
   } catch (const FileError& error) {
     fmt::print(stderr, "whirl: {}\n", error.what());
     return wrong_input;
   }
-  if (words.size() < 3) {
+  const Verb* const verb = verb_named(call.verb);
+  if (!verb || verb->takes != "MODEL" || call.file.empty() || call.file.starts_with('-')) {
     fmt::print(stderr, "whirl: {} does not hold the command that made it\n", file);
     return wrong_input;
   }
-  // what was set is in the stored text already; --out would overwrite the result itself
-  std::vector<std::string> kept;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool takes_next =
-        words[i] == "--set" || words[i] == "--speed" || words[i] == "--out" || words[i] == "--json";
-    const bool is_joined = words[i].rfind("--set=", 0) == 0 || words[i].rfind("--speed=", 0) == 0 ||
-                           words[i].rfind("--out=", 0) == 0 || words[i].rfind("--json=", 0) == 0;
-    if (takes_next) ++i;
-    if (!takes_next && !is_joined && words[i] != "--quiet") kept.push_back(words[i]);
+  // what was set is in the stored text already, and only the line at hand says what is written
+  std::vector<std::string_view> left_out{"quiet", "force", "restart"};
+  left_out.insert(left_out.end(), writing_options.begin(), writing_options.end());
+  std::vector<std::string> words{"whirl", call.verb, call.file};
+  for (const std::string& option : options_without(call.options, left_out)) {
+    words.push_back(option);
   }
-  kept.insert(kept.end(), further.begin(), further.end());
-  return run(kept, text);
+  words.insert(words.end(), further.begin(), further.end());
+  return run(words, {text, call.sets});
 }
 
 /// The schema of model files, to a file or to standard output.
 int write_schema(const std::vector<std::string>& options) {
-  const bool has_file = options.size() == 2 && options[0] == "--out";
+  const bool is_forced = options.size() == 3 && options[2] == "--force";
+  const bool has_file = (options.size() == 2 || is_forced) && options[0] == "--out";
   const bool asks_help = options == std::vector<std::string>{"--help"};
   if (asks_help || (!options.empty() && !has_file)) {
     fmt::print(
         asks_help ? stdout : stderr,
-        "Usage: whirl schema [--out FILE.json]\n\nWrites a JSON Schema of model files. An "
+        "Usage: whirl schema [--out FILE.json [--force]]\n\nWrites a JSON Schema of model files. "
+        "An "
         "editor that knows TOML completes and checks\nkeys with it; in a model's first line: "
         "#:schema ./FILE.json\n");
     return asks_help ? done : wrong_input;
@@ -329,7 +353,10 @@ int write_schema(const std::vector<std::string>& options) {
     return after_printing(done);
   }
   try {
-    replace_file(options[1], text);
+    replace_file(options[1], text, is_forced ? Replaces::anything : Replaces::own_pictures);
+  } catch (const TakenPlace& error) {
+    tell_taken(error);
+    return wrong_input;
   } catch (const FileError& error) {
     fmt::print(stderr, "whirl: {}\n", error.what());
     return wrong_input;
@@ -357,8 +384,8 @@ int main(int argc, char** argv) {
   try {
     if (word == "schema") return write_schema({words.begin() + 2, words.end()});
     if (word == "help" && words[2] == "schema") return write_schema({"--help"});
-    if (word == "help") return run({words[0], words[2], "--help"}, "");
-    if (word != "rerun") return run(words, "");
+    if (word == "help") return run({words[0], words[2], "--help"}, {});
+    if (word != "rerun") return run(words, {});
     if (words.size() < 3 || words[2] == "--help") {
       fmt::print(
           "Usage: whirl rerun RESULT.h5 [options]\n\nRuns the command that made a result again, on "

@@ -45,7 +45,7 @@ AnyMethod method_named(std::string_view name) {
     if (decltype(method)::name == name) found = method;
   });
   if (found) return *found;
-  throw ModelError({}, "--method",
+  throw ModelError({}, "method",
                    fmt::format("unknown method \"{}\", expected one of {}", name,
                                fmt::join(method_names(), ", ")));
 }

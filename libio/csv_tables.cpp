@@ -8,6 +8,8 @@
 #include <memory>
 #include <set>
 
+#include "libio/own_file.hpp"
+
 namespace whirl {
 
 namespace fs = std::filesystem;
@@ -210,11 +212,12 @@ std::string csv_of(const ResultReader& file, const CsvTable& table,
 }  // namespace
 
 std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::path& stem,
+                                       Replaces replaces,
                                        const std::optional<MotionSamples>& samples) {
   std::vector<std::pair<std::string, std::string>> datasets;  // group, path
   std::set<std::string> is_axis;
   for (const std::string& group : result.list("/")) {
-    if (result.kind('/' + group) != ObjectKind::group) continue;
+    if (group == "call" || result.kind('/' + group) != ObjectKind::group) continue;
     for (const std::string& name : result.list('/' + group)) {
       const std::string path = fmt::format("/{}/{}", group, name);
       const ObjectKind kind = result.kind(path);
@@ -251,7 +254,9 @@ std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::pat
   std::vector<fs::path> files;
   for (const CsvTable& table : tables) {
     const fs::path place = fmt::format("{}_{}.csv", stem.string(), table.name);
-    replace_file(place, csv_of(result, table, samples));
+    const std::string text = csv_of(result, table, samples);
+    const bool is_same = first_line(place) == text.substr(0, text.find('\n'));
+    replace_file(place, text, is_same ? Replaces::anything : replaces);
     files.push_back(place);
   }
   return files;

@@ -18,11 +18,14 @@ namespace whirl {
 /// stands in each column, with its SI unit: "x left disk [m]". Numbers are as exact as in the file;
 /// what is not a number is left empty. Left out are datasets that only this program goes on from.
 ///
+/// A table has no room for a mark of its origin: one that is there may be replaced if its first line
+/// is the same.
+///
 /// @param samples  of the motion, the rows of its tables; left out: all
 /// @return  the files, in the order of the groups
 /// @throws FileError  if one cannot be read or written
 std::vector<std::filesystem::path> write_csv_tables(
     const ResultReader& result, const std::filesystem::path& stem,
-    const std::optional<MotionSamples>& samples = {});
+    Replaces replaces = Replaces::own_pictures, const std::optional<MotionSamples>& samples = {});
 
 }  // namespace whirl

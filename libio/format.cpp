@@ -72,6 +72,15 @@ std::string format_length(double value) {
   return format_engineering(value, "m");
 }
 
+std::string format_grouped(double value) {
+  if (!(std::abs(value) >= 999.95 && std::abs(value) < 1e15)) return fmt::format("{:.4g}", value);
+  std::string text = fmt::format("{:.0f}", std::abs(value));
+  for (std::size_t digits = 3; text.size() > 4 && digits < text.size(); digits += 4) {
+    text.insert(text.size() - digits, 1, ' ');
+  }
+  return (value < 0.0 ? "-" : "") + text;
+}
+
 std::string format_speed(double value) {
   return number_and_unit(value * 30.0 / std::numbers::pi, "rpm");
 }

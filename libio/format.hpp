@@ -20,6 +20,10 @@ std::string format_engineering(double value, std::string_view si_unit);
 /// A length [m]: "500 um", "20 mm", "1.2 m".
 std::string format_length(double value);
 
+/// A number to four digits at least, whole from 1000 on, of five digits or more with blanks between
+/// thousands: "3000", "28 648".
+std::string format_grouped(double value);
+
 /// A speed [rad/s], in revolutions per minute: "3650 rpm".
 std::string format_speed(double value);
 

@@ -26,7 +26,7 @@ struct DatasetInfo {
 class ResultWriter {
  public:
   /// @throws FileError  as FileReplacement
-  explicit ResultWriter(const std::filesystem::path& path);
+  explicit ResultWriter(const std::filesystem::path& path, Replaces what = Replaces::own_results);
   /// Gives up what was written, unless it was committed.
   ~ResultWriter();
   ResultWriter(const ResultWriter&) = delete;

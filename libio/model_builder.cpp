@@ -12,7 +12,7 @@
 
 namespace whirl {
 
-ModelBuilder::ModelBuilder(ConfigNode& root, std::filesystem::path directory,
+ModelBuilder::ModelBuilder(const ConfigNode& root, std::filesystem::path directory,
                            std::vector<AskedKey>* asked)
     : root_(root), directory_(std::move(directory)), asked_(asked) {}
 

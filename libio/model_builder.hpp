@@ -17,11 +17,19 @@ namespace whirl {
 class ModelBuilder {
  public:
   /// @param asked  receives every key that is asked for; null: nobody wants to know
-  ModelBuilder(ConfigNode& root, std::filesystem::path directory,
+  ModelBuilder(const ConfigNode& root, std::filesystem::path directory,
                std::vector<AskedKey>* asked = nullptr);
 
   /// @throws ModelError  with every problem found
   Model build();
+
+  /// Text of a bearing table that came from a file of its own.
+  struct Table {
+    std::size_t bearing = 0;  ///< from 0
+    std::string text;
+  };
+  /// Those that build() read: a model that is stored has them in it.
+  const std::vector<Table>& tables() const { return tables_; }
 
  private:
   // model_builder.cpp
@@ -69,7 +77,7 @@ class ModelBuilder {
     std::string key;
   };
 
-  ConfigNode& root_;
+  const ConfigNode& root_;
   std::filesystem::path directory_;
   std::vector<Problem> problems_;
   std::vector<AskedKey>* asked_;
@@ -77,6 +85,7 @@ class ModelBuilder {
   std::map<std::string, Material> materials_;
   std::vector<DoubleStation> double_stations_;
   std::vector<MissingRadius> missing_radii_;
+  std::vector<Table> tables_;
 };
 
 template <class F>

@@ -59,7 +59,7 @@ void ModelBuilder::read_bearings() {
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
 
-    if (ConfigNode* source = const_cast<ConfigNode*>(table.node("table"))) {
+    if (table.node("table")) {
       // a file's name, or its text: results keep the text, so that they can be run again
       if (const auto name = table.string("table")) {
         std::string text = *name;
@@ -81,7 +81,7 @@ void ModelBuilder::read_bearings() {
           c.coefficients = parse_bearing_table(
               text, is_file ? (directory_ / *name).string() : table.path("table"), wrong);
           problems_.insert(problems_.end(), wrong.begin(), wrong.end());
-          source->text = text;
+          tables_.push_back({i, text});
         }
       }
       if (has_values)

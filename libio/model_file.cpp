@@ -14,7 +14,11 @@ Model parse_model(const std::string& text, const std::string& name,
   ConfigNode root = parse_toml(text, name);
   const std::string as_read = to_toml(root);
   for (const std::string& set : sets) set_value(root, set);
-  Model model = ModelBuilder(root, directory).build();
+  ModelBuilder builder(root, directory);
+  Model model = builder.build();
+  for (const auto& [bearing, table] : builder.tables()) {
+    root.find("bearing")->items[bearing].find("table")->text = table;
+  }
   model.path = name;
   // the text as it was, comments and all, where nothing from outside (--set, tables) came into it
   const std::string complete = to_toml(root);

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "libio/own_file.hpp"
+
 namespace whirl {
 
 namespace fs = std::filesystem;
@@ -30,7 +32,19 @@ int synchronize(const fs::path& path) {
 
 }  // namespace
 
-FileReplacement::FileReplacement(const fs::path& place) : place_(place) {
+void require_replaceable(const fs::path& place, Replaces what) {
+  if (what == Replaces::anything) return;
+  const Origin origin = origin_of(place);
+  if (origin == Origin::nowhere) return;
+  if (origin == (what == Replaces::own_results ? Origin::result : Origin::picture)) return;
+  const std::string_view is = what == Replaces::own_results ? "is no result of whirl"
+                              : origin == Origin::result    ? "is a result of whirl"
+                                                            : "was not written by whirl";
+  throw TakenPlace(
+      fmt::format("cannot write {}: this file {} and would be lost", place.string(), is));
+}
+
+FileReplacement::FileReplacement(const fs::path& place, Replaces what) : place_(place) {
   std::error_code ignored;
   // what is behind a link is replaced, not the link
   if (fs::is_symlink(place_, ignored)) place_ = fs::weakly_canonical(place_, ignored);
@@ -42,6 +56,7 @@ FileReplacement::FileReplacement(const fs::path& place) : place_(place) {
   if (!fs::is_directory(directory, ignored)) {
     fail(place, fmt::format("there is no directory {}", directory.string()));
   }
+  require_replaceable(place, what);
   temporary_ = place_;
   temporary_ += fmt::format(".tmp.{}", ::getpid());
 }
@@ -61,8 +76,8 @@ void FileReplacement::commit() {
   synchronize(place_.has_parent_path() ? place_.parent_path() : ".");
 }
 
-void replace_file(const fs::path& place, std::string_view text) {
-  FileReplacement file(place);
+void replace_file(const fs::path& place, std::string_view text, Replaces what) {
+  FileReplacement file(place, what);
   std::ofstream stream(file.temporary(), std::ios::binary);
   stream << text;
   stream.close();

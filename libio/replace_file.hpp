@@ -12,6 +12,22 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A place is taken by a file that would be lost; says which one and why.
+class TakenPlace : public FileError {
+ public:
+  using FileError::FileError;
+};
+
+/// What a file may take the place of, beside nothing and an empty file.
+enum class Replaces {
+  own_results,   ///< results (HDF5) of this program
+  own_pictures,  ///< its pictures, pages, answers and exports
+  anything,
+};
+
+/// @throws TakenPlace  if a file is there that may not be replaced
+void require_replaceable(const std::filesystem::path& place, Replaces what);
+
 /// A file that is written under another name and takes its place when it is complete.
 ///
 /// Whoever opens the place finds the old file or the new one, whole, at whatever moment this
@@ -20,8 +36,9 @@ class FileReplacement {
  public:
   /// @param place  a file, which need not exist yet, in a directory that does
   /// @throws FileError  if there is no such directory, or if the place is taken by something that
-  ///                    is not a file, such as /dev/null
-  explicit FileReplacement(const std::filesystem::path& place);
+  ///                    is not a file, such as /dev/null, or by a file that may not be replaced
+  explicit FileReplacement(const std::filesystem::path& place,
+                           Replaces what = Replaces::own_pictures);
   /// Removes what was written, unless it was committed.
   ~FileReplacement();
   FileReplacement(const FileReplacement&) = delete;
@@ -41,6 +58,7 @@ class FileReplacement {
 
 /// Replaces a file by a text.
 /// @throws FileError
-void replace_file(const std::filesystem::path& place, std::string_view text);
+void replace_file(const std::filesystem::path& place, std::string_view text,
+                  Replaces what = Replaces::own_pictures);
 
 }  // namespace whirl

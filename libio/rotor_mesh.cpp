@@ -5,6 +5,7 @@
 #include <map>
 
 #include "libfe/base/error.hpp"
+#include "libio/own_file.hpp"
 #include "libio/vtk/surfaces.hpp"
 
 namespace whirl {
@@ -158,11 +159,11 @@ RotorMesh surface_mesh(const VtkScene& scene, const std::vector<MeshField>& fiel
 std::string vtu_of(const RotorMesh& mesh) {
   constexpr int vtk_line = 3, vtk_triangle = 5;
   std::string out = fmt::format(
-      "<?xml version=\"1.0\"?>\n"
+      "<?xml version=\"1.0\"?>\n{}\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n<UnstructuredGrid>\n"
       "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
-      mesh.points.size(), mesh.cells.size());
+      xml_mark, mesh.points.size(), mesh.cells.size());
   for (const MeshArray& array : mesh.point_data) write_array(out, array);
   out += "</PointData>\n<CellData>\n";
   for (const MeshArray& array : mesh.cell_data) write_array(out, array);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <unordered_set>
 
+#include "libio/own_file.hpp"
 #include "libio/xml.hpp"
 
 namespace whirl {
@@ -195,9 +196,9 @@ void Svg::begin_clip(Pixel corner, double width, double height) {
 
 std::string Svg::document() const {
   return fmt::format(
-             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n<svg "
              "xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" ",
-             width_, height_) +
+             xml_mark, width_, height_) +
          head_ + body_ + "</svg>\n";
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libfe/base/linalg.hpp"
+#include "libio/replace_file.hpp"
 
 namespace whirl {
 
@@ -72,6 +73,7 @@ struct VtkOptions {
   double force_scale = 0.0;       ///< [m/N]; 0: the largest force as long as 15 % of the scene
   int facets = 48;                ///< points around, >= 3
   int sections = 4;               ///< parts that a piece of the shaft is drawn in, >= 1
+  Replaces replaces = Replaces::own_pictures;
 };
 
 /// Writes "x.pvd" and "x/x_0001.vtp", "x/x_0002.vtp", ...

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "libio/hdf5.hpp"
+#include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/xml.hpp"
 
@@ -32,12 +33,14 @@ std::string attribute(const std::string& name, const std::string& type, const st
 }  // namespace
 
 std::vector<fs::path> write_xdmf_series(const fs::path& xdmf_path, const VtkScene& scene,
-                                        const std::vector<VtkFrame>& frames) {
-  FileReplacement{xdmf_path};
-  std::error_code ignored;
-  fs::remove(xdmf_path, ignored);
+                                        const std::vector<VtkFrame>& frames, Replaces replaces) {
+  FileReplacement{xdmf_path, replaces};
   const fs::path numbers =
       fs::path(xdmf_path).replace_filename(xdmf_path.stem().string() + "_xdmf.h5");
+  const Replaces of_numbers = replaces == Replaces::anything ? replaces : Replaces::own_results;
+  require_replaceable(numbers, of_numbers);
+  std::error_code ignored;
+  fs::remove(xdmf_path, ignored);
   const std::string name = xml_text(numbers.filename().string());
   const auto points = std::ssize(scene.z);
 
@@ -57,7 +60,8 @@ std::vector<fs::path> write_xdmf_series(const fs::path& xdmf_path, const VtkScen
   const Eigen::Index corners = has_shaft ? 2 : 1;
   const Eigen::Index cells = std::ssize(lines) / corners;
 
-  ResultWriter file(numbers);
+  ResultWriter file(numbers, of_numbers);
+  file.attribute("/", "program", std::string(json_mark));
   file.dataset("/points", rest, {"m", "points at rest", {}});
   file.dataset("/radius", radius, {"m", "radius of the shaft", {}});
   file.dataset("/lines", lines, {cells, corners}, {"", "points of the lines", {}});
@@ -68,9 +72,10 @@ std::vector<fs::path> write_xdmf_series(const fs::path& xdmf_path, const VtkScen
       has_shaft ? "Polyline" : "Polyvertex", cells, corners,
       item(name, "/lines", fmt::format("{} {}", cells, corners), true),
       item(name, "/points", size_3));
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
-      "    <Grid Name=\"motion\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n{}\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
+      "    <Grid Name=\"motion\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+      xml_mark);
   for (std::size_t k = 0; k < frames.size(); ++k) {
     const VtkFrame& frame = frames[k];
     assert(frame.motion.rows() == points && frame.forces.size() == scene.contacts.size());
@@ -95,7 +100,7 @@ std::vector<fs::path> write_xdmf_series(const fs::path& xdmf_path, const VtkScen
     text += "      </Grid>\n";
   }
   file.commit();
-  replace_file(xdmf_path, text + "    </Grid>\n  </Domain>\n</Xdmf>\n");
+  replace_file(xdmf_path, text + "    </Grid>\n  </Domain>\n</Xdmf>\n", replaces);
   return {xdmf_path, numbers};
 }
 

@@ -20,6 +20,7 @@ namespace whirl {
 /// @throws FileError  if a file cannot be written
 std::vector<std::filesystem::path> write_xdmf_series(const std::filesystem::path& xdmf_path,
                                                      const VtkScene& scene,
-                                                     const std::vector<VtkFrame>& frames);
+                                                     const std::vector<VtkFrame>& frames,
+                                                     Replaces replaces = Replaces::own_pictures);
 
 }  // namespace whirl

@@ -369,12 +369,12 @@ class FigureView {
     const point = this.nearest(panel, x, y, (c) => c.details);
     if (point) {
       const { c, k } = point;
-      return this.tellCommand(c.command.replace("{n}", String(c.along[k])), c.details[k].split("\n"));
+      return this.tellCommand(c.command.replaceAll("{n}", String(c.along[k])), c.details[k].split("\n"));
     }
     const cell = panel.cells?.command && this.cellAt(panel, x, y);
     if (!cell) return;
     const cells = panel.cells, number = (v) => String(Number(v.toPrecision(12)));
-    const text = cells.command.replace("{x}", number(cells.x[cell.i] * cells.x_factor)).replace("{y}", number(cells.y[cell.j] * cells.y_factor));
+    const text = cells.command.replaceAll("{x}", number(cells.x[cell.i] * cells.x_factor)).replaceAll("{y}", number(cells.y[cell.j] * cells.y_factor));
     this.tellCommand(text, []);
   }
 

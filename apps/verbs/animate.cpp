@@ -2,14 +2,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 
 #include "apps/program.hpp"
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/scene_source.hpp"
+#include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
 
 namespace whirl {
@@ -22,16 +25,31 @@ ModelError wrong(const std::string& what, std::string message) {
   return ModelError({what}, "", std::move(message));
 }
 
-/// A folder that is removed at the end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / fmt::format("whirl_animate_{}", ::getpid());
-  Folder() { fs::create_directories(path); }
+/// A folder that is removed at the end: among the system's temporary ones, or beside the result
+/// where there are none.
+class Folder {
+ public:
+  explicit Folder(const fs::path& beside) {
+    std::error_code problem;
+    fs::path parent = fs::temp_directory_path(problem);
+    if (problem) {
+      parent = fs::absolute(beside).parent_path();
+      ::setenv("TMPDIR", parent.c_str(), 1);  // for the programs that this one calls
+    }
+    std::string name = (parent / "whirl_animate_XXXXXX").string();
+    if (!::mkdtemp(name.data())) {
+      throw FileError(fmt::format("cannot make the folder {}: {}", name, std::strerror(errno)));
+    }
+    path = name;
+  }
   ~Folder() {
     std::error_code ignored;
     fs::remove_all(path, ignored);
   }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
+
+  fs::path path;
 };
 
 /// Width and height of "960x540" [pixels].
@@ -134,7 +152,7 @@ Report run_animate(const Invocation& call) {
   if (ending != ".ogv" && ending != ".gif" && ending != ".png") {
     throw wrong("--out " + out.string(), "expected a film .ogv or .gif, or pictures .png");
   }
-  FileReplacement{out};  // a directory that is not there is said first
+  FileReplacement{out, call.picture_replaces()};  // a wrong place is said before the work
   const auto size = size_of(call.text("size", "960x540"));
   const long number = call.integer("mode", 0);
   std::vector<VtkFrame> frames;
@@ -159,7 +177,7 @@ Report run_animate(const Invocation& call) {
     if (frames.empty()) throw wrong("--mode " + call.text("mode", "1"), "there is no such mode");
   }
 
-  const Folder folder;
+  const Folder folder(out);
   const fs::path series = folder.path / "series.pvd";
   write_vtk_series(series, source.scene, frames);
   const long rate = call.integer("rate", 25);
@@ -172,8 +190,9 @@ Report run_animate(const Invocation& call) {
     const std::string name = entry.path().filename();
     if (entry.path().extension() != ending || name.rfind("film", 0) != 0) continue;
     const fs::path place = fs::path(out).replace_filename(out.stem().string() + name.substr(4));
-    FileReplacement file(place);
+    FileReplacement file(place, call.picture_replaces());
     fs::copy_file(entry.path(), file.temporary());
+    mark_as_own(file.temporary());
     file.commit();
     files.push_back(place);
   }

@@ -18,7 +18,7 @@ namespace whirl {
 
 namespace {
 
-constexpr std::size_t piece_size = 64;  ///< starts that go together
+constexpr std::size_t most_together = 64;  ///< starts, in the lanes of one batch
 const std::string group = "/basins";
 
 /// Where the starts come from: the axes, or chance around the model's start.
@@ -131,11 +131,7 @@ Report run_basins(const Invocation& call) {
     axes = setup.axis_paths(group);
   }
   PointTable table(group, columns, shape, axes);
-  StudyWork work{.label = "starting", .threads = setup.threads()};
-  for (std::size_t i = 0; i < table.points(); i += piece_size) {
-    work.pieces.emplace_back(std::min(piece_size, table.points() - i));
-    std::iota(work.pieces.back().begin(), work.pieces.back().end(), i);
-  }
+  StudyWork work{.label = "starting", .most_together = most_together, .threads = setup.threads()};
   work.prepare = [&](const std::vector<std::size_t>& piece) -> std::function<StudyRows()> {
     return [&starts, piece] { return compute(starts, piece); };
   };
@@ -149,7 +145,7 @@ Report run_basins(const Invocation& call) {
     write_classification_axes(*file, *first.scene, group);
     return file;
   };
-  const StudyOutcome outcome = run_study(call, work, table, begin);
+  const StudyOutcome outcome = run_study(call, work, table, setup.earlier(), begin);
 
   std::vector<std::size_t> good;
   std::vector<Ending> endings;

@@ -233,7 +233,7 @@ Report run_bench(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);
-  if (call.has("svg")) FileReplacement{call.given.at("svg")};  // a wrong place is said at once
+  install_interrupt_handler();
   const Bench bench = run_all(call, model);
 
   Report report{.record = begin_record(call, model), .status = bench.was_stopped ? 130 : 0};
@@ -241,7 +241,7 @@ Report run_bench(const Invocation& call) {
   report.text = "Speed against error" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
                 text_of(bench, model);
   if (call.has("svg")) {
-    replace_file(call.given.at("svg"), svg_of(figure_of(bench, model)));
+    replace_file(call.given.at("svg"), svg_of(figure_of(bench, model)), call.picture_replaces());
     report.text += fmt::format("\n  picture: {}\n", call.given.at("svg"));
   }
   if (file) write(*file, bench, model);

@@ -1,6 +1,7 @@
 #include "apps/verbs/borders.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,7 @@ BranchParameters branch_parameters(const Invocation& call, const Model& model) {
     throw ModelError(
         {"--over"}, "",
         fmt::format("found {} of them, expected one, or two for borders: --over "
-                    "PATH=first:last:step, such as --over contact.ring.friction=0.15:0:0.002",
+                    "PATH=first:last:step, such as --over contact.ring.friction=0:0.15:0.002",
                     call.over.size()));
   }
   std::string at = call.text("at"), second_at;
@@ -108,6 +109,13 @@ BranchParameters branch_parameters(const Invocation& call, const Model& model) {
       require_speed(p.model(first, second));
   }
   return p;
+}
+
+void write_fixed(ResultWriter& file, const BranchParameters& parameters) {
+  if (!parameters.across) return;
+  ParameterAxis axis = parameters.across->axis;
+  axis.values = {parameters.across->first};
+  file.attribute("/branch", "fixed", fmt::format("{}", fmt::join(axis.assignments(0), "\n")));
 }
 
 Borders::Borders(const BranchParameters& parameters, std::shared_ptr<const Scene> first,

@@ -50,6 +50,10 @@ struct BranchParameters {
 /// @throws ModelError  for values that do not fit
 BranchParameters branch_parameters(const Invocation& call, const Model& model);
 
+/// Attribute `fixed` of /branch: the value of the second parameter, as --set takes it, a line for
+/// every path; none without a second parameter.
+void write_fixed(ResultWriter& file, const BranchParameters& parameters);
+
 /// Curves of all bifurcations of branches; none without a second parameter.
 class Borders {
  public:

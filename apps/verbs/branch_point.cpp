@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
@@ -35,10 +36,18 @@ BranchStart branch_start(const Invocation& call) {
   const std::string path =
       file.has_attribute("/model", "path") ? file.string_attribute("/model", "path") : name;
   const auto branch = static_cast<std::size_t>(file.numbers("/branch/branch").at(k));
-  return {.sets = axis.assignments(1),
+  std::vector<std::string> at_point = axis.assignments(1), at_first = axis.assignments(0);
+  if (file.has_attribute("/branch", "fixed")) {  // the other value of a plane
+    std::istringstream fixed(file.string_attribute("/branch", "fixed"));
+    for (std::string set; std::getline(fixed, set);) {
+      at_point.push_back(set);
+      at_first.push_back(set);
+    }
+  }
+  return {.sets = at_point,
           .period = static_cast<int>(file.numbers("/branch/period").at(branch - 1)),
           .state = states.row(number - 1).transpose(),
-          .first = make_scene(parse_model(file.strings("/model").at(0), path, axis.assignments(0),
+          .first = make_scene(parse_model(file.strings("/model").at(0), path, at_first,
                                           std::filesystem::path(path).parent_path()))};
 }
 

@@ -66,7 +66,7 @@ Report run_classify(const Invocation& call) {
   require_tolerance(options.tolerance, "--tolerance " + call.text("tolerance"));
   const Scene scene = make_scene(model);
   Progress progress("classifying", options.discard + options.revolutions, call.shows_progress);
-  is_interrupted();  // from now on Ctrl-C stops between revolutions
+  install_interrupt_handler();
   options.watch = [&](long done) {
     progress.update(done);
     return !is_interrupted();

@@ -324,10 +324,17 @@ Report run_continue(const Invocation& call) {
                   select_points(at_first, first->assembler, call.text("stations")), options,
                   generations, method, is_rotating);
   Borders borders(parameters, first, tracing.layout(), options.most_points);
+  const std::optional<EarlierEnd> start = earlier_start(call, model);
   StudyFile file(
-      call, [&] { return call.result_file(model); },
+      call, start,
+      [&] {
+        auto made = call.result_file(model);
+        write_start(*made, start);
+        return made;
+      },
       [&](ResultWriter& to) {
         write_branches(to, tracing.layout(), tracing.branches(), tracing.is_complete());
+        write_fixed(to, parameters);
         borders.write(to);
       },
       [&](const ResultReader& earlier) {
@@ -345,7 +352,7 @@ Report run_continue(const Invocation& call) {
     if (status == 0) tracing.begin(transient.state.y, harmonics);
   }
   if (status == 0) {
-    is_interrupted();  // from now on Ctrl-C stops with what is done
+    install_interrupt_handler();
     Progress progress("points of branches", options.most_points, call.shows_progress);
     try {
       if (!tracing.walk([&](std::size_t points) {

@@ -58,8 +58,10 @@ Written export_series(const Invocation& call, const SceneSource& source, const f
   const auto write = [&](const std::string& suffix, const std::vector<VtkFrame>& frames,
                          const std::string& what) {
     const fs::path place = stem.string() + suffix + ending;
-    const auto files = is_xdmf ? write_xdmf_series(place, source.scene, frames)
-                               : write_vtk_series(place, source.scene, frames);
+    const Replaces replaces = call.picture_replaces();
+    const auto files = is_xdmf
+                           ? write_xdmf_series(place, source.scene, frames, replaces)
+                           : write_vtk_series(place, source.scene, frames, {.replaces = replaces});
     written.files.insert(written.files.end(), files.begin(), files.end());
     written.text += fmt::format("  {}: {} frames, {}\n", place.string(), frames.size(), what);
   };
@@ -83,7 +85,8 @@ Written export_csv(const Invocation& call, const SceneSource& source, const fs::
   }
   std::optional<MotionSamples> samples;
   if (source.has_motion() && window_of(call).is_given()) samples = source.samples(call, 1e9);
-  Written written{write_csv_tables(*source.result, stem, samples), ""};
+  Written written{
+      write_csv_tables(*source.result, stem, call.picture_replaces(), samples), ""};
   if (samples) written.text = fmt::format("  of the motion {}\n", samples->text);
   for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
   if (written.files.empty()) written.text = "There are no tables in this result\n";
@@ -119,7 +122,7 @@ Written export_mesh(const Invocation& call, const SceneSource& source, const Mes
                                                       std::string(format.group))
                                           : surface_mesh(source.scene, fields);
   const fs::path place = stem.string() + std::string(format.ending);
-  write_mesh(place, format, mesh);
+  write_mesh(place, format, mesh, call.picture_replaces());
   return {{place},
           fmt::format("  {}: {} {} and {} points; where the format takes fields\n{}",
                       place.string(), mesh.cells.size(), format.has_lines ? "lines" : "triangles",

@@ -14,7 +14,7 @@ namespace whirl {
 
 namespace {
 
-constexpr std::size_t piece_size = 256;  ///< points that go together
+constexpr std::size_t most_together = 256;  ///< points, in the lanes of one batch
 const std::string group = "/map";
 
 /// Points of a piece, classified in the lanes of one batch.
@@ -198,17 +198,11 @@ Report run_map(const Invocation& call) {
   for (const ParameterAxis& a : setup.axes()) shape.push_back(std::ssize(a.values));
   PointTable table(group, classification_columns(*first.scene, group), shape,
                    setup.axis_paths(group));
-  StudyWork work{.label = "mapping", .threads = setup.threads()};
-  for (std::size_t i = 0; i < setup.points(); i += piece_size) {
-    work.pieces.emplace_back();
-    for (std::size_t j = i; j < std::min(setup.points(), i + piece_size); ++j) {
-      work.pieces.back().push_back(j);
-    }
-  }
+  StudyWork work{.label = "mapping", .most_together = most_together, .threads = setup.threads()};
   work.prepare = [&](const std::vector<std::size_t>& piece) -> std::function<StudyRows()> {
     return [&setup, piece] { return compute(setup, piece); };
   };
-  const StudyOutcome outcome = run_study(call, work, table, [&] {
+  const StudyOutcome outcome = run_study(call, work, table, setup.earlier(), [&] {
     auto file = setup.file(call, group);
     write_classification_axes(*file, *first.scene, group);
     return file;

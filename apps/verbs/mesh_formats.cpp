@@ -69,9 +69,10 @@ const MeshFormat* mesh_format(std::string_view name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-void write_mesh(const fs::path& place, const MeshFormat& format, const RotorMesh& mesh) {
-  if (format.name == "vtu") return replace_file(place, vtu_of(mesh));
-  FileReplacement{place};  // a directory that is not there is said first
+void write_mesh(const fs::path& place, const MeshFormat& format, const RotorMesh& mesh,
+                Replaces replaces) {
+  if (format.name == "vtu") return replace_file(place, vtu_of(mesh), replaces);
+  FileReplacement{place, replaces};  // a wrong place is said first
   const Beside beside(place);
   replace_file(beside.mesh, vtu_of(mesh));
   const auto fail = [&](const std::string& why) {

@@ -26,7 +26,7 @@ const MeshFormat* mesh_format(std::string_view name);
 
 /// Writes a mesh: whole, or not at all.
 /// @throws FileError  with what meshio says, or which package it is of
-void write_mesh(const std::filesystem::path& place, const MeshFormat& format,
-                const RotorMesh& mesh);
+void write_mesh(const std::filesystem::path& place, const MeshFormat& format, const RotorMesh& mesh,
+                Replaces replaces);
 
 }  // namespace whirl

@@ -71,7 +71,7 @@ Trajectory after_transient(const Invocation& call, const Model& model, const Sce
   // an orbit is shot from phase 0: what is left of a revolution is gone through first
   transient.revolutions = transient.state.phase > 0.0 ? std::max(1L, discard) : discard;
   Progress progress("going through the transient", transient.revolutions, call.shows_progress);
-  is_interrupted();  // from now on Ctrl-C stops between revolutions
+  install_interrupt_handler();
   if (transient.revolutions > 0) {
     integrate_single(transient, {.tolerance = tolerance, .watch = [&](long done) {
                                    progress.update(done);

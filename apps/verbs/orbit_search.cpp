@@ -51,7 +51,7 @@ Report search_orbits(const Invocation& call, const Model& model) {
   const Flow flow = flow_of(scene.contacts);
   std::vector<Found> all;
   long failed = 0;
-  is_interrupted();  // from now on Ctrl-C stops with what is found
+  install_interrupt_handler();
   Progress progress("starts", starts, call.shows_progress);
   long done = 0;
   for (; done < starts && !is_interrupted(); ++done) {

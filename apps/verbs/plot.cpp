@@ -12,11 +12,13 @@
 #include "apps/program.hpp"
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures.hpp"
 #include "libio/nearest.hpp"
+#include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/table.hpp"
 
@@ -193,7 +195,8 @@ void convert(const fs::path& svg, const fs::path& to, const std::string& format,
   } else {  // a pixel is 1/96 inch, as in browsers
     words.insert(words.end(), {"--dpi-x", "96", "--dpi-y", "96"});
   }
-  words.insert(words.end(), {"--output", to.string(), svg.string()});
+  // absolute, so that no name is taken for an option
+  words.insert(words.end(), {"--output", fs::absolute(to).string(), fs::absolute(svg).string()});
   const std::optional<int> status = run_program(words);
   if (!status) {
     throw FileError(fmt::format(
@@ -208,19 +211,18 @@ void convert(const fs::path& svg, const fs::path& to, const std::string& format,
 
 /// @param is_printed  whether its size is one on paper
 void write_picture(const std::string& svg, const fs::path& to, const std::string& format,
-                   bool is_printed) {
-  if (format == "svg") return replace_file(to, svg);
-  FileReplacement{to};  // a directory that is not there is said first
+                   bool is_printed, Replaces replaces) {
+  if (format == "svg") return replace_file(to, svg, replaces);
+  FileReplacement file(to, replaces);
   const fs::path source = to.string() + fmt::format(".{}.svg", ::getpid());
-  const fs::path target = to.string() + fmt::format(".{}.part", ::getpid());
   std::error_code ignored;
   try {
     replace_file(source, svg);
-    convert(source, target, format, is_printed);
-    fs::rename(target, to);
+    convert(source, file.temporary(), format, is_printed);
+    mark_as_own(file.temporary());
+    file.commit();
   } catch (...) {
     fs::remove(source, ignored);
-    fs::remove(target, ignored);
     throw;
   }
   fs::remove(source, ignored);
@@ -229,6 +231,7 @@ void write_picture(const std::string& svg, const fs::path& to, const std::string
 }  // namespace
 
 Report run_plot(const Invocation& call) {
+  require_result(call, call.words.empty() ? "" : call.words[0]);
   ResultView result(call.file);
   set_frequency_unit(call, result);
   if (call.words.size() > 1) throw wrong(call.words[1], "one kind of figure at a time");
@@ -261,7 +264,8 @@ Report run_plot(const Invocation& call) {
       call.text("out", fmt::format("{}_{}.{}", fs::path(call.file).replace_extension("").string(),
                                    kind.name, format));
   const Picture picture = picture_of(figure, size);
-  write_picture(picture.svg, out, format, size.is_given() || size.font > 0.0);
+  write_picture(picture.svg, out, format, size.is_given() || size.font > 0.0,
+                call.picture_replaces());
   Report report;
   report.record.set("model", call.file).set("version", version);
   report.record.set("kind", kind.name).set("variant", figure.variant);

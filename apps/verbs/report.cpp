@@ -4,6 +4,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/replace_file.hpp"
@@ -12,17 +13,19 @@
 namespace whirl {
 
 Report run_report(const Invocation& call) {
+  require_result(call, "");
   std::vector<std::unique_ptr<ResultView>> results;
   results.push_back(std::make_unique<ResultView>(call.file));
   for (const std::string& file : call.words) results.push_back(std::make_unique<ResultView>(file));
   for (const auto& result : results) set_frequency_unit(call, *result);
   const std::string out =
       call.text("out", std::filesystem::path(call.file).replace_extension(".html").string());
+  FileReplacement{out, call.picture_replaces()};  // a wrong place is said before the work
   const ReportPage page = report_page(results, version);
   if (page.figures == 0) {
     throw FileError(fmt::format("{} holds nothing that can be drawn", call.file));
   }
-  replace_file(out, page.html);
+  replace_file(out, page.html, call.picture_replaces());
   Report report;
   Record files = Record::array();
   files.add(out);

@@ -133,7 +133,7 @@ Report run_resonances(const Invocation& call) {
   };
   int status = 0;
   if (confirms) {
-    is_interrupted();  // from now on Ctrl-C stops with what is done
+    install_interrupt_handler();
     Progress progress("looking for bouncing motions", std::ssize(places), call.shows_progress);
     for (std::size_t i = 0; i < places.size() && status == 0; ++i) {
       places[i].bouncing = find_bouncing(scene_at, diagram, places[i].resonance, search);

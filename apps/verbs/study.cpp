@@ -9,17 +9,18 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <set>
 #include <thread>
 
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "apps/version.hpp"
+#include "libdyn/piece_sizes.hpp"
 #include "libdyn/work_queue.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/format.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
+#include "libio/own_file.hpp"
 
 namespace whirl {
 
@@ -28,24 +29,30 @@ namespace {
 constexpr const char* motion_codes =
     "0 equilibrium, 1 periodic, 2 quasi-periodic, 3 chaotic, 4 hyperchaotic, -1 failed";
 
-/// Words of a command line that do not change what is computed.
-std::vector<std::string> essential(const std::vector<std::string>& words) {
-  const std::set<std::string> with_value{"--out", "--json", "--threads"};
-  std::vector<std::string> kept;
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    const std::string name = words[i].substr(0, words[i].find('='));
-    if (name == "--quiet" || name == "--restart") continue;
-    if (with_value.count(name) > 0) {
-      if (name == words[i]) ++i;
-      continue;
-    }
-    kept.push_back(words[i]);
-  }
+/// The parts of a call that change what is computed; the model is compared as a text.
+std::vector<std::string> essential(const Call& call) {
+  std::vector<std::string> kept{call.verb, call.file};
+  kept.insert(kept.end(), call.words.begin(), call.words.end());
+  const std::vector<std::string> options =
+      options_without(call.options, {"out", "json", "svg", "threads", "quiet", "restart", "force"});
+  kept.insert(kept.end(), options.begin(), options.end());
   return kept;
 }
 
+/// Where the motion began that was taken from another file, as it was written into a study.
+bool is_same_start(const ResultReader& file, const EarlierEnd& start) {
+  if (!file.has("/from/displacement")) return true;  // of an early version, which did not keep it
+  const auto is_same = [&](const char* path, const Vec& now) {
+    const Vec then = file.vector(path);
+    return then.size() == now.size() && then == now;
+  };
+  return is_same("/from/displacement", start.state.displacement) &&
+         is_same("/from/velocity", start.state.velocity) &&
+         file.number_attribute("/from", "phase") == start.phase;
+}
+
 /// Takes over what an earlier run of the same line has left in its file.
-void resume(const Invocation& call, const std::string& source,
+void resume(const Invocation& call, const std::optional<EarlierEnd>& start,
             const std::function<void(const ResultReader&)>& take) {
   const std::string& place = call.given.at("out");
   const ResultReader earlier(place);
@@ -54,11 +61,15 @@ void resume(const Invocation& call, const std::string& source,
         fmt::format("{} {}; take another name, or --restart to replace it", place, why));
   };
   if (!earlier.has("/arguments") || !earlier.has("/model")) refuse("is no study of whirl");
-  if (essential(earlier.strings("/arguments")) != essential(call.line)) {
+  if (essential(read_call(earlier)) != essential(call.parts())) {
     refuse("holds another study: " + earlier.string_attribute("/", "command"));
   }
-  if (earlier.strings("/model").at(0) != source) {
+  if (earlier.strings("/model").at(0) != call.model().source) {
     refuse("holds this study of a model that has changed since");
+  }
+  if (start && !is_same_start(earlier, *start)) {
+    refuse(fmt::format("holds this study from another start: {} has changed since",
+                       call.text("from", call.model().start.file)));
   }
   if (earlier.string_attribute("/", "whirl_version") != version) {
     refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
@@ -83,17 +94,76 @@ void remove_leftovers(const std::filesystem::path& place) {
   }
 }
 
+/// The pieces of a study that are not done, one after the other.
+class Pieces {
+ public:
+  Pieces(const StudyWork& work, const PointTable& table) : work_(work), table_(table) {
+    for (std::size_t i = 0; i < table.points(); ++i) left_ += table.is_done(i) ? 0 : 1;
+  }
+
+  /// Points that are computed together; none: all have been given out.
+  std::vector<std::size_t> next(PieceSizes& sizes) {
+    if (work_.pieces.empty()) return next_points(sizes.next(left_));
+    while (at_ < work_.pieces.size()) {
+      const auto& piece = work_.pieces[at_++];
+      if (!std::all_of(piece.begin(), piece.end(), [&](auto p) { return table_.is_done(p); })) {
+        return piece;
+      }
+    }
+    return {};
+  }
+
+ private:
+  std::vector<std::size_t> next_points(std::size_t count) {
+    std::vector<std::size_t> piece;
+    for (; at_ < table_.points() && piece.size() < count; ++at_) {
+      if (!table_.is_done(at_)) piece.push_back(at_);
+    }
+    left_ -= piece.size();
+    return piece;
+  }
+
+  const StudyWork& work_;
+  const PointTable& table_;
+  std::size_t at_ = 0;    ///< the next piece, or point
+  std::size_t left_ = 0;  ///< points that are neither done nor given out
+};
+
+/// Work that says how long it took.
+std::function<StudyRows()> timed(std::function<StudyRows()> work) {
+  return [work = std::move(work)] {
+    const auto begin = std::chrono::steady_clock::now();
+    StudyRows rows = work();
+    rows.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return rows;
+  };
+}
+
 }  // namespace
 
-StudyFile::StudyFile(const Invocation& call, Begin begin, std::function<void(ResultWriter&)> write,
+std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& model) {
+  if (!call.has("from") && model.start.from != StartFrom::file) return std::nullopt;
+  return earlier_end(call.text("from", model.start.file));
+}
+
+void write_start(ResultWriter& file, const std::optional<EarlierEnd>& start) {
+  if (!start) return;
+  file.dataset("/from/displacement", start->state.displacement,
+               {"m, rad", "displacement that the motions begin with", {""}});
+  file.dataset("/from/velocity", start->state.velocity,
+               {"m/s, rad/s", "velocity that the motions begin with", {""}});
+  file.attribute("/from", "phase", start->phase);
+}
+
+StudyFile::StudyFile(const Invocation& call, const std::optional<EarlierEnd>& start, Begin begin,
+                     std::function<void(ResultWriter&)> write,
                      const std::function<void(const ResultReader&)>& take)
     : has_file_(call.has("out")), begin_(std::move(begin)), write_(std::move(write)) {
   if (!has_file_) return;
-  remove_leftovers(call.given.at("out"));
+  const std::string& place = call.given.at("out");
+  remove_leftovers(place);
   begin_();  // says at once what cannot be written
-  if (!call.has("restart") && std::filesystem::exists(call.given.at("out"))) {
-    resume(call, call.model().source, take);
-  }
+  if (!call.has("restart") && origin_of(place) == Origin::result) resume(call, start, take);
 }
 
 void StudyFile::save() {
@@ -158,12 +228,8 @@ StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t mo
   require_tolerance(options_.tolerance, "--tolerance " + call.text("tolerance"));
   const long processors = std::max(1u, std::thread::hardware_concurrency());
   threads_ = static_cast<int>(call.integer("threads", processors));
-  if (call.has("from") || model_.start.from == StartFrom::file) {
-    EarlierEnd end = earlier_end(call.text("from", model_.start.file));
-    earlier_ = std::move(end.state);
-    earlier_phase_ = end.phase;
-    if (call.has("from")) model_.start.whirl.clear();  // it goes on as it was
-  }
+  earlier_ = earlier_start(call, model_);
+  if (call.has("from")) model_.start.whirl.clear();  // it goes on as it was
   // what is wrong at the ends is said before the work
   for (std::size_t corner = 0; corner < (std::size_t{1} << axes_.size()); ++corner) {
     std::vector<std::size_t> indices;
@@ -200,7 +266,7 @@ Model StudySetup::model_at(const std::vector<std::size_t>& indices) const {
 StudyPoint StudySetup::point(std::size_t number, const FullState* from) const {
   StudyPoint p;
   p.model = std::make_unique<Model>(model_at(indices_of(number)));
-  const FullState* start = from ? from : earlier_ ? &*earlier_ : nullptr;
+  const FullState* start = from ? from : earlier_ ? &earlier_->state : nullptr;
   if (start) {
     p.model->start.from = StartFrom::file;
     p.model->start.whirl.clear();
@@ -209,7 +275,7 @@ StudyPoint StudySetup::point(std::size_t number, const FullState* from) const {
     p.scene = std::make_unique<Scene>(make_scene(*p.model, ReductionEstimate::no));
     p.subject.system = &p.scene->contacts;
     p.subject.found.end = start_state(*p.model, *p.scene, start);
-    if (start && !from) p.subject.found.end.phase = earlier_phase_;
+    if (start && !from) p.subject.found.end.phase = earlier_->phase;
   } catch (const NumericalError& error) {
     p.failure = error.what();
   }
@@ -227,6 +293,7 @@ std::vector<std::string> StudySetup::axis_paths(const std::string& group) const 
 std::unique_ptr<ResultWriter> StudySetup::file(const Invocation& call,
                                                const std::string& group) const {
   auto file = call.result_file(model_);
+  write_start(*file, earlier_);
   const std::vector<std::string> paths = axis_paths(group);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     file->dataset(paths[i], axes_[i].values, {axes_[i].unit, axes_[i].path, {""}});
@@ -324,32 +391,34 @@ std::string motion_name(const PointTable& table, std::size_t point) {
 }
 
 StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable& table,
+                       const std::optional<EarlierEnd>& start,
                        const std::function<std::unique_ptr<ResultWriter>()>& begin) {
   StudyOutcome outcome;
   StudyFile saver(
-      call, begin, [&](ResultWriter& file) { table.write(file); },
+      call, start, begin, [&](ResultWriter& file) { table.write(file); },
       [&](const ResultReader& earlier) { table.read(earlier); });
   outcome.resumed = table.done();
-  is_interrupted();  // from now on Ctrl-C stops with what is done
+  install_interrupt_handler();
   Progress progress(work.label, static_cast<long>(table.points() - outcome.resumed),
                     call.shows_progress);
+  PieceSizes sizes(work.most_together, work.threads);
   {
     WorkQueue<StudyRows> queue(work.threads);
     const auto take = [&](std::chrono::milliseconds patience) {
       const auto result = queue.take(patience);
       if (!result || !result->is_whole) return;
       for (const auto& [point, row] : result->rows) table.put(point, row);
+      sizes.learn(result->rows.size(), result->seconds);
       if (outcome.failure.empty()) outcome.failure = result->failure;
       saver.save_if_due();
       progress.update(static_cast<long>(table.done() - outcome.resumed));
     };
+    Pieces pieces(work, table);
     try {
-      for (const std::vector<std::size_t>& piece : work.pieces) {
-        if (is_interrupted()) break;
-        if (std::all_of(piece.begin(), piece.end(), [&](auto p) { return table.is_done(p); })) {
-          continue;
-        }
-        queue.add(work.prepare(piece));
+      while (!is_interrupted()) {
+        const std::vector<std::size_t> piece = pieces.next(sizes);
+        if (piece.empty()) break;
+        queue.add(timed(work.prepare(piece)));
         while (queue.is_full()) take(std::chrono::milliseconds(100));
       }
       while (queue.has_open()) take(std::chrono::milliseconds(100));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/verb.hpp"
+#include "apps/verbs/simulation.hpp"
 #include "libdyn/classify.hpp"
 #include "libdyn/scene.hpp"
 #include "libio/checkpoint.hpp"
@@ -26,7 +27,9 @@ class StudyFile {
   /// @param write  adds what is computed so far
   /// @param take   takes over what an earlier run has left; not called with --restart
   /// @throws FileError  if the file cannot be written or is of another study
-  StudyFile(const Invocation& call, Begin begin, std::function<void(ResultWriter&)> write,
+  /// @param start  where the motions begin, where that is the end of another result
+  StudyFile(const Invocation& call, const std::optional<EarlierEnd>& start, Begin begin,
+            std::function<void(ResultWriter&)> write,
             const std::function<void(const ResultReader&)>& take);
 
   void save();
@@ -41,6 +44,11 @@ class StudyFile {
   std::function<void(ResultWriter&)> write_;
   clock::time_point last_ = clock::now(), next_ = last_ + least;
 };
+
+/// Where --from or the model's [start] ends, if there is one; read once, before the first point.
+std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& model);
+/// Group /from of a result file: so that a study does not go on from another start.
+void write_start(ResultWriter& file, const std::optional<EarlierEnd>& start);
 
 /// Options of all of them.
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);
@@ -74,6 +82,7 @@ class StudySetup {
   const ClassifyOptions& options() const { return options_; }
   ClassifyOptions& options() { return options_; }
   int threads() const { return threads_; }
+  const std::optional<EarlierEnd>& earlier() const { return earlier_; }
   std::size_t points() const;
 
   /// Model, scene and start of a point; numbers of points run fastest along the last axis.
@@ -99,8 +108,7 @@ class StudySetup {
   std::vector<ParameterAxis> axes_;
   ClassifyOptions options_;
   int threads_ = 1;
-  std::optional<FullState> earlier_;
-  double earlier_phase_ = 0.0;
+  std::optional<EarlierEnd> earlier_;
 };
 
 /// Columns of a classified motion: motion, period, exponents, what contacts do.
@@ -118,12 +126,16 @@ struct StudyRows {
   std::vector<std::pair<std::size_t, PointRow>> rows;
   std::string failure;   ///< of the first point that failed, where it is
   bool is_whole = true;  ///< false: it was interrupted and finds nothing
+  double seconds = 0.0;  ///< that it took
 };
 
 /// How a study becomes pieces of work.
 struct StudyWork {
-  std::string label;                             ///< for the progress
-  std::vector<std::vector<std::size_t>> pieces;  ///< points that are computed together
+  std::string label;  ///< for the progress
+  /// Points that are computed together, one piece after the other; none: any points may be, in
+  /// their order, and pieces are cut as time and threads ask for.
+  std::vector<std::vector<std::size_t>> pieces{};
+  std::size_t most_together = 0;  ///< points of such a piece at most
   /// Makes the work of a piece, in order and in one thread; none for pieces that are done.
   std::function<std::function<StudyRows()>(const std::vector<std::size_t>&)> prepare;
   int threads = 1;  ///< that do the work
@@ -131,6 +143,7 @@ struct StudyWork {
 
 /// Computes what is not done of a table, and keeps the file of --out up to date meanwhile: killed
 /// at any moment, it goes on where it was.
+/// @param start  where the motions begin, where that is the end of another result
 /// @param begin  makes a file with everything in it but the table
 /// @return  exit status 0, 3 (every point failed) or 130, and what is to be said
 struct StudyOutcome {
@@ -139,6 +152,7 @@ struct StudyOutcome {
   std::size_t resumed = 0;  ///< points that were there already
 };
 StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable& table,
+                       const std::optional<EarlierEnd>& start,
                        const std::function<std::unique_ptr<ResultWriter>()>& begin);
 
 /// What was there already, what failed, where the result is, for people.

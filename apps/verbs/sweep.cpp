@@ -17,10 +17,10 @@ namespace whirl {
 
 namespace {
 
-constexpr std::size_t carried_piece = 16, fresh_piece = 64;  ///< values that go together
-constexpr int samples = 64;                                  ///< per revolution, of a portrait
-constexpr int highest_order = 8;                             ///< of the spectra
-constexpr int sectors = 36;                                  ///< around a stator
+constexpr std::size_t carried_piece = 16, most_fresh = 64;  ///< values that go together
+constexpr int samples = 64;                                 ///< per revolution, of a portrait
+constexpr int highest_order = 8;                            ///< of the spectra
+constexpr int sectors = 36;                                 ///< around a stator
 const std::string group = "/sweep";
 
 /// What is seen of a motion beside its kind: sections and spectra at stations, largest radii, where
@@ -326,16 +326,16 @@ Report run_sweep(const Invocation& call) {
 
   Chain chain(setup, table, values);
   StudyWork work{.label = "sweeping"};
-  const std::size_t size = is_fresh ? fresh_piece : carried_piece;
-  for (std::size_t w = 0; w < ways; ++w) {
-    for (std::size_t k = 0; k < values; k += size) {
+  for (std::size_t w = 0; w < ways && !is_fresh; ++w) {
+    for (std::size_t k = 0; k < values; k += carried_piece) {
       work.pieces.emplace_back();
-      for (std::size_t j = k; j < std::min(values, k + size); ++j) {
+      for (std::size_t j = k; j < std::min(values, k + carried_piece); ++j) {
         work.pieces.back().push_back(w == 0 ? j : 2 * values - 1 - j);
       }
     }
   }
   if (is_fresh) {
+    work.most_together = most_fresh;
     work.threads = setup.threads();
     work.prepare = [&](const std::vector<std::size_t>& piece) -> std::function<StudyRows()> {
       return [&, piece] {
@@ -358,7 +358,7 @@ Report run_sweep(const Invocation& call) {
       return [&, points, ends] { return finish(*points, *ends, setup, portraits); };
     };
   }
-  const StudyOutcome outcome = run_study(call, work, table, begin);
+  const StudyOutcome outcome = run_study(call, work, table, setup.earlier(), begin);
 
   Report report{.record = begin_record(call, setup.model()), .status = outcome.status};
   Record& r = report.record;

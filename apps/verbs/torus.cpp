@@ -103,7 +103,7 @@ Report run_torus(const Invocation& call) {
   if (circle.is_good() && parameters) {
     const FlowAt flow_at = [&](double value) { return flow_of(parameters->scene(value), *scene); };
     const BranchParameter& along = parameters->along;
-    is_interrupted();  // from now on Ctrl-C stops with what is done
+    install_interrupt_handler();
     Progress progress("circles", call.integer("most", 200), call.shows_progress);
     for (const double direction : {-along.direction, along.direction}) {
       if (direction != along.direction && !along.goes_both) continue;

@@ -276,7 +276,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
                                    long revolutions, const IntegrationOptions& options,
                                    const Observer& observer) {
   if (!suits_collocation(system)) {
-    throw ModelError({}, "--method collocation",
+    throw ModelError({}, "method collocation",
                      system.films().empty()
                          ? "is for contacts of rings only; take taylor for faces and blades"
                          : "cannot compute oil films, which carry without a pause; take taylor");

@@ -65,11 +65,21 @@ struct ShownAxis {
   std::string title;  ///< "operation.speed [rpm]"
   std::vector<double> values;
   double factor = 1.0;  ///< of shown numbers in SI
+  std::string si_unit{};
 };
 ShownAxis shown_axis(const ResultView& result, const std::string& path);
 
-/// What was set on the command line of a result, to be set again: " --set 'a.b=c'".
-std::string settings_of(const ResultView& result);
+/// A line for a shell that calls a verb on the model of a result, with what was set of it, and with
+/// some of the options of the result's own call.
+/// @param kept  names of these options, as far as they were given
+std::string command_on_model(const ResultView& result, const std::string& verb,
+                             const std::vector<std::string_view>& kept);
+
+/// " --set a.b=2rad/s" to be added to such a line.
+/// @param paths  one path, or several with commas, for one value at all
+/// @param value  a number [unit], or a place for one: "{x}"
+std::string set_command(const std::string& paths, const std::string& value,
+                        const std::string& unit);
 
 /// Position of the first number along a title of an axis with a unit: "x [mm]".
 std::string with_unit(const std::string& what, const DisplayUnit& unit);

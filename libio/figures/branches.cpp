@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libio/call.hpp"
 #include "libio/figures/branch_lines.hpp"
 #include "libio/format.hpp"
 
@@ -32,8 +33,10 @@ void add_points(Panel& p, const ResultView& result, const BranchPoints& b,
   const Mat duty = has_contacts ? result.file.matrix("/branch/duty") : Mat();
   const Mat impacts = has_contacts ? result.file.matrix("/branch/impacts_per_rev") : Mat();
   const Mat normal = has_contacts ? result.file.matrix("/branch/max_normal") : Mat();
-  const std::string command = fmt::format("whirl orbit {}{} --from {} --point {{n}}",
-                                          result.model_path, settings_of(result), result.path);
+  const std::string command =
+      fmt::format("{} --from {} --point {{n}}",
+                  command_on_model(result, "orbit", {"method", "harmonics", "frame", "tolerance"}),
+                  shell_word(result.path));
   for (std::size_t number = 1; number <= b.period.size(); ++number) {
     Curve c{.paint = series_paint(number - 1), .has_line = false, .has_marker = true};
     c.size = 4.0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libio/call.hpp"
 #include "libio/figures/all.hpp"
 
 namespace whirl::figures {
@@ -52,23 +53,33 @@ ShownAxis shown_axis(const ResultView& result, const std::string& path) {
   ShownAxis axis;
   axis.values = numbers(result.file.vector(path));
   axis.path = result.file.string_attribute(path, "long_name");
-  const DisplayUnit unit =
-      unit_for(largest_of(axis.values), result.file.string_attribute(path, "units"));
+  axis.si_unit = result.file.string_attribute(path, "units");
+  const DisplayUnit unit = unit_for(largest_of(axis.values), axis.si_unit);
   axis.title = with_unit(axis.path, unit);
   axis.factor = 1.0 / unit.factor;
   axis.values = scaled(std::move(axis.values), unit.factor);
   return axis;
 }
 
-std::string settings_of(const ResultView& result) {
-  std::string settings;
-  const auto words = result.file.strings("/arguments");
-  for (std::size_t i = 2; i + 1 < words.size(); ++i) {
-    if (words[i] == "--set" || words[i] == "--speed") {
-      settings += fmt::format(" {} '{}'", words[i], words[i + 1]);
-    }
+std::string command_on_model(const ResultView& result, const std::string& verb,
+                             const std::vector<std::string_view>& kept) {
+  const Call call = read_call(result.file);
+  std::vector<std::string> words{"whirl", verb, result.model_path};
+  for (const std::string& set : call.sets) words.insert(words.end(), {"--set", set});
+  for (const std::string& option : options_named(call.options, kept)) words.push_back(option);
+  return shell_line(words);
+}
+
+std::string set_command(const std::string& paths, const std::string& value,
+                        const std::string& unit) {
+  std::string text;
+  for (std::size_t from = 0; from < paths.size();) {
+    const std::size_t to = std::min(paths.find(',', from), paths.size());
+    text += " --set " + shell_word(paths.substr(from, to - from) + "=") + value;
+    if (!unit.empty()) text += shell_word(unit);
+    from = to + 1;
   }
-  return settings;
+  return text;
 }
 
 int contact_at(const ResultView& result, const std::string& station) {

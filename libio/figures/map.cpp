@@ -37,18 +37,16 @@ struct Planes {
   }
 };
 
-/// A number with the words that a shell takes as one.
-std::string set(const std::string& path, const std::string& value) {
-  return fmt::format(" --set {}={}", path, value);
-}
-
-/// The command that looks at one cell, with what was set in the study's own.
+/// The command that looks at one cell as the study did.
 std::string command_of(const ResultView& result, const Planes& planes, std::size_t plane,
                        const std::string& verb) {
-  std::string line = fmt::format("whirl {} {}", verb, result.model_path);
-  line += settings_of(result) + set(planes.x.path, "{x}") + set(planes.y.path, "{y}");
+  std::string line = command_on_model(result, verb, {"discard", "tolerance", "from"});
+  line += set_command(planes.x.path, "{x}", planes.x.si_unit);
+  line += set_command(planes.y.path, "{y}", planes.y.si_unit);
   if (!planes.z.values.empty()) {
-    line += set(planes.z.path, fmt::format("{:.10g}", planes.z.values[plane] * planes.z.factor));
+    line +=
+        set_command(planes.z.path, fmt::format("{:.12g}", planes.z.values[plane] * planes.z.factor),
+                    planes.z.si_unit);
   }
   return line;
 }

@@ -56,7 +56,7 @@ auto row_major(const Matrix& values) {
 
 }  // namespace
 
-ResultWriter::ResultWriter(const fs::path& path) : file_(path) {
+ResultWriter::ResultWriter(const fs::path& path, Replaces what) : file_(path, what) {
   const Attempt attempt(file_.place(), "create", "the file");
   const Handle properties = creation(H5P_FILE_CREATE), access = file_access();
   id_ = attempt(H5Fcreate(file_.temporary().c_str(), H5F_ACC_TRUNC, properties, access));

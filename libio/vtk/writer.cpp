@@ -19,6 +19,7 @@
 #include <cassert>
 #include <fstream>
 
+#include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/vtk.hpp"
 #include "libio/vtk/surfaces.hpp"
@@ -150,9 +151,15 @@ std::vector<fs::path> write_vtk_series(const fs::path& pvd_path, const VtkScene&
   if (pvd_path.extension() != ".pvd") {
     throw FileError(fmt::format("cannot write {}: the name must end in .pvd", pvd_path.string()));
   }
-  FileReplacement collection(pvd_path);
+  FileReplacement collection(pvd_path, options.replaces);
   const std::string stem = pvd_path.stem().string();
   const fs::path folder = pvd_path.parent_path() / stem;
+  const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames.size()).size());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    names.push_back(fmt::format("{}_{:0{}}.vtp", stem, i + 1, digits));
+    require_replaceable(folder / names.back(), options.replaces);
+  }
   std::error_code problem;
   fs::remove(collection.place(), problem);
   fs::create_directory(folder, problem);
@@ -167,11 +174,10 @@ std::vector<fs::path> write_vtk_series(const fs::path& pvd_path, const VtkScene&
       options.force_scale != 0.0 ? options.force_scale : force_scale(scene, frames)};
   std::vector<fs::path> paths = {pvd_path};
   std::string list;
-  const std::size_t digits = std::max<std::size_t>(4, std::to_string(frames.size()).size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     assert(frames[i].motion.rows() == std::ssize(scene.z) && frames[i].motion.cols() == 4);
     assert(frames[i].forces.size() == scene.contacts.size());
-    const std::string name = fmt::format("{}_{:0{}}.vtp", stem, i + 1, digits);
+    const std::string& name = names[i];
     write_frame(folder / name, data_of(series, frames[i]));
     paths.push_back(folder / name);
     list += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n",
@@ -180,7 +186,7 @@ std::vector<fs::path> write_vtk_series(const fs::path& pvd_path, const VtkScene&
 
   std::ofstream stream(collection.temporary(), std::ios::binary);
   stream << "<?xml version=\"1.0\"?>\n"
-            "<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n"
+         << xml_mark << "\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n"
          << list << "  </Collection>\n</VTKFile>\n";
   stream.close();
   if (!stream) throw FileError(fmt::format("cannot write {}", pvd_path.string()));

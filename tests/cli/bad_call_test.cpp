@@ -81,7 +81,7 @@ TEST_F(BadCall, ValuesOfOptions) {
   EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--speed", "3 mm"}), "expected a speed (rad/s)"));
   EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--speed", ""}), "is not a number"));
   EXPECT_TRUE(has(problem({"critical", "rotor.toml", "--order", "0"}), "above zero"));
-  const std::vector<std::string> simulate{"simulate", "rotor.toml", "--speed", "100"};
+  const std::vector<std::string> simulate{"simulate", "rotor.toml", "--speed", "100rad/s"};
   const auto with = [&](const std::string& option, const std::string& value) {
     std::vector<std::string> words = simulate;
     words.insert(words.end(), {option, value});
@@ -183,7 +183,7 @@ TEST_F(BadCall, PlacesThatCannotBeWrittenAreSaidBeforeTheWork) {
   EXPECT_EQ(json.status, 2);
   EXPECT_EQ(json.out, "");
   EXPECT_TRUE(has(json.err, "cannot write nowhere/x.json: there is no directory nowhere"));
-  const Outcome out = whirl({"simulate", "rotor.toml", "--speed", "100", "--out", "nowhere/x.h5"});
+  const Outcome out = whirl({"simulate", "rotor.toml", "--speed", "100rad/s", "--out", "nowhere/x.h5"});
   EXPECT_EQ(out.status, 2);
   EXPECT_TRUE(has(out.err, "cannot write nowhere/x.h5: there is no directory nowhere"));
 }
@@ -194,7 +194,7 @@ TEST_F(BadCall, ResultsReplaceNothingButResults) {
   EXPECT_EQ(
       problem_of_line({"modes", "rotor.toml", "--out", "rotor.toml"}),
       "whirl: cannot write rotor.toml: this file is no result of whirl and would be lost; take "
-      "another name\n");
+      "another name, or --force to replace it\n");
   EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--out", "table.csv"}), "would be lost"));
   for (const char* name : {"rotor.toml", "./rotor.toml"}) {
     EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--json", name}),
@@ -255,13 +255,13 @@ outer_diameter = "50 mm"
 
 TEST_F(BadCall, AStartNeedsAMotionThatFits) {
   ASSERT_EQ(whirl({"modes", "rotor.toml", "--out", "modes.h5", "--quiet"}).status, 0);
-  EXPECT_TRUE(has(problem({"simulate", "rotor.toml", "--speed", "100", "--from", "modes.h5"}),
+  EXPECT_TRUE(has(problem({"simulate", "rotor.toml", "--speed", "100rad/s", "--from", "modes.h5"}),
                   "modes.h5: holds no motion to start from"));
-  ASSERT_EQ(whirl({"simulate", "rotor.toml", "--speed", "100", "--revolutions", "2", "--out",
+  ASSERT_EQ(whirl({"simulate", "rotor.toml", "--speed", "100rad/s", "--revolutions", "2", "--out",
                    "run.h5", "--quiet"})
                 .status,
             0);
-  EXPECT_TRUE(has(problem({"simulate", "rotor.toml", "--speed", "100", "--from", "run.h5", "--set",
+  EXPECT_TRUE(has(problem({"simulate", "rotor.toml", "--speed", "100rad/s", "--from", "run.h5", "--set",
                            "body.rotor.tilts=true", "--set", "body.rotor.diametral_inertia=1",
                            "--set", "bearing.shaft.tilt_stiffness=1"}),
                   "the result has 2 freedoms, the model 4: they do not fit"));

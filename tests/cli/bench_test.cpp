@@ -122,7 +122,7 @@ TEST_F(Bench, SaysWhichMethodsFail) {
 TEST_F(Bench, SaysThatDeviationsGrow) {
   write("unstable.toml", jeffcott);
   const std::vector<std::string> words{"bench",         "unstable.toml",
-                                       "--speed",       "100",
+                                       "--speed",       "100rad/s",
                                        "--set",         "bearing.shaft.damping={xx=-72,yy=-72}",
                                        "--discard",     "0",
                                        "--revolutions", "10",

@@ -24,7 +24,7 @@ class Simulation : public Program {
 // Free of contact at resonance: r = e / (2 zeta) = 5 mm around the sag m g / k = 0.981 mm, which
 // turns backward seen from the rotor; the unbalance response rests there.
 TEST_F(Simulation, OfAFreeRotorEndsInItsUnbalanceResponse) {
-  const json r = result({"simulate", "rotor.toml", "--speed", "100", "--discard", "2000",
+  const json r = result({"simulate", "rotor.toml", "--speed", "100rad/s", "--discard", "2000",
                          "--revolutions", "64", "--samples", "32"});
   EXPECT_EQ(r["revolutions"], 64);
   EXPECT_EQ(r["contacts"], json::array());

@@ -38,7 +38,8 @@ TEST_F(Export, MeshesAreReadByMeshio) {
   if (!has_meshio()) GTEST_SKIP() << "there is no meshio (Debian package meshio-tools)";
   for (const char* format : {"abaqus", "nastran", "gmsh", "exodus", "med", "vtu"}) {
     SCOPED_TRACE(format);
-    const json r = result({"export", disks, "--format", format, "--out", "rotor", "--modes", "1"});
+    const json r =
+        result({"export", disks, "--format", format, "--out", "rotor", "--modes", "1", "--force"});
     ASSERT_EQ(r["files"].size(), 1u);
     const std::string file = r["files"][0];
     const std::string reader = std::string(format) == "gmsh" ? ", 'gmsh'" : "";
@@ -51,7 +52,7 @@ TEST_F(Export, MeshesAreReadByMeshio) {
                         "print(max(p['disk']), p['disk_mass_kg'].sum() > 1, "
                         "p['mode1_0deg'].shape, m.cell_data['outer_diameter_left_m'][0][0] > 0)"),
             "2.0 True (13, 3) True\n");
-  make({"export", disks, "--format", "stl", "--out", "rotor"});
+  make({"export", disks, "--format", "stl", "--out", "rotor", "--force"});
   EXPECT_EQ(python_says("import meshio; m = meshio.read('rotor.stl')\n"
                         "print(m.cells[0].type, round(m.points[:,2].max(), 6))"),
             "triangle 0.6\n");
@@ -69,7 +70,8 @@ TEST_F(Export, EveryFormatOfMeshioIsWritten) {
   for (std::string name; names >> name; ++count) {
     if (name.back() == ',') name.pop_back();
     if (name == "vtk" || name == "xdmf" || name == "csv") continue;
-    const json r = result({"export", "run.h5", "--format", name, "--out", "x", "--modes", "1"});
+    const json r =
+        result({"export", "run.h5", "--format", name, "--out", "x", "--modes", "1", "--force"});
     ASSERT_EQ(r["files"].size(), 1u) << name;
     EXPECT_GT(std::filesystem::file_size(folder / r["files"][0].get<std::string>()), 100u) << name;
   }

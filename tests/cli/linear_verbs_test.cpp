@@ -217,7 +217,7 @@ TEST_F(Linear, Critical) {
 
 // x = e Omega^2 / (omega^2 - Omega^2 + 2 i zeta omega Omega),  y = -i x
 TEST_F(Linear, Unbalance) {
-  const json r = result({"unbalance", "rotor.toml", "--speeds", "0:200:20"});
+  const json r = result({"unbalance", "rotor.toml", "--speeds", "0:200:20rad/s"});
   ASSERT_EQ(r["speeds_rpm"].size(), 11u);
   ASSERT_EQ(r["stations"].size(), 1u);
   const json& s = r["stations"][0];
@@ -259,7 +259,7 @@ TEST_F(Linear, UnbalanceTellsAmplificationAndMargins) {
   EXPECT_TRUE(peaks("125", "0:100.5:0.02")[0]["amplification"].is_null());
   EXPECT_EQ(peaks("125", "0:90:1").size(), 0u);
   const std::string text =
-      whirl({"unbalance", "rotor.toml", "--speed", "115", "--speeds", "0:150:0.02"}).out;
+      whirl({"unbalance", "rotor.toml", "--speed", "115rad/s", "--speeds", "0:150:0.02rad/s"}).out;
   EXPECT_TRUE(has(text, "13.0 % below") && has(text, "16.0 %, NOT KEPT")) << text;
 }
 
@@ -406,7 +406,7 @@ TEST_F(Linear, CampbellSaysWhichSpeedsItShowsAndTheDecrements) {
 TEST_F(Linear, UnbalanceAtChosenStations) {
   const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
   const auto names = [&](const std::string& list) {
-    const json r = result({"unbalance", model, "--speeds", "0:100:100", "--stations", list});
+    const json r = result({"unbalance", model, "--speeds", "0:100:100rad/s", "--stations", list});
     std::vector<std::string> all;
     for (const json& s : r["stations"]) all.push_back(s["name"]);
     return all;
@@ -458,7 +458,7 @@ TEST_F(Linear, FormsOfSpeeds) {
 TEST_F(Linear, JsonToStandardOutputIsAllThatIsPrinted) {
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
-    const Outcome outcome = whirl(briefly({verb, "rotor.toml", "--speed", "100", "--json", "-"}));
+    const Outcome outcome = whirl(briefly({verb, "rotor.toml", "--speed", "100rad/s", "--json", "-"}));
     EXPECT_EQ(outcome.status, 0);
     EXPECT_TRUE(json::accept(outcome.out)) << outcome.out;
     EXPECT_EQ(outcome.err, "");
@@ -468,13 +468,13 @@ TEST_F(Linear, JsonToStandardOutputIsAllThatIsPrinted) {
 TEST_F(Linear, JsonToAFileLeavesTheTextAndQuietLeavesNothing) {
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
-    const Outcome text = whirl(briefly({verb, "rotor.toml", "--speed", "100", "--json", "r.json"}));
+    const Outcome text = whirl(briefly({verb, "rotor.toml", "--speed", "100rad/s", "--json", "r.json"}));
     EXPECT_EQ(text.status, 0);
     EXPECT_NE(text.out, "");
     const json from_file = json::parse(content(folder / "r.json"));
     EXPECT_EQ(from_file["model"], "rotor.toml");
     const Outcome quiet = whirl(briefly(
-        {verb, "rotor.toml", "--speed", "100", "--quiet", "--threads", "1", "--out", "r.h5"}));
+        {verb, "rotor.toml", "--speed", "100rad/s", "--quiet", "--threads", "1", "--out", "r.h5"}));
     EXPECT_EQ(quiet.status, 0);
     EXPECT_EQ(quiet.out, "");
     EXPECT_EQ(quiet.err, "");

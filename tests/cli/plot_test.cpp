@@ -35,7 +35,7 @@ class Plot : public Program {
   /// A result of a torus with circles at rotations from 0.3 to 0.45, after each of `period`
   /// revolutions.
   void write_torus(const std::string& file, int period) const {
-    ResultWriter to(folder / file);
+    ResultWriter to(folder / file, Replaces::anything);
     to.dataset("/model", std::vector<std::string>{rubbing}, {"", "model", {""}});
     to.attribute("/model", "path", "rub.toml");
     to.dataset("/arguments", std::vector<std::string>{"whirl"}, {"", "command line", {""}});
@@ -487,8 +487,13 @@ TEST_F(Plot, TellsWhatCanBeDrawn) {
   EXPECT_TRUE(has(problem({"orbit", "--out", "nowhere/x.svg"}), "there is no directory nowhere"));
   EXPECT_TRUE(has(problem({"orbit", "spectrum"}), "one kind of figure at a time"));
   EXPECT_TRUE(has(problem({"--out", "x.svg"}), "which kind of figure?"));
-  EXPECT_TRUE(has(problem({"orbit", "--out", "rub.toml"}), "would be lost"));
-  EXPECT_TRUE(has(whirl({"plot", "rub.toml"}).err, "not an HDF5 file"));
+  write("mine.svg", "<svg></svg>");
+  EXPECT_TRUE(has(problem({"orbit", "--out", "mine.svg"}), "would be lost"));
+  EXPECT_EQ(whirl({"plot", "rub.toml", "campbell"}).err,
+            "whirl: cannot open rub.toml: not an HDF5 file but a model; compute a result first, "
+            "such as\n  whirl campbell rub.toml --out rub.h5\n  whirl plot rub.h5 campbell\n");
+  EXPECT_TRUE(has(whirl({"plot", "rub.toml", "branches"}).err, "  whirl continue rub.toml --out"));
+  EXPECT_TRUE(has(whirl({"report", "rub.toml"}).err, "  whirl simulate rub.toml --out rub.h5\n"));
   EXPECT_TRUE(has(whirl({"report", "nothing.h5"}).err, "there is no such file"));
 }
 
@@ -507,6 +512,40 @@ TEST_F(Plot, WritesPngAndPdf) {
   EXPECT_EQ(without.status, 2);
   EXPECT_TRUE(has(without.err, "librsvg2-bin")) << without.err;
   EXPECT_EQ(std::filesystem::exists(folder / "p.png"), false);
+}
+
+// The line that a click on a cell offers is taken by a shell as it is, with blanks in names and
+// values, and gives the motion of the cell: nothing that was set is lost.
+TEST_F(Plot, TheCommandOfAPointIsWholeForAShell) {
+  std::string spaced = rubbing;
+  spaced.replace(spaced.find("name = \"ring\""), 13, "name = \"my ring\"");
+  write("my rub.toml", spaced);
+  ASSERT_EQ(whirl({"map", "my rub.toml", "--set=body.rotor.mass=2.5 kg", "--speed=90rad/s",
+                   "--discard=40", "--over", "contact.my ring.clearance=0.4,0.5mm", "--over",
+                   "contact.my ring.stiffness,bearing.shaft.stiffness=2e4,3e4", "--revolutions=20",
+                   "--out", "m.h5"})
+                .status,
+            0);
+  ASSERT_EQ(whirl({"report", "m.h5"}).status, 0);
+  std::string line = in_report("m.html", "map")["panels"][0]["cells"]["command"];
+  EXPECT_EQ(line,
+            "whirl classify 'my rub.toml' --set 'body.rotor.mass=2.5 kg' --set "
+            "operation.speed=90rad/s --discard=40 --set 'contact.my ring.clearance='{x}m --set "
+            "'contact.my ring.stiffness='{y} --set bearing.shaft.stiffness={y}");
+  for (const auto& [place, value] : {std::pair{"{x}", "0.0005"}, {"{y}", "30000"}}) {
+    for (auto at = line.find(place); at != std::string::npos; at = line.find(place)) {
+      line.replace(at, 3, value);
+    }
+  }
+  line.replace(0, 5, WHIRL_PROGRAM);
+  const Outcome o = wait(start("sh", {"-c", line + " --revolutions 20 --out c.h5 --json -"}));
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  const ResultReader map(folder / "m.h5"), cell(folder / "c.h5");
+  EXPECT_EQ(o.tree()["contacts"][0]["regime"], "permanent");
+  EXPECT_NEAR(o.tree()["contacts"][0]["max_normal_n"], map.numbers("/map/max_normal")[3],
+              1e-6 * map.numbers("/map/max_normal")[3]);  // a later revolution of the same orbit
+  EXPECT_TRUE(has(cell.strings("/model").at(0), "2.5 kg"));
 }
 
 // A page needs nothing from outside, and holds every figure of all results with their data.
@@ -811,7 +850,7 @@ TEST_F(Plot, AFigureThatFailsLeavesTheOthers) {
 TEST_F(Plot, APageHoldsTextsAsTexts) {
   write("evil.toml",
         std::string("# </script><script>alert(1)</script> <!-- {{script}} {{x\n") + jeffcott);
-  make({"modes", "evil.toml", "--speed", "100"}, "e.h5");
+  make({"modes", "evil.toml", "--speed", "100rad/s"}, "e.h5");
   write("bold.toml",
         std::regex_replace(std::string(jeffcott), std::regex("Jeffcott rotor"), "<b>x</b>"));
   make({"campbell", "evil.toml"}, "c.h5");

@@ -140,10 +140,11 @@ TEST_F(Results, AgreeWithTheJson) {
 // old one, byte by byte, or the new one with all that a run writes.
 TEST_F(Results, AreWholeWheneverTheProgramIsKilled) {
   const auto line = [](int speed) {
-    return std::vector<std::string>{"simulate",      "rub.toml", "--speed",   std::to_string(speed),
-                                    "--discard",     "50",       "--samples", "64",
-                                    "--revolutions", "300",      "--quiet",   "--out",
-                                    "run.h5"};
+    return std::vector<std::string>{
+        "simulate",      "rub.toml", "--speed",   std::to_string(speed) + "rad/s",
+        "--discard",     "50",       "--samples", "64",
+        "--revolutions", "300",      "--quiet",   "--out",
+        "run.h5"};
   };
   const auto begin = std::chrono::steady_clock::now();
   ASSERT_EQ(whirl(line(100)).status, 0);
@@ -180,7 +181,7 @@ TEST_F(Results, RunAgainToTheSameNumbers) {
     SCOPED_TRACE(verb);
     std::vector<std::string> line = words(verb);
     line.insert(line.end(),
-                {"--set", "body.rotor.mass=2.5 kg", "--speed=90", "--out", verb + ".h5"});
+                {"--set", "body.rotor.mass=2.5 kg", "--speed=90rad/s", "--out", verb + ".h5"});
     json first = result(line);
     std::filesystem::remove(folder / "rub.toml");  // all that is needed is in the result
     json second = result({"rerun", verb + ".h5"});

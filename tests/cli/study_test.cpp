@@ -300,9 +300,68 @@ TEST_F(Study, StopsOnCtrlCAndGoesOn) {
   EXPECT_GT(std::count(done.begin(), done.end(), 1.0), 0);
 }
 
+// 40 points, fewer than go together in one batch: what is done when Ctrl-C comes is kept, and the
+// same line goes on from there to the same numbers.
+TEST_F(Study, AFewPointsAreKeptOnCtrlCToo) {
+  std::vector<std::string> words{"map",       stator,
+                                 "--over",    "operation.speed=135:139:1rad/s",
+                                 "--over",    "contact.ring.friction=0.14:0.175:0.005",
+                                 "--threads", "1",
+                                 "--out",     "map.h5"};
+  const pid_t child = start(WHIRL_PROGRAM, words);
+  while (!std::filesystem::exists(folder / "map.h5")) std::this_thread::sleep_for(1ms);
+  ::kill(child, SIGINT);
+  EXPECT_EQ(wait(child).status, 130);
+  const json rest = result(words);
+  EXPECT_GT(rest["resumed"], 0);
+  EXPECT_LT(rest["resumed"], 40);
+  words.back() = "whole.h5";
+  ASSERT_EQ(whirl(words).status, 0);
+  expect_same("whole.h5", "map.h5", "/map");
+}
+
+// A study that goes on takes its motions from where they began at first, or not at all.
+TEST_F(Study, RefusesToGoOnFromAnotherStart) {
+  const auto make_start = [&](const std::string& revolutions) {
+    return whirl({"simulate", "rub.toml", "--discard", "0", "--revolutions", revolutions, "--out",
+                  "start.h5", "--quiet"})
+        .status;
+  };
+  ASSERT_EQ(make_start("5"), 0);
+  std::vector<std::string> words{"map",       "rub.toml",
+                                 "--over",    "operation.speed=90,100rad/s",
+                                 "--over",    "contact.ring.stiffness=2e4,3e4",
+                                 "--discard", "20",
+                                 "--from",    "start.h5",
+                                 "--out",     "map.h5"};
+  ASSERT_EQ(whirl(words).status, 0);
+  ASSERT_EQ(make_start("5"), 0);  // the same motion again
+  EXPECT_EQ(result(words)["resumed"], 4);
+  ASSERT_EQ(make_start("6"), 0);
+  const Outcome o = whirl(words);
+  EXPECT_EQ(o.status, 2);
+  EXPECT_TRUE(has(o.err, "from another start: start.h5 has changed since")) << o.err;
+  words.emplace_back("--restart");
+  EXPECT_EQ(result(words)["resumed"], 0);
+}
+
+// --set X and --set=X are the same line.
+TEST_F(Study, GoesOnWhateverWayOptionsAreWritten) {
+  const std::vector<std::string> axes{"--over",    "operation.speed=90,100rad/s",
+                                      "--over",    "contact.ring.stiffness=2e4,3e4",
+                                      "--discard", "20"};
+  std::vector<std::string> words{"map",   "rub.toml", "--set", "body.rotor.mass=3 kg",
+                                 "--out", "map.h5"};
+  words.insert(words.end(), axes.begin(), axes.end());
+  ASSERT_EQ(whirl(words).status, 0);
+  std::vector<std::string> other{"map", "--out=map.h5", "rub.toml", "--set=body.rotor.mass=3 kg"};
+  other.insert(other.end(), axes.begin(), axes.end());
+  EXPECT_EQ(result(other)["resumed"], 4);
+}
+
 TEST_F(Study, RefusesFilesOfOtherStudies) {
   std::vector<std::string> words{"map",           "rub.toml",
-                                 "--over",        "operation.speed=90:100:5",
+                                 "--over",        "operation.speed=90:100:5rad/s",
                                  "--over",        "contact.ring.stiffness=2e4,3e4",
                                  "--discard",     "20",
                                  "--revolutions", "10",
@@ -352,11 +411,13 @@ TEST_F(Study, BadInput) {
   says({"sweep", "rub.toml", "--over", "operation.speed=1:2:1kg"}, "expected a speed");
   says({"sweep", "rub.toml", "--over", "contact.ring.clearance=0:1:0.5mm"}, "clearance");
   says({"sweep", "rub.toml", "--over", "contact.rim.clearance=1:2:1mm"}, "rim");
-  says({"basins", "rub.toml", "--over", "operation.speed=90:100:5"}, "vary the start only");
+  says({"basins", "rub.toml", "--over", "operation.speed=90:100:5rad/s"}, "vary the start only");
   says({"basins", "rub.toml", "--set", "start.displaced=[{x=1}]"}, "start.displaced.1");
   says({"basins", "rub.toml", "--set", "start.displaced=[{body=\"rotor\", z=1}]"}, "unknown key");
-  says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5", "--tolerance", "1"}, "1e-15");
-  says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5", "--sections", "0"}, "sections");
+  says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5rad/s", "--tolerance", "1"},
+       "1e-15");
+  says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5rad/s", "--sections", "0"},
+       "sections");
 }
 
 // At 138.4 rad/s and 64 MN/m, from friction 0.15 down: period 1, 2, 4, as simulations say at 0.15,

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace whirl::amplification_test {
@@ -75,6 +76,25 @@ TEST(Amplification, TwoPeaksBelongToTheResponsesThatAreLargestThere) {
   EXPECT_TRUE(std::isnan(response_peaks(few, amplitude.leftCols(1005)).at(0).amplification()));
 }
 
+// A peak of straight sides falls to 0.707 at 0.2929 of its height by its slope. With five samples
+// between these speeds its factor counts, with four it does not.
+TEST(Amplification, AFactorNeedsFiveSamplesWithinHalfThePower) {
+  const auto peak_with = [](double below, double above) {  // samples from the peak to 0.707
+    const double fall = 1.0 - std::numbers::sqrt2 / 2.0;
+    std::vector<double> speeds;
+    Mat amplitude(1, 11);
+    for (int k = 0; k <= 10; ++k) {
+      speeds.push_back(100.0 + k);
+      const double from_peak = k - 5.0;
+      const double slope = fall / (from_peak < 0.0 ? below : above);
+      amplitude(0, k) = std::max(0.0, 1.0 - slope * std::abs(from_peak));
+    }
+    return response_peaks(speeds, amplitude).at(0);
+  };
+  EXPECT_NEAR(peak_with(2.5, 2.5).amplification(), 105.0 / 5.0, 1e-9);
+  EXPECT_TRUE(std::isnan(peak_with(1.5, 2.5).amplification()));
+}
+
 // The formulas of the standard at AF = 3.5 and 6.5, where 1 / (AF - 1.5) is 1/2 and 1/5, and its
 // limits: none below 2.5, 16 % and 26 % at most.
 TEST(Amplification, MarginsAreThoseOfTheStandard) {
@@ -88,6 +108,9 @@ TEST(Amplification, MarginsAreThoseOfTheStandard) {
   EXPECT_EQ(margin(100.0, 80.0).required, 0.16);
   EXPECT_EQ(margin(100.0, 130.0).required, 0.26);
   EXPECT_EQ(margin(2.4, 99.0).required, 0.0);
+  // above the running speed the margin jumps at 2.5, from none to 10 %
+  EXPECT_EQ(margin(2.499, 130.0).required, 0.0);
+  EXPECT_NEAR(margin(2.501, 130.0).required, 0.10 + 0.17 * (1.0 - 1.0 / 1.001), 1e-12);
   EXPECT_TRUE(margin(2.4, 99.0).is_kept());
   EXPECT_NEAR(margin(100.0, 80.0).actual, 0.2, 1e-12);
   EXPECT_TRUE(margin(100.0, 80.0).is_below && margin(100.0, 80.0).is_kept());

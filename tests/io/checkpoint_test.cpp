@@ -19,7 +19,7 @@ class Checkpoint : public test::InResultFolder {
             {"/study/a", "/study/b"}};
   }
   void save(const PointTable& t, const std::string& name) const {
-    ResultWriter file(folder / name);
+    ResultWriter file(folder / name, Replaces::anything);
     file.dataset("/study/a", Vec(Vec::LinSpaced(2, 0.0, 1.0)), {"", "a", {""}});
     file.dataset("/study/b", Vec(Vec::LinSpaced(3, 0.0, 1.0)), {"", "b", {""}});
     t.write(file);

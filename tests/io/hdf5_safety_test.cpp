@@ -50,7 +50,7 @@ TEST_F(ResultFileSafety, FullDiskIsAnError) {
 
 /// A file whose parts all tell the same number.
 void write_generation(const fs::path& path, int generation) {
-  ResultWriter out(path);
+  ResultWriter out(path, Replaces::anything);
   out.attribute("/", "generation", generation);
   out.dataset("/large", Mat(Mat::Random(1000, 100).array() + generation), {"m", "large", {}});
   out.dataset("/constant", Mat(Mat::Constant(300, 100, generation)), {"m", "constant", {}});

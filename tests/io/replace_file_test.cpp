@@ -34,7 +34,7 @@ class ReplaceFile : public testing::Test {
 TEST_F(ReplaceFile, WritesAndReplaces) {
   replace_file(place, "old");
   EXPECT_EQ(content(place), "old");
-  replace_file(place, "new");
+  replace_file(place, "new", Replaces::anything);
   EXPECT_EQ(content(place), "new");
   EXPECT_EQ(files(), 1u);
 }
@@ -42,7 +42,7 @@ TEST_F(ReplaceFile, WritesAndReplaces) {
 TEST_F(ReplaceFile, WithoutCommitNothingChanges) {
   replace_file(place, "old");
   {
-    const FileReplacement file(place);
+    const FileReplacement file(place, Replaces::anything);
     std::ofstream(file.temporary()) << "half of the n";
     EXPECT_EQ(content(place), "old");
   }
@@ -54,8 +54,23 @@ TEST_F(ReplaceFile, LinksStay) {
   replace_file(place, "old");
   const fs::path link = folder / "link.txt";
   fs::create_symlink("a.txt", link);
-  replace_file(link, "new");
+  replace_file(link, "new", Replaces::anything);
   EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(content(place), "new");
+}
+
+// A file that somebody else wrote stays, unless it is empty or this is asked for.
+TEST_F(ReplaceFile, KeepsWhatOthersWrote) {
+  for (const std::string text :
+       {"a", "{\"model\": 1}", "<svg></svg>", "\x89HDF\r\n\x1a\n", "%PDF-1.5"}) {
+    replace_file(place, text, Replaces::anything);
+    for (const Replaces what : {Replaces::own_pictures, Replaces::own_results}) {
+      EXPECT_THROW(replace_file(place, "new", what), TakenPlace) << text;
+    }
+    EXPECT_EQ(content(place), text);
+  }
+  replace_file(place, "", Replaces::anything);
+  replace_file(place, "new");
   EXPECT_EQ(content(place), "new");
 }
 

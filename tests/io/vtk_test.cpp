@@ -384,6 +384,7 @@ TEST_F(VtkSeries, CollectionListsTimesAndFiles) {
   text << std::ifstream(odd).rdbuf();
   EXPECT_EQ(text.str(),
             "<?xml version=\"1.0\"?>\n"
+            "<!-- written by whirl -->\n"
             "<VTKFile type=\"Collection\" version=\"0.1\">\n"
             "  <Collection>\n"
             "    <DataSet timestep=\"0.10000000000000001\" part=\"0\" "

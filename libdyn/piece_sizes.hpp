@@ -1,0 +1,59 @@
+#pragma once
+/// How many points of a study go together: all processors busy, lanes full, results soon.
+
+#include <algorithm>
+#include <cstddef>
+
+namespace whirl {
+
+/// Sizes of the pieces that points are cut into, from what they cost so far.
+///
+/// The first piece of each thread is small, so that there is something to keep soon, whatever a point
+/// costs. Later ones take some seconds, or have as many points as fill the lanes of a batch well. None
+/// takes more than half a thread's share of what is left, so that all threads end at about the same
+/// time; the last ones, and few points from the start, are shared out evenly.
+class PieceSizes {
+ public:
+  /// @param most     points of a piece at most
+  /// @param threads  that do the pieces; 0: the calling one
+  PieceSizes(std::size_t most, int threads)
+      : most_(most), threads_(static_cast<std::size_t>(std::max(1, threads))) {}
+
+  /// Points of the next piece.
+  /// @param left  points that are not given out
+  std::size_t next(std::size_t left) {
+    const std::size_t share = (left + threads_ - 1) / threads_;
+    if (share <= full && last_ == 0) last_ = share;
+    const std::size_t fair = last_ > 0 ? last_ : std::max(full, (share + 1) / 2);
+    const std::size_t wanted = given_++ < threads_ ? first
+                               : cost_ > 0.0       ? lasting_points()
+                                                   : second;
+    return std::min({fair, wanted, most_, left});
+  }
+
+  /// Takes note of what a piece cost.
+  /// @param seconds  of one thread
+  void learn(std::size_t points, double seconds) {
+    if (points == 0 || !(seconds > 0.0)) return;
+    const double each = seconds / static_cast<double>(points);
+    cost_ = cost_ > 0.0 ? 0.5 * (cost_ + each) : each;
+  }
+
+ private:
+  static constexpr std::size_t first = 8;    ///< points: lanes that step together
+  static constexpr std::size_t second = 32;  ///< points, while none is known to cost what
+  static constexpr std::size_t full = 64;    ///< points that leave few lanes empty at the end
+  static constexpr double lasting = 4.0;     ///< [s], well below the ten until a first result
+
+  std::size_t lasting_points() const {
+    const double points = std::min(lasting / cost_, static_cast<double>(most_));
+    return std::max(full, static_cast<std::size_t>(points));
+  }
+
+  std::size_t most_, threads_;
+  std::size_t given_ = 0;  ///< pieces
+  std::size_t last_ = 0;   ///< points of the last pieces; 0: it is not time for these
+  double cost_ = 0.0;      ///< of a point [s]; 0: not known yet
+};
+
+}  // namespace whirl

@@ -1,0 +1,130 @@
+#include "libio/call.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "libio/hdf5.hpp"
+
+namespace whirl {
+
+namespace {
+
+const std::string group = "/call";
+
+/// Options that took no value when files held the words of a command line only.
+constexpr std::array flags{"quiet",     "restart",       "fresh",     "confirm",
+                           "rotations", "mass-weighted", "stiffened", "verify"};
+
+bool is_flag(std::string_view name) {
+  return std::find(flags.begin(), flags.end(), name) != flags.end();
+}
+
+std::vector<std::string> filtered(const std::vector<std::string>& options,
+                                  const std::vector<std::string_view>& names, bool keeps) {
+  std::vector<std::string> kept;
+  for (const std::string& option : options) {
+    const bool is_named = std::find(names.begin(), names.end(), option_name(option)) != names.end();
+    if (is_named == keeps) kept.push_back(option);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string option_name(std::string_view option) {
+  if (option.starts_with("--")) option.remove_prefix(2);
+  return std::string(option.substr(0, option.find('=')));
+}
+
+std::vector<std::string> options_named(const std::vector<std::string>& options,
+                                       const std::vector<std::string_view>& names) {
+  return filtered(options, names, true);
+}
+
+std::vector<std::string> options_without(const std::vector<std::string>& options,
+                                         const std::vector<std::string_view>& names) {
+  return filtered(options, names, false);
+}
+
+Call parse_call(const std::vector<std::string>& words) {
+  Call call{.verb = words.size() > 1 ? words[1] : "", .file = ""};
+  std::map<std::string, std::string> last;  // of options that are given once
+  std::vector<std::string> over, speed;
+  for (std::size_t i = 2; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (!word.starts_with("--")) {
+      if (call.file.empty()) {
+        call.file = word;
+      } else {
+        call.words.push_back(word);
+      }
+      continue;
+    }
+    const std::string name = option_name(word);
+    const auto equals = word.find('=');
+    std::string value;
+    if (equals != std::string::npos) {
+      value = word.substr(equals + 1);
+    } else if (!is_flag(name) && i + 1 < words.size()) {
+      value = words[++i];
+    }
+    if (name == "set") {
+      call.sets.push_back(value);
+    } else if (name == "speed") {
+      speed = {"operation.speed=" + value};
+    } else if (name == "over") {
+      over.push_back("--over=" + value);
+    } else {
+      last[name] = is_flag(name) ? "--" + name : "--" + name + "=" + value;
+    }
+  }
+  call.sets.insert(call.sets.end(), speed.begin(), speed.end());
+  call.options = over;
+  for (const auto& [name, option] : last) call.options.push_back(option);
+  return call;
+}
+
+void write_call(ResultWriter& file, const Call& call) {
+  file.attribute(group, "verb", call.verb);
+  file.attribute(group, "file", call.file);
+  const auto write = [&](const char* name, const char* what,
+                         const std::vector<std::string>& texts) {
+    if (!texts.empty()) file.dataset(group + '/' + name, texts, {"", what, {""}});
+  };
+  write("word", "words after the file", call.words);
+  write("set", "what was set of the model", call.sets);
+  write("option", "all other options", call.options);
+}
+
+Call read_call(const ResultReader& file) {
+  if (!file.has(group)) return parse_call(file.strings("/arguments"));
+  const auto read = [&](const char* name) {
+    const std::string path = group + '/' + name;
+    return file.has(path) ? file.strings(path) : std::vector<std::string>{};
+  };
+  return {.verb = file.string_attribute(group, "verb"),
+          .file = file.string_attribute(group, "file"),
+          .words = read("word"),
+          .sets = read("set"),
+          .options = read("option")};
+}
+
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+@%-";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
+    return std::string(word);
+  }
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+std::string shell_line(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += (line.empty() ? "" : " ") + shell_word(word);
+  return line;
+}
+
+}  // namespace whirl

@@ -1,0 +1,51 @@
+#pragma once
+/// The call of the program that made a result: its parts, to a result file and back, and as a line
+/// for a shell.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace whirl {
+
+class ResultReader;
+class ResultWriter;
+
+/// The parts of a command line, as the program understood them.
+struct Call {
+  std::string verb;
+  std::string file;                  ///< the model, or the result, that it is about
+  std::vector<std::string> words{};  ///< after the file
+  /// PATH=VALUE of the model, --speed among them; the stored model has them in it.
+  std::vector<std::string> sets{};
+  std::vector<std::string> options{};  ///< all others: "--discard=300", "--fresh"
+};
+
+/// "discard" of "--discard=300".
+std::string option_name(std::string_view option);
+
+/// The options with one of these names, or with none of them.
+std::vector<std::string> options_named(const std::vector<std::string>& options,
+                                       const std::vector<std::string_view>& names);
+std::vector<std::string> options_without(const std::vector<std::string>& options,
+                                         const std::vector<std::string_view>& names);
+
+/// Takes a command line apart as early versions stored it: words, in any of the forms "--set X",
+/// "--set=X". Where a value was given several times the last one holds, but of --set and --over all.
+/// @param words  program, verb, file and options
+Call parse_call(const std::vector<std::string>& words);
+
+/// Writes group /call of a result file.
+void write_call(ResultWriter& file, const Call& call);
+
+/// Reads it; of a file without it, the words of its command line are taken apart.
+/// @throws FileError  if the file holds neither
+Call read_call(const ResultReader& file);
+
+/// A word as a shell takes it for one, whatever is in it.
+std::string shell_word(std::string_view word);
+
+/// Words as a line for a shell.
+std::string shell_line(const std::vector<std::string>& words);
+
+}  // namespace whirl
