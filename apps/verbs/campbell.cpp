@@ -68,6 +68,13 @@ Report run_campbell(const Invocation& call) {
   report.record.set("speeds_rpm", in_rpm(speeds))
       .set("branches", branches)
       .set("criticals_rpm", criticals);
+  Record gaps = Record::array();
+  for (const CampbellGap& gap : diagram.gaps) {
+    Record r;
+    r.set("speed_rpm", gap.speed / rpm).set("why", gap.why);
+    gaps.add(r);
+  }
+  if (!diagram.gaps.empty()) report.record.set("gaps", gaps);
 
   // a table of at most about twenty speeds; the whole is in the JSON and the result file
   Table table(head);
@@ -89,6 +96,9 @@ Report run_campbell(const Invocation& call) {
       report.text += fmt::format(" {:.1f} ({})", c.speed / rpm, c.branch + 1);
     }
     report.text += "\n";
+  }
+  for (const CampbellGap& gap : diagram.gaps) {
+    report.text += fmt::format("\n  not computed at {:.1f} rpm: {}\n", gap.speed / rpm, gap.why);
   }
   if (const auto file = call.result_file(model)) {
     write_campbell(*file, diagram);

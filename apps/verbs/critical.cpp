@@ -30,6 +30,7 @@ Report run_critical(const Invocation& call) {
     Record r;
     r.set("speed_rpm", c.speed / rpm).set("whirl", name_of(c.whirl)).set("excitation", excitation);
     r.set("damped_speed_rpm", c.damped_speed / rpm);
+    if (!c.note.empty()) r.set("note", c.note);
     list.add(r);
     table.row({fmt::format("{}", ++number), fmt::format("{:.2f}", c.speed / rpm),
                fmt::format("{:.3f}", c.speed / rpm / 60.0),

@@ -215,7 +215,8 @@ std::vector<Figure> critical_figures(const ResultView& result) {
   const auto speeds = numbers(result.file.vector("/critical/speed"));
   if (stiffness.empty() || speeds.empty()) return {};
   const CriticalOptions options{.count = static_cast<int>(speeds.size()),
-                                .order = result.file.number_attribute("/critical", "order")};
+                                .order = result.file.number_attribute("/critical", "order"),
+                                .has_damped = false};
   const bool is_common = has_table || is_same;
   Figure f{.height = 500.0};
   f.subtitle =
