@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "libfe/base/error.hpp"
 
@@ -21,6 +22,7 @@ struct Front {
   double Omega = 0.0;
   std::vector<Mode> modes;
   std::vector<bool> is_alive;
+  bool is_gap = false;  ///< nothing could be computed; the modes are those of a neighbor
 };
 
 /// Assigns modes to branches, best agreement first. Returns the poorest agreement that was used.
@@ -68,7 +70,7 @@ class Tracker {
   Tracker(const ModeFinder& finder, int branches) : finder_(finder), branches_(branches) {}
 
   Front start(double Omega) const {
-    Front front{Omega, modes(Omega).oscillatory, {}};
+    Front front{.Omega = Omega, .modes = modes(Omega).oscillatory};
     if (static_cast<int>(front.modes.size()) > branches_) front.modes.resize(branches_);
     front.is_alive.assign(front.modes.size(), true);
     return front;
@@ -91,6 +93,39 @@ class Tracker {
   int branches_;
 };
 
+/// Fronts at all speeds. Numbers are those at the first speed that spins; rest is reached from
+/// there. Speeds that cannot be computed are gaps.
+std::vector<Front> all_fronts(const Tracker& tracker, const std::vector<double>& speeds,
+                              std::vector<CampbellGap>& gaps) {
+  std::vector<Front> fronts(speeds.size());
+  const bool starts_at_rest = speeds.front() == 0.0 && speeds.size() > 1;
+  std::optional<std::size_t> last, first;  // that could be computed
+  const auto compute = [&](std::size_t i) {
+    try {
+      fronts[i] = last ? tracker.advance(fronts[*last], speeds[i]) : tracker.start(speeds[i]);
+      last = i;
+      if (!first) first = i;
+    } catch (const NumericalError& error) {
+      fronts[i].is_gap = true;
+      gaps.push_back({speeds[i], error.what()});
+    }
+  };
+  for (std::size_t i = starts_at_rest ? 1 : 0; i < speeds.size(); ++i) compute(i);
+  if (starts_at_rest) {
+    last = first;
+    compute(0);
+  }
+  if (!first) throw NumericalError(gaps.front().why);
+  std::sort(gaps.begin(), gaps.end(),
+            [](const CampbellGap& a, const CampbellGap& b) { return a.speed < b.speed; });
+  for (Front& front : fronts) {
+    if (!front.is_gap) continue;
+    front.modes = fronts[*first].modes;
+    front.is_alive.assign(front.modes.size(), false);
+  }
+  return fronts;
+}
+
 /// Speed between two fronts at which a branch meets the line frequency = order * Omega.
 double crossing(const Tracker& tracker, Front low, Front high, std::size_t branch, double order) {
   const auto gap = [&](const Front& f) { return f.modes[branch].frequency() - order * f.Omega; };
@@ -98,8 +133,12 @@ double crossing(const Tracker& tracker, Front low, Front high, std::size_t branc
   double best = b;
   for (int it = 0; it < 60; ++it) {
     const double guess = std::clamp(b - gb * (b - a) / (gb - ga), std::min(a, b), std::max(a, b));
-    const Front middle =
-        tracker.advance(std::abs(guess - a) < std::abs(guess - b) ? low : high, guess);
+    Front middle;
+    try {
+      middle = tracker.advance(std::abs(guess - a) < std::abs(guess - b) ? low : high, guess);
+    } catch (const NumericalError&) {
+      return nan;
+    }
     if (!middle.is_alive[branch]) return nan;
     const double g = gap(middle);
     best = guess;
@@ -142,17 +181,9 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
   const ModeFinder finder(assembler);
   const Tracker tracker(finder, branches);
 
-  // numbers are those at the first speed that spins; rest is reached from there
-  const bool starts_at_rest = speeds.front() == 0.0 && speeds.size() > 1;
-  std::vector<Front> fronts(speeds.size());
-  const std::size_t first = starts_at_rest ? 1 : 0;
-  fronts[first] = tracker.start(speeds[first]);
-  if (starts_at_rest) fronts[0] = tracker.advance(fronts[1], 0.0);
-  for (std::size_t i = first + 1; i < speeds.size(); ++i) {
-    fronts[i] = tracker.advance(fronts[i - 1], speeds[i]);
-  }
-
-  for (std::size_t b = 0; b < fronts[first].modes.size(); ++b) {
+  const std::vector<Front> fronts = all_fronts(tracker, speeds, result.gaps);
+  const std::size_t branch_count = fronts.back().modes.size();
+  for (std::size_t b = 0; b < branch_count; ++b) {
     CampbellBranch branch;
     std::vector<Whirl> seen;
     for (const Front& front : fronts) {
@@ -162,12 +193,14 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
       if (front.is_alive[b]) seen.push_back(mode.whirl);
     }
     branch.whirl = usual_whirl(seen);
-    for (std::size_t i = 0; i + 1 < fronts.size(); ++i) {
-      if (!fronts[i].is_alive[b] || !fronts[i + 1].is_alive[b]) continue;
+    for (std::size_t i = 0; i < fronts.size(); ++i) {
+      std::size_t next = i + 1;
+      while (next < fronts.size() && fronts[next].is_gap) ++next;
+      if (next == fronts.size() || !fronts[i].is_alive[b] || !fronts[next].is_alive[b]) continue;
       const double before = branch.frequency[i] - order * speeds[i];
-      const double after = branch.frequency[i + 1] - order * speeds[i + 1];
+      const double after = branch.frequency[next] - order * speeds[next];
       if (before * after > 0.0 || before == 0.0) continue;
-      const double speed = crossing(tracker, fronts[i], fronts[i + 1], b, order);
+      const double speed = crossing(tracker, fronts[i], fronts[next], b, order);
       if (std::isfinite(speed)) result.crossings.push_back({speed, static_cast<int>(b)});
     }
     result.branches.push_back(std::move(branch));

@@ -1,6 +1,7 @@
 #pragma once
 /// Modes followed over speed.
 
+#include <string>
 #include <vector>
 
 #include "libfe/modes.hpp"
@@ -20,20 +21,29 @@ struct Crossing {
   int branch = 0;      ///< from 0
 };
 
+/// A speed whose modes cannot be computed.
+struct CampbellGap {
+  double speed = 0.0;  ///< [rad/s]
+  std::string why;
+};
+
 struct Campbell {
   std::vector<double> speeds;  ///< [rad/s]
   std::vector<CampbellBranch> branches;
   std::vector<Crossing> crossings;  ///< with frequency = order * Omega, ascending speed
+  std::vector<CampbellGap> gaps;    ///< speeds at which every branch is NaN; most have none
 };
 
 /// Modes of a structure over speeds, followed through crossings.
 ///
 /// Modes of neighboring speeds belong together if their shapes agree (MAC weighted with M); where
-/// they do not agree well, speeds between are computed too until they do.
+/// they do not agree well, speeds between are computed too until they do. A speed whose modes cannot
+/// be computed is left out and told, and its neighbors are compared with one another.
 ///
 /// @param speeds    ascending, nonnegative [rad/s]
 /// @param branches  how many of the lowest modes at the first speed above zero are followed
 /// @param order     excitation line whose crossings are reported, 1 for unbalance
+/// @throws NumericalError  if modes cannot be computed at any speed
 Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds, int branches,
                   double order = 1.0);
 

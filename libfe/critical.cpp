@@ -16,6 +16,10 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double speed_tol = 1e-12;
+constexpr double damped_tol = 1e-10;  ///< of a speed, |Im lambda - order * Omega|
+constexpr double least_alike = 0.3;   ///< MAC of a mode that goes on from speed to speed
+constexpr double range = 5.0;         ///< damped speeds beyond so many times are not looked for
+constexpr double rounding = 1e-13;    ///< of the largest nu: smaller ones have no finite speed
 
 std::vector<Critical> of_pencil(const System& system, const CriticalOptions& options) {
   const Sparse K = symmetric_part(system.K);
@@ -23,10 +27,11 @@ std::vector<Critical> of_pencil(const System& system, const CriticalOptions& opt
       largest_hermitian(system.M, system.G, 1.0 / options.order, K, options.count);
   std::vector<Critical> criticals;
   for (Eigen::Index i = 0; i < modes.nu.size(); ++i) {
-    if (modes.nu(i) <= 0.0) break;  // no real speed: a disk that stiffens faster than it spins
+    // no real speed: a disk that stiffens faster than it spins, or freedoms without inertia
+    if (modes.nu(i) <= rounding * modes.nu(0)) break;
     const CVec q = modes.q.col(i);
-    criticals.push_back(
-        {1.0 / (options.order * std::sqrt(modes.nu(i))), nan, whirl_of(orbits(system.dofs, q)), q});
+    criticals.push_back({1.0 / (options.order * std::sqrt(modes.nu(i))), nan,
+                         whirl_of(orbits(system.dofs, q)), q, ""});
   }
   return criticals;
 }
@@ -55,39 +60,74 @@ Critical self_consistent(const Assembler& assembler, const CriticalOptions& opti
   return start;
 }
 
-/// Solves Im lambda(Omega) = order * Omega from an undamped critical speed; NaN: the mode is lost.
-double damped_speed(const ModeFinder& finder, const Critical& undamped,
-                    const CriticalOptions& options) {
-  CVec shape = undamped.shape;
-  const auto gap = [&](double Omega) {
-    const Sparse M = finder.system(Omega).M;
-    const Modes modes = finder.at(Omega, options.count + 6);
-    double best = 0.3;
+/// Follows the mode of an undamped critical speed through spin speeds by its shape.
+class DampedMode {
+ public:
+  DampedMode(const ModeFinder& finder, const Critical& undamped, const CriticalOptions& options)
+      : finder_(finder), shape_(undamped.shape), options_(options) {}
+
+  /// Im lambda - order * Omega; NaN: no mode is like the one before.
+  double gap(double Omega) {
+    const Sparse M = finder_.system(Omega).M;
+    const Modes modes = finder_.near(Omega, options_.order * Omega, options_.count + 6);
+    double best = least_alike;
     double result = nan;
-    CVec best_shape = shape;
+    CVec best_shape = shape_;
     for (const Mode& mode : modes.oscillatory) {
-      const double agreement = mac(mode.shape, shape, M);
+      const double agreement = mac(mode.shape, shape_, M);
       if (agreement <= best) continue;
       best = agreement;
       best_shape = mode.shape;
-      result = mode.frequency() - options.order * Omega;
+      damping_ratio_ = mode.damping_ratio();
+      result = mode.frequency() - options_.order * Omega;
     }
-    shape = best_shape;
+    shape_ = best_shape;
     return result;
-  };
-  double a = undamped.speed, ga = gap(a);
-  if (std::abs(ga) <= 1e-10 * a) return a;
-  double b = a + ga / options.order * 0.5, gb = gap(b);
-  for (int it = 0; it < 60; ++it) {
-    if (!std::isfinite(ga) || !std::isfinite(gb)) return nan;
-    if (std::abs(gb) <= 1e-10 * b) return b;
-    if (gb == ga) return nan;
-    const double next = b - gb * (b - a) / (gb - ga);
-    if (!(next > 0.2 * undamped.speed && next < 5.0 * undamped.speed)) return nan;
-    a = b, ga = gb;
-    b = next, gb = gap(b);
   }
-  return nan;
+
+  /// Of the mode that was found last.
+  double damping_ratio() const { return damping_ratio_; }
+
+ private:
+  const ModeFinder& finder_;
+  CVec shape_;
+  double damping_ratio_ = nan;
+  const CriticalOptions& options_;
+};
+
+constexpr const char* lost = "its mode does not oscillate, or changes beyond recognition";
+
+/// Solves Im lambda(Omega) = order * Omega by secants from an undamped critical speed.
+void find_damped(const ModeFinder& finder, const CriticalOptions& options, Critical& critical) {
+  DampedMode mode(finder, critical, options);
+  const double start = critical.speed;
+  const auto is_in_range = [&](double Omega) {
+    return Omega > start / range && Omega < range * start;
+  };
+  const auto found = [&](double Omega) {
+    critical.damped_speed = Omega;
+    critical.damping_ratio = mode.damping_ratio();
+    critical.note.clear();
+  };
+  double a = start, ga = mode.gap(a);
+  critical.note = lost;
+  if (!std::isfinite(ga)) return;
+  if (std::abs(ga) <= damped_tol * a) return found(a);
+  double b = a + ga / options.order * 0.5;
+  for (int it = 0; it < 60; ++it) {
+    if (!is_in_range(b)) {
+      critical.note = "it would be far from the undamped one";
+      return;
+    }
+    const double gb = mode.gap(b);
+    if (!std::isfinite(gb)) return;
+    if (std::abs(gb) <= damped_tol * b) return found(b);
+    if (gb == ga) break;
+    const double next = b - gb * (b - a) / (gb - ga);
+    a = b, ga = gb;
+    b = next;
+  }
+  critical.note = "the iteration does not converge";
 }
 
 }  // namespace
@@ -109,8 +149,15 @@ std::vector<Critical> critical_speeds(const Assembler& assembler, const Critical
     std::sort(criticals.begin(), criticals.end(),
               [](const Critical& a, const Critical& b) { return a.speed < b.speed; });
   }
+  if (!options.has_damped) return criticals;
   const ModeFinder finder(assembler);
-  for (Critical& c : criticals) c.damped_speed = damped_speed(finder, c, options);
+  for (Critical& c : criticals) {
+    try {
+      find_damped(finder, options, c);
+    } catch (const NumericalError& error) {
+      c.note = error.what();
+    }
+  }
   return criticals;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// Critical speeds: speeds at which an excitation of a given order meets a natural frequency.
 
+#include <limits>
+#include <string>
 #include <vector>
 
 #include "libfe/modes.hpp"
@@ -8,8 +10,9 @@
 namespace whirl {
 
 struct CriticalOptions {
-  int count = 6;       ///< lowest ones wanted
-  double order = 1.0;  ///< excitation frequency over spin speed; 1: unbalance
+  int count = 6;           ///< lowest ones wanted
+  double order = 1.0;      ///< excitation frequency over spin speed; 1: unbalance
+  bool has_damped = true;  ///< look for the damped ones too, which takes most of the time
 };
 
 /// A critical speed of the undamped system, and of the damped one where it has one nearby.
@@ -17,7 +20,9 @@ struct Critical {
   double speed = 0.0;         ///< undamped [rad/s]
   double damped_speed = 0.0;  ///< Im lambda(Omega) = order * Omega [rad/s]; NaN if there is none
   Whirl whirl = Whirl::planar;
-  CVec shape;  ///< coordinates of the system
+  CVec shape;        ///< coordinates of the system
+  std::string note;  ///< why there is no damped speed; empty if there is one
+  double damping_ratio = std::numeric_limits<double>::quiet_NaN();  ///< at the damped speed
 };
 
 /// Critical speeds directly from the pencil with omega = order * Omega.
@@ -26,10 +31,11 @@ struct Critical {
 ///
 /// Forward and backward ones come together; a disk with Ip > Id has no forward tilting one. Where
 /// stiffness depends on speed, each is iterated until it is a critical speed of the stiffness at
-/// itself. The damped ones start from these and follow Im lambda(Omega) = order * Omega.
+/// itself. The damped ones start from these and follow Im lambda(Omega) = order * Omega; where one
+/// cannot be found, its note says why, and the others come.
 ///
 /// @throws ModelError      if the rotor is free
-/// @throws NumericalError  if an eigensolver or the iteration fails
+/// @throws NumericalError  if the eigensolver of the undamped pencil fails
 /// @source [Friswell2010], sec. 6.5
 std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options);
 

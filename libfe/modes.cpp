@@ -5,10 +5,15 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
+#include "libfe/eigen/disc.hpp"
+#include "libfe/eigen/energy_bounds.hpp"
+#include "libfe/eigen/lowest_frequencies.hpp"
 #include "libfe/eigen/quadratic.hpp"
+#include "libfe/eigen/refine.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl {
@@ -20,6 +25,9 @@ constexpr double visible = 1e-3;         ///< of the largest orbit: smaller ones
 constexpr double flat = 1e-4;            ///< axis ratio below which an orbit is a line
 constexpr double rigid_share = 1e-5;     ///< of the first flexible omega^2: does not deform
 constexpr double overdamped = 0.2;       ///< |Im| over |Re| of an eigenvalue that hardly oscillates
+constexpr int most_others = 40;          ///< modes that do not oscillate, beyond those expected
+constexpr double cut_pair = 1e-6;        ///< of the farthest eigenvalue: its twin may be missing
+constexpr double off_axis = 0.05;        ///< Re over Im of a center for modes near a frequency
 constexpr double same_frequency = 1e-9;  ///< relative distance of equal eigenvalues
 
 /// What the modes of a free system are compared with.
@@ -130,6 +138,14 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
   std::stable_sort(modes.overdamped.begin(), modes.overdamped.end(),
                    [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
   if (static_cast<int>(modes.oscillatory.size()) > count) modes.oscillatory.resize(count);
+  const Sparse D = system.D();
+  const Refinement refinement(system.M, D, system.K);
+  for (Mode& mode : modes.oscillatory) {
+    Complex lambda = mode.lambda;
+    CVec q = mode.shape;
+    refinement.improve(lambda, q);
+    if (lambda != mode.lambda) mode = describe(lambda, q, system.dofs);
+  }
   return modes;
 }
 
@@ -139,24 +155,83 @@ double shift_for(const FreeBody& body) {
   return body.first_flexible > 0.0 ? -0.3 * body.first_flexible : -1.0;
 }
 
-/// The lowest modes by Arnoldi. Overdamped and rigid ones do not count: `others` is how many of
-/// them to expect, and is raised if there are more.
-Modes arnoldi_modes(const QuadraticSolver& solver, const System& system, const FreeBody& body,
-                    int count, int& others) {
-  for (;;) {
-    const int pairs = std::min(count + others, system.size() - 1);
-    QuadraticModes found = solver.lowest(system.D(), pairs);
-    const bool is_all = found.lambda.size() >= system.size() || pairs == system.size() - 1;
-    Modes modes = sorted(std::move(found), system, body, count);
+/// What is known of a system before its modes are, and seen of it so far.
+struct Knowledge {
+  FreeBody body;
+  EnergyBounds bounds;
+  std::optional<QuadraticSolver> arnoldi;  ///< about a real shift; none once it has failed
+  int others = 0;  ///< modes that do not oscillate, to expect among the lowest
+};
+
+/// The lowest modes by Arnoldi about a real shift, or nothing: if it does not converge, if most of
+/// what it finds does not oscillate, or if a slow, heavily damped mode may be farther away.
+std::optional<Modes> arnoldi_modes(const System& system, Knowledge& known, int count) {
+  const int patience = known.others + count + most_others;
+  while (known.others <= patience) {
+    const int pairs = count + known.others;
+    if (2 * pairs >= system.size()) return std::nullopt;
+    QuadraticModes found;
+    try {
+      found = known.arnoldi->lowest(system.D(), pairs);
+    } catch (const NumericalError&) {
+      return std::nullopt;
+    }
+    const double shift = shift_for(known.body);
+    const double radius = (found.lambda.array() - shift).abs().maxCoeff() * (1.0 - cut_pair);
+    Modes modes = sorted(std::move(found), system, known.body, count);
     const int missing = count - static_cast<int>(modes.oscillatory.size());
-    if (missing <= 0 || is_all) return modes;
-    others += missing;
+    if (missing <= 0) {
+      const double top = count > 0 ? modes.oscillatory.back().frequency() : 0.0;
+      if (!covers_sector(shift, radius, top, {.slope = 1.0 / overdamped, .bounds = known.bounds})) {
+        return std::nullopt;
+      }
+      return modes;
+    }
+    known.others += missing;
   }
+  return std::nullopt;
+}
+
+/// The lowest modes of a large system.
+Modes sparse_modes(const System& system, Knowledge& known, int count) {
+  if (known.arnoldi) {
+    if (std::optional<Modes> modes = arnoldi_modes(system, known, count)) return *std::move(modes);
+    known.arnoldi.reset();
+  }
+  const double shift = shift_for(known.body);
+  try {
+    int rigid = 0;
+    while (2 * (count + rigid) < system.size()) {
+      const FrequencySearch search{.count = count + rigid,
+                                   .slope = 1.0 / overdamped,
+                                   .center = shift,
+                                   .bounds = known.bounds};
+      QuadraticModes found = lowest_frequencies(system.M, system.D(), system.K, search);
+      const bool is_all = (found.lambda.imag().array() > 0.0).count() < search.count;
+      Modes modes = sorted(std::move(found), system, known.body, count);
+      const int missing = count - static_cast<int>(modes.oscillatory.size());
+      if (missing <= 0 || is_all) return modes;
+      rigid += missing;
+    }
+  } catch (const NumericalError&) {  // all at once takes longer, but does not depend on shifts
+  }
+  return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift), system, known.body,
+                count);
 }
 
 /// How many modes beside the oscillatory ones to expect among the lowest of an unknown system.
 int usual_others(const FreeBody& body) {
   return body.is_free ? 8 : 4;
+}
+
+Knowledge knowledge_of(const System& system) {
+  Knowledge known{.body = free_body(system), .bounds = energy_bounds(system.D(), system.K)};
+  known.others = usual_others(known.body);
+  try {
+    known.arnoldi.emplace(system.M, system.K, shift_for(known.body));
+  } catch (const NumericalError&) {  // K has no inverse: other shifts do without
+  }
+  return known;
 }
 
 }  // namespace
@@ -189,31 +264,28 @@ Whirl whirl_of(const std::vector<Orbit>& orbits) {
 }
 
 Modes complex_modes(const System& system, int count) {
-  const FreeBody body = free_body(system);
-  if (system.size() < dense_below) {
-    return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift_for(body)), system,
-                  body, count);
+  if (system.size() >= dense_below) {
+    Knowledge known = knowledge_of(system);
+    return sparse_modes(system, known, count);
   }
-  const QuadraticSolver solver(system.M, system.K, shift_for(body));
-  int others = usual_others(body);
-  return arnoldi_modes(solver, system, body, count, others);
+  const FreeBody body = free_body(system);
+  return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift_for(body)), system,
+                body, count);
 }
 
 struct ModeFinder::State {
   const Assembler& assembler;
   System base;
-  FreeBody body;
-  std::unique_ptr<QuadraticSolver> solver;
-  int others = 0;  ///< modes that do not oscillate, seen so far among the lowest
+  Knowledge known;
 };
 
 ModeFinder::ModeFinder(const Assembler& assembler)
-    : state_(std::make_unique<State>(State{assembler, assembler.at(0.0), {}, nullptr})) {
+    : state_(std::make_unique<State>(State{assembler, assembler.at(0.0), {}})) {
   if (assembler.depends_on_speed()) return;
-  state_->body = free_body(state_->base);
   if (state_->base.size() >= dense_below) {
-    state_->solver =
-        std::make_unique<QuadraticSolver>(state_->base.M, state_->base.K, shift_for(state_->body));
+    state_->known = knowledge_of(state_->base);
+  } else {
+    state_->known.body = free_body(state_->base);
   }
 }
 
@@ -229,12 +301,29 @@ System ModeFinder::system(double Omega) const {
 Modes ModeFinder::at(double Omega, int count) const {
   const System at_speed = system(Omega);
   if (state_->assembler.depends_on_speed()) return complex_modes(at_speed, count);
-  const FreeBody& body = state_->body;
-  if (state_->solver) {
-    return arnoldi_modes(*state_->solver, at_speed, body, count, state_->others);
-  }
+  if (at_speed.size() >= dense_below) return sparse_modes(at_speed, state_->known, count);
+  const FreeBody& body = state_->known.body;
   return sorted(dense_quadratic_modes(at_speed.M, at_speed.D(), at_speed.K, shift_for(body)),
                 at_speed, body, count);
+}
+
+Modes ModeFinder::near(double Omega, double frequency, int count) const {
+  const System at_speed = system(Omega);
+  if (at_speed.size() < dense_below) return at(Omega, count);
+  const FreeBody body = state_->assembler.depends_on_speed() ? FreeBody{} : state_->known.body;
+  // undamped eigenvalues are on the axis: the center is not
+  const Complex center{off_axis * frequency, frequency};
+  const double everywhere = std::numeric_limits<double>::infinity();
+  DiscModes disc =
+      DiscSolver(at_speed.M, at_speed.D(), at_speed.K).around(center, everywhere, count);
+  if (disc.lambda.size() == 0) return at(Omega, count);
+  QuadraticModes found{std::move(disc.lambda), std::move(disc.q)};
+  for (Eigen::Index i = 0; i < found.lambda.size(); ++i) {
+    if (found.lambda(i).imag() >= 0.0) continue;
+    found.lambda(i) = std::conj(found.lambda(i));
+    found.q.col(i) = found.q.col(i).conjugate().eval();
+  }
+  return sorted(std::move(found), at_speed, body, std::numeric_limits<int>::max());
 }
 
 }  // namespace whirl

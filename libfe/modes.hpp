@@ -34,6 +34,9 @@ struct Orbit {
   double kappa() const { return major() > 0.0 ? (forward - backward) / major() : 0.0; }
 };
 
+/// Damping ratio above which a mode is hardly a critical speed: that of a bearing, in most cases.
+constexpr double heavy_damping = 0.5;
+
 /// One oscillatory mode, q = Re(shape e^(lambda t)).
 struct Mode {
   Complex lambda;  ///< eigenvalue, Im > 0 [rad/s]
@@ -57,8 +60,9 @@ struct Modes {
 
 /// Complex modes of a system at its speed.
 ///
-/// Below 150 states all are found densely; above, those nearest to zero by Arnoldi, so that a mode
-/// with a damping ratio near one, far from zero but slow, may be missing there. Rigid-body motions
+/// Below 150 states all are found densely; above, the lowest of those that oscillate, by Arnoldi
+/// about zero where that and bounds of the energies prove that none is missing, else by discs that
+/// cover the plane from below; overdamped ones are then those nearest to zero. Rigid-body motions
 /// (of free rotors, including the precession of a free spinning rotor) are told apart by their
 /// strain energy and listed by themselves, as are overdamped motions: real eigenvalues, and pairs
 /// with a damping ratio above 0.98, which only gyroscopics keep from being real.
@@ -73,6 +77,9 @@ class ModeFinder {
   explicit ModeFinder(const Assembler& assembler);
   ~ModeFinder();
   Modes at(double Omega, int count) const;
+  /// Modes around i * frequency [rad/s]: all of a small system's lowest `count`, or about so many
+  /// that are nearest in the complex plane.
+  Modes near(double Omega, double frequency, int count) const;
   System system(double Omega) const;
 
  private:

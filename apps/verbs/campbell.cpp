@@ -9,7 +9,7 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
-#include "libfe/critical_damping.hpp"
+#include "libfe/modes.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 
@@ -128,6 +128,13 @@ Report run_campbell(const Invocation& call) {
   report.record.set("speeds_rpm", in_rpm(speeds))
       .set("branches", branches)
       .set("criticals_rpm", criticals);
+  Record gaps = Record::array();
+  for (const CampbellGap& gap : diagram.gaps) {
+    Record r;
+    r.set("speed_rpm", gap.speed / rpm).set("why", gap.why);
+    gaps.add(r);
+  }
+  if (!diagram.gaps.empty()) report.record.set("gaps", gaps);
 
   report.text = campbell_text(diagram);
   if (diagram.crossings.empty()) {
@@ -138,6 +145,9 @@ Report run_campbell(const Invocation& call) {
       report.text += fmt::format(" {:.1f} ({})", c.speed / rpm, c.branch + 1);
     }
     report.text += "\n";
+  }
+  for (const CampbellGap& gap : diagram.gaps) {
+    report.text += fmt::format("\n  not computed at {:.1f} rpm: {}\n", gap.speed / rpm, gap.why);
   }
   note_left_out(model, report);
   note_tables(model, speeds.front(), speeds.back(), report);

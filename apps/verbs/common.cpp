@@ -5,7 +5,7 @@
 #include "apps/verbs/notes.hpp"
 #include "apps/version.hpp"
 #include "libfe/base/error.hpp"
-#include "libfe/critical_damping.hpp"
+#include "libfe/modes.hpp"
 #include "libio/figures.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"

@@ -9,7 +9,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "libfe/base/error.hpp"
-#include "libfe/critical_damping.hpp"
+#include "libfe/modes.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 
@@ -26,12 +26,6 @@ Report run_critical(const Invocation& call) {
   const std::vector<Critical> criticals = critical_speeds(assembler, options);
 
   Report report{.record = begin_record(call, model)};
-  std::vector<double> damping(criticals.size(), std::nan(""));
-  try {
-    damping = critical_damping(assembler, criticals, options);
-  } catch (const NumericalError& error) {
-    report.notes.push_back(fmt::format("damping ratios are not known: {}", error.what()));
-  }
   const std::string excitation = fmt::format("{:g}x", options.order);
   Record list = Record::array();
   Table table(
@@ -40,19 +34,20 @@ Report run_critical(const Invocation& call) {
   bool has_heavy = false;
   for (std::size_t i = 0; i < criticals.size(); ++i) {
     const Critical& c = criticals[i];
-    const bool is_heavy = damping[i] > heavy_damping, is_met = std::isfinite(c.damped_speed);
+    const bool is_heavy = c.damping_ratio > heavy_damping, is_met = std::isfinite(c.damped_speed);
     has_heavy = has_heavy || is_heavy;
     lowest = i == 0 ? c.speed : std::min(lowest, c.speed);
     highest = i == 0 ? c.speed : std::max(highest, c.speed);
     Record r;
     r.set("speed_rpm", c.speed / rpm).set("whirl", name_of(c.whirl)).set("excitation", excitation);
     r.set("damped_speed_rpm", c.damped_speed / rpm);
-    r.set("damping_ratio", damping[i]).set("heavily_damped", is_heavy);
+    r.set("damping_ratio", c.damping_ratio).set("heavily_damped", is_heavy);
+    if (!c.note.empty()) r.set("note", c.note);
     list.add(r);
     table.row({fmt::format("{}{}", i + 1, is_heavy ? heavy_mark : ""),
                fmt::format("{:.2f}", c.speed / rpm), fmt::format("{:.3f}", c.speed / rpm / 60.0),
                is_met ? fmt::format("{:.2f}", c.damped_speed / rpm) : "-",
-               std::isfinite(damping[i]) ? fixed(damping[i], 5) : "-",
+               is_met ? fixed(c.damping_ratio, 5) : "-",
                std::string(name_of(c.whirl)), excitation});
   }
   report.record.set("criticals", list);
@@ -62,11 +57,12 @@ Report run_critical(const Invocation& call) {
   note_left_out(model, report);
   note_tables(model, lowest, highest, report);
   if (const auto file = call.result_file(model)) {
-    std::vector<double> speed, damped;
+    std::vector<double> speed, damped, damping;
     std::vector<std::string> whirl;
     for (const Critical& c : criticals) {
       speed.push_back(c.speed);
       damped.push_back(c.damped_speed);
+      damping.push_back(c.damping_ratio);
       whirl.emplace_back(name_of(c.whirl));
     }
     file->dataset("/critical/speed", speed, {"rad/s", "undamped critical speed", {""}});

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/quadratic.hpp"
@@ -58,6 +59,17 @@ struct StateInverse {
   }
 };
 
+/// Number of eigenvalues that converge; none where Spectra's iteration on its small matrix fails.
+template <class Solver>
+Eigen::Index converged_pairs(Solver& solver) {
+  constexpr int restarts = 60;  // those that converge at all need ten or twenty
+  try {
+    return solver.compute(Spectra::SortRule::LargestMagn, restarts, 1e-11);
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
+}
+
 }  // namespace
 
 struct QuadraticSolver::State {
@@ -99,12 +111,11 @@ QuadraticModes QuadraticSolver::lowest(const Sparse& D, int pairs) const {
   }
   StateInverse op{s.M, D, *factor, s.shift, s.scale};
   int nev = std::min(2 * pairs + 2, states - 2);
-  for (int attempt = 0; attempt < 5; ++attempt) {
+  for (int attempt = 0; attempt < 3; ++attempt) {
     const int ncv = std::min(2 * nev + 6, states);
     Spectra::GenEigsRealShiftSolver<StateInverse> solver(op, nev, ncv, s.shift);
     solver.init();
-    const auto converged = solver.compute(Spectra::SortRule::LargestMagn, 300, 1e-11);
-    if (converged < nev) {
+    if (converged_pairs(solver) < nev) {
       nev = std::min(nev + 4, states - 2);
       continue;
     }

@@ -13,6 +13,7 @@
 #include "libfe/base/error.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/eigen/hermitian.hpp"
+#include "libfe/eigen/quadratic.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::critical_test {
@@ -220,6 +221,45 @@ TEST(CriticalSpeeds, NeedSupports) {
     } catch (const ModelError& error) {
       EXPECT_NE(std::string(error.what()).find("critical speeds need supports"), std::string::npos);
     }
+  }
+}
+
+// ---- strong dampers -----------------------------------------------------------------------------
+
+/// A plain shaft of 2 m and 150 mm on two bearings of 20 MN/m and 1e5 N.s/m.
+Structure on_strong_dampers(int elements) {
+  const BearingCoefficients film = test::isotropic(2e7, 1e5);
+  return {.shaft = {test::cylinder(2.0, 0.15, elements)},
+          .bearings = {test::bearing(at(0.0), film), test::bearing(at(2.0), film)}};
+}
+
+// Creeping and overdamped motions stand between the modes: undamped speeds come nevertheless, a
+// damped one for some of them, and the others say why not. Damped ones against the dense solver.
+TEST(CriticalSpeeds, ComeOnStrongDampersAndSayWhereThereIsNoDampedOne) {
+  const Assembler rotor(on_strong_dampers(20));
+  ASSERT_GT(rotor.at(0.0).size(), 75);  // found by shift and invert
+  const auto criticals = critical_speeds(rotor, {});
+  ASSERT_EQ(criticals.size(), 6u);
+  int damped = 0;
+  for (const Critical& c : criticals) {
+    EXPECT_EQ(std::isnan(c.damped_speed), !c.note.empty()) << c.speed;
+    if (std::isnan(c.damped_speed)) continue;
+    ++damped;
+    const System s = rotor.at(c.damped_speed);
+    const CVec lambda = dense_quadratic_modes(s.M, s.D(), s.K).lambda;
+    const double nearest = (lambda.imag().array() - c.damped_speed).abs().minCoeff();
+    EXPECT_LT(nearest, 1e2 * solves * c.damped_speed);  // QR of a wide spectrum
+  }
+  EXPECT_GE(damped, 2);
+}
+
+TEST(CriticalSpeeds, ComeOnStrongDampersInFineMeshesToo) {
+  const auto coarse = critical_speeds(Assembler(on_strong_dampers(20)), {.has_damped = false});
+  const auto fine = critical_speeds(Assembler(on_strong_dampers(40)), {});
+  ASSERT_EQ(fine.size(), coarse.size());
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    EXPECT_NEAR(fine[i].speed, coarse[i].speed, 1e-4 * fine[i].speed);  // h^4
+    EXPECT_TRUE(std::isnan(coarse[i].damped_speed));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/symmetric.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::modes_test {
@@ -271,6 +272,36 @@ TEST(Modes, AtRestAllArePlanarInLargerClustersToo) {
   const Modes modes = complex_modes(assemble(s, 0.0), 4);
   ASSERT_EQ(modes.oscillatory.size(), 4u);
   for (const Mode& mode : modes.oscillatory) EXPECT_EQ(mode.whirl, Whirl::planar);
+}
+
+// ---- damping in proportion to stiffness ---------------------------------------------------------
+
+// C = b K at rest: lambda^2 + b w^2 lambda + w^2 = 0 for every undamped frequency w. Those that
+// oscillate lie on the circle |lambda + 1 / b| = 1 / b; all faster ones are real, one of each pair
+// near -1 / b, hundreds in a heap. Those below 2 / (sqrt(1.04) b) oscillate, and no others.
+TEST(Modes, BeforeAHeapOfOverdampedOnesHaveTheirClosedForm) {
+  constexpr double two_solvers = 1e-7;  // relative; frequencies by Lanczos to 1e-10
+  Structure s = test::pinned(test::cylinder(1.2, 0.05, 100));
+  const System undamped = assemble(s, 0.0);
+  const Vec w2 = lowest_real_modes(undamped.K, undamped.M, 24).omega2;
+  for (const double b : {3e-4, 1e-3}) {
+    s.damping.stiffness = b;
+    const double limit = 2.0 / (std::sqrt(1.04) * b);
+    const auto count = (w2.array() < limit * limit).count();
+    ASSERT_LT(count, w2.size());
+    const Modes modes = complex_modes(assemble(s, 0.0), static_cast<int>(count) + 4);
+    ASSERT_EQ(static_cast<Eigen::Index>(modes.oscillatory.size()), count) << b;
+    std::vector<Complex> exact;
+    for (const double square : w2.head(count)) {
+      const double half = 0.5 * b * square;
+      exact.emplace_back(-half, std::sqrt(square - half * half));
+    }
+    std::sort(exact.begin(), exact.end(), [](Complex p, Complex q) { return p.imag() < q.imag(); });
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      const Complex lambda = modes.oscillatory[i].lambda;
+      EXPECT_LT(std::abs(lambda - exact[i]), two_solvers * std::abs(exact[i])) << exact[i];
+    }
+  }
 }
 
 // ---- free rotors --------------------------------------------------------------------------------

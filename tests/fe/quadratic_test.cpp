@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "libfe/base/error.hpp"
+#include "libfe/eigen/disc.hpp"
+#include "libfe/eigen/energy_bounds.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::quadratic_test {
@@ -92,6 +94,59 @@ TEST(QuadraticModes, CrossCoupledBearingsAgreeWithTheDenseSolver) {
   oil.K << 5e6, 8e6, -6e6, 9e6;
   oil.C << 3e4, -1e4, -1e4, 6e4;
   expect_lowest(assemble(test::two_disk(oil, 4), 600.0), 8);
+}
+
+// ---- discs and bounds ---------------------------------------------------------------------------
+
+// Every dense eigenvalue in a disc is in it, as often: pairs of an isotropic rotor at rest too, and
+// four alike of twin bodies.
+TEST(Discs, HoldEveryEigenvalueAsOftenAsTheDenseSolver) {
+  for (const double Omega : {0.0, 300.0}) {
+    Structure rotor = test::two_disk(test::isotropic(1e6, 1e5), 2);
+    for (const char* name : {"twin", "other twin"}) {
+      rotor.bodies.push_back({.name = name, .m = 5.0});
+      rotor.bearings.push_back(test::bearing(test::body(name), test::isotropic(2e5, 50.0)));
+    }
+    const System s = assemble(rotor, Omega);
+    const CVec exact = dense_quadratic_modes(s.M, s.D(), s.K).lambda;
+    for (const Complex center : {Complex(0.0), Complex(-50.0, 250.0), Complex(-400.0, 100.0)}) {
+      const DiscModes disc = DiscSolver(s.M, s.D(), s.K).around(center, 300.0, 1000);
+      ASSERT_GE(disc.radius, 300.0);
+      for (const Complex lambda : exact) {
+        if (std::abs(lambda - center) > 300.0) continue;
+        const auto alike = [&](const CVec& all) {
+          return ((all.array() - lambda).abs() < oracle * std::abs(lambda)).count();
+        };
+        EXPECT_EQ(alike(disc.lambda), alike(exact)) << lambda << " around " << center;
+      }
+      for (Eigen::Index i = 0; i < disc.lambda.size(); ++i) {
+        EXPECT_LT(residual(s, disc.lambda(i), disc.q.col(i)), 1e-8) << disc.lambda(i);
+      }
+    }
+  }
+}
+
+// No eigenvalue is where the energies say that none can be.
+TEST(EnergyBounds, LeaveOutNoEigenvalue) {
+  for (const double cross : {0.0, 4e5}) {
+    for (const double c : {0.0, 1e2, 1e5}) {
+      BearingCoefficients b = test::isotropic(1e6, c);
+      b.K(0, 1) = cross;
+      b.K(1, 0) = -cross;
+      Structure rotor = test::two_disk(b, 2);
+      rotor.damping = {.mass = 1.0, .stiffness = 1e-5};
+      const System s = assemble(rotor, 500.0);
+      const EnergyBounds bounds = energy_bounds(s.D(), s.K);
+      ASSERT_TRUE(bounds.are_known);
+      EXPECT_EQ(bounds.skew > 0.0, cross != 0.0);
+      for (const Complex l : dense_quadratic_modes(s.M, s.D(), s.K).lambda) {
+        const double size = std::abs(l.real());
+        EXPECT_TRUE(bounds.allow(l.real() < 0.0 ? -1 : 1, size, size, l.imag())) << l;
+      }
+      // they are of use: a slow mode does not decay at once
+      EXPECT_EQ(bounds.allow(-1, 50.0, 50.0, 10.0), c > 1e4 || cross != 0.0) << c;
+    }
+  }
 }
 
 // ---- closed forms -------------------------------------------------------------------------------

@@ -1,0 +1,14 @@
+#include "libfe/eigen/dense_complex.hpp"
+
+#include <Eigen/Eigenvalues>
+
+namespace whirl {
+
+std::optional<GeneralModes> general_modes(const CMat& A) {
+  if (!A.allFinite()) return std::nullopt;
+  const Eigen::ComplexEigenSolver<CMat> solver(A);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return GeneralModes{solver.eigenvalues(), solver.eigenvectors()};
+}
+
+}  // namespace whirl

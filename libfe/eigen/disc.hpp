@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+
+#include "libfe/base/linalg.hpp"
+
+namespace whirl {
+
+/// Eigenpairs of (lambda^2 M + lambda D + K) q = 0 in a disc of the complex plane.
+struct DiscModes {
+  Complex center;       ///< [rad/s]
+  double radius = 0.0;  ///< every eigenvalue nearer to the center than this is here [rad/s]
+  CVec lambda;          ///< nearest to the center first [rad/s]
+  CMat q;               ///< n x lambda.size(), columns of length one
+
+  bool contains(Complex lambda_) const { return std::abs(lambda_ - center) <= radius; }
+};
+
+/// Finds all eigenpairs around points of the complex plane, by shift and invert.
+///
+///   x = -(s^2 M + s D + K)^-1 (M p + (s M + D) q),   v = s x + q
+///
+/// Arnoldi's method with two starting vectors, so that equal pairs of isotropic rotors are found;
+/// when all is converged a fresh random vector joins, which brings to light what the first ones
+/// missed. The disc ends before the first eigenvalue that is not converged. Real eigenvalues that
+/// accumulate elsewhere (at -1 / beta with damping beta K) are out of the way of a complex shift.
+///
+/// @source [TisseurMeerbergen2001], sec. 3.4; [Ruhe1979] for several starting vectors
+class DiscSolver {
+ public:
+  DiscSolver(Sparse M, const Sparse& D, const Sparse& K);
+  ~DiscSolver();
+  DiscSolver(DiscSolver&&) noexcept;
+  DiscSolver& operator=(DiscSolver&&) noexcept;
+
+  /// The disc grows until it has this radius, or holds so many eigenvalues, or the basis is at its
+  /// largest; its radius is then what was reached, zero if the matrix is singular at the center.
+  DiscModes around(Complex center, double radius, int count) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace whirl

@@ -1,0 +1,55 @@
+#include "libfe/eigen/refine.hpp"
+
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+
+namespace whirl {
+
+namespace {
+
+constexpr double accurate = 2e-11;  ///< backward error: a fifth of what is promised
+constexpr double same = 1e-5;       ///< relative change of an eigenvalue that is still the same
+constexpr int most_steps = 3;
+
+double longest_column(const Sparse& A) {
+  double longest = 0.0;
+  for (int j = 0; j < A.outerSize(); ++j) longest = std::max(longest, A.col(j).norm());
+  return longest;
+}
+
+}  // namespace
+
+Refinement::Refinement(const Sparse& M, const Sparse& D, const Sparse& K)
+    : M_(M),
+      D_(D),
+      K_(K),
+      size_M_(longest_column(M)),
+      size_D_(longest_column(D)),
+      size_K_(longest_column(K)) {}
+
+double Refinement::backward_error(Complex lambda, const CVec& q) const {
+  const CVec residual = lambda * lambda * (M_ * q) + lambda * (D_ * q) + K_ * q;
+  const double size = std::norm(lambda) * size_M_ + std::abs(lambda) * size_D_ + size_K_;
+  return residual.norm() / (size * q.norm());
+}
+
+void Refinement::improve(Complex& lambda, CVec& q) const {
+  double error = backward_error(lambda, q);
+  const Complex start = lambda;
+  for (int i = 0; i < most_steps && error > accurate; ++i) {
+    const CSparse Q =
+        (lambda * lambda) * M_.cast<Complex>() + lambda * D_.cast<Complex>() + K_.cast<Complex>();
+    const Eigen::SparseLU<CSparse> factor(Q);
+    if (factor.info() != Eigen::Success) return;
+    const CVec x = factor.solve(CVec(2.0 * lambda * (M_ * q) + D_ * q));
+    const Complex next = lambda - q.squaredNorm() / q.dot(x);
+    const double then = x.allFinite() ? backward_error(next, x) : error;
+    if (!(then < error) || !(std::abs(next - start) < same * std::abs(start))) return;
+    lambda = next;
+    q = x.normalized();
+    error = then;
+  }
+}
+
+}  // namespace whirl

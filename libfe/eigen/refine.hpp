@@ -1,0 +1,24 @@
+#pragma once
+
+#include "libfe/base/linalg.hpp"
+
+namespace whirl {
+
+/// Improves eigenpairs of (lambda^2 M + lambda D + K) q = 0 that miss the stated accuracy.
+class Refinement {
+ public:
+  Refinement(const Sparse& M, const Sparse& D, const Sparse& K);
+
+  /// |(lambda^2 M + lambda D + K) q| / ((|lambda|^2 |M| + |lambda| |D| + |K|) |q|), with the
+  /// longest column for the size of a matrix. [Tisseur2000]
+  double backward_error(Complex lambda, const CVec& q) const;
+
+  /// Newton's iteration, where the backward error is above 2e-11 and as long as it falls.
+  void improve(Complex& lambda, CVec& q) const;
+
+ private:
+  const Sparse &M_, &D_, &K_;
+  double size_M_, size_D_, size_K_;
+};
+
+}  // namespace whirl
