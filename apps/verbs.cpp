@@ -188,7 +188,7 @@ const std::vector<Verb>& verbs() {
        study_options({over, points}), run_map},
       {"basins", "Contact", "coexisting motions, and how much of the starts each attracts", "MODEL",
        "whirl basins models/jeffcott_stator.toml --set contact.ring.stiffness=50e6 --starts 500",
-       study_options({{"starts", "N", "random starts around that of the model (256)"},
+       study_options({{"starts", "N", "starts: that of the model, the others random around it (256)"},
                       {"seed", "S", "of the random starts (1)"},
                       {"size", "R", "how far they are, in clearances (0.5)"},
                       {"over", "PATH=A:B:STEP",

@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "libdyn/batch/batch.hpp"
+#include "libdyn/exponents.hpp"
+#include "libdyn/free_flight.hpp"
 #include "libdyn/section_geometry.hpp"
 #include "libdyn/shooting.hpp"
 #include "libfe/base/error.hpp"
@@ -28,6 +30,10 @@ constexpr long first_search = 96;             ///< revolutions
 constexpr double later_search = 1.5;          ///< times those of the search before
 constexpr Eigen::Index most_dimension = 400;  ///< sections that their dimension is taken from
 constexpr std::size_t few = 2;  ///< trajectories that are faster one by one than in lanes
+/// Change of averages over sections that a motion may have which has settled.
+constexpr double settled = 0.02;
+constexpr long most_flight =
+    1'000'000'000;  ///< revolutions that a motion is followed in closed form
 
 /// Trajectories of any systems, in batches of those that have the same shape.
 void integrate_all(std::vector<Trajectory>& all, const BatchOptions& options) {
@@ -60,6 +66,7 @@ class Together {
       }
       if (s.found.is_good() && !s.found.is_proven) open_.push_back(&s);
     }
+    fly();
   }
 
   void settle() {
@@ -75,13 +82,14 @@ class Together {
       done = to;
       for (Subject* s : open_) s->found.transient = done;
       search(sections, is_last);
+      fly();
     }
   }
 
   void average() {
     const long averaged = std::min(options_.revolutions, options_.exponents);
     std::vector<Trajectory> all =
-        go(averaged, {.sections = true, .measures = true, .exponents = true});
+        go(averaged, {.sections = true, .measures = true, .exponents = true, .growths = true});
     const std::vector<Subject*> before = open_;
     const std::vector<Trajectory> rest =
         go(options_.revolutions - averaged, {.sections = options_.sections > 0, .measures = true});
@@ -91,29 +99,17 @@ class Together {
       append(rest[j], all[j]);
       ++j;
     }
-    std::vector<Subject*> attracted;
+    std::vector<Subject*> undecided;
     for (std::size_t i = 0; i < open_.size(); ++i) {
-      const Trajectory& t = all[i];
-      Classification& c = open_[i]->found;
-      c.revolutions = options_.revolutions;
-      take_measures(t, c);
-      const double period = open_[i]->system->period();
-      const double turns = static_cast<double>(averaged);
-      c.exponents = t.exponents * period;
-      c.resolution = (1.0 + std::log(turns)) / turns;
-      c.section_dimension = dimension(t);
-      const auto positive = (c.exponents.array() > c.resolution).count();
-      if (positive > 0) {
-        c.kind = positive > 1 ? MotionKind::hyperchaotic : MotionKind::chaotic;
-      } else if (c.exponents(0) > -c.resolution) {
-        c.kind = MotionKind::quasi_periodic;
-      } else {
-        c.kind = MotionKind::periodic;
-        attracted.push_back(open_[i]);
-      }
+      judge(all[i], *open_[i]);
+      const Classification& c = open_[i]->found;
+      const bool is_order = c.kind == MotionKind::periodic || c.kind == MotionKind::not_settled;
+      if (is_order) undecided.push_back(open_[i]);
     }
-    open_ = std::move(attracted);  // they have come nearer to their orbits by now
+    open_ = std::move(undecided);  // they have come nearer to their orbits by now
+    fly();
     if (!open_.empty()) search(go(2L * options_.longest_period, {.sections = true}), true);
+    for (Subject* s : open_) tell_what_settles(*s);
   }
 
  private:
@@ -125,6 +121,7 @@ class Together {
     Vec y;
     double residual = std::numeric_limits<double>::infinity();
     std::optional<Vec> exponents{};  ///< once it is found
+    bool is_free = false;            ///< of contact for good, on the way to it and on it
   };
 
   std::function<bool(long)> watch(bool counts) const {
@@ -200,6 +197,82 @@ class Together {
     return section_dimension(t.system->state_scale().cwiseInverse().asDiagonal() * sections);
   }
 
+  /// What a motion is by the growth of its tangents and by its sections, which may leave it open.
+  void judge(const Trajectory& t, Subject& s) const {
+    Classification& c = s.found;
+    c.revolutions = options_.revolutions;
+    take_measures(t, c);
+    const int size = s.system->size();
+    const Eigen::Map<const Mat> growths(t.growths.data(), size, std::ssize(t.growths) / size);
+    const ExponentEstimate estimate = estimate_exponents(growths);
+    c.exponents = estimate.exponents;
+    c.zero = estimate.zero;
+    c.resolution = estimate.resolution;
+    c.section_dimension = dimension(t);
+    const Eigen::Map<const Mat> sections(t.sections.data(), size, std::ssize(t.sections) / size);
+    c.drift = drift_of(s.system->state_scale().cwiseInverse().asDiagonal() * sections);
+    const auto positive = (c.exponents.array() > c.zero).count();
+    if (positive > 0) {
+      c.kind = positive > 1 ? MotionKind::hyperchaotic : MotionKind::chaotic;
+    } else if (c.drift.change > settled) {
+      c.kind = MotionKind::not_settled;
+    } else {
+      c.kind = c.exponents(0) > -c.zero ? MotionKind::quasi_periodic : MotionKind::periodic;
+    }
+  }
+
+  /// Finds out when a motion would have settled that has not.
+  void tell_what_settles(Subject& s) const {
+    Classification& c = s.found;
+    if (c.kind != MotionKind::not_settled) return;
+    double more = 0.0;
+    const bool touches = std::any_of(c.contacts.begin(), c.contacts.end(),
+                                     [](const ContactMeasure& m) { return m.duty > 0.0; });
+    if (!touches && s.system->films().empty()) {
+      more = static_cast<double>(free_after(s));
+    } else if (c.drift.rate > 0.0) {
+      // averages change no longer, and sections repeat as well as is asked for at last
+      const double reach = std::max(
+          c.drift.left / settled, c.drift.left * c.drift.spread / repeats[std::ssize(repeats) - 1]);
+      more = std::max(1.0, std::log(reach) / c.drift.rate);
+    }
+    if (more == 0.0) return;
+    c.settles_after = c.transient + options_.revolutions + static_cast<long>(std::ceil(more));
+  }
+
+  /// Revolutions after which no contact can happen to a motion without any; 0: never.
+  static long free_after(const Subject& s) {
+    FreeFlight flight(*s.system);
+    if (!flight.decays()) return 0;
+    constexpr double finer = 1.1;
+    MotionState state = s.found.end;
+    const long first = state.revolution;
+    for (double after = 1.0; after < most_flight; after = std::ceil(finer * after)) {
+      flight.finish(state, first + static_cast<long>(after));
+      if (flight.is_certain(state)) return static_cast<long>(after);
+    }
+    return 0;
+  }
+
+  /// Closes the motions to which no contact can happen any more: they are those of the linear rotor,
+  /// whose transient and multipliers are known.
+  void fly() {
+    std::vector<Candidate> free;
+    for (Subject* s : open_) {
+      const ContactSystem& system = *s->system;
+      if (!system.films().empty()) continue;
+      FreeFlight& flight = flights_.try_emplace(s, system).first->second;
+      if (!flight.is_certain(s->found.end) || !flight.decays()) continue;
+      Vec exponents = system.period() * eigenvalues(first_order_matrix(system)).real();
+      std::sort(exponents.begin(), exponents.end(), std::greater<>());
+      if (!(exponents(0) < std::log(attracting))) continue;
+      free.push_back({.of = s, .period = 1, .farthest = 0.0, .y = flight.steady_state(0.0)});
+      free.back().exponents = std::move(exponents);
+      free.back().is_free = true;
+    }
+    close(free);
+  }
+
   /// Closes the motions whose sections show a period, if it is proven.
   void search(const std::vector<Trajectory>& sections, bool is_last) {
     std::vector<Candidate> candidates;
@@ -212,10 +285,16 @@ class Together {
       }
     }
     find_orbits(candidates, is_last);
+    close(candidates);
+  }
+
+  /// Puts motions on the orbits that were found, and measures these.
+  void close(const std::vector<Candidate>& candidates) {
     std::vector<Trajectory> orbits;
     for (const Candidate& c : candidates) {
       MotionState on_it = c.of->found.end;
       on_it.y = c.y;
+      on_it.phase = 0.0;
       on_it.contacts.clear();  // as they follow from the motion
       orbits.push_back({.system = c.of->system, .state = on_it, .revolutions = c.period});
     }
@@ -230,8 +309,11 @@ class Together {
       found.end = orbits[i].state;
       found.period = candidates[i].period;
       found.exponents = *candidates[i].exponents;
-      found.residual = candidates[i].residual;
-      found.resolution = 0.0;
+      found.is_free = candidates[i].is_free;
+      found.residual = found.is_free
+                           ? distance(*candidates[i].of->system, found.end.y, candidates[i].y)
+                           : candidates[i].residual;
+      found.zero = found.resolution = 0.0;
       found.is_proven = true;
       found.revolutions = found.period;
       take_measures(orbits[i], found);
@@ -335,6 +417,7 @@ class Together {
 
   const ClassifyOptions& options_;
   std::vector<Subject*> open_;
+  std::map<const Subject*, FreeFlight> flights_;
   long done_ = 0;  ///< revolutions of all motions
 };
 

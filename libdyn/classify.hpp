@@ -9,18 +9,21 @@
 
 #include "libdyn/contact_measures.hpp"
 #include "libdyn/contact_system.hpp"
+#include "libdyn/settling.hpp"
 #include "libdyn/trajectory.hpp"
 #include "libfe/base/field.hpp"
 
 namespace whirl {
 
-enum class MotionKind { equilibrium, periodic, quasi_periodic, chaotic, hyperchaotic };
+/// Files hold these by their numbers: new ones come last.
+enum class MotionKind { equilibrium, periodic, quasi_periodic, chaotic, hyperchaotic, not_settled };
 constexpr auto choices(MotionKind) {
   return std::array{Choice<MotionKind>{"equilibrium", MotionKind::equilibrium},
                     Choice<MotionKind>{"periodic", MotionKind::periodic},
                     Choice<MotionKind>{"quasi-periodic", MotionKind::quasi_periodic},
                     Choice<MotionKind>{"chaotic", MotionKind::chaotic},
-                    Choice<MotionKind>{"hyperchaotic", MotionKind::hyperchaotic}};
+                    Choice<MotionKind>{"hyperchaotic", MotionKind::hyperchaotic},
+                    Choice<MotionKind>{"not settled", MotionKind::not_settled}};
 }
 
 struct ClassifyOptions {
@@ -42,9 +45,17 @@ struct Classification {
   /// All Lyapunov exponents per revolution, descending. Of a proven periodic motion they are those
   /// of its Floquet multipliers, else means.
   Vec exponents;
-  bool is_proven = false;   ///< periodic: Newton's method found the orbit, and it attracts
+  bool is_proven = false;  ///< periodic: the orbit was found, and it attracts
+  /// Of a proven orbit: no contact can happen on the way to it, so that it is that of the linear
+  /// rotor; else Newton's method found it.
+  bool is_free = false;
   double residual = 0.0;    ///< of a proven orbit after its period, in length scales
-  double resolution = 0.0;  ///< exponents within +-this count as zero [1/revolution]
+  double zero = 0.0;        ///< exponents within +-this count as zero [1/revolution]
+  double resolution = 0.0;  ///< the largest one of 99 of 100 motions is within +-this of its limit
+  Drift drift;              ///< of the sections, where the orbit is not proven
+  /// Of a motion that has not settled: after how many revolutions since its start it would have, by
+  /// the decay that was seen; 0: none was seen.
+  long settles_after = 0;
   /// Of the set that the sections at phase 0 lie on: 1 for a closed curve (see section_geometry.hpp);
   /// NaN where the orbit is proven, or too few sections are known.
   double section_dimension = std::numeric_limits<double>::quiet_NaN();
@@ -81,12 +92,12 @@ void settle(std::span<Subject> motions, const ClassifyOptions& options);
 
 /// Tells what those motions are that are not proven to be periodic, from averaged exponents.
 ///
-/// A motion is hyperchaotic or chaotic with two or one of them above the resolution, quasi-periodic
-/// if the largest is within it, and periodic below it. The resolution, (1 + ln T) / T for T
-/// revolutions, is above one over the averaging time: smaller exponents than that cannot be told
-/// from zero.
+/// A motion is hyperchaotic or chaotic with two or one of them above zero, as estimate_exponents has
+/// it; else it is quasi-periodic if the largest counts as zero, and periodic below, unless means over
+/// its sections still change by more than 2 % of their spread: then it has not settled. What decays
+/// has a time after which it would have; without contact this follows from the linear rotor.
 ///
-/// @source [Benettin1980]
+/// @source [Benettin1980] for exponents, [SanderMeiss2020] for means
 void average(std::span<Subject> motions, const ClassifyOptions& options);
 
 /// Both: what a motion becomes from a start.

@@ -15,6 +15,10 @@ namespace {
 constexpr int most_doublings = 64;
 constexpr double resonant = 1e-14;  ///< reciprocal condition number of a resonance
 constexpr double careful = 1.0 - 1e-9;
+/// Reciprocal condition number of modes that a motion is not told from: their sums lose six digits.
+constexpr double dependent = 1e-6;
+constexpr double undamped = 1e-12;  ///< decay by the fastest eigenvalue that rounding may be
+constexpr double careful_of_modes = 1.0 - 1e-6;
 
 /// y_p of y' = A y + F (1, cos, sin); nothing at a resonance or with a free rigid-body motion.
 std::optional<Mat> periodic_motion(const ContactSystem& system) {
@@ -51,6 +55,12 @@ double largest_radius(const Vec2& center, const Vec2& c, const Vec2& s) {
   }
   // between samples: the distance of an arc from its chord's ends
   return largest + (c.norm() + s.norm()) * spacing * spacing / 8.0;
+}
+
+/// Largest distance of the ellipse c cos + s sin from its center.
+double major_semi_axis(const Vec2& c, const Vec2& s) {
+  const double sum = c.squaredNorm() + s.squaredNorm(), cross = c(0) * s(1) - c(1) * s(0);
+  return std::sqrt(0.5 * (sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * cross * cross))));
 }
 
 /// Solution of A^T P + P A = -Q, or nothing if e^(A t) does not decay.
@@ -117,6 +127,7 @@ void FreeFlight::prepare() {
         careful * c.clearance - largest_radius(c.U * periodic_.col(0).head(n) - c.offset,
                                                c.U * periodic_.col(1).head(n),
                                                c.U * periodic_.col(2).head(n));
+    left_.push_back(left);
     room_.push_back(left > 0.0 ? careful * left * left / reach : -1.0);
   }
 }
@@ -129,9 +140,54 @@ bool FreeFlight::is_certain(const MotionState& state) {
   }
   if (!is_prepared_) prepare();
   if (!decays_) return false;
-  const Vec z = state.y - periodic_ * load_at(state.phase);
+  const Vec z = state.y - steady_state(state.phase);
   const double size = z.dot(P_ * z);
-  return std::all_of(room_.begin(), room_.end(), [&](double room) { return size < room; });
+  return std::all_of(room_.begin(), room_.end(), [&](double room) { return size < room; }) ||
+         is_certain_by_modes(z);
+}
+
+bool FreeFlight::decays() {
+  if (!is_prepared_) prepare();
+  return decays_;
+}
+
+Vec FreeFlight::steady_state(double phase) const {
+  return periodic_ * load_at(phase);
+}
+
+void FreeFlight::prepare_modes() {
+  has_modes_ = true;
+  const Vec scale = system_.state_scale();
+  const auto modes = general_modes(scale.cwiseInverse().asDiagonal() * first_order_matrix(system_) *
+                                   scale.asDiagonal());
+  if (!modes) return;
+  const double fastest = modes->values.cwiseAbs().maxCoeff();
+  if (!(modes->values.real().maxCoeff() < -undamped * fastest)) return;
+  const DenseLu<CMat> factors(modes->vectors);
+  if (!(factors.rcond() > dependent)) return;
+  const auto n = system_.coordinates();
+  const Mat to_scale = scale.cwiseInverse().asDiagonal();
+  to_modes_ = factors.solve(to_scale.cast<Complex>());
+  reach_.resize(std::ssize(left_), 2 * n);
+  Eigen::Index row = 0;
+  for (const ReducedContact& c : system_.contacts()) {
+    if (c.blade.number > 0) continue;
+    for (Eigen::Index j = 0; j < 2 * n; ++j) {
+      const CVec u = c.U * scale.head(n).asDiagonal() * modes->vectors.col(j).head(n);
+      reach_(row, j) = major_semi_axis(u.real(), u.imag());
+    }
+    ++row;
+  }
+}
+
+bool FreeFlight::is_certain_by_modes(const Vec& z) {
+  if (!has_modes_) prepare_modes();
+  if (to_modes_.size() == 0) return false;
+  const Vec reached = reach_ * (to_modes_ * z).cwiseAbs();
+  for (Eigen::Index i = 0; i < reached.size(); ++i) {
+    if (!(reached(i) < careful_of_modes * left_[static_cast<std::size_t>(i)])) return false;
+  }
+  return true;
 }
 
 void FreeFlight::finish(MotionState& state, long last_revolution) {

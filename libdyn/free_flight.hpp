@@ -17,9 +17,14 @@ namespace whirl {
 ///   max |U y_p - offset| + |U P^(-1) U^T|^(1/2) (z^T P z)^(1/2) < clearance,   z = y - y_p,
 ///
 /// where A^T P + P A = -Q with Q > 0: z^T P z never grows, and it bounds |U z| by the inequality of
-/// Cauchy and Schwarz. No eigenvector is involved, so that defective modes are no exception. If the
-/// free motion does not decay (undamped or rigid-body modes), nothing is certain; nor where a
-/// revolution is too long beside the fastest motion to be computed at once (see LinearFlow).
+/// Cauchy and Schwarz. No eigenvector is involved, so that defective modes are no exception. Or if
+///
+///   max |U y_p - offset| + sum_j |w_j| a_j < clearance,   z = sum_j w_j v_j,   A v_j = lambda_j v_j,
+///
+/// with a_j the major semi-axis of Re(U v_j e^(i t)): exact where one mode whirls about a circle, and
+/// left out where the v_j are nearly dependent. If the free motion does not decay (undamped or
+/// rigid-body modes), nothing is certain; nor where a revolution is too long beside the fastest motion
+/// to be computed at once (see LinearFlow).
 ///
 /// @source [Kailath1980], sec. 2.6 (Lyapunov's equation); P by doubling [Smith1968]
 class FreeFlight {
@@ -29,19 +34,30 @@ class FreeFlight {
   /// Whether no contact can ever happen from this state on.
   bool is_certain(const MotionState& state);
 
+  /// Whether the free motion, of a system without oil films, decays towards y_p.
+  bool decays();
+  /// y_p at a phase, where the free motion decays to it.
+  Vec steady_state(double phase) const;
+
   /// Moves a state to the end of the given revolution (phase 0), in a time that does not grow with
   /// the number of revolutions.
   void finish(MotionState& state, long last_revolution);
 
  private:
   void prepare();
+  void prepare_modes();
+  bool is_certain_by_modes(const Vec& z);
 
   const ContactSystem& system_;
   std::optional<LinearFlow> flow_;
   bool is_prepared_ = false, decays_ = false;
   Mat periodic_;              ///< y_p = periodic_ (1, cos phase, sin phase)
   Mat P_;                     ///< of the quadratic bound
+  std::vector<double> left_;  ///< per contact: how far y_p stays away from it [m]
   std::vector<double> room_;  ///< per contact: the largest z^T P z that cannot reach it
+  bool has_modes_ = false;    ///< whether the next two were looked for
+  CMat to_modes_;             ///< w = to_modes_ z; empty: the modes are nearly dependent
+  Mat reach_;                 ///< a_j, contacts x modes [m]
 };
 
 }  // namespace whirl

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libdyn/smooth_average.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 
@@ -69,16 +70,6 @@ double tail_of(const Mat& scaled_points) {
     if (k > K - some) last = std::max(last, size);
   }
   return largest > 0.0 ? last / largest : 0.0;
-}
-
-/// Weights exp(-1 / (t (1 - t))) of a smooth average.
-Vec smooth_weights(Eigen::Index count) {
-  Vec w(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const double t = (static_cast<double>(i) + 1.0) / (static_cast<double>(count) + 1.0);
-    w(i) = std::exp(-1.0 / (t * (1.0 - t)));
-  }
-  return w / w.sum();
 }
 
 /// The matrix of an angle by its values at even ones.

@@ -71,6 +71,7 @@ void PointTable::write(ResultWriter& file) const {
     } else {
       file.dataset(path, values_[i], shape, info);
     }
+    if (!c.words.empty()) file.attribute(path, words_attribute, c.words);
   }
   const bool is_complete = done() == points();
   file.attribute(group_, "complete", is_complete ? 1 : 0);
@@ -90,7 +91,9 @@ void PointTable::read(const ResultReader& file) {
   };
   std::vector<std::vector<double>> values;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    values.push_back(take(group_ + '/' + columns_[i].name, values_[i].size()));
+    const std::string path = group_ + '/' + columns_[i].name;
+    const bool lacks = columns_[i].may_lack && !file.has(path);
+    values.push_back(lacks ? values_[i] : take(path, values_[i].size()));
   }
   std::vector<int> done(points(), 1);
   if (file.number_attribute(group_, "complete") == 0.0) {

@@ -10,6 +10,9 @@
 
 namespace whirl {
 
+/// Attribute of a dataset of codes: words separated by commas, the first one of code 0.
+inline constexpr const char* words_attribute = "words";
+
 /// A dataset of a study: one number of every point, or several.
 struct Column {
   std::string name;  ///< below the group of the study
@@ -17,6 +20,8 @@ struct Column {
   bool is_integer = false;
   std::vector<Eigen::Index> shape{};  ///< of what a point has; empty: one number
   std::vector<std::string> axes{};    ///< paths of the datasets along it
+  std::string words{};                ///< of codes, as words_attribute; empty: none
+  bool may_lack = false;              ///< in files that were begun without it: it stays NaN or -1
 
   std::size_t size() const;
 };

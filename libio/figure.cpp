@@ -8,7 +8,7 @@ namespace whirl {
 
 namespace {
 
-constexpr std::array<PaintColors, 33> paints{{
+constexpr std::array<PaintColors, 34> paints{{
     {"ink", "#222222", "#222222", "#e6e6e6"},
     {"gray", "#707070", "#606060", "#9a9a9a"},
     {"faint", "#e4e4e4", "#707070", "#33373d"},
@@ -31,6 +31,7 @@ constexpr std::array<PaintColors, 33> paints{{
     {"quasi_periodic", "#3aa76d", "#257a4d", "#4fc487"},
     {"chaotic", "#e66101", "#b04a00", "#ff8b3d"},
     {"hyperchaotic", "#8c0f1c", "#8c0f1c", "#ff4d5e"},
+    {"not_settled", "#d3b0cf", "#8f5a88", "#7d5a7a"},
     {"failed", "#000000", "#000000", "#ffffff"},
     {"series_1", "#0072b2", "#00659e", "#4db4ee"},
     {"series_2", "#d55e00", "#b85100", "#ff8f3f"},

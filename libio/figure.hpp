@@ -35,6 +35,7 @@ enum class Paint {
   quasi_periodic,
   chaotic,
   hyperchaotic,
+  not_settled,
   failed,
   series  ///< the first of ten that people with color-vision deficiency tell apart
 };

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t most_together = 64;  ///< starts, in the lanes of one batch
 const std::string group = "/basins";
+constexpr int failed = -1, unsettled = -2;  ///< in place of the number of an attractor
 
 /// Where the starts come from: the axes, or chance around the model's start.
 struct Starts {
@@ -29,9 +30,10 @@ struct Starts {
   std::uint64_t seed = 0;
 
   std::size_t points() const { return count > 0 ? count : setup.points(); }
+  /// The first of random starts is the model's own.
   StudyPoint point(std::size_t number) const {
     StudyPoint p = setup.point(count > 0 ? 0 : number);
-    if (count > 0 && p.scene) {
+    if (count > 0 && number > 0 && p.scene) {
       MotionState& start = p.subject.found.end;
       start = random_start(p.scene->contacts, start, size, seed, number);
     }
@@ -149,14 +151,21 @@ Report run_basins(const Invocation& call) {
 
   std::vector<std::size_t> good;
   std::vector<Ending> endings;
+  std::vector<int> attractor(table.points(), failed);
+  std::size_t ended = 0;
   for (std::size_t i = 0; i < table.points(); ++i) {
-    if (motion_name(table, i).empty()) continue;
+    const std::string motion = motion_name(table, i);
+    if (motion.empty()) continue;
+    ++ended;
+    if (motion == name_of(MotionKind::not_settled)) {
+      attractor[i] = unsettled;
+      continue;
+    }
     good.push_back(i);
     endings.push_back(ending_at(table, i));
   }
   const std::vector<int> found = attractors(first.scene->contacts, endings);
   std::vector<Basin> basins;
-  std::vector<int> attractor(table.points(), -1);
   for (std::size_t i = 0; i < good.size(); ++i) {
     const auto number = static_cast<std::size_t>(found[i]);
     if (number == basins.size()) basins.push_back({good[i], 0});
@@ -166,8 +175,10 @@ Report run_basins(const Invocation& call) {
   if (outcome.status == 0 && call.has("out")) {
     const auto file = begin();
     table.write(*file);
-    file->dataset(group + "/attractor", attractor, shape,
-                  {"", "number of the motion that a start ends in, from 0; -1: failed", axes});
+    file->dataset(
+        group + "/attractor", attractor, shape,
+        {"", "number of the motion that a start ends in, from 0; -1: failed, -2: not settled",
+         axes});
     file->commit();
   }
 
@@ -182,7 +193,7 @@ Report run_basins(const Invocation& call) {
   for (const std::size_t k : order) {
     const std::size_t i = basins[k].first;
     const Ending e = ending_at(table, i);
-    const double share = static_cast<double>(basins[k].count) / static_cast<double>(good.size());
+    const double share = static_cast<double>(basins[k].count) / static_cast<double>(ended);
     double impacts = 0.0;
     for (const double per_rev : table.at("impacts_per_rev", i)) impacts += per_rev;
     std::string regimes;
@@ -209,6 +220,11 @@ Report run_basins(const Invocation& call) {
               e.period > 0 ? std::to_string(e.period) : "-", regimes.empty() ? "-" : regimes,
               fmt::format("{:.4g}", impacts), fmt::format("{:+.4f}", table.at("exponent", i)[0]),
               std::to_string(i + 1)});
+  }
+  if (const std::size_t open = ended - good.size(); open > 0) {
+    const double share = static_cast<double>(open) / static_cast<double>(ended);
+    text.row({std::string(name_of(MotionKind::not_settled)), fmt::format("{:.2f} %", 100.0 * share),
+              "-", "-", "-", "-", "-"});
   }
   report.record.set("starts", static_cast<long>(table.points())).set("attractors", list);
   if (!setup.axes().empty()) report.record.set("axes", setup.axes_record());

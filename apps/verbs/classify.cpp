@@ -12,8 +12,24 @@ namespace whirl {
 
 namespace {
 
+constexpr long longer = 4;  ///< times the revolutions, that halve what chance leaves of a mean
+
 std::string plural(long n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+/// What would tell a motion that has not settled.
+std::string what_settles(const Classification& c) {
+  std::string text = fmt::format(
+      "  means over sections still change by {:.2g} of their spread from one half of them to the "
+      "other\n",
+      c.drift.change);
+  if (c.settles_after > 0) {
+    return text + fmt::format("  would settle in about {} revolutions: --discard {}\n",
+                              c.settles_after, c.settles_after);
+  }
+  return text + fmt::format("  without a steady decay: --revolutions {} would tell more\n",
+                            longer * c.revolutions);
 }
 
 /// What was found, and why it is so.
@@ -28,16 +44,23 @@ std::string evidence(const Classification& c, double period) {
   }
   text += "\n";
   const double largest = c.exponents(0);
-  if (c.is_proven) {
+  if (c.is_free) {
+    text += fmt::format(
+        "  no contact can happen any more: the orbit is the linear rotor's; its largest multiplier "
+        "is "
+        "{:.6f} a revolution\n",
+        std::exp(largest));
+  } else if (c.is_proven) {
     text += fmt::format(
         "  Newton's method found the orbit, to {:.0e} length scales; its largest multiplier is "
         "{:.6f} a revolution\n",
         c.residual, std::exp(largest));
   } else {
     text += fmt::format(
-        "  largest exponent {:+.4f} a revolution ({:+.3f} 1/s), mean of {}; within {:.4f} it would "
-        "count as zero\n",
-        largest, largest / period, c.revolutions, c.resolution);
+        "  largest exponent {:+.4f} a revolution ({:+.3f} 1/s), mean of {}; known to {:.4f} (99 of "
+        "100), within {:.4f} it would count as zero\n",
+        largest, largest / period, c.revolutions, c.resolution, c.zero);
+    if (c.kind == MotionKind::not_settled) text += what_settles(c);
     if (c.section_dimension < 1e9) {
       text += fmt::format("  sections at phase 0 lie on a set of dimension {:.2f}{}\n",
                           c.section_dimension,
@@ -80,8 +103,12 @@ Report run_classify(const Invocation& call) {
   r.set("motion", is_known ? Record(name_of(c.kind)) : Record(nullptr));
   r.set("period_revs", is_known && c.period > 0 ? Record(c.period) : Record(nullptr));
   r.set("lyapunov_per_rev", std::vector<double>(c.exponents.begin(), c.exponents.end()));
-  r.set("resolution_per_rev", c.resolution).set("is_proven", c.is_proven);
+  r.set("zero_per_rev", c.zero)
+      .set("resolution_per_rev", c.resolution)
+      .set("is_proven", c.is_proven);
   r.set("section_dimension", c.section_dimension);
+  r.set("settles_after_revs",
+        is_known && c.settles_after > 0 ? Record(c.settles_after) : Record(nullptr));
   r.set("residual", c.is_proven ? Record(c.residual) : Record(nullptr));
   r.set("impacts", c.impacts()).set("revs", c.revolutions);
   add_contacts(r, c.contacts, c.revolutions);

@@ -106,8 +106,9 @@ std::string shares(const PointTable& table, const StudySetup& setup) {
   const auto rank = [](const std::string& kind) {
     if (kind == "equilibrium") return 0;
     if (kind.starts_with("period ")) return std::stoi(kind.substr(7));
-    const std::vector<std::string> rest{"other periods", "quasi-periodic", "chaotic",
-                                        "hyperchaotic",  "failed",         "not computed"};
+    std::vector<std::string> rest{"other periods"};
+    for (const auto& [name, unused] : choices(MotionKind{})) rest.emplace_back(name);
+    rest.insert(rest.end(), {"failed", "not computed"});
     return 1000 + static_cast<int>(std::find(rest.begin(), rest.end(), kind) - rest.begin());
   };
   std::vector<std::string> kinds;
@@ -136,6 +137,22 @@ std::string shares(const PointTable& table, const StudySetup& setup) {
     contacts.row(cells(std::string(name_of(regime)), percents));
   }
   return text + "\n" + contacts.text();
+}
+
+/// The sign of a motion that is not periodic: the first letter of its kind, as the list has them.
+char letter_of(std::string_view motion) {
+  if (motion == name_of(MotionKind::hyperchaotic)) return 'H';
+  return motion.front();
+}
+
+/// What these signs mean.
+std::string letters() {
+  std::string text;
+  for (const auto& [name, kind] : choices(MotionKind{})) {
+    if (kind == MotionKind::equilibrium || kind == MotionKind::periodic) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", letter_of(name), name);
+  }
+  return text;
 }
 
 /// The plane as signs, the first axis to the right, the second one up.
@@ -167,7 +184,7 @@ std::string picture(const PointTable& table, const StudySetup& setup) {
         text +=
             period > 0.0 && period < 10.0 ? static_cast<char>('0' + static_cast<int>(period)) : 'p';
       } else {
-        text += motion == "quasi-periodic" ? 'q' : motion == "chaotic" ? 'c' : 'H';
+        text += letter_of(motion);
       }
     }
     text += '\n';
@@ -180,11 +197,12 @@ std::string picture(const PointTable& table, const StudySetup& setup) {
   }
   return text + fmt::format(
                     "\n           to the right {}, up {}{}\n           1 to 9 period, p other "
-                    "periodic, q quasi-periodic, c chaotic, H hyperchaotic, · no contact\n",
+                    "periodic, {}, · no contact\n",
                     across.title(), up.title(),
                     planes > 1 ? fmt::format(", {} = {:.6g}", setup.axes()[2].path,
                                              setup.axes()[2].shown(0))
-                               : "");
+                               : "",
+                    letters());
 }
 
 }  // namespace

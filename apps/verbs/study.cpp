@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -21,13 +22,13 @@
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
 #include "libio/own_file.hpp"
+#include "libio/motion_codes.hpp"
 
 namespace whirl {
 
 namespace {
 
-constexpr const char* motion_codes =
-    "0 equilibrium, 1 periodic, 2 quasi-periodic, 3 chaotic, 4 hyperchaotic, -1 failed";
+constexpr std::size_t classification_size = 15;  ///< columns
 
 /// The parts of a call that change what is computed; the model is compared as a text.
 std::vector<std::string> essential(const Call& call) {
@@ -75,6 +76,39 @@ void resume(const Invocation& call, const std::optional<EarlierEnd>& start,
     refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
   }
   take(earlier);
+}
+
+/// Motions of a study that have not settled.
+struct Unsettled {
+  long motions = 0, would_settle = 0;
+  long after = 0;  ///< revolutions of transient after which these would have settled
+};
+
+Unsettled unsettled_of(const PointTable& table) {
+  Unsettled u;
+  for (std::size_t i = 0; i < table.points(); ++i) {
+    if (motion_name(table, i) != name_of(MotionKind::not_settled)) continue;
+    ++u.motions;
+    const long after = static_cast<long>(table.number("settles_after", i));
+    if (after > 0) ++u.would_settle;
+    u.after = std::max(u.after, after);
+  }
+  return u;
+}
+
+std::string unsettled_text(const Unsettled& u) {
+  std::string text =
+      fmt::format("\n  {} motion{} not settled", u.motions, u.motions == 1 ? " has" : "s have");
+  if (u.would_settle == u.motions) {
+    text +=
+        fmt::format("; --discard {} would settle {}\n", u.after, u.motions == 1 ? "it" : "them");
+  } else if (u.would_settle > 0) {
+    text += fmt::format("; --discard {} would settle {}, of others more --revolutions would tell\n",
+                        u.after, u.would_settle);
+  } else {
+    text += "; more --revolutions would tell what they become\n";
+  }
+  return text;
 }
 
 /// Removes what killed runs have left beside a file.
@@ -327,12 +361,13 @@ std::vector<Column> classification_columns(const Scene& scene, const std::string
   const std::vector<Eigen::Index> contacts{scene.contacts.owners()};
   const std::vector<std::string> per{contacts[0] > 0 ? group + "/contact" : ""};
   return {
-      {"motion", "", std::string("kind of motion: ") + motion_codes, true},
+      {"motion", "", "kind of motion: " + motion_legend(), true, {}, {}, motion_words()},
       {"period", "", "period of a periodic motion [revolutions]; 0: none, or longer", true},
       {"is_proven", "", "whether Newton's method found the attracting orbit", true},
       {"transient", "", "revolutions until this was known, or all of the transient", true},
       {"revolutions", "", "revolutions of contact measures", true},
-      {"resolution", "", "exponents within this count as zero [1/revolution]"},
+      {"resolution", "",
+       "the largest exponent is known to this in 99 of 100 motions [1/revolution]"},
       {"section_dimension", "", "dimension of the sections, 1 for a closed curve"},
       {"exponent", "", "Lyapunov exponents, descending [1/revolution]", false, exponents},
       {"regime", "", "regime of a contact: 0 none, 1 intermittent, 2 permanent", true, contacts,
@@ -342,6 +377,15 @@ std::vector<Column> classification_columns(const Scene& scene, const std::string
       {"sticking", "", "share of time sticking", false, contacts, per},
       {"max_normal", "N", "largest normal force", false, contacts, per},
       {"max_tangential", "N", "largest friction force", false, contacts, per},
+      {"settles_after",
+       "",
+       "revolutions of transient that would have settled the motion; 0: it has, or that is not "
+       "known",
+       true,
+       {},
+       {},
+       "",
+       true},
   };
 }
 
@@ -356,7 +400,7 @@ void write_classification_axes(ResultWriter& file, const Scene& scene, const std
 PointRow classification_row(const StudyPoint& point) {
   const Classification& c = point.subject.found;
   if (!point.is_good()) {
-    PointRow row(14);
+    PointRow row(classification_size);
     row[0] = {-1.0};
     return row;
   }
@@ -373,7 +417,9 @@ PointRow classification_row(const StudyPoint& point) {
                {},
                {},
                {},
-               {}};
+               {},
+               {static_cast<double>(c.settles_after)}};
+  assert(row.size() == classification_size);
   for (const ContactMeasure& m : c.contacts) {
     row[8].push_back(static_cast<double>(m.regime()));
     row[9].push_back(m.duty);
@@ -447,6 +493,14 @@ StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable
 
 void add_outcome(const Invocation& call, const StudyOutcome& outcome, const PointTable& table,
                  Report& report) {
+  const Unsettled unsettled = unsettled_of(table);
+  Record not_settled;
+  not_settled.set("motions", unsettled.motions);
+  not_settled.set("settle_after_revs",
+                  unsettled.after > 0 ? Record(unsettled.after) : Record(nullptr));
+  not_settled.set("would_settle", unsettled.would_settle);
+  report.record.set("not_settled", not_settled);
+  if (unsettled.motions > 0) report.text += unsettled_text(unsettled);
   if (outcome.resumed > 0) {
     report.text +=
         fmt::format("\n  {} of {} points were there already\n", outcome.resumed, table.points());

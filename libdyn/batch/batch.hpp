@@ -23,6 +23,9 @@ struct Trajectory {
   std::vector<double> sections;          ///< states at the ends of revolutions, if asked for
   std::vector<ContactMeasure> contacts;  ///< of all revolutions, if asked for (times, not shares)
   Vec exponents;                         ///< Lyapunov exponents, descending, if asked for [1/s]
+  /// Logarithms of what the columns of tangents have grown by at the ends of revolutions, 2 n after
+  /// 2 n, if asked for; the last ones over the time are the exponents, before they are sorted.
+  std::vector<double> growths;
   Mat tangent;                           ///< derivative of the end by the start, if asked for
   /// Mean divergence of the flow, with exponents or tangent [1/s]: the sum of all exponents, and
   /// over the time the logarithm of the tangent's determinant. Not with sticking, which has none.
@@ -41,6 +44,7 @@ struct BatchOptions {
   /// All 2 n Lyapunov exponents; their tangents start as the unit vectors. Sticking takes a direction
   /// away, whose exponent, minus infinity, comes out as a number far below all others.
   bool exponents = false;
+  bool growths = false;  ///< with the exponents, how they come about
   bool tangent = false;  ///< instead of the exponents
   /// Called every few hundred steps with the revolutions done by this call, in each of its threads
   /// with its own; false: stop, all trajectories of the thread as they are. May be empty.

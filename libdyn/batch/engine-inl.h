@@ -175,6 +175,7 @@ class Engine {
   HWY_ATTR void jump_tangents(int l, const Saltation& s);
   HWY_ATTR uint64_t due_lanes(uint64_t ends) const;
   HWY_ATTR void orthonormalize(uint64_t due);
+  HWY_ATTR void keep_growths(uint64_t ends);
   HWY_ATTR P contact_divergence(size_t i, const P& h);
   template <int Bodies>
   __attribute__((flatten)) HWY_ATTR void move_columns(P* columns, bool any_sticks, const P& h);

@@ -146,6 +146,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
   }
   if (has_tangents() && options_.exponents) orthonormalize(due_lanes(ends));
+  if (has_tangents() && options_.growths) keep_growths(ends);
   if (!goes_on) {
     trajectory_[0]->outcome = Outcome::stopped_by_observer;
     finished_ |= 1;

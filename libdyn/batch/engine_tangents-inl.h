@@ -341,6 +341,16 @@ HWY_ATTR void Engine<P>::orthonormalize(uint64_t due) {
   }
 }
 
+/// Adds the growth of the columns to the trajectories whose revolutions end.
+template <class P>
+HWY_ATTR void Engine<P>::keep_growths(uint64_t ends) {
+  for (uint64_t rest = ends; rest != 0; rest &= rest - 1) {
+    const int l = __builtin_ctzll(rest);
+    std::vector<double>& growths = trajectory_[static_cast<size_t>(l)]->growths;
+    for (const P& sum : tangents_->log_sums) growths.push_back(static_cast<double>(lane(sum, l)));
+  }
+}
+
 /// Lets the columns of a lane jump with the acceleration at an event.
 template <class P>
 HWY_ATTR void Engine<P>::jump_tangents(int l, const Saltation& s) {

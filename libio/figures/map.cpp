@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libio/figures/all.hpp"
+#include "libio/motion_codes.hpp"
 
 namespace whirl {
 
@@ -85,25 +86,54 @@ void keep_used(Cells& cells, const std::vector<Category>& all) {
   }
 }
 
+Paint paint_of(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::equilibrium:
+      return Paint::rest;
+    case MotionKind::periodic:
+      return Paint::longer;
+    case MotionKind::quasi_periodic:
+      return Paint::quasi_periodic;
+    case MotionKind::chaotic:
+      return Paint::chaotic;
+    case MotionKind::hyperchaotic:
+      return Paint::hyperchaotic;
+    case MotionKind::not_settled:
+      return Paint::not_settled;
+  }
+  return Paint::failed;
+}
+
+constexpr int told_periods = 4;  ///< that have a color of their own
+
+/// What a cell of a map may be: periodic motions by their period, others by their kind.
 const std::vector<Category>& motions() {
-  static const std::vector<Category> all{{"equilibrium", Paint::rest},
-                                         {"period 1", Paint::period_1},
-                                         {"period 2", Paint::period_2},
-                                         {"period 3", Paint::period_3},
-                                         {"period 4", Paint::period_4},
-                                         {"longer period", Paint::longer},
-                                         {"quasi-periodic", Paint::quasi_periodic},
-                                         {"chaotic", Paint::chaotic},
-                                         {"hyperchaotic", Paint::hyperchaotic},
-                                         {"failed", Paint::failed}};
+  static const std::vector<Category> all = [] {
+    std::vector<Category> list;
+    for (const auto& [name, kind] : choices(MotionKind{})) {
+      if (kind != MotionKind::periodic) {
+        list.push_back({std::string(name), paint_of(kind)});
+        continue;
+      }
+      for (int p = 1; p <= told_periods; ++p) {
+        const int paint = static_cast<int>(Paint::period_1) + p - 1;
+        list.push_back({fmt::format("period {}", p), static_cast<Paint>(paint)});
+      }
+      list.push_back({"longer period", Paint::longer});
+    }
+    list.push_back({"failed", Paint::failed});
+    return list;
+  }();
   return all;
 }
 
-double motion_number(double code, double period) {
-  if (code < 0.0) return 9.0;
-  if (code == 0.0) return 0.0;
-  if (code == 1.0) return period >= 1.0 && period <= 4.0 ? period : 5.0;
-  return code + 4.0;
+/// Which of motions() it is.
+double motion_number(std::optional<MotionKind> kind, double period) {
+  if (!kind) return static_cast<double>(motions().size() - 1);
+  const auto number = static_cast<int>(*kind), periodic = static_cast<int>(MotionKind::periodic);
+  if (number < periodic) return number;
+  if (number > periodic) return number + told_periods;
+  return periodic + (period >= 1.0 && period <= told_periods ? period - 1.0 : told_periods);
 }
 
 }  // namespace
@@ -112,13 +142,14 @@ std::vector<Figure> map_figures(const ResultView& result) {
   const Planes planes(result, "/map");
   const auto motion = result.file.numbers("/map/motion"),
              period = result.file.numbers("/map/period");
+  const MotionCodes codes(result.file, "/map/motion");
   const std::vector<double> done =
       result.file.has("/map/done") ? result.file.numbers("/map/done") : std::vector<double>{};
   std::vector<Figure> figures;
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {
     Cells cells = planes.cells(plane, [&](std::size_t i) {
       if (!done.empty() && done[i] == 0.0) return std::nan("");
-      return motion_number(motion[i], period[i]);
+      return motion_number(codes.kind(motion[i]), period[i]);
     });
     keep_used(cells, motions());
     cells.title = "motion";
@@ -172,19 +203,22 @@ std::vector<Figure> regime_map_figures(const ResultView& result) {
 }
 
 std::vector<Figure> basin_figures(const ResultView& result) {
+  constexpr double others = 2.0;  // categories before the motions: not settled (-2), failed (-1)
   auto attractor = result.file.numbers("/basins/attractor");  // from 0; -1: failed
-  for (double& a : attractor) a += 1.0;
+  for (double& a : attractor) a += others;
   const auto motion = result.file.numbers("/basins/motion"),
              period = result.file.numbers("/basins/period");
+  const MotionCodes codes(result.file, "/basins/motion");
   double count = 0.0;
-  for (const double a : attractor) count = std::max(count, a);
+  for (const double a : attractor) count = std::max(count, a - others + 1.0);
   // a motion is described by the first start that led there
-  std::vector<Category> all{{"failed", Paint::failed}};
+  std::vector<Category> all{{"not settled", Paint::not_settled}, {"failed", Paint::failed}};
   for (int number = 1; number <= static_cast<int>(count); ++number) {
     const auto first = static_cast<std::size_t>(
-        std::find(attractor.begin(), attractor.end(), number) - attractor.begin());
+        std::find(attractor.begin(), attractor.end(), number - 1.0 + others) - attractor.begin());
     if (first == attractor.size()) continue;
-    const auto kind = static_cast<std::size_t>(motion_number(motion[first], period[first]));
+    const auto kind =
+        static_cast<std::size_t>(motion_number(codes.kind(motion[first]), period[first]));
     all.push_back({fmt::format("{}: {}", number, motions()[kind].name),
                    series_paint(static_cast<std::size_t>(number - 1))});
   }

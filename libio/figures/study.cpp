@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "libio/figures/all.hpp"
+#include "libio/motion_codes.hpp"
 
 namespace whirl {
 
@@ -69,9 +69,6 @@ void add_lines(Panel& p, const ShownAxis& axis, const std::vector<std::string>& 
   }
 }
 
-const std::array<const char*, 5> motion_names{"equilibrium", "periodic", "quasi-periodic",
-                                              "chaotic", "hyperchaotic"};
-
 /// Spectra of a station, one way: order, value, amplitude [m].
 struct Spectra {
   std::vector<double> order;
@@ -100,6 +97,7 @@ std::vector<Figure> bifurcation_figures(const ResultView& result) {
   const Table x(result, "/sweep/poincare_x", 2), y(result, "/sweep/poincare_y", 2);
   const Table exponent(result, "/sweep/exponent", 2), motion(result, "/sweep/motion", 2),
       period(result, "/sweep/period", 2);
+  const MotionCodes codes(result.file, "/sweep/motion");
   const bool has_contacts = result.file.has("/sweep/duty");
   const std::size_t values = axis.values.size(), sections = x.width / stations.size();
   const bool has_measures = result.file.has("/sweep/max_radius");
@@ -123,9 +121,8 @@ std::vector<Figure> bifurcation_figures(const ResultView& result) {
       c.size = w == 0 ? 2.7 : 1.7;  // what is below can be seen around what hides it
       for (std::size_t i = 0; i < values; ++i) {
         const std::size_t point = w * values + i;
-        const double kind = motion.at(point);
-        const std::string name =
-            kind < 0.0 || kind > 4.0 ? "failed" : motion_names[static_cast<std::size_t>(kind)];
+        const auto kind = codes.kind(motion.at(point));
+        const std::string name(kind ? name_of(*kind) : "failed");
         const std::string text = period.at(point) > 0.0
                                      ? fmt::format("{}, period {:.0f}", name, period.at(point))
                                      : name;

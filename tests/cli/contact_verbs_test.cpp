@@ -368,8 +368,9 @@ TEST_F(Classify, ClaimsChaosOnlyAboveItsResolution) {
   EXPECT_EQ(r["is_proven"], false);
   EXPECT_TRUE(r["residual"].is_null());
   EXPECT_EQ(r["revs"], 300);
-  EXPECT_GT(r["lyapunov_per_rev"][0], 10.0 * r["resolution_per_rev"].get<double>());
-  EXPECT_NEAR(r["resolution_per_rev"], (1.0 + std::log(300.0)) / 300.0, 1e-12);
+  EXPECT_GT(r["lyapunov_per_rev"][0], 10.0 * r["zero_per_rev"].get<double>());
+  EXPECT_NEAR(r["zero_per_rev"], (1.0 + std::log(300.0)) / 300.0, 1e-12);
+  EXPECT_GT(r["resolution_per_rev"], 2.0 * r["zero_per_rev"].get<double>());
 }
 
 // A motion goes on where its kind was told.

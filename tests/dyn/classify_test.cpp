@@ -114,6 +114,68 @@ TEST(Classify, KnowsRestFromMotion) {
   EXPECT_EQ(around.period, 1);
 }
 
+// A free motion whose transient takes 2000 revolutions to fall to a third is known at once: its
+// multipliers are those of  x'' + c x' + k x = 0,  and where it ends is
+// X = U Omega^2 / (k - m Omega^2 + i c Omega).
+TEST(Classify, SettlesAFreeMotionByItsKnownDecay) {
+  const test::MassInRing p{.Omega = 130.0, .k = 1e4, .c = 0.02, .U = 1e-6, .clearance = 1e-2};
+  const Scene scene = p.scene();
+  const MotionState start = test::state_of({5e-3, 0.0}, {0.0, 0.3});
+  for (const long discard : {0L, 500L}) {
+    const Classification c = classify(scene.contacts, start, {.discard = discard});
+    EXPECT_EQ(c.kind, MotionKind::periodic);
+    EXPECT_TRUE(c.is_proven);
+    EXPECT_TRUE(c.is_free);
+    EXPECT_EQ(c.period, 1);
+    EXPECT_EQ(c.transient, 0);
+    const Vec rates = c.exponents / scene.contacts.period();
+    EXPECT_LT((rates - Vec::Constant(4, -0.5 * p.c)).cwiseAbs().maxCoeff(), 1e-10);
+    const Complex X = p.U * p.Omega * p.Omega / Complex(p.k - p.Omega * p.Omega, p.c * p.Omega);
+    EXPECT_NEAR(c.end.y(0), X.real(), 1e-12);
+    EXPECT_NEAR(c.end.y(1), X.imag(), 1e-12);
+  }
+}
+
+// The bouncing motion of the two-disk rotor has two frequencies once it has settled, at 0.8 % a
+// revolution. Before, it is said when that will be, and so it is.
+TEST(Classify, SaysWhatWouldSettleAMotion) {
+  const test::TwoDiskRub p{
+      .k = 8e6,
+      .mu = 0.0,
+      .start = {{.mode = 1, .amplitude = 4e-3}, {.mode = 2, .amplitude = 3e-3}}};
+  const Scene scene = p.scene();
+  const MotionState start = test::start_of(p.model(), scene);
+  const Classification early =
+      classify(scene.contacts, start, {.discard = 50, .revolutions = 100, .exponents = 100});
+  EXPECT_EQ(early.kind, MotionKind::not_settled);
+  EXPECT_GT(early.drift.change, 0.02);
+  ASSERT_GT(early.settles_after, 150);
+  const Classification later =
+      classify(scene.contacts, start, {.discard = early.settles_after, .revolutions = 200});
+  EXPECT_EQ(later.kind, MotionKind::quasi_periodic);
+  EXPECT_LT(later.drift.change, 0.02);
+  EXPECT_EQ(later.settles_after, 0);
+}
+
+// A mass that hangs just where its ring begins is an oscillator with two stiffnesses and no scale:
+// its motions grow with the unbalance. With that of a hundred-thousandth of the clearance it
+// repeats after two revolutions, between sections that far apart, which is its period nevertheless.
+TEST(Classify, KeepsTheLongerPeriodOfATinyMotion) {
+  const test::MassInRing p{
+      .Omega = 267.0, .k = 1e4, .c = 4.0, .U = 1e-9, .kC = 3e4, .clearance = 1e-3, .gravity = 10.0};
+  const Scene scene = p.scene();
+  const Classification c =
+      classify(scene.contacts, test::state_of({0.0, -1e-3 - 1e-9}, {0.0, 0.0}), {.sections = 2});
+  EXPECT_EQ(c.kind, MotionKind::periodic);
+  EXPECT_TRUE(c.is_proven);
+  EXPECT_EQ(c.period, 2);
+  ASSERT_EQ(c.sections.size(), 8u);
+  const Eigen::Map<const Mat> sections(c.sections.data(), 4, 2);
+  const double apart = distance(scene.contacts, sections.col(0), sections.col(1));
+  EXPECT_GT(apart, 3e-6);
+  EXPECT_LT(apart, 9e-5);
+}
+
 // What cannot be integrated is said, with what was found so far.
 TEST(Classify, StopsWhenAskedTo) {
   const RotorStator p{.Omega = 138.4, .kC = 64e6, .mu = 0.2};

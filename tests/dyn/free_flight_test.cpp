@@ -33,6 +33,33 @@ TEST(FreeFlight, IsCertainOfWhatStaysWithinTheClearance) {
   EXPECT_FALSE(is_certain(scene, apart((Vec(4) << 0.0, 0.0, 0.11, 0.0).finished())));
 }
 
+// A mass that whirls about the center of its ring within the clearance never touches it, however
+// slowly it decays: its mode's radius bounds it.
+TEST(FreeFlight, IsCertainOfAWhirlThatFillsItsRing) {
+  const MassInRing p{.k = 1e4, .c = 0.01, .clearance = 1e-3};
+  const Scene scene = p.scene();
+  const double w = 100.0;
+  for (const double share : {0.9, 0.999, 1.001}) {
+    const double r = share * p.clearance;
+    const MotionState whirl = apart((Vec(4) << r, 0.0, 0.0, w * r).finished());
+    EXPECT_EQ(is_certain(scene, whirl), share < 1.0) << share;
+  }
+}
+
+// Where it ends is the response in closed form, X = U Omega^2 / (k - m Omega^2 + i c Omega).
+TEST(FreeFlight, KnowsItsSteadyState) {
+  const MassInRing p{.Omega = 130.0, .c = 0.05, .U = 1e-5, .clearance = 1e-3};
+  const Scene scene = p.scene();
+  FreeFlight flight(scene.contacts);
+  ASSERT_TRUE(flight.decays());
+  const Complex X = p.U * p.Omega * p.Omega / Complex(p.k - p.m * p.Omega * p.Omega, p.c * p.Omega);
+  const Complex turned = X * std::polar(1.0, 0.7);
+  EXPECT_NEAR(flight.steady_state(0.7)(0), turned.real(), 1e-15);
+  EXPECT_NEAR(flight.steady_state(0.7)(1), turned.imag(), 1e-15);
+  const Scene undamped = MassInRing{.c = 0.0}.scene();
+  EXPECT_FALSE(FreeFlight(undamped.contacts).decays());
+}
+
 TEST(FreeFlight, IsNotCertainWithoutDecay) {
   const Vec y = (Vec(4) << 1e-5, 0.0, 0.0, 0.0).finished();
   EXPECT_FALSE(is_certain(MassInRing{.c = 0.0}.scene(), apart(y)));

@@ -48,6 +48,25 @@ TEST_F(Checkpoint, KnowsWhatIsDone) {
   EXPECT_TRUE(std::isnan(again.at("value", 3)[0]));
 }
 
+// What a table has got since a file was begun stays unknown; what it had may not be missing.
+TEST_F(Checkpoint, GoesOnWithAFileFromBeforeAColumn) {
+  const auto with = [](bool may_lack) {
+    Column later{"later", "", "a later column", true};
+    later.may_lack = may_lack;
+    return PointTable("/study",
+                      {{"kind", "", "kind", true}, {"value", "m", "values", false, {2}}, later},
+                      {2, 3}, {"/study/a", "/study/b"});
+  };
+  PointTable t = table();
+  t.put(4, {{7.0}, {1.0, 2.0}});
+  save(t, "before.h5");
+  PointTable longer = with(true), strict = with(false);
+  longer.read(ResultReader(folder / "before.h5"));
+  EXPECT_EQ(longer.number("kind", 4), 7.0);
+  EXPECT_EQ(longer.number("later", 4), -1.0);
+  EXPECT_THROW(strict.read(ResultReader(folder / "before.h5")), FileError);
+}
+
 // Short rows leave the rest unknown; a whole table needs no flags.
 TEST_F(Checkpoint, IsWholeWhenAllIsDone) {
   PointTable t = table();
