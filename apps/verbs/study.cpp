@@ -20,6 +20,7 @@
 #include "libio/format.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
+#include "libio/result_schema.hpp"
 
 namespace whirl {
 
@@ -63,6 +64,7 @@ void resume(const Invocation& call, const std::string& source,
   if (earlier.string_attribute("/", "whirl_version") != version) {
     refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
   }
+  check_result(earlier);
   take(earlier);
 }
 
