@@ -14,7 +14,8 @@ namespace whirl {
 /// one table, a row per point of these axes; names and counters along other axes (stations,
 /// contacts, modes) become columns, as do the parts of complex numbers. The first line says what
 /// stands in each column, with its SI unit: "x left disk [m]". Numbers are as exact as in the file;
-/// what is not a number is left empty. Left out are datasets that only this program goes on from.
+/// what is not a number is left empty. Texts that begin like a formula (=, +, -, @) get an apostrophe
+/// in front. Left out are datasets that only this program goes on from.
 ///
 /// @return  the files, in the order of the groups
 /// @throws FileError  if one cannot be read or written
