@@ -1,5 +1,6 @@
 // The program: command line in, reports out. The only file that sees CLI11.
 
+#include <fcntl.h>
 #include <fmt/color.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -364,9 +365,20 @@ int write_schema(const std::vector<std::string>& options) {
   return done;
 }
 
+/// Takes the places of standard streams that are closed: or else a result file would get the number of
+/// one, and what is printed there would end in it. To what is not there nothing can be printed.
+void fill_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    (void)::open("/dev/null",
+                 stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);  // the lowest free one
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  fill_standard_streams();
   const std::vector<std::string> words(argv, argv + argc);
   const std::string word = words.size() > 1 ? words[1] : "--help";
   if (word == "--help" || word == "-h" || (word == "help" && words.size() == 2)) {
@@ -396,7 +408,7 @@ int main(int argc, char** argv) {
     }
     return rerun(words[2], {words.begin() + 3, words.end()});
   } catch (const std::exception& error) {
-    fmt::print(stderr, "whirl: {}\n", error.what());
+    std::fputs(fmt::format("whirl: {}\n", error.what()).c_str(), stderr);  // which may be full too
     return failed;
   }
 }

@@ -159,6 +159,7 @@ Sparse condensation(const Sparse& K, const std::vector<int>& condensed) {
   for (int& p : place) {
     if (p == -1) p = kept++;
   }
+  if (kept == 0) throw NumericalError("nothing that can move has inertia or a damper of its own");
   std::vector<Triplet> ss, sk, T;
   for (int j = 0; j < n; ++j) {
     if (place[j] >= 0) T.emplace_back(j, place[j], 1.0);
@@ -257,6 +258,9 @@ Assembler::Assembler(Structure structure)
   }
   if (!problems.empty()) throw ModelError(problems);
   dofs_.T = ties.transformation();
+  if (next > 0 && dofs_.size() == 0) {
+    throw ModelError({}, "", "nothing can move: rigid bearings and links hold every point");
+  }
   fixed_ = {collector.M(next), collector.C(next), collector.G(next), collector.K(next),
             collector.H(next)};
   if (fixed_.H.nonZeros() > 0) depends_on_speed_ = true;

@@ -25,7 +25,7 @@ struct System {
 class Assembler {
  public:
   /// @throws ModelError  as make_mesh, and for connections that cannot be (clamping a body without
-  ///                     tilts, a rigid bearing whose ends are held already, ...)
+  ///                     tilts, a rigid bearing whose ends are held already, ...) or hold everything
   explicit Assembler(Structure structure);
 
   const Structure& structure() const { return structure_; }
@@ -40,7 +40,7 @@ class Assembler {
   /// Condensed exactly are those without mass whose damping is none or proportional to stiffness;
   /// a massless freedom with a damper of its own stays, and makes M singular.
   ///
-  /// @throws NumericalError  if a freedom has neither inertia nor stiffness
+  /// @throws NumericalError  if a freedom has neither inertia nor stiffness, or if none has inertia
   System at(double Omega) const;
 
   /// The same with every freedom that supports leave; M is singular where there is no inertia.

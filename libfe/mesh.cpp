@@ -15,6 +15,9 @@ constexpr double same_place = 1e-9;
 /// Positions closer than this, but not the same, are taken for a slip of the pen.
 constexpr double too_close = 1e-5;
 
+/// More nodes than this are a slip of the pen: their matrices would not fit into the memory.
+constexpr double most_nodes = 1e5;
+
 /// Elements of a segment without given number: as long as its mean diameter, and at least
 /// a 24th of the shaft; a massless cylinder is exact with one.
 int elements_for(const Segment& segment, double piece, double shaft_length) {
@@ -23,6 +26,31 @@ int elements_for(const Segment& segment, double piece, double shaft_length) {
   const double diameter = 0.5 * (segment.left.outer + segment.right.outer);
   const double h = std::max(diameter, shaft_length / 24.0);
   return std::max(1, static_cast<int>(std::ceil(piece / h - 1e-9)));
+}
+
+/// Segments that cannot be told from a point, beside a shaft so long (or beyond all numbers), and
+/// more elements than there can be.
+void check_segments(const Structure& structure) {
+  const double length = structure.length();
+  std::vector<Problem> problems;
+  double elements = 0.0;
+  for (std::size_t i = 0; i < structure.shaft.size(); ++i) {
+    const Segment& segment = structure.shaft[i];
+    const std::string key = fmt::format("shaft.{}", i + 1);
+    elements += segment.elements;
+    if (!(segment.length > same_place * length)) {
+      problems.push_back(
+          {segment.where, key,
+           fmt::format("a segment of {:g} m is no part of a shaft of {:g} m: the two "
+                       "are too different in length",
+                       segment.length, length)});
+    } else if (elements > most_nodes) {
+      problems.push_back(
+          {segment.where, key, fmt::format("more than {:g} elements in all", most_nodes)});
+      break;
+    }
+  }
+  if (!problems.empty()) throw ModelError(problems);
 }
 
 }  // namespace
@@ -56,6 +84,7 @@ double shaft_diameter(const Structure& structure, double z) {
 }
 
 Mesh make_mesh(const Structure& structure) {
+  check_segments(structure);
   const double length = structure.length();
   std::vector<Problem> problems;
 
@@ -145,7 +174,8 @@ Mesh make_mesh(const Structure& structure) {
   for (std::size_t i = 0; i + 1 < mesh.left_to_right.size(); ++i) {
     const int left = mesh.left_to_right[i], right = mesh.left_to_right[i + 1];
     const double middle = 0.5 * (mesh.z[left] + mesh.z[right]);
-    while (middle > start + structure.shaft[segment].length) {
+    while (segment + 1 < structure.shaft.size() &&
+           middle > start + structure.shaft[segment].length) {
       start += structure.shaft[segment].length;
       ++segment;
     }

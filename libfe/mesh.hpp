@@ -37,8 +37,8 @@ struct Mesh {
   int nodes() const { return static_cast<int>(z.size()); }
 };
 
-/// @throws ModelError  for stations off the shaft, unknown nodes or bodies, and two positions that
-///                     differ by less than 1e-5 of the shaft's length without being the same
+/// @throws ModelError  for stations off the shaft, unknown nodes or bodies, unfit segments, and two
+///                     positions nearer than 1e-5 of the shaft's length without being the same
 Mesh make_mesh(const Structure& structure);
 
 /// The point that a station stands for; the mesh has a node there.

@@ -9,7 +9,9 @@ namespace whirl {
 
 namespace {
 
-constexpr double slack = 1e-9;  ///< of a step: rounding at the limits
+constexpr double slack = 1e-9;       ///< of a step: rounding at the limits
+constexpr double widest = 1e300;     ///< limits beyond it would overflow
+constexpr double narrowest = 1e-12;  ///< of the limits: steps between nearer ones are rounding
 
 /// 1, 2 or 5 times a power of ten, not below a number.
 double round_up(double value) {
@@ -76,11 +78,19 @@ std::vector<Tick> Axis::ticks(int most) const {
   return scale == Scale::linear ? linear_ticks(*this, most) : logarithmic_ticks(*this, most);
 }
 
+bool can_be_drawn(const Axis& axis) {
+  if (!(std::abs(axis.first) <= widest && std::abs(axis.last) <= widest)) return false;
+  if (axis.scale == Scale::logarithmic) {
+    return axis.first >= 1.0 / widest && axis.last > axis.first * (1.0 + narrowest);
+  }
+  return axis.last - axis.first > narrowest * std::max(std::abs(axis.first), std::abs(axis.last));
+}
+
 Axis axis_around(const std::vector<double>& values, Scale scale) {
   const bool is_log = scale == Scale::logarithmic;
   double least = INFINITY, largest = -INFINITY;
   for (const double v : values) {
-    if (!std::isfinite(v) || (is_log && v <= 0.0)) continue;
+    if (!(std::abs(v) <= widest) || (is_log && v < 1.0 / widest)) continue;
     least = std::min(least, v);
     largest = std::max(largest, v);
   }
@@ -94,7 +104,7 @@ Axis axis_around(const std::vector<double>& values, Scale scale) {
     const double last = std::max(first + 1.0, std::ceil(std::log10(largest) - slack));
     return {scale, std::pow(10.0, first), std::pow(10.0, last)};
   }
-  if (least == largest) {
+  if (!can_be_drawn({scale, least, largest})) {
     const double room = least == 0.0 ? 1.0 : 0.5 * std::abs(least);
     least -= room;
     largest += room;

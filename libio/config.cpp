@@ -19,24 +19,32 @@ Where place(const toml::source_region& source, const std::string& file) {
   return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
 }
 
-ConfigNode convert(const toml::node& node, const std::string& file) {
+constexpr int most_parts = 16;   ///< of a key; contact.ring.stiffness has three
+constexpr int most_nested = 32;  ///< tables and arrays within one another
+
+/// @param depth  of the tables and arrays that it lies in
+ConfigNode convert(const toml::node& node, const std::string& file, int depth = 0) {
   ConfigNode result;
   result.where = place(node.source(), file);
+  if (depth > most_nested) {
+    throw ModelError(result.where, "",
+                     fmt::format("more than {} tables or lists within one another", most_nested));
+  }
   if (const auto* table = node.as_table()) {
     for (const auto& [key, value] : *table) {
-      ConfigNode entry = convert(value, file);
+      ConfigNode entry = convert(value, file, depth + 1);
       entry.key_where = place(key.source(), file);
       if (entry.where.line == 0) entry.where = entry.key_where;
-      result.entries.emplace_back(std::string(key.str()), std::move(entry));
+      result.entries.push_back({std::string(key.str()), std::move(entry)});
     }
     std::stable_sort(result.entries.begin(), result.entries.end(),
                      [](const auto& a, const auto& b) {
-                       const Where &x = a.second.key_where, &y = b.second.key_where;
+                       const Where &x = a.value.key_where, &y = b.value.key_where;
                        return std::pair(x.line, x.column) < std::pair(y.line, y.column);
                      });
   } else if (const auto* array = node.as_array()) {
     result.kind = ConfigNode::Kind::array;
-    for (const toml::node& item : *array) result.items.push_back(convert(item, file));
+    for (const toml::node& item : *array) result.items.push_back(convert(item, file, depth + 1));
   } else if (const auto* text = node.as_string()) {
     result.kind = ConfigNode::Kind::string;
     result.text = text->get();
@@ -70,6 +78,57 @@ bool is_text(std::string_view text) {
     const auto u = static_cast<unsigned char>(c);
     return u < 0x20 && c != '\n' && c != '\r' && c != '\t';
   });
+}
+
+/// Passes over what stands between quotation marks, three of them or one.
+/// @param at  the first of them; on return behind the last one, or at the end of the text
+void pass_string(std::string_view text, std::size_t& at) {
+  const char mark = text[at];
+  const std::string three(3, mark);
+  const bool is_long = text.substr(at, 3) == three;
+  const std::string_view end = is_long ? std::string_view(three) : std::string_view(&mark, 1);
+  for (at += end.size(); at < text.size(); ++at) {
+    if (text[at] == '\\' && mark == '"') {
+      ++at;
+    } else if (text.substr(at, end.size()) == end) {
+      at += end.size();
+      return;
+    } else if (text[at] == '\n' && !is_long) {
+      return;  // never closed: that is for the parser to say
+    }
+  }
+  at = std::min(at, text.size());
+}
+
+/// Refuses keys of too many parts: toml++ makes a table of each, calls itself for every one of them
+/// and would leave the stack.
+void check_keys(std::string_view text, const Where& where) {
+  int parts = 1, line = 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (c == '"' || c == '\'') {
+      const std::size_t from = at;
+      pass_string(text, at);
+      line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(from),
+                                          text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+      continue;
+    }
+    if (c == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      continue;
+    }
+    if (c == '\n') ++line;
+    if (c == '.') {
+      ++parts;
+    } else if (std::string_view("=,[]{}\n").find(c) != std::string_view::npos) {
+      parts = 1;
+    }
+    if (parts > most_parts) {
+      throw ModelError(where.line == 0 ? where : Where{where.file, line, 1}, "",
+                       fmt::format("a key of more than {} parts", most_parts));
+    }
+    ++at;
+  }
 }
 
 std::string quoted(std::string_view text) {
@@ -153,7 +212,7 @@ bool is_array_of_tables(const ConfigNode& node) {
 void write_table(const ConfigNode& table, const std::string& path, std::string& out) {
   const bool has_headers =
       path.empty() || std::all_of(table.entries.begin(), table.entries.end(), [](const auto& e) {
-        return e.second.kind == ConfigNode::Kind::table;
+        return e.value.kind == ConfigNode::Kind::table;
       });
   for (const auto& [key, value] : table.entries) {
     const bool is_table = value.kind == ConfigNode::Kind::table;
@@ -167,7 +226,7 @@ void write_table(const ConfigNode& table, const std::string& path, std::string& 
       const bool only_tables =
           !value.entries.empty() &&
           std::all_of(value.entries.begin(), value.entries.end(),
-                      [](const auto& e) { return e.second.kind == ConfigNode::Kind::table; });
+                      [](const auto& e) { return e.value.kind == ConfigNode::Kind::table; });
       if (!only_tables || !path.empty()) out += "\n[" + inner + "]\n";
       write_table(value, inner, out);
     } else if (path.empty() && is_array_of_tables(value)) {
@@ -257,6 +316,7 @@ ConfigNode parse_toml(std::string_view text, const std::string& file) {
     throw ModelError({file}, "",
                      "the file is empty; expected a model file beginning with format = 1");
   }
+  check_keys(text, {file, 1, 1});
   try {
     const toml::table table = toml::parse(text, std::string_view(file));
     ConfigNode root = convert(table, file);
@@ -276,6 +336,7 @@ void set_value(ConfigNode& root, std::string_view assignment) {
   const std::string path(assignment.substr(0, equals));
   const std::string text(assignment.substr(equals + 1));
   ConfigNode value;
+  check_keys(text, where);
   try {
     const toml::table parsed = toml::parse("value = " + text);
     if (parsed.size() != 1) throw ModelError(where, path, "expected one value");
@@ -293,6 +354,9 @@ void set_value(ConfigNode& root, std::string_view assignment) {
 
   ConfigNode* node = &root;
   const std::vector<std::string> parts = split_path(path);
+  if (parts.size() > most_parts) {
+    throw ModelError(where, "", fmt::format("a path has {} parts at most", most_parts));
+  }
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const bool is_last = i + 1 == parts.size();
     if (node->kind == ConfigNode::Kind::array) {
@@ -306,8 +370,8 @@ void set_value(ConfigNode& root, std::string_view assignment) {
     }
     ConfigNode* next = node->find(parts[i]);
     if (!next) {
-      node->entries.emplace_back(parts[i], ConfigNode{});
-      next = &node->entries.back().second;
+      node->entries.push_back({parts[i], {}});
+      next = &node->entries.back().value;
       next->where = next->key_where = where;
     }
     if (is_last) {

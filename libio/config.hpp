@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "libfe/base/error.hpp"
@@ -12,13 +11,13 @@ namespace whirl {
 
 /// A value of a model file, or a table or array of them.
 struct ConfigNode {
+  struct Entry;  ///< a key of a table and its value
   enum class Kind { table, array, string, integer, real, boolean, other };
   Kind kind = Kind::table;
   std::string text;     ///< of a string
   double number = 0.0;  ///< of an integer or real
   bool boolean = false;
-  std::vector<std::pair<std::string, ConfigNode>>
-      entries;                    ///< of a table, in the order of the file
+  std::vector<Entry> entries;     ///< of a table, in the order of the file
   std::vector<ConfigNode> items;  ///< of an array
   Where where;                    ///< of the value
   Where key_where;                ///< of the key in front of it
@@ -30,10 +29,19 @@ struct ConfigNode {
   std::string as_written() const;
 };
 
+struct ConfigNode::Entry {
+  std::string key;
+  ConfigNode value;
+};
+
 /// Parses TOML.
+///
+/// A key may have 16 parts ("a.b.c" has three), and 32 tables or arrays may lie within one another:
+/// more than any model has, and few enough for the stack.
+///
 /// @param file  name for messages
 /// @throws ModelError  with the place of a syntax error, for an empty text and for one that is
-///                     no text
+///                     no text, and for keys or tables that are nested too deep
 ConfigNode parse_toml(std::string_view text, const std::string& file);
 
 /// Sets a value by its path, as the command line does: "contact.seal.friction=0.1".
@@ -41,7 +49,8 @@ ConfigNode parse_toml(std::string_view text, const std::string& file);
 /// Elements of arrays go by name or by number from 1. The value is read as TOML where it is TOML,
 /// else as a string. Tables that do not exist yet are made; elements of arrays are not.
 ///
-/// @throws ModelError  for a line without "=", an element that does not exist
+/// @throws ModelError  for a line without "=", an element that does not exist, a path of more than 16
+///                     parts
 void set_value(ConfigNode& root, std::string_view assignment);
 
 /// The tree as TOML.

@@ -36,10 +36,15 @@ bool is_internal(const std::string& name) {
   return names.count(name) > 0;
 }
 
+/// A text as a cell: in quotation marks where it needs them. One that a spreadsheet would take for a
+/// formula gets an apostrophe in front, which spreadsheets take for "this is text".
 std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  constexpr std::string_view formula = "=+-@\t\r";
+  const bool is_formula = !text.empty() && formula.find(text.front()) != std::string_view::npos;
+  const std::string cell = is_formula ? '\'' + text : text;
+  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
   std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  for (const char c : cell) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + '"';
 }
 

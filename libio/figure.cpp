@@ -62,11 +62,12 @@ DisplayUnit with_prefix(double largest, const std::string& unit) {
 
 /// Limits of what an axis shows: those wanted, else around the numbers.
 Axis axis_of(const FigureAxis& wanted, const std::vector<double>& values) {
-  Axis axis = axis_around(values, wanted.scale);
+  const Axis around = axis_around(values, wanted.scale);
+  Axis axis = around;
   if (std::isfinite(wanted.first)) axis.first = wanted.first;
   if (std::isfinite(wanted.last)) axis.last = wanted.last;
   if (!(axis.first < axis.last)) axis.last = axis.first + 1.0;
-  return axis;
+  return can_be_drawn(axis) ? axis : around;
 }
 
 /// Outer edges of cells, half a step beyond the outermost middles.

@@ -7,6 +7,7 @@
 #include "libfe/base/error.hpp"
 #include "libio/figures/all.hpp"
 #include "libio/model_file.hpp"
+#include "libio/result_schema.hpp"
 
 namespace whirl {
 
@@ -15,6 +16,7 @@ ResultView::ResultView(const std::filesystem::path& file_path)
   if (!file.has("/model")) {
     throw FileError(fmt::format("{} is no result of whirl: it holds no model", path));
   }
+  check_result(file);
   if (file.has_attribute("/", "title")) title = file.string_attribute("/", "title");
   if (title.empty()) title = file_path.filename().string();
   try {
@@ -22,6 +24,12 @@ ResultView::ResultView(const std::filesystem::path& file_path)
     model = parse_model(file.strings("/model").at(0), path, {},
                         std::filesystem::path(model_path).parent_path());
     assembler.emplace(model->structure);
+    const auto contacts = static_cast<Eigen::Index>(model->contacts.size());
+    if (file.has("/contacts/name") && file.shape("/contacts/name").at(0) != contacts) {
+      throw FileError(fmt::format("{}: /contacts/name is not of the contacts of its model", path));
+    }
+  } catch (const FileError&) {  // the file is damaged, not only its model
+    throw;
   } catch (const std::exception& error) {  // figures of numbers alone are drawn nevertheless
     model.reset();
     assembler.reset();

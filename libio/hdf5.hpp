@@ -55,7 +55,8 @@ class ResultWriter {
   void dataset(const std::string& path, const std::vector<int>& values,
                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
 
-  /// Brings the file to the disk and to its place; nothing can be written after it.
+  /// Brings the file to the disk and to its place, with a checksum behind what HDF5 reads; nothing
+  /// can be written after it.
   /// @throws FileError  the place then is as it was
   void commit();
 
@@ -72,25 +73,35 @@ class ResultWriter {
 /// What an object of a file holds.
 enum class ObjectKind { group, real, integer, complex, text, other };
 
+/// What is believed of a file that is opened.
+enum class Trust {
+  sealed,  ///< that HDF5 can read it if it has its checksum; else a child process tries that first
+  all,     ///< that HDF5 can read it
+};
+
 /// Reads a result file, or any other HDF5 file of numbers and texts.
 ///
 /// Every member but has() throws FileError, which names file and object, for what is missing,
-/// damaged or of another type or shape.
+/// damaged or of another type or shape. Nothing outside of the file is ever read, and no dataset that
+/// says to be larger than the file can hold.
 class ResultReader {
  public:
-  /// @throws FileError  if there is no such file, or if it is no HDF5 file or a damaged one
-  explicit ResultReader(const std::filesystem::path& path);
+  /// @throws FileError  if there is no such file, if it is no HDF5 file or a damaged one, or if
+  ///                    anything in it is a link to another place
+  explicit ResultReader(const std::filesystem::path& path, Trust trust = Trust::sealed);
   ~ResultReader();
   ResultReader(const ResultReader&) = delete;
   ResultReader& operator=(const ResultReader&) = delete;
 
+  const std::filesystem::path& path() const { return path_; }
   bool has(const std::string& object) const;
   bool has_attribute(const std::string& object, const std::string& name) const;
   std::string string_attribute(const std::string& object, const std::string& name) const;
   double number_attribute(const std::string& object, const std::string& name) const;
 
   ObjectKind kind(const std::string& object) const;
-  /// Per dimension of a dataset the path of the dataset along it, "" for none.
+  /// Per dimension of a dataset the path of the dataset along it, which has as many elements; "" for
+  /// none.
   std::vector<std::string> axes(const std::string& path) const;
   /// Sizes of a dataset's dimensions.
   std::vector<Eigen::Index> shape(const std::string& path) const;

@@ -258,7 +258,10 @@ void ModelBuilder::check_places() {
         0.5 * shaft_diameter(s, mesh.z[static_cast<std::size_t>(point.index)]);
   }
   try {
-    Assembler{s};
+    const System movable = Assembler{s}.uncondensed(0.0);
+    if (movable.M.norm() == 0.0) {
+      throw ModelError({}, "", "all that has a mass is held: nothing that can move has one");
+    }
   } catch (const ModelError& error) {
     // these speak of a bearing or link by its name; here its path is known
     for (Problem problem : error.problems()) {
@@ -269,6 +272,7 @@ void ModelBuilder::check_places() {
             problem.key = fmt::format("{}.{}", array, c.name);
         }
       }
+      if (problem.where.file.empty()) problem.where = root_.where;
       problems_.push_back(problem);
     }
   }

@@ -24,7 +24,8 @@ Key& Key::entry(const std::string& name) {
   for (auto& [known, key] : entries) {
     if (known == name) return key;
   }
-  return entries.emplace_back(name, Key{}).second;
+  entries.push_back({name, {}});
+  return entries.back().key;
 }
 
 Key& Key::at(const std::string& path) {
@@ -145,7 +146,7 @@ void insert(Key& root, const std::vector<AskedKey>& asked) {
   }
 }
 
-std::vector<std::string> names_of(const std::vector<std::pair<std::string, Key>>& entries) {
+std::vector<std::string> names_of(const std::vector<Key::Entry>& entries) {
   std::vector<std::string> names;
   for (const auto& [name, key] : entries) names.push_back(name);
   return names;

@@ -3,7 +3,6 @@
 
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "libio/asked_key.hpp"
@@ -23,14 +22,20 @@ struct Condition {
 
 /// A key with all ways to write its value, and the keys in it.
 struct Key {
+  struct Entry;
   std::vector<AskedKey> asked;
-  std::vector<std::pair<std::string, Key>> entries;
+  std::vector<Entry> entries;
   Requirements required;
   std::vector<Condition> conditions;
 
   Key& entry(const std::string& name);  ///< made if it is not there
   Key& at(const std::string& path);     ///< likewise
   const AskedKey* find(AskedKey::Form form) const;
+};
+
+struct Key::Entry {
+  std::string name;
+  Key key;
 };
 
 /// All keys, from the reader as it reads specimens of every kind of table. Elements of arrays are

@@ -194,7 +194,7 @@ class SchemaWriter {
       ++count;
     };
     if (path == "format") return described(Record().set("const", 1), key, path);
-    const bool is_list = !key.entries.empty() && key.entries.front().first == "[]";
+    const bool is_list = !key.entries.empty() && key.entries.front().name == "[]";
     bool has_reference = false;
     for (const AskedKey& a : key.asked) {
       if (a.form == quantity || a.form == pair) has_reference = true;
@@ -219,7 +219,7 @@ class SchemaWriter {
       if (a.form == choice) add(Record().set("enum", strings(a.names)));
     }
     if (is_list) {
-      const Key& item = key.entries.front().second;
+      const Key& item = key.entries.front().key;
       add(Record().set("type", "array").set("items", table_schema(item, path + ".[]")));
     } else if (key.find(AskedKey::Form::table) || !key.entries.empty()) {
       add(table_schema(key, path));

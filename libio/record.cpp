@@ -6,13 +6,23 @@
 #include <cassert>
 #include <cmath>
 
+#include "libio/xml.hpp"
+
 namespace whirl {
 
 namespace {
 
 std::string escaped(std::string_view text) {
   std::string out = "\"";
-  for (const char c : text) {
+  while (!text.empty()) {
+    const char c = text.front();
+    if (static_cast<unsigned char>(c) >= 0x80) {
+      const std::size_t length = character_length(text);
+      out += length > 0 ? text.substr(0, length) : "\ufffd";  // JSON is UTF-8
+      text.remove_prefix(std::max<std::size_t>(1, length));
+      continue;
+    }
+    text.remove_prefix(1);
     switch (c) {
       case '"':
         out += "\\\"";

@@ -9,6 +9,7 @@
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
 #include "libio/parameter_axis.hpp"
+#include "libio/result_schema.hpp"
 
 namespace whirl {
 
@@ -18,7 +19,8 @@ BranchStart branch_start(const Invocation& call) {
                      "of which branches? give the result of whirl continue with --from");
   }
   const std::string name = call.text("from");
-  const ResultReader file(name);
+  const auto result = open_result(name);
+  const ResultReader& file = *result;
   if (!file.has("/branch/state")) {
     throw FileError(name + " holds no branches; whirl continue --out writes them");
   }

@@ -14,6 +14,7 @@ namespace whirl {
 namespace {
 
 const std::string group = "/branch";
+constexpr double most_small = 1e6;  ///< of a packed number that counts nothing in its file
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// All numbers of points one after another.
@@ -141,7 +142,9 @@ class Packed {
   }
   int take_count() {
     const double x = take();
-    if (!(x >= 0.0 && x < 1e8)) throw FileError("the walk is damaged, or of another version");
+    const auto left = static_cast<double>(numbers_.size() - next_);
+    if (!(x >= 0.0 && x <= std::max(left, most_small)))
+      throw FileError("the walk is damaged, or of another version");
     return static_cast<int>(x);
   }
 

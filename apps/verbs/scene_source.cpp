@@ -7,6 +7,7 @@
 #include "apps/verbs/common.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/model_file.hpp"
+#include "libio/result_schema.hpp"
 
 namespace whirl {
 
@@ -20,7 +21,7 @@ bool is_result(const std::string& file) {
 }  // namespace
 
 SceneSource::SceneSource(const Invocation& call)
-    : result(is_result(call.file) ? std::make_unique<ResultReader>(call.file) : nullptr),
+    : result(is_result(call.file) ? open_result(call.file) : nullptr),
       model(result ? parse_model(result->strings("/model").at(0), call.file, call.sets)
                    : call.model()),
       assembler(model.structure),

@@ -9,6 +9,7 @@
 #include "apps/verbs/common.hpp"
 #include "libio/format.hpp"
 #include "libio/hdf5.hpp"
+#include "libio/result_schema.hpp"
 #include "libio/table.hpp"
 
 namespace whirl {
@@ -108,7 +109,8 @@ void require_speed(const Model& model) {
 }
 
 EarlierEnd earlier_end(const std::string& path) {
-  const ResultReader file(path);
+  const auto result = open_result(path);
+  const ResultReader& file = *result;
   if (!file.has("/trajectory/end_displacement")) {
     throw ModelError({path}, "",
                      "holds no motion to start from; simulate, identify and classify write one");

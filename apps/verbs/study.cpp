@@ -21,8 +21,9 @@
 #include "libio/format.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
-#include "libio/own_file.hpp"
 #include "libio/motion_codes.hpp"
+#include "libio/own_file.hpp"
+#include "libio/result_schema.hpp"
 
 namespace whirl {
 
@@ -75,6 +76,7 @@ void resume(const Invocation& call, const std::optional<EarlierEnd>& start,
   if (earlier.string_attribute("/", "whirl_version") != version) {
     refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
   }
+  check_result(earlier);
   take(earlier);
 }
 

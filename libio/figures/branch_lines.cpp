@@ -83,7 +83,7 @@ void add_branch_lines(Panel& p, const BranchPoints& b, const std::vector<double>
   };
   // a branch that begins on another has the stability that it begins with
   const auto is_stable = [&](std::size_t i) {
-    return b.stable[b.stable[i] < 0.0 ? i + 1 : i] > 0.0;
+    return b.stable[b.stable[i] < 0.0 && i + 1 < b.size() ? i + 1 : i] > 0.0;
   };
   for (std::size_t i = 0; i + 1 < b.size(); ++i) {
     if (b.branch[i] != b.branch[i + 1]) continue;

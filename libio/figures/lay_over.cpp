@@ -89,9 +89,10 @@ std::string branches_over(std::vector<Figure>& figures, const ResultView& study,
     return fmt::format("its branches run along {}, the sweep along {}", b.axis.path, axis.path);
   }
   b.show_as(axis);
-  const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
-  const bool is_within = std::any_of(b.axis.values.begin(), b.axis.values.end(),
-                                     [&](double v) { return v >= *low && v <= *high; });
+  const auto ends = std::minmax_element(axis.values.begin(), axis.values.end());
+  const bool is_within = std::any_of(b.axis.values.begin(), b.axis.values.end(), [&](double v) {
+    return v >= *ends.first && v <= *ends.second;
+  });
   if (!is_within) return "its branches have no point within the sweep's values";
   const auto stations = over.file.strings("/branch/station");
   bool fits = false;

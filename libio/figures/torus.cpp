@@ -22,6 +22,7 @@ std::vector<Ratio> ratios_within(double low, double high) {
   constexpr int largest = 40;
   constexpr std::size_t most = 6;
   std::vector<Ratio> found;
+  if (!(high - low < most && std::abs(low) < 1e6)) return found;  // no part of a walk
   for (int q = 1; q <= largest; ++q) {
     if (found.size() >= most) break;
     for (int p = static_cast<int>(std::ceil(low * q)); p <= high * q; ++p) {

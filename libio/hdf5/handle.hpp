@@ -106,14 +106,17 @@ inline Handle file_access() {
   return access;
 }
 
-/// Whether a file has an object of that path.
+/// Whether a file itself has an object of that path: links to other places do not count.
 inline bool exists(hid_t file, const std::string& object) {
   prepare();
   // HDF5 wants every group on the way asked for
   for (std::size_t end = object.find_first_not_of('/'); end < object.size();) {
     end = std::min(object.find('/', end), object.size());
     const std::string part = object.substr(0, end);
+    H5L_info_t link;
     if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0) return false;
+    if (link.type != H5L_TYPE_HARD) return false;
     end = object.find_first_not_of('/', end);
   }
   return !object.empty();

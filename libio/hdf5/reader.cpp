@@ -1,10 +1,13 @@
 #include <fmt/format.h>
-#include <hdf5_hl.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 
 #include "libio/hdf5.hpp"
+#include "libio/hdf5/checksum.hpp"
 #include "libio/hdf5/handle.hpp"
+#include "libio/hdf5/trial.hpp"
 
 namespace whirl {
 
@@ -13,25 +16,85 @@ using namespace hdf5;
 
 namespace {
 
+/// deflate makes at most so many bytes of one [zlib's manual: 1032], and a little of nothing.
+constexpr hsize_t most_of_one = 1100;
+/// Chunks may be larger than a small dataset that can grow, but not by more than this [bytes].
+constexpr hsize_t most_spare = 16 * 1024 * 1024;
+constexpr std::size_t widest_number = 8;  ///< bytes
+
 /// A dataset or attribute that is open, with its type in the file and its sizes.
 struct Source {
   Handle id, type;
   std::vector<hsize_t> sizes;
+  hsize_t count = 1;
 
-  hsize_t count() const {
-    hsize_t n = 1;
-    for (const hsize_t size : sizes) n *= size;
-    return n;
-  }
   bool is_number() const {
-    return H5Tget_class(type) == H5T_FLOAT || H5Tget_class(type) == H5T_INTEGER;
+    const H5T_class_t kind = H5Tget_class(type);
+    return (kind == H5T_FLOAT || kind == H5T_INTEGER) && H5Tget_size(type) <= widest_number;
   }
   bool is_text() const { return H5Tget_class(type) == H5T_STRING; }
   bool is_complex() const {
     return H5Tget_class(type) == H5T_COMPOUND && H5Tget_nmembers(type) == 2 &&
-           H5Tget_member_index(type, "r") == 0 && H5Tget_member_index(type, "i") == 1;
+           H5Tget_member_index(type, "r") == 0 && H5Tget_member_index(type, "i") == 1 &&
+           H5Tget_member_class(type, 0) == H5T_FLOAT && H5Tget_member_class(type, 1) == H5T_FLOAT &&
+           H5Tget_size(type) <= 2 * widest_number;
   }
 };
+
+/// Product of sizes; none beyond what a vector can count in bytes.
+std::optional<hsize_t> product(const std::vector<hsize_t>& sizes, hsize_t bytes) {
+  hsize_t all = bytes;
+  for (const hsize_t size : sizes) {
+    if (__builtin_mul_overflow(all, size, &all)) return std::nullopt;
+  }
+  if (all > static_cast<hsize_t>(std::numeric_limits<std::ptrdiff_t>::max())) return std::nullopt;
+  return all;
+}
+
+Source make_source(const Attempt& attempt, Handle id, Handle type, const Handle& space) {
+  Source source{std::move(id), std::move(type), sizes_of(space)};
+  const bool is_empty = std::count(source.sizes.begin(), source.sizes.end(), 0u) > 0;
+  const auto bytes = is_empty ? 0 : product(source.sizes, sizeof(Complex));
+  if (!bytes) attempt.fail("it says to hold more numbers than can be counted");
+  source.count = *bytes / sizeof(Complex);
+  return source;
+}
+
+/// Refuses datasets whose numbers are elsewhere, or of which the file cannot hold as many as it says.
+void check_storage(const Attempt& attempt, const Source& source, hid_t file) {
+  const Handle how(attempt(H5Dget_create_plist(source.id)));
+  const H5D_layout_t layout = H5Pget_layout(how);
+  if (H5Pget_external_count(how) != 0 || layout == H5D_VIRTUAL) {
+    attempt.fail("its numbers are in another file, which is not read");
+  }
+  for (int i = 0, n = attempt(H5Pget_nfilters(how)); i < n; ++i) {
+    unsigned flags = 0;
+    std::size_t values = 0;
+    const H5Z_filter_t filter = H5Pget_filter2(how, static_cast<unsigned>(i), &flags, &values,
+                                               nullptr, 0, nullptr, nullptr);
+    if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
+        filter != H5Z_FILTER_FLETCHER32) {
+      attempt.fail("it is compressed in a way that is not known (known: deflate)");
+    }
+  }
+  if (source.count == 0) return;
+  const std::size_t item = H5Tget_size(source.type);
+  const auto bytes = product(source.sizes, item);
+  hsize_t file_bytes = 0;
+  attempt(H5Fget_filesize(file, &file_bytes));
+  const hsize_t stored = H5Dget_storage_size(source.id);
+  const bool fits = bytes && stored <= file_bytes &&
+                    (layout == H5D_CHUNKED ? *bytes / most_of_one <= stored : *bytes <= stored);
+  if (!fits) {
+    attempt.fail(fmt::format("it says to hold {} values, the file holds {} bytes of them",
+                             source.count, stored));
+  }
+  if (layout != H5D_CHUNKED) return;
+  std::vector<hsize_t> chunk(source.sizes.size());
+  attempt(H5Pget_chunk(how, static_cast<int>(chunk.size()), chunk.data()));
+  const auto chunk_bytes = product(chunk, item);
+  if (!chunk_bytes || *chunk_bytes > *bytes + most_spare) attempt.fail("its pieces are too large");
+}
 
 Source open_dataset(const Attempt& attempt, hid_t file) {
   const std::string& path = attempt.object();
@@ -39,7 +102,9 @@ Source open_dataset(const Attempt& attempt, hid_t file) {
   Handle id(attempt(H5Dopen2(file, path.c_str(), H5P_DEFAULT)));
   Handle type(attempt(H5Dget_type(id)));
   const Handle space(attempt(H5Dget_space(id)));
-  return {std::move(id), std::move(type), sizes_of(space)};
+  Source source = make_source(attempt, std::move(id), std::move(type), space);
+  check_storage(attempt, source, file);
+  return source;
 }
 
 Source open_attribute(const Attempt& attempt, hid_t file, const std::string& object,
@@ -50,11 +115,49 @@ Source open_attribute(const Attempt& attempt, hid_t file, const std::string& obj
   Handle id(attempt(H5Aopen(owner, name.c_str(), H5P_DEFAULT)));
   Handle type(attempt(H5Aget_type(id)));
   const Handle space(attempt(H5Aget_space(id)));
-  return {std::move(id), std::move(type), sizes_of(space)};
+  return make_source(attempt, std::move(id), std::move(type), space);
+}
+
+/// Paths of the datasets along each dimension, from the list of references that HDF5's dimension
+/// scales leave at a dataset; "" for none.
+std::vector<std::string> read_axes(const Attempt& attempt, hid_t file, const Source& dataset) {
+  constexpr const char* list = "DIMENSION_LIST";
+  std::vector<std::string> names(dataset.sizes.size());
+  if (names.empty() || H5Aexists(dataset.id, list) <= 0) return names;
+  const Source source = open_attribute(attempt, file, attempt.object(), list);
+  const Handle type(H5Tvlen_create(H5T_STD_REF_OBJ));
+  if (source.count != names.size() || H5Tequal(source.type, type) <= 0) {
+    attempt.fail("its list of axes is damaged");
+  }
+  std::vector<hvl_t> references(names.size(), hvl_t{0, nullptr});
+  attempt(H5Aread(source.id, type, references.data()));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (references[i].len == 0 || !references[i].p) continue;
+    const Handle axis(H5Rdereference2(file, H5P_DEFAULT, H5R_OBJECT, references[i].p));
+    if (axis < 0 || H5Iget_type(axis) != H5I_DATASET) continue;
+    names[i].resize(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(axis, nullptr, 0))));
+    H5Iget_name(axis, names[i].data(), names[i].size() + 1);
+  }
+  const hsize_t size = references.size();
+  const Handle space(H5Screate_simple(1, &size, nullptr));
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, references.data());
+  return names;
+}
+
+/// The first link of a file that leads to another place; empty if there is none.
+std::string link_elsewhere(hid_t file) {
+  std::string found;
+  const auto look = [](hid_t, const char* name, const H5L_info_t* link, void* result) -> herr_t {
+    if (link->type == H5L_TYPE_HARD) return 0;
+    *static_cast<std::string*>(result) = name;
+    return 1;
+  };
+  H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, &found);
+  return found;
 }
 
 void read(const Attempt& attempt, const Source& source, hid_t memory_type, void* result) {
-  if (source.count() == 0) return;
+  if (source.count == 0) return;
   const bool is_attribute = H5Iget_type(source.id) == H5I_ATTR;
   attempt(is_attribute ? H5Aread(source.id, memory_type, result)
                        : H5Dread(source.id, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, result));
@@ -63,18 +166,17 @@ void read(const Attempt& attempt, const Source& source, hid_t memory_type, void*
 /// Texts of any kind: of variable or of fixed length, ASCII or UTF-8.
 std::vector<std::string> read_texts(const Attempt& attempt, const Source& source) {
   if (!source.is_text()) attempt.fail("it is not text");
-  const std::size_t count = source.count();
+  if (source.count == 0) return {};
+  const std::size_t count = source.count, size = H5Tget_size(source.type);
   std::vector<std::string> texts;
   if (H5Tis_variable_str(source.type) > 0) {
     std::vector<char*> pointers(count, nullptr);
     read(attempt, source, source.type, pointers.data());
     for (const char* pointer : pointers) texts.emplace_back(pointer ? pointer : "");
-    const hsize_t size = count;
-    const Handle space(attempt(H5Screate_simple(1, &size, nullptr)));
+    const Handle space(attempt(H5Screate_simple(1, &source.count, nullptr)));
     H5Dvlen_reclaim(source.type, space, H5P_DEFAULT, pointers.data());
     return texts;
   }
-  const std::size_t size = H5Tget_size(source.type);
   std::string all(count * size, '\0');
   read(attempt, source, source.type, all.data());
   for (std::size_t i = 0; i < count; ++i) {
@@ -105,7 +207,7 @@ auto read_matrix(const Attempt& attempt, hid_t file, std::size_t rank) {
 
 }  // namespace
 
-ResultReader::ResultReader(const fs::path& path) : path_(path) {
+ResultReader::ResultReader(const fs::path& path, Trust trust) : path_(path) {
   const auto fail = [&](std::string_view why) {
     throw FileError(fmt::format("cannot open {}: {}", path_.string(), why));
   };
@@ -115,9 +217,16 @@ ResultReader::ResultReader(const fs::path& path) : path_(path) {
   const htri_t is_hdf5 = fs::is_directory(path_, ignored) ? 0 : H5Fis_hdf5(path_.c_str());
   if (is_hdf5 < 0) fail(reason());
   if (is_hdf5 == 0) fail("not an HDF5 file");
+  const Seal seal = trust == Trust::all ? Seal::whole : seal_of(path_);
+  if (seal == Seal::broken) fail("damaged HDF5 file (its checksum is another one)");
+  if (seal == Seal::none) try_in_child(path_);
   const Handle access = file_access();
   id_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
   if (id_ < 0) fail(fmt::format("damaged HDF5 file ({})", reason()));
+  if (const std::string link = link_elsewhere(id_); !link.empty()) {
+    H5Fclose(id_);
+    fail(fmt::format("/{} is a link to another place, which is not followed", link));
+  }
 }
 
 ResultReader::~ResultReader() {
@@ -135,15 +244,15 @@ bool ResultReader::has_attribute(const std::string& object, const std::string& n
 std::string ResultReader::string_attribute(const std::string& object,
                                            const std::string& name) const {
   const Attempt attempt(path_, "read attribute", object + '@' + name);
-  const auto texts = read_texts(attempt, open_attribute(attempt, id_, object, name));
-  if (texts.size() != 1) attempt.fail("it is not one text");
-  return texts.front();
+  const Source source = open_attribute(attempt, id_, object, name);
+  if (source.count != 1) attempt.fail("it is not one text");
+  return read_texts(attempt, source).front();
 }
 
 double ResultReader::number_attribute(const std::string& object, const std::string& name) const {
   const Attempt attempt(path_, "read attribute", object + '@' + name);
   const Source source = open_attribute(attempt, id_, object, name);
-  if (!source.is_number() || source.count() != 1) attempt.fail("it is not one number");
+  if (!source.is_number() || source.count != 1) attempt.fail("it is not one number");
   double value = 0.0;
   read(attempt, source, H5T_NATIVE_DOUBLE, &value);
   return value;
@@ -165,17 +274,13 @@ ObjectKind ResultReader::kind(const std::string& object) const {
 std::vector<std::string> ResultReader::axes(const std::string& path) const {
   const Attempt attempt(path_, "read dataset", path);
   const Source source = open_dataset(attempt, id_);
-  std::vector<std::string> names(source.sizes.size());
-  const auto take = [](hid_t, unsigned, hid_t axis, void* name) -> herr_t {
-    std::string& text = *static_cast<std::string*>(name);
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(axis, nullptr, 0))));
-    H5Iget_name(axis, text.data(), text.size() + 1);
-    return 1;  // the first of them
-  };
+  std::vector<std::string> names = read_axes(attempt, id_, source);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto dimension = static_cast<unsigned>(i);
-    if (H5DSget_num_scales(source.id, dimension) <= 0) continue;
-    attempt(H5DSiterate_scales(source.id, dimension, nullptr, take, &names[i]));
+    if (names[i].empty()) continue;
+    const Source axis = open_dataset(Attempt(path_, "read dataset", names[i]), id_);
+    if (axis.sizes != std::vector<hsize_t>{source.sizes[i]}) {
+      attempt.fail(fmt::format("its axis {} has another size", names[i]));
+    }
   }
   return names;
 }
@@ -193,7 +298,7 @@ std::vector<double> ResultReader::numbers(const std::string& path) const {
   const Attempt attempt(path_, "read dataset", path);
   const Source source = open_dataset(attempt, id_);
   if (!source.is_number()) attempt.fail("it does not hold real numbers");
-  std::vector<double> values(source.count());
+  std::vector<double> values(source.count);
   read(attempt, source, H5T_NATIVE_DOUBLE, values.data());
   return values;
 }
@@ -214,7 +319,7 @@ std::vector<int> ResultReader::integers(const std::string& path) const {
   const Attempt attempt(path_, "read dataset", path);
   const Source source = open_dataset(attempt, id_);
   if (H5Tget_class(source.type) != H5T_INTEGER) attempt.fail("it does not hold integers");
-  std::vector<int> values(source.count());
+  std::vector<int> values(source.count);
   read(attempt, source, H5T_NATIVE_INT, values.data());
   return values;
 }

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "libio/hdf5.hpp"
+#include "libio/hdf5/checksum.hpp"
 #include "libio/hdf5/handle.hpp"
 
 namespace whirl {
@@ -71,6 +72,7 @@ void ResultWriter::commit() {
   const Attempt attempt(file_.place(), "write", "the file");
   attempt(H5Fflush(id_, H5F_SCOPE_GLOBAL));
   attempt(H5Fclose(std::exchange(id_, -1)));
+  seal(file_.temporary());
   file_.commit();
 }
 

@@ -1,5 +1,6 @@
 // Calls that cannot be: exit status 2, what is wrong on standard error, and nothing written.
 
+#include "libio/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
@@ -213,6 +214,40 @@ TEST_F(BadCall, WhatCannotBePrintedIsAnError) {
   const Outcome outcome = wait(start("sh", {"-c", line}));
   EXPECT_EQ(outcome.status, 2);
   EXPECT_EQ(outcome.err, "whirl: cannot write to standard output\n");
+}
+
+// A result file must not get the number of a stream that is closed, and the end is an exit status: an
+// error that cannot be printed ended the process by a signal.
+TEST_F(BadCall, ClosedStreamsEndNoProcessAndSpoilNoFile) {
+  const std::string program = WHIRL_PROGRAM;
+  const auto status = [&](const std::string& line) {
+    return wait(start("sh", {"-c", program + " " + line})).status;
+  };
+  for (const char* closed : {"2>&-", "2>/dev/full", "2>&- >&- <&-"}) {
+    EXPECT_GE(status("modes nothing.toml " + std::string(closed)), 2) << closed;
+    EXPECT_LE(status("modes nothing.toml " + std::string(closed)), 3) << closed;
+  }
+  EXPECT_EQ(status("modes rotor.toml --speed 300rpm --out closed.h5 --quiet 0<&- 2>&-"), 0);
+  EXPECT_EQ(
+      status("simulate rotor.toml --speed 300rpm --discard 0 --revolutions 4 --out run.h5 2>&-"),
+      0);
+  for (const char* file : {"closed.h5", "run.h5"}) {
+    EXPECT_EQ(ResultReader(folder / file).strings("/model").size(), 1u) << file;
+  }
+}
+
+// Nothing is left to move: said by check and by every verb with the place, not by a signal.
+TEST_F(BadCall, AModelInWhichNothingMoves) {
+  write("held.toml",
+        "format = 1\n[operation]\nspeed = \"3000 rpm\"\n[[body]]\nname = \"rotor\"\nmass = 1\n"
+        "[[bearing]]\nbody = \"rotor\"\nrigid = true\n");
+  for (const char* verb : {"check", "modes", "static", "campbell", "critical", "simulate"}) {
+    std::vector<std::string> line{verb, "held.toml"};
+    if (std::string(verb) == "campbell") line.insert(line.end(), {"--speeds", "0:1000:500rpm"});
+    const Outcome outcome = whirl(line);
+    EXPECT_EQ(outcome.status, 2) << verb;
+    EXPECT_TRUE(has(outcome.err, "held.toml:1:1: nothing can move")) << outcome.err;
+  }
 }
 
 TEST_F(BadCall, AnEarlierResultStaysAsItIs) {

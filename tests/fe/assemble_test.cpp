@@ -360,6 +360,19 @@ TEST(Connections, ThatCannotBeAreReported) {
   EXPECT_NE(message_of([&] { Assembler{itself}; }).find("same place"), std::string::npos);
 }
 
+// A structure that rigid bearings hold at every point has no equation of motion: solvers of nothing
+// ended by a signal.
+TEST(Assemble, NothingThatCanMoveIsAnError) {
+  Structure held{.bodies = {{.name = "rotor", .m = 1.0}}};
+  held.bearings = {test::rigid(test::body("rotor"))};
+  try {
+    Assembler assembler(held);
+    ADD_FAILURE() << "no error";
+  } catch (const ModelError& error) {
+    EXPECT_NE(std::string(error.what()).find("nothing can move"), std::string::npos);
+  }
+}
+
 TEST(Connections, AllWrongOnesAreReportedTogether) {
   Structure s{.bodies = {{.name = "a", .m = 1.0}}};
   s.bearings = {test::clamped(test::body("a")), test::clamped(test::body("a"))};

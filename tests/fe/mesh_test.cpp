@@ -75,6 +75,33 @@ TEST(Mesh, PositionsThatDifferByRoundingAreOneNode) {
             1);
 }
 
+// Two places are taken for a slip of the pen below 1e-5 of the length, for two places above it.
+TEST(Mesh, PlacesThatAreTooCloseBeginAtAHundredThousandth) {
+  Structure s{.shaft = {test::cylinder(1.0, 0.02, 0)}};
+  s.stations = {at(0.3), at(0.3 + 0.9e-5)};
+  EXPECT_NE(std::string(error_of(s).what()).find("the same place with different numbers"),
+            std::string::npos);
+  s.stations = {at(0.3), at(0.3 + 1.1e-5)};
+  const Mesh mesh = make_mesh(s);
+  EXPECT_FALSE(resolve(s.stations[0], s, mesh) == resolve(s.stations[1], s, mesh));
+}
+
+// The middles of elements lay beyond the last segment, and its neighbor in memory was read.
+TEST(Mesh, SegmentsMustBePartsOfTheirShaft) {
+  for (const double length : {1e308, 1e12}) {
+    const Structure s{.shaft = {test::cylinder(length, 0.02, 0), test::cylinder(0.6, 0.02, 0)}};
+    const ModelError error = error_of(s);
+    ASSERT_EQ(error.problems().size(), 1u);
+    EXPECT_EQ(error.problems()[0].key, "shaft.2");
+    EXPECT_NE(error.problems()[0].message.find("too different in length"), std::string::npos);
+  }
+  const Structure endless{
+      .shaft = {test::cylinder(1e308, 0.02, 0), test::cylinder(1e308, 0.02, 0)}};
+  EXPECT_EQ(error_of(endless).problems().size(), 2u);
+  EXPECT_EQ(error_of({.shaft = {test::cylinder(1.0, 0.02, 2'000'000'000)}}).problems()[0].message,
+            "more than 100000 elements in all");
+}
+
 // ---- elements -----------------------------------------------------------------------------------
 
 TEST(Mesh, ElementsLieBetweenNeighborsAndKnowTheirPartOfTheSegment) {

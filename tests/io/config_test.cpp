@@ -21,8 +21,8 @@ bool same(const ConfigNode& a, const ConfigNode& b) {
     if (!same(a.items[i], b.items[i])) return false;
   }
   return std::all_of(a.entries.begin(), a.entries.end(), [&](const auto& entry) {
-    const ConfigNode* other = b.find(entry.first);
-    return other && same(entry.second, *other);
+    const ConfigNode* other = b.find(entry.key);
+    return other && same(entry.value, *other);
   });
 }
 
@@ -115,6 +115,36 @@ TEST(Config, SaysWhereTheTextIsNoToml) {
 }
 
 // ---- --set ----
+
+// toml++ makes a table of every part and calls itself for each: 100 000 of them left the stack.
+TEST(Config, RefusesKeysAndTablesThatAreNestedTooDeep) {
+  std::string path = "a";
+  for (int i = 1; i < 100'000; ++i) path += ".a";
+  for (const std::string& text : {path + " = 1", "[" + path + "]", "x = { " + path + " = 1 }",
+                                  "y = \"\"\"\n\"\\\"\"\"\" # \"\n" + path + " = 1"}) {
+    EXPECT_NE(problem_of([&] { parse_toml(text, "m.toml"); }).find("a key of more than 16 parts"),
+              std::string::npos)
+        << text.substr(0, 20);
+  }
+  EXPECT_NE(problem_of([&] {
+              ConfigNode root;
+              set_value(root, path + "=1");
+            }).find("a path has 16 parts at most"),
+            std::string::npos);
+  const std::string lists = "a = " + std::string(40, '[') + std::string(40, ']');
+  EXPECT_NE(problem_of([&] { parse_toml(lists, "m.toml"); }).find("more than 32 tables or lists"),
+            std::string::npos);
+}
+
+TEST(Config, DotsInTextsAndCommentsAreNoParts) {
+  const std::string dots(100, '.');
+  std::string numbers = "1.0";
+  for (int i = 0; i < 20; ++i) numbers += ", 1.0";
+  const std::string text = "a = \"" + dots + "\" # " + dots + "\nb = '" + dots + "'\nc = \"\"\"\n" +
+                           dots + "\"" + dots + "\"\"\"\nd = '''\n" + dots + "'''\ne = [" +
+                           numbers + "]\n";
+  EXPECT_EQ(problem_of([&] { parse_toml(text, "m.toml"); }), "none");
+}
 
 TEST(SetValue, FindsElementsByNameByNumberAndInQuotes) {
   ConfigNode root = model();

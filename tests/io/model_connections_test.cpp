@@ -25,6 +25,25 @@ Mat2 isotropic(double k) {
   return k * Mat2::Identity();
 }
 
+// What no one can move is no model, with the place of the file.
+TEST(ModelConnections, SomethingMustBeFreeToMove) {
+  const auto problem = [](const std::string& text) -> std::string {
+    try {
+      parse_model("format = 1\n" + text, "model.toml");
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string held =
+      "[[body]]\nname = \"rotor\"\nmass = 1\n[[bearing]]\nbody = \"rotor\"\nrigid = true\n";
+  EXPECT_TRUE(problem(held).starts_with("model.toml:1:1: nothing can move")) << problem(held);
+  // a mass that is held, and a free body without one
+  const std::string light =
+      held + "[[body]]\nname = \"light\"\nmass = 0\n[[bearing]]\nbody = \"light\"\nstiffness = 1\n";
+  EXPECT_NE(problem(light).find("nothing that can move"), std::string::npos) << problem(light);
+}
+
 // ---- bearings and links ----
 
 TEST(ModelConnections, BearingIsotropic) {

@@ -11,6 +11,7 @@
 #include "libio/figure_json.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/svg.hpp"
+#include "libio/xml.hpp"
 
 namespace whirl::plot_test {
 
@@ -71,6 +72,34 @@ TEST(Axis, GoesAroundItsNumbers) {
 
 // Least squares by hand: 1 and 2 at a distance of 3 go to 0 and 3; a third one at 4 pushes the
 // group: starts s, s + 3, s + 6 with s = (1 + 2 + 4 - 9) / 3.
+// XML 1.0 has no way to write U+FFFE, U+FFFF, controls, surrogates and bytes that are no UTF-8 [2.2]: a
+// viewer refuses the whole picture.
+TEST(Svg, TextsHoldOnlyWhatXmlCanHold) {
+  EXPECT_EQ(xml_text("a\xef\xbf\xbe"
+                     "b\xef\xbf\xbf"
+                     "c\x01"
+                     "d"),
+            "abcd");
+  EXPECT_EQ(xml_text("\xff\xc3(\xed\xa0\x80\xc0\xafz\xc3"), "(z");
+  EXPECT_EQ(xml_text("Läufer · µ 𝛺 <&>\""), "Läufer · µ 𝛺 &lt;&amp;&gt;&quot;");
+}
+
+// Ticks of numbers that differ by rounding only, or by more than there are numbers, never end or
+// overflow.
+TEST(Axis, OfExtremeNumbersEnds) {
+  for (const std::vector<double>& values :
+       std::vector<std::vector<double>>{{1e15, 1e15 + 0.125},
+                                        {-1e308, 1e308},
+                                        {1e-320, 1e-310},
+                                        {1.0, std::nextafter(1.0, 2.0)}}) {
+    for (const Scale scale : {Scale::linear, Scale::logarithmic}) {
+      const Axis axis = axis_around(values, scale);
+      EXPECT_TRUE(can_be_drawn(axis));
+      EXPECT_LT(axis.ticks(8).size(), 2000u);
+    }
+  }
+}
+
 TEST(Spread, KeepsPlacesApart) {
   using Places = std::vector<double>;
   EXPECT_EQ(spread({1.0, 9.0}, 3.0, 0.0, 20.0), (Places{1.0, 9.0}));

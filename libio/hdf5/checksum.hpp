@@ -1,0 +1,26 @@
+#pragma once
+/// A checksum behind the end of a result file: whether it is as whirl wrote it.
+
+#include <filesystem>
+
+namespace whirl::hdf5 {
+
+/// What the end of a file says about its content.
+enum class Seal {
+  none,    ///< no checksum: of an older version, or changed by another program since
+  whole,   ///< the content is the one that was written
+  broken,  ///< it is not
+};
+
+/// Appends the checksum of a closed HDF5 file to it: a line of text behind what HDF5 calls its end.
+///
+/// HDF5 does not look there. A program that opens the file to change it cuts the line off, so that
+/// only damage breaks the seal.
+///
+/// @throws FileError  if the file cannot be read or written
+void seal(const std::filesystem::path& file);
+
+/// @throws FileError  if the file cannot be read
+Seal seal_of(const std::filesystem::path& file);
+
+}  // namespace whirl::hdf5

@@ -1,0 +1,52 @@
+#pragma once
+/// What a result file holds: every dataset with its kind, its sizes and the values it can have.
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "libio/hdf5.hpp"
+
+namespace whirl {
+
+/// Values that numbers of a dataset or attribute can have.
+struct ValidValues {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool has_gaps = true;          ///< NaN stands where nothing is known
+  std::string_view counts = {};  ///< a dimension: numbers of its elements, from 1
+};
+
+/// A dataset or attribute of a result.
+struct ResultEntry {
+  std::string_view path;  ///< "/trajectory/x"; "/trajectory@period" is an attribute
+  ObjectKind kind = ObjectKind::real;
+  /// Its dimensions by name, "stations samples": those of one name have one size throughout a file.
+  /// "+" behind a name: at least one element. A number is a size. "point" stands for the dimensions of
+  /// a study, one per axis. Attributes have none.
+  std::string_view sizes;
+  ValidValues values{};
+  bool is_optional = false;  ///< else it is there wherever the first entry of its set is
+};
+
+/// Entries that a file has together or not at all; the first one says which.
+struct ResultSet {
+  std::vector<ResultEntry> entries;
+  std::vector<std::string_view> needs{};  ///< what must be there too, of other sets
+};
+
+/// All that whirl reads from results.
+const std::vector<ResultSet>& result_schema();
+
+/// Checks all of a result that the schema knows: nothing that reads it afterwards meets another kind,
+/// other sizes, or codes of no meaning.
+/// @throws FileError  that names the dataset and what is wrong with it
+void check_result(const ResultReader& file);
+
+/// Opens a result and checks it.
+/// @throws FileError  as ResultReader and check_result, and for files that hold no model
+std::unique_ptr<ResultReader> open_result(const std::filesystem::path& path);
+
+}  // namespace whirl

@@ -1,0 +1,25 @@
+# What reads input is compiled by clang with the fuzzer's counters and with sanitizers. The solvers, which
+# take minutes to compile and see no text, come as another build of the tree has made them.
+set(WHIRL_FUZZ_SOLVERS ${PROJECT_SOURCE_DIR}/build/release CACHE PATH
+    "Build directory with libwhirl_fe.a and libwhirl_dyn.a")
+target_compile_options(whirl_options INTERFACE
+  -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=vptr -fno-sanitize-recover=undefined)
+target_link_options(whirl_options INTERFACE -fsanitize=address,undefined -fno-sanitize=vptr)
+
+find_package(SUNDIALS 6.4 REQUIRED)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(highway REQUIRED IMPORTED_TARGET GLOBAL libhwy)
+add_library(whirl_solvers INTERFACE)
+target_link_libraries(whirl_solvers INTERFACE
+  ${WHIRL_FUZZ_SOLVERS}/libdyn/libwhirl_dyn.a ${WHIRL_FUZZ_SOLVERS}/libfe/libwhirl_fe.a
+  SUNDIALS::cvode SUNDIALS::arkode SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunmatrixdense
+  SUNDIALS::sunlinsoldense SUNDIALS::sunnonlinsolfixedpoint PkgConfig::highway quadmath
+  Threads::Threads)
+
+add_library(whirl_fe STATIC libfe/base/error.cpp libfe/mesh.cpp libfe/assemble.cpp libfe/properties.cpp)
+target_link_libraries(whirl_fe PUBLIC whirl_options Eigen3::Eigen fmt::fmt whirl_solvers)
+add_library(whirl_dyn INTERFACE)
+target_link_libraries(whirl_dyn INTERFACE whirl_fe)
+add_subdirectory(libio)
+add_subdirectory(tests/fuzz)
