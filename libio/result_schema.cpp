@@ -2,11 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <map>
-#include <optional>
+#include <memory>
 #include <string>
 
 namespace whirl {
@@ -40,13 +36,14 @@ ResultSet classified(std::string_view group, std::vector<ResultEntry> more) {
   const auto path = [&](std::string_view name) -> std::string_view {
     return *texts.emplace_back(std::make_unique<std::string>(fmt::format("{}/{}", group, name)));
   };
-  ResultSet set{{{path("motion"), integer, "point", from_to(-1.0, 4.0)},
+  ResultSet set{{{path("motion"), integer, "point", from_to(-1.0, 5.0)},
                  {path("period"), integer, "point"},
                  {path("is_proven"), integer, "point", from_to(-1.0, 1.0)},
                  {path("transient"), integer, "point"},
                  {path("revolutions"), integer, "point"},
                  {path("resolution"), real, "point"},
                  {path("section_dimension"), real, "point"},
+                 {path("settles_after"), integer, "point", any, true},
                  {path("exponent"), real, "point exponents+"},
                  {path("regime"), integer, "point contacts", from_to(-1.0, 2.0)},
                  {path("duty"), real, "point contacts"},
@@ -64,6 +61,13 @@ std::vector<ResultSet> make_schema() {
   return {
       {{{"/model", text, "1"}}},
       {{{"/arguments", text, "words+"}}},
+      {{{"/call@verb", text, ""}, {"/call@file", text, ""}}},
+      {{{"/call/word", text, "call_words"}}},
+      {{{"/call/set", text, "call_sets"}}},
+      {{{"/call/option", text, "call_options"}}},
+      {{{"/from/displacement", real, "full", finite},
+        {"/from/velocity", real, "full", finite},
+        {"/from@phase", real, "", finite}}},
       {{{"/points/z", real, "nodes+", finite}, {"/points/node_name", text, "nodes"}}},
       {{{"/points/body_name", text, "bodies+"}}},
       // motions
@@ -112,6 +116,7 @@ std::vector<ResultSet> make_schema() {
         {"/modes/shape", complex, "full modes"}}},
       {{{"/mac/frequency", real, "peaks+"},
         {"/mac/amplitude", real, "peaks"},
+        {"/mac/combination", text, "peaks", any, true},
         {"/mac/mac", real, "peaks modes"}},
        {"/modes/number"}},
       {{{"/campbell/speed", real, "speeds+", finite},
@@ -134,6 +139,7 @@ std::vector<ResultSet> make_schema() {
        {"/campbell/speed"}},
       {{{"/critical/speed", real, "speeds"},
         {"/critical/damped_speed", real, "speeds"},
+        {"/critical/damping_ratio", real, "speeds", any, true},
         {"/critical/whirl", text, "speeds"},
         {"/critical@order", real, "", from_to(positive.least, most_order)}}},
       {{{"/unbalance/speed", real, "speeds+", finite},
@@ -142,7 +148,22 @@ std::vector<ResultSet> make_schema() {
         {"/unbalance/y", complex, "stations speeds"},
         {"/unbalance/major", real, "stations speeds"},
         {"/unbalance/minor", real, "stations speeds"}}},
+      {{{"/unbalance/curve_speed", real, "curve+", finite},
+        {"/unbalance/curve_x", complex, "stations curve"},
+        {"/unbalance/curve_y", complex, "stations curve"},
+        {"/unbalance/curve_major", real, "stations curve"}},
+       {"/unbalance/speed"}},
+      {{{"/unbalance/peak_speed", real, "response_peaks", finite},
+        {"/unbalance/peak_station", integer, "response_peaks", numbers_of("stations")},
+        {"/unbalance/peak_amplitude", real, "response_peaks"},
+        {"/unbalance/peak_below", real, "response_peaks"},
+        {"/unbalance/peak_above", real, "response_peaks"}},
+       {"/unbalance/speed"}},
       {{{"/static/displacement", real, "full"}}},
+      {{{"/static/z", real, "along+", finite},
+        {"/static/deflection", real, "along 2", finite},
+        {"/static/moment", real, "along 2", finite},
+        {"/static/shear", real, "along 2", finite}}},
       {{{"/static/bearing", text, "bearings+"}, {"/static/bearing_load", real, "bearings 2"}}},
       // periodic motions
       {{{"/orbit/multiplier", complex, "multipliers"},
@@ -221,7 +242,7 @@ std::vector<ResultSet> make_schema() {
                              {"/basins/axis_1", real, "first+", finite, true},
                              {"/basins/axis_2", real, "second+", finite, true},
                              {"/basins/axis_3", real, "third+", finite, true}}),
-      {{{"/basins/attractor", integer, "point", {-1.0, largest, false, "point"}}},
+      {{{"/basins/attractor", integer, "point", {-2.0, largest, false, "point"}}},
        {"/basins/motion"}},
       {{{"/bench/method", text, "methods+"},
         {"/bench/tolerance", real, "tolerances+", positive},
@@ -234,205 +255,11 @@ std::vector<ResultSet> make_schema() {
   };
 }
 
-/// A dimension of an entry: its name and what it asks for.
-struct DimensionName {
-  std::string name;
-  bool has_elements = false;  ///< at least one
-};
-
-std::vector<DimensionName> dimensions_of(std::string_view sizes) {
-  std::vector<DimensionName> all;
-  for (std::size_t from = 0; from < sizes.size();) {
-    const std::size_t to = std::min(sizes.find(' ', from), sizes.size());
-    DimensionName d{std::string(sizes.substr(from, to - from))};
-    d.has_elements = d.name.ends_with('+');
-    if (d.has_elements) d.name.pop_back();
-    all.push_back(std::move(d));
-    from = to + 1;
-  }
-  return all;
-}
-
-/// Names of object and attribute: "/trajectory" and "period".
-std::pair<std::string, std::string> attribute_of(std::string_view path) {
-  const std::size_t at = path.find('@');
-  return {std::string(path.substr(0, at)), std::string(path.substr(at + 1))};
-}
-
-/// Checks entry after entry of one file, and remembers the sizes of dimensions.
-class ResultCheck {
- public:
-  explicit ResultCheck(const ResultReader& file) : file_(file) {}
-
-  bool has(std::string_view path) const {
-    if (path.find('@') == std::string_view::npos) return file_.has(std::string(path));
-    const auto [object, name] = attribute_of(path);
-    return file_.has_attribute(object, name);
-  }
-
-  void check(const ResultSet& set) {
-    const bool is_there = has(set.entries.front().path);
-    for (const std::string_view other : is_there ? set.needs : std::vector<std::string_view>{}) {
-      if (!has(other)) fail(set.entries.front().path, fmt::format("{} is missing", other));
-    }
-    for (const ResultEntry& entry : set.entries) {
-      const bool is_here = has(entry.path);
-      if (is_here && !is_there) {
-        fail(entry.path, fmt::format("{} is missing", set.entries.front().path));
-      }
-      if (!is_here && is_there && !entry.is_optional) fail(entry.path, "it is missing");
-      if (!is_here) continue;
-      entry.path.find('@') == std::string_view::npos ? check(entry) : check_attribute(entry);
-    }
-  }
-
-  /// Full vectors begin with four numbers per node.
-  void check_full_vectors() const {
-    const auto full = sizes_.find("full"), nodes = sizes_.find("nodes");
-    if (full == sizes_.end() || nodes == sizes_.end()) return;
-    if (full->second.size < 4 * nodes->second.size) {
-      fail(full->second.of,
-           fmt::format("its vectors have {} numbers, expected 4 for each of {} nodes",
-                       full->second.size, nodes->second.size));
-    }
-  }
-
- private:
-  struct Size {
-    Index size = 0;
-    std::string of;  ///< the dataset that it was first seen at
-  };
-
-  [[noreturn]] void fail(std::string_view path, const std::string& why) const {
-    throw FileError(fmt::format("{}: {} is damaged or of another program: {}",
-                                file_.path().string(), path, why));
-  }
-
-  void check_attribute(const ResultEntry& entry) const {
-    const auto [object, name] = attribute_of(entry.path);
-    if (entry.kind == text) {
-      file_.string_attribute(object, name);
-    } else {
-      check_values(entry, {file_.number_attribute(object, name)});
-    }
-  }
-
-  void check(const ResultEntry& entry) {
-    const std::string path(entry.path);
-    const ObjectKind found = file_.kind(path);
-    const bool is_whole_real = entry.kind == real && found == integer;
-    if (found != entry.kind && !is_whole_real) {
-      fail(path, entry.kind == text      ? "expected texts"
-                 : entry.kind == integer ? "expected whole numbers"
-                 : entry.kind == complex ? "expected complex numbers"
-                                         : "expected numbers");
-    }
-    const std::vector<Index> shape = file_.shape(path);
-    check_shape(path, shape, wanted_of(entry));
-    const ValidValues& v = entry.values;
-    const bool is_free =
-        v.has_gaps && std::isinf(v.least) && std::isinf(v.most) && v.counts.empty();
-    if (!is_free) check_values(entry, file_.numbers(path));
-  }
-
-  /// Dimensions of an entry, those of the study's points one by one.
-  std::vector<DimensionName> wanted_of(const ResultEntry& entry) const {
-    std::vector<DimensionName> wanted;
-    for (const DimensionName& d : dimensions_of(entry.sizes)) {
-      if (d.name != "point") {
-        wanted.push_back(d);
-        continue;
-      }
-      for (const std::string& axis : axes_of_points(entry.path)) wanted.push_back({axis});
-    }
-    return wanted;
-  }
-
-  /// Datasets along the points of a study, their paths being the names of these dimensions.
-  std::vector<std::string> axes_of_points(std::string_view path) const {
-    const std::string group(path.substr(0, path.find('/', 1)));
-    std::vector<std::string> axes;
-    for (const char* name : {"/direction", "/start", "/axis_1", "/axis_2", "/axis_3"}) {
-      if (file_.has(group + name)) axes.push_back(group + name);
-    }
-    if (axes.empty()) fail(path, "its axes are missing");
-    return axes;
-  }
-
-  void check_shape(const std::string& path, const std::vector<Index>& shape,
-                   const std::vector<DimensionName>& wanted) {
-    if (shape.size() != wanted.size()) {
-      fail(path, fmt::format("it has {} dimensions, expected {}", shape.size(), wanted.size()));
-    }
-    for (std::size_t i = 0; i < shape.size(); ++i) {
-      const std::string& name = wanted[i].name;
-      Index expected = 0;
-      const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), expected);
-      Size size{expected, "a result"};
-      if (error != std::errc{}) {
-        if (name.starts_with('/')) {
-          size = {file_.shape(name).at(0), name};
-        } else {
-          size = sizes_.try_emplace(name, Size{shape[i], path}).first->second;
-        }
-      }
-      if (shape[i] != size.size) {
-        fail(path, fmt::format("dimension {} has {} elements, {} has {} of them", i + 1, shape[i],
-                               size.of, size.size));
-      }
-      if (wanted[i].has_elements && shape[i] == 0) fail(path, "it is empty");
-    }
-  }
-
-  Index count_of(const ResultEntry& entry) const {
-    if (entry.values.counts == "point") {
-      Index count = 1;
-      for (const std::string& axis : axes_of_points(entry.path)) count *= file_.shape(axis).at(0);
-      return count;
-    }
-    const auto known = sizes_.find(std::string(entry.values.counts));
-    return known == sizes_.end() ? 0 : known->second.size;
-  }
-
-  void check_values(const ResultEntry& entry, const std::vector<double>& values) const {
-    const ValidValues& v = entry.values;
-    const double most = v.counts.empty() ? v.most : static_cast<double>(count_of(entry));
-    for (const double x : values) {
-      if (std::isnan(x) ? v.has_gaps : x >= v.least && x <= most) continue;
-      std::string expected = "a finite number";
-      if (std::isfinite(v.least) && v.least > -largest) {
-        expected = most < largest  ? fmt::format("{:g} to {:g}", v.least, most)
-                   : v.least > 0.0 ? "a number above 0"
-                                   : "0 or more";
-      }
-      fail(entry.path, fmt::format("found {}, expected {}", x, expected));
-    }
-  }
-
-  const ResultReader& file_;
-  std::map<std::string, Size> sizes_;
-};
-
 }  // namespace
 
 const std::vector<ResultSet>& result_schema() {
   static const std::vector<ResultSet> schema = make_schema();
   return schema;
-}
-
-void check_result(const ResultReader& file) {
-  ResultCheck check(file);
-  for (const ResultSet& set : result_schema()) check.check(set);
-  check.check_full_vectors();
-}
-
-std::unique_ptr<ResultReader> open_result(const std::filesystem::path& path) {
-  auto file = std::make_unique<ResultReader>(path);
-  if (!file->has("/model")) {
-    throw FileError(fmt::format("{} is no result of whirl: it holds no model", path.string()));
-  }
-  check_result(*file);
-  return file;
 }
 
 }  // namespace whirl

@@ -34,8 +34,10 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
     track.terms.assign(terms_.size(), P(0.0));
   }
   t.gain.assign(contacts_.size(), P(0.0));
-  // the term that is left out, (w h)^(N+3) / (N+3)!, is as large as the tolerance
-  t.reach = std::exp((std::log(options_.tolerance) + std::lgamma(N + 4.0)) / (N + 3.0));
+  // the term that is left out, (w h)^(N+3) / (N+3)!, is as large as the tolerance;
+  // std::lgamma writes the global signgam, and several threads come here at once
+  int sign = 1;
+  t.reach = std::exp((std::log(options_.tolerance) + ::lgamma_r(N + 4.0, &sign)) / (N + 3.0));
 }
 
 template <class P>

@@ -158,6 +158,9 @@ TEST_F(Linear, Modes) {
     EXPECT_TRUE(mode["kappa"].is_number());
   }
   EXPECT_TRUE(r["real_roots"].is_array());
+  // 99.995 rad/s for people: 954.88 rpm, 15.915 Hz
+  const std::string text = whirl({"modes", "rotor.toml", "--modes", "2"}).out;
+  EXPECT_TRUE(has(text, "954.9") && has(text, "15.91")) << text;
 }
 
 // c = 4 sqrt(k m): lambda = -omega (2 +- sqrt(3)), both real, in x and in y
@@ -261,6 +264,8 @@ TEST_F(Linear, UnbalanceTellsAmplificationAndMargins) {
   const std::string text =
       whirl({"unbalance", "rotor.toml", "--speed", "115rad/s", "--speeds", "0:150:0.02rad/s"}).out;
   EXPECT_TRUE(has(text, "13.0 % below") && has(text, "16.0 %, NOT KEPT")) << text;
+  // at the highest speed: e (W / omega)^2 / |1 - (W / omega)^2 + 2 i zeta W / omega| = 179.9 um
+  EXPECT_TRUE(has(text, "179.9")) << text;
 }
 
 // zeta = 1 / 350: highest at omega / (1 - 2 zeta^2)^(1/2) with e / (2 zeta (1 - zeta^2)^(1/2)), an

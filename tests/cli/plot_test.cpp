@@ -1,6 +1,7 @@
 // plot and report: pictures and pages of results.
 
 #include <complex>
+#include <cstring>
 #include <regex>
 
 #include "libio/comparison.hpp"
@@ -86,6 +87,28 @@ std::vector<Figure> figures_in(std::string_view name, const ResultView& view) {
     if (kind.name == name) return figures_of(kind, view);
   }
   return {};
+}
+
+/// Numbers of an array of a page: "f64:" and base64 of little-endian doubles.
+std::vector<double> numbers_of(const std::string& text) {
+  EXPECT_EQ(text.substr(0, 4), "f64:");
+  static const std::string letters =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : text.substr(4)) {
+    const auto value = letters.find(c);
+    if (value == std::string::npos) break;  // padding
+    bits = (bits << 6) | static_cast<unsigned>(value);
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes += static_cast<char>((bits >> held) & 0xffu);
+  }
+  std::vector<double> numbers(bytes.size() / sizeof(double));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
+  return numbers;
 }
 
 long count(const std::string& text, const std::string& part) {
@@ -579,6 +602,51 @@ TEST_F(Plot, AReportIsOneFile) {
   EXPECT_FALSE(linear["motion"].contains("motions"));
   // program, style and libraries: below 1 MB
   EXPECT_LT(page.size() - data.dump().size(), 1'000'000u);
+}
+
+// A response to unbalance moves the page's rotor like a shaft: its cross-sections tilt with the
+// slopes, theta_x = -dy/dz and theta_y = dx/dz, at the left end by those of the first element.
+TEST_F(Plot, AResponseTiltsThePagesRotorWithItsSlopes) {
+  write("shaft.toml", R"(format = 1
+[material.steel]
+density = 7800
+youngs_modulus = "200 GPa"
+poisson_ratio = 0.3
+[[shaft]]
+material = "steel"
+length = 1
+outer_diameter = "30 mm"
+elements = 4
+[[disk]]
+at = 0.5
+mass = 5
+diametral_inertia = 0.1
+unbalance = { moment = 1e-4 }
+[[bearing]]
+at = 0
+stiffness = 1e7
+damping = 500
+[[bearing]]
+at = 1
+stiffness = 1e7
+damping = 500
+)");
+  make({"unbalance", "shaft.toml", "--speeds", "0:500:2"}, "u.h5");
+  ASSERT_EQ(whirl({"report", "u.h5"}).status, 0);
+  const std::string page = content(folder / "u.html");
+  const auto from = page.find("id=\"data\">") + 10;
+  const json data = json::parse(page.substr(from, page.find("</script>", from) - from));
+  const json& motion = data["results"][0]["motion"];
+  const json& response = motion["motions"][0];
+  const double length = motion["z"][1].get<double>() - motion["z"][0].get<double>();
+  for (const char* part : {"re", "im"}) {  // x, y, theta_x, theta_y of every node
+    const auto v = numbers_of(data["arrays"][response[part].get<std::size_t>()]);
+    ASSERT_EQ(v.size(), 5u * 4u);
+    const double rounding = 1e-12 * std::abs(v[8] + v[9]);
+    EXPECT_NEAR(v[2], -(v[4 + 1] - v[1]) / length, rounding) << part;
+    EXPECT_NEAR(v[3], (v[4] - v[0]) / length, rounding) << part;
+    EXPECT_GT(std::abs(v[2]) + std::abs(v[3]), 1e3 * rounding) << part;
+  }
 }
 
 // Two runs over each other: what was changed is said, and every curve of both is there, in the units

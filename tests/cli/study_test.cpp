@@ -209,6 +209,25 @@ TEST_F(Study, SweepGoesUpAndDown) {
   EXPECT_NEAR(touch, file.numbers("/sweep/duty")[4], 0.03);  // by samples
 }
 
+// A rotor that lies on its ring touches it where its sag and the cross-coupling of its springs have
+// taken it, x > 0 and y < 0: all the time in the sectors of that quarter.
+TEST_F(Study, SweepSaysWhereTheStatorIsTouched) {
+  const Outcome o = whirl({"sweep", "rub.toml", "--over", "operation.speed=100:110:10", "--set",
+                           "gravity=9.81", "--set", "unbalance.1.offset=0", "--set",
+                           "bearing.shaft.stiffness={xx=2e4,yy=2e4,xy=1e4,yx=0}", "--out", "s.h5"});
+  ASSERT_EQ(o.status, 0) << o.err;
+  const ResultReader file(folder / "s.h5");
+  const std::vector<double> angles = file.numbers("/sweep/contact_angle");
+  const std::vector<double> middles = file.numbers("/sweep/sector");
+  double there = 0.0, elsewhere = 0.0;
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    (middles[i] > 1.5 * pi ? there : elsewhere) += angles[i];
+  }
+  constexpr double rounding = 1e-9;  // of a sum over samples
+  EXPECT_NEAR(there, 1.0, rounding);
+  EXPECT_EQ(elsewhere, 0.0);
+}
+
 // Where a motion ends depends on where it came from: a carried sweep keeps the rub that a rotor
 // starting from rest never finds.
 TEST_F(Study, SweepCarriesTheStateOrNot) {

@@ -9,6 +9,7 @@
 
 #include "libcontact/blade.hpp"
 #include "libdyn/batch/batch.hpp"
+#include "libdyn/simulate.hpp"
 #include "libfe/base/error.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
@@ -277,6 +278,33 @@ TEST(BladeTips, AreMeasuredAsOneContact) {
     EXPECT_NEAR(measures[i].impacts, t.contacts[i].impacts, 1.0);
   }
   EXPECT_NEAR(measures[0].duty, any / time, 1e-12);
+}
+
+// What is recorded of a row of blades is the sum over all that touch: slipping forward, the friction
+// is mu times the normal force, also while several press.
+TEST(BladeTips, AreRecordedTogether) {
+  constexpr double rounding = 1e-12;  // relative, of a sum over few blades
+  BladedDisk p;
+  p.blades = 40;
+  const Scene scene = p.scene();
+  constexpr int samples = 64;
+  const Recording seen = simulate(scene, test::start_of(p.model(), scene),
+                                  {.revolutions = 2, .discard = 20, .samples = samples})
+                             .recording;
+  int several = 0;
+  for (Eigen::Index j = 0; j < seen.eta.cols(); ++j) {
+    const double N = seen.normal(0, j);
+    EXPECT_NEAR(seen.friction(0, j), p.mu * N, rounding * N);
+    const Vec2 u = scene.contacts.contacts()[0].U * seen.eta.col(j);
+    int pressing = 0;
+    for (int i = 0; i < p.blades; ++i) {
+      const double a = 2.0 * std::numbers::pi *
+                       (static_cast<double>(j % samples) / samples + i / double(p.blades));
+      pressing += (u + p.Rt * Vec2(std::cos(a), std::sin(a))).norm() > p.Rt + p.gap ? 1 : 0;
+    }
+    several += pressing > 1 ? 1 : 0;
+  }
+  EXPECT_GT(several, 0);
 }
 
 // Off the ring for good: the certificate sends it to its end in closed form, and rightly.

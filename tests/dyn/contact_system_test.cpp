@@ -195,6 +195,18 @@ TEST(ContactSystem, ClassifiesAnInstantWithoutAPast) {
   EXPECT_EQ(touch(1.1e-3, 0.0, -p.Omega * p.R).touch, Touch::sticking);
 }
 
+// No slip, and along t an unbalance of 1000 N against a friction of 20 N at most: it begins to slide
+// the way that it is pulled.
+TEST(ContactSystem, ClassifiesWhatFrictionCannotHoldAsSlidingThatWay) {
+  const MassInRing p{.U = 0.1, .kC = 1e6, .mu = 0.2, .R = 0.05, .clearance = 1e-3};
+  const Scene scene = p.scene();
+  const Vec y = (Vec(4) << 1.1e-3, 0.0, 0.0, -p.Omega * p.R).finished();
+  const double along = 0.5 * test::pi,
+               against = 1.5 * test::pi;  // phases of the unbalance, t = (0, 1)
+  EXPECT_EQ(scene.contacts.classify(along, y.data())[0], (ContactState{Touch::sliding, 1.0}));
+  EXPECT_EQ(scene.contacts.classify(against, y.data())[0], (ContactState{Touch::sliding, -1.0}));
+}
+
 // The equations that look only at the state are those of the contacts that it is classified to:
 // apart, receding with damping, sliding either way.
 TEST(ContactSystem, AcceleratesWithoutAPastAsItClassifies) {

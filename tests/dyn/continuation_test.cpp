@@ -59,6 +59,23 @@ Branch switched(const FlowAt& flow_at, const Vec& scale, int period, const Bifur
                           Branch{.period = next->period, .points = {next->start}}, options});
 }
 
+// An orbit that doubles its period goes round twice: impacts double, shares of the time stay.
+TEST(SwitchBranch, OfADoubledPeriodHasTwiceTheImpacts) {
+  const ContinuationOptions options{.low = -1.0, .high = 0.0, .first = -1.0, .largest_step = 0.05};
+  const Vec start = Vec::Constant(1, 0.5 - std::sqrt(1.25));  // x = x^2 + c at c = -1
+  const Branch branch = walk_to_the_end(orbit_continuation(quadratic, start, options));
+  ASSERT_EQ(branch.bifurcations.size(), 1u);
+  Bifurcation at = branch.bifurcations[0];
+  ASSERT_EQ(at.kind, period_doubling);
+  at.at.contacts = {{.name = "ring", .duty = 0.25, .impacts = 3.0}};
+  const auto next = switch_branch(quadratic, Vec::Ones(1), 1, at);
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->period, 2);
+  ASSERT_EQ(next->start.contacts.size(), 1u);
+  EXPECT_EQ(next->start.contacts[0].impacts, 6.0);
+  EXPECT_EQ(next->start.contacts[0].duty, 0.25);
+}
+
 // x -> x^2 + c: fixed points 1/2 +- sqrt(1/4 - c) meet at c = 1/4; the lower one doubles its period at
 // -3/4, that of period 2 at -5/4; period 3 comes up in a fold at -7/4.
 TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {

@@ -54,6 +54,34 @@ TEST(Identify, FindsAPureModeAsItself) {
   }
 }
 
+// Two forward circles, 6 bins above and 18 below the spin: seen from the rotor they turn with 1 : 3
+// of a slow frequency, and both of them do turn.
+TEST(Identify, SeesResonancesOfSlowMotionsInTheRotatingFrame) {
+  const Model model = two_disks();
+  const Scene scene = make_scene(model);
+  const Mode* forward = nullptr;
+  const std::vector<Mode> modes = complex_modes(scene.system, 6).oscillatory;
+  for (const Mode& m : modes) {
+    if (!forward && m.whirl == Whirl::forward) forward = &m;
+  }
+  ASSERT_NE(forward, nullptr);
+  constexpr long revolutions = 120;
+  const double spin = scene.system.Omega, bin = spin / revolutions;
+  Recording r = pure_mode(scene, *forward, 0.0, revolutions);
+  for (const double frequency : {spin + 6.0 * bin, spin - 18.0 * bin}) {
+    Mode turning = *forward;
+    turning.lambda = Complex(0.0, frequency);
+    r.eta += pure_mode(scene, turning, 1e-3, revolutions).eta;
+  }
+  const auto resonance = identify(model, scene, r, {.modes = 6}).resonance;
+  ASSERT_TRUE(resonance);
+  EXPECT_EQ(resonance->p, 3);
+  EXPECT_EQ(resonance->q, 1);
+  constexpr double between_bins = 1e-3;  // of a bin: what is left of the window
+  EXPECT_NEAR(resonance->low, 6.0 * bin, between_bins * bin);
+  EXPECT_NEAR(resonance->high, 18.0 * bin, between_bins * bin);
+}
+
 // Undamped modes at rest are orthogonal by the mass matrix: their MAC table is the identity. In
 // complex shapes x and y count together, so one plane is enough.
 TEST(Mac, WeightedByMassIsTheIdentityForUndampedModes) {

@@ -86,6 +86,19 @@ TEST(StartState, AddsModesToTheSag) {
   EXPECT_LT((both - (sag + first + second)).norm(), rounding * both.norm());
 }
 
+// A place that is moved aside and thrown is there, with that velocity; the stator stays.
+TEST(StartState, OfADisplacedPlaceIsWhereItIsTold) {
+  Model model = test::P1.model();
+  model.structure.gravity = 0.0;
+  model.start.displaced = {
+      {.at = test::body("rotor"), .x = 1e-3, .y = 2e-3, .vx = 0.3, .vy = -0.4}};
+  const Scene scene = make_scene(model);
+  const FullState state = full_state(scene, test::start_of(model, scene));
+  const Vec displacement{{1e-3, 2e-3, 0.0, 0.0}}, velocity{{0.3, -0.4, 0.0, 0.0}};
+  EXPECT_LT((state.displacement - displacement).norm(), rounding * displacement.norm());
+  EXPECT_LT((state.velocity - velocity).norm(), rounding * velocity.norm());
+}
+
 TEST(StartState, OfAModeThatDoesNotExistIsRefused) {
   Model model = MassInRing{}.model();
   for (const int number : {0, 3, 99}) {

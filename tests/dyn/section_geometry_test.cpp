@@ -53,6 +53,9 @@ TEST(SectionDimension, OfPointsThatRepeatIsNone) {
   EXPECT_EQ(section_dimension(points), 0.0);
   EXPECT_EQ(section_dimension(Mat::Zero(2, count)), 0.0);
   EXPECT_TRUE(std::isnan(section_dimension(Mat::Random(2, 10))));
+  // the 32 nearest are no neighborhood of less than three times as many
+  EXPECT_TRUE(std::isnan(section_dimension(Mat::Random(2, 95))));
+  EXPECT_FALSE(std::isnan(section_dimension(Mat::Random(2, 96))));
 }
 
 }  // namespace whirl::section_geometry_test

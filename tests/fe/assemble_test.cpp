@@ -270,6 +270,28 @@ TEST(MasslessBody, WithADamperOfItsOwnStays) {
   }
 }
 
+// The same with a damper c1 beside k1, of which c is 0.5 %: what the joint's own damper adds to the
+// common ratio of damping and stiffness is small, and is no rounding.
+//   (m s^2 + k2) ((c + c1) s + k1) + (c1 s + k1) c s = 0
+TEST(MasslessBody, WithASmallDamperOfItsOwnStays) {
+  const double m = 2.0, k1 = 3e5, k2 = 5e5, c1 = 150.0, c = 0.005 * c1;
+  const Structure structure{
+      .bodies = {{.name = "mass", .m = m}, {.name = "joint"}},
+      .bearings = {test::bearing(test::body("mass"), test::isotropic(k2)),
+                   test::bearing(test::body("joint"), test::isotropic(0.0, c))},
+      .links = {test::connect(test::body("mass"), test::body("joint"), test::isotropic(k1, c1))}};
+  const System s = assemble(structure, 0.0);
+  EXPECT_EQ(s.dofs.condensed, 0);
+  const auto left = [&](Complex z) {
+    return (m * z * z + k2) * ((c + c1) * z + k1) + (c1 * z + k1) * c * z;
+  };
+  const Modes modes = complex_modes(s, 10);
+  ASSERT_EQ(modes.oscillatory.size(), 2u);
+  for (const Mode& mode : modes.oscillatory) {
+    EXPECT_LT(std::abs(left(mode.lambda)), solves * k1 * k2);
+  }
+}
+
 TEST(MasslessBody, WithoutSupportHasNoMotion) {
   const Structure structure{.bodies = {{.name = "mass", .m = 1.0}, {.name = "nothing"}},
                             .bearings = {test::bearing(test::body("mass"), test::isotropic(1.0))}};

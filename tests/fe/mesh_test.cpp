@@ -215,10 +215,12 @@ TEST(Mesh, APositionNeedsAShaft) {
 
 TEST(Mesh, TheSamePlaceWithDifferentNumbersIsASlip) {
   Structure s = two_segments();
-  s.stations = {at(0.3), at(0.3 + 1e-6)};  // 1e-9 < 1.25e-6 < 1e-5 of the length
-  const ModelError error = error_of(s);
-  ASSERT_EQ(error.problems().size(), 1u);
-  EXPECT_NE(error.problems()[0].message.find("same place"), std::string::npos);
+  for (const double apart : {1e-6, 1e-8}) {  // of 0.8 m: between 1e-9 and 1e-5 of the length
+    s.stations = {at(0.3), at(0.3 + apart)};
+    const ModelError error = error_of(s);
+    ASSERT_EQ(error.problems().size(), 1u);
+    EXPECT_NE(error.problems()[0].message.find("same place"), std::string::npos);
+  }
 }
 
 // An element of a millionth of the shaft would leave nothing of the others' stiffness.

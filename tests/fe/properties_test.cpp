@@ -29,6 +29,16 @@ TEST(RotorProperties, OfAConeAreItsClosedForms) {
   EXPECT_NEAR(p.Ip, Ip, rounding * Ip);
 }
 
+// Two cylinders in a row, m1 and m2, with their centers at L1 / 2 and L1 + L2 / 2.
+TEST(RotorProperties, OfSegmentsInARowCountEachAtItsPlace) {
+  const double L1 = 0.2, L2 = 0.6, d1 = 0.1, d2 = 0.05;
+  const Structure s{.shaft = {test::cylinder(L1, d1, 1), test::cylinder(L2, d2, 2)}};
+  const RotorProperties p = rotor_properties(s, make_mesh(s));
+  const double m1 = L1 * d1 * d1, m2 = L2 * d2 * d2;  // by one factor
+  const double center = (m1 * 0.5 * L1 + m2 * (L1 + 0.5 * L2)) / (m1 + m2);
+  EXPECT_NEAR(p.center_of_mass, center, rounding);
+}
+
 // Shaft of mass m0 with its center amid, a disk at z: (m0 L / 2 + m z) / (m0 + m). What spins
 // counts, a stator does not; bodies have no place along the shaft.
 TEST(RotorProperties, CountDisksAndBodiesThatSpin) {

@@ -138,6 +138,11 @@ TEST(StaticEquilibrium, InternalDampingMovesTheSagSideways) {
   EXPECT_NEAR(e.displacement(4 + X), z.real(), solves * std::abs(z));
   EXPECT_NEAR(e.displacement(4 + Y), z.imag(), solves * std::abs(z));
   EXPECT_GT(e.displacement(4 + X), 0.0);  // forward whirl is what it drives: down, then to +x
+  // what is inside the shaft bends it and holds nothing up: the bearings share the weight
+  for (const BearingLoad& load : e.bearings) {
+    EXPECT_NEAR(load.force(X), 0.0, solves * jeffcott.m * g);
+    EXPECT_NEAR(load.force(Y), -0.5 * jeffcott.m * g, solves * jeffcott.m * g);
+  }
 }
 
 // A table gives the stiffness of the speed: y = -m g / k(Omega).

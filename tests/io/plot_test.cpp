@@ -109,6 +109,7 @@ TEST(Spread, KeepsPlacesApart) {
   EXPECT_NEAR(three[2], 16.0 / 3.0, 1e-15);
   EXPECT_EQ(spread({1.0, 2.0}, 3.0, 1.0, 20.0), (Places{1.0, 4.0}));
   EXPECT_EQ(spread({18.0, 19.0}, 3.0, 1.0, 20.0), (Places{17.0, 20.0}));
+  EXPECT_EQ(spread({19.0, 19.5}, 3.0, 1.0, 20.0), (Places{17.0, 20.0}));  // pushed from the top
   EXPECT_EQ(spread({}, 3.0, 0.0, 1.0), Places{});
 }
 

@@ -175,10 +175,10 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"0x10", "m", R"(unknown unit "x" in "0x10", expected a length (m))"}));
 
 TEST(Units, AngleMayBeLeftOutOfTorsionalUnitsOnly) {
-  EXPECT_EQ(*parse_as("5 N.m", "N.m/rad"), 5.0);
-  EXPECT_EQ(*parse_as("5 N.m/rad", "N.m"), 5.0);
-  EXPECT_EQ(*parse_as("5 N.m.s", "N.m.s/rad"), 5.0);
-  EXPECT_EQ(*parse_as("5 N.m.s/rad", "N.m.s"), 5.0);
+  EXPECT_EQ(parse_as("5 N.m", "N.m/rad").value, 5.0);
+  EXPECT_EQ(parse_as("5 N.m/rad", "N.m").value, 5.0);
+  EXPECT_EQ(parse_as("5 N.m.s", "N.m.s/rad").value, 5.0);
+  EXPECT_EQ(parse_as("5 N.m.s/rad", "N.m.s").value, 5.0);
   // where an angle is written, its size counts: 1 N.m/deg = 180 / pi N.m/rad
   EXPECT_NEAR(*parse_as("1 N.m/deg", "N.m/rad"), 180.0 / pi, 1e-13);
   EXPECT_FALSE(parse_as("5 kg.m^2/rad", "kg.m^2"));

@@ -273,6 +273,35 @@ TEST_F(VtkSeries, StatorsMoveWithTheirBodies) {
   }
 }
 
+TEST(VtkFrames, HaveTheForcesOnTheRotor) {
+  const Model model = parse_model(R"(format = 1
+[operation]
+speed = "100 rad/s"
+[[body]]
+name = "rotor"
+mass = 2
+spins = true
+[[bearing]]
+body = "rotor"
+stiffness = 2e4
+[[contact]]
+name = "ring"
+body = "rotor"
+radius = "50 mm"
+clearance = "1 mm"
+stiffness = 1e6
+friction = 0.2
+)");
+  const Assembler assembler(model.structure);
+  // displaced along y: n = (0, 1), t = (-1, 0); pressed back by N, and T acts against +t
+  const VtkFrame frame =
+      vtk_frame(model, assembler, 0.5, Vec{{0.0, 2e-3}}, Vec{{1000.0}}, Vec{{200.0}});
+  ASSERT_EQ(frame.forces.size(), 1u);
+  EXPECT_TRUE(frame.forces[0].is_touching);
+  EXPECT_EQ(frame.forces[0].force, Vec2(200.0, -1000.0));
+  EXPECT_EQ(frame.forces[0].arm, Vector3d(0.0, 0.05, 0.0));
+}
+
 TEST_F(VtkSeries, ForcesAreLinesFromWhereTheyAct) {
   const VtkScene scene = example();
   VtkFrame frame = at_rest(scene);
