@@ -14,8 +14,8 @@ namespace {
 constexpr double rounding = 1e-6;  ///< of a sample's spacing
 
 /// Where a motion begins and ends, in revolutions.
-struct Range {
-  explicit Range(const RecordedMotion& m)
+struct RecordedRange {
+  explicit RecordedRange(const RecordedMotion& m)
       : motion(m),
         first(m.time(0) / m.period),
         last(m.time(m.time.size() - 1) / m.period),
@@ -44,7 +44,8 @@ struct Range {
 };
 
 /// First and last revolution that were asked for.
-std::pair<double, double> asked_for(const MotionWindow& window, const Range& all, double usual) {
+std::pair<double, double> asked_for(const MotionWindow& window, const RecordedRange& all,
+                                    double usual) {
   if (window.times) {
     const auto [from, to] = *window.times;
     const double first = from / all.motion.period, last = to / all.motion.period;
@@ -77,7 +78,7 @@ RecordedMotion recorded_motion(const ResultReader& file) {
 }
 
 MotionSamples samples_of(const MotionWindow& window, const RecordedMotion& motion, double usual) {
-  const Range all(motion);
+  const RecordedRange all(motion);
   const auto [from, to] = asked_for(window, all, usual);
   const auto most = static_cast<double>(motion.time.size() - 1);
   const auto place = [&](double revolution) { return (revolution - all.first) / all.spacing; };

@@ -9,7 +9,6 @@ namespace whirl {
 
 namespace {
 
-using Index = Eigen::Index;
 using enum ObjectKind;
 
 constexpr double largest = std::numeric_limits<double>::max();

@@ -57,7 +57,9 @@ ContactMeasure measure(const Scene& scene, MotionState& state, long revolutions,
 TEST_P(HardCase, GrazesAreNeitherMissedNorInvented) {
   constexpr double gap = 1e-3, w = 100.0;
   const bool sees_ends_only = GetParam().starts_with("cvode");
-  if (GetParam().starts_with("arkode") || GetParam() == "rk4") return;
+  if (GetParam().starts_with("arkode") || GetParam() == "rk4") {
+    GTEST_SKIP() << "its steps are longer than such a touch";
+  }
   const MassInRing p{.Omega = 40.0, .k = w * w, .kC = 1e6, .clearance = gap};
   const Scene scene = p.scene();
   for (const double beyond : {1e-6, 1e-8, 1e-10, 1e-11}) {
@@ -106,7 +108,7 @@ TEST_P(HardCase, ChatterComesToRest) {
 // stiff the ring. The largest force is v0 w m.
 TEST_P(HardCase, StiffContactsKeepTheClosedFormOfABounce) {
   constexpr int contacts = 12;
-  if (GetParam() == "rk4") return;  // its steps are longer than these contacts
+  if (GetParam() == "rk4") GTEST_SKIP() << "its steps are longer than these contacts";
   for (const double kC : {1e5, 1e7, 1e9, 1e11}) {
     const MassInRing p{.Omega = 100.0, .k = 0.0, .kC = kC};
     const Scene scene = p.scene();
@@ -126,7 +128,7 @@ TEST_P(HardCase, StiffContactsKeepTheClosedFormOfABounce) {
 // Backward whirl that rolls in the ring, as at 7250 rpm: friction keeps the slip velocity zero for
 // whole revolutions, and all methods make the same motion.
 TEST_P(HardCase, RollingStaysLocked) {
-  if (GetParam() == "rk4") return;  // it has no sticking
+  if (GetParam() == "rk4") GTEST_SKIP() << "it has no sticking";
   static const TwoDiskRub rotor{.speed = 7250.0 * test::rpm,
                                 .start = {{.mode = 1, .amplitude = 5e-3}, {2, 5e-3, 0.0}}};
   static const Scene scene = rotor.scene();

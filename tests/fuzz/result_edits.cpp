@@ -196,7 +196,9 @@ bool edit(Item& item, std::uint8_t how, std::uint8_t a, std::uint8_t b) {
       (a % 2 == 0 ? item.long_name : item.units) = text_of(b);
   }
   if (item.shape.size() > 2 && item.kind != ObjectKind::integer) item.kind = ObjectKind::real;
-  if (item.kind == ObjectKind::text && item.shape.size() > 1) item.shape.resize(1);
+  if (item.kind == ObjectKind::text && item.shape.size() > 1) {
+    item.shape.erase(item.shape.begin() + 1, item.shape.end());
+  }
   if (item.count() > most_numbers) return false;
   fit(item);
   return true;

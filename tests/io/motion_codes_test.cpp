@@ -12,12 +12,12 @@ namespace whirl::motion_codes_test {
 class MotionCodesOf : public test::InResultFolder {
  protected:
   MotionCodes file(const std::string& words) const {
-    const auto path = folder / "kinds.h5";
-    ResultWriter writer(path);
+    const auto place = folder / "kinds.h5";
+    ResultWriter writer(place);
     writer.dataset("/map/motion", std::vector<int>{0, 1}, {"", "kind", {""}});
     if (!words.empty()) writer.attribute("/map/motion", words_attribute, words);
     writer.commit();
-    return {ResultReader(path), "/map/motion"};
+    return {ResultReader(place), "/map/motion"};
   }
 };
 
