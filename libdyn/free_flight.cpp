@@ -19,6 +19,7 @@ constexpr double careful = 1.0 - 1e-9;
 constexpr double dependent = 1e-6;
 constexpr double undamped = 1e-12;  ///< decay by the fastest eigenvalue that rounding may be
 constexpr double careful_of_modes = 1.0 - 1e-6;
+constexpr double equal = 1e-6;  ///< difference of equal eigenvalues over their decay
 
 /// y_p of y' = A y + F (1, cos, sin); nothing at a resonance or with a free rigid-body motion.
 std::optional<Mat> periodic_motion(const ContactSystem& system) {
@@ -168,24 +169,43 @@ void FreeFlight::prepare_modes() {
   const auto n = system_.coordinates();
   const Mat to_scale = scale.cwiseInverse().asDiagonal();
   to_modes_ = factors.solve(to_scale.cast<Complex>());
-  reach_.resize(std::ssize(left_), 2 * n);
+  seen_.resize(2 * std::ssize(left_), 2 * n);
   Eigen::Index row = 0;
   for (const ReducedContact& c : system_.contacts()) {
     if (c.blade.number > 0) continue;
-    for (Eigen::Index j = 0; j < 2 * n; ++j) {
-      const CVec u = c.U * scale.head(n).asDiagonal() * modes->vectors.col(j).head(n);
-      reach_(row, j) = major_semi_axis(u.real(), u.imag());
+    seen_.middleRows(row, 2) = c.U * scale.head(n).asDiagonal() * modes->vectors.topRows(n);
+    row += 2;
+  }
+  apart_ = Vec::Zero(2 * n);
+  for (Eigen::Index j = 0; j < 2 * n; ++j) {
+    groups_.push_back(j);
+    for (Eigen::Index first = 0; first < j; ++first) {
+      const double damping_times =
+          std::abs(modes->values(j) - modes->values(first)) / std::abs(modes->values(first).real());
+      if (groups_[static_cast<std::size_t>(first)] != first || damping_times > equal) continue;
+      groups_.back() = first;
+      apart_(j) = damping_times;
+      break;
     }
-    ++row;
   }
 }
 
 bool FreeFlight::is_certain_by_modes(const Vec& z) {
   if (!has_modes_) prepare_modes();
   if (to_modes_.size() == 0) return false;
-  const Vec reached = reach_ * (to_modes_ * z).cwiseAbs();
-  for (Eigen::Index i = 0; i < reached.size(); ++i) {
-    if (!(reached(i) < careful_of_modes * left_[static_cast<std::size_t>(i)])) return false;
+  const CVec w = to_modes_ * z;
+  for (Eigen::Index i = 0; i < std::ssize(left_); ++i) {
+    const CMat moved = seen_.middleRows(2 * i, 2) * w.asDiagonal();
+    CMat together = CMat::Zero(2, w.size());
+    double reached = 0.0;
+    for (Eigen::Index j = 0; j < w.size(); ++j) {
+      together.col(groups_[static_cast<std::size_t>(j)]) += moved.col(j);
+      reached += apart_(j) * moved.col(j).norm();
+    }
+    for (Eigen::Index g = 0; g < w.size(); ++g) {
+      reached += major_semi_axis(together.col(g).real(), together.col(g).imag());
+    }
+    if (!(reached < careful_of_modes * left_[static_cast<std::size_t>(i)])) return false;
   }
   return true;
 }

@@ -19,9 +19,10 @@ namespace whirl {
 /// where A^T P + P A = -Q with Q > 0: z^T P z never grows, and it bounds |U z| by the inequality of
 /// Cauchy and Schwarz. No eigenvector is involved, so that defective modes are no exception. Or if
 ///
-///   max |U y_p - offset| + sum_j |w_j| a_j < clearance,   z = sum_j w_j v_j,   A v_j = lambda_j v_j,
+///   max |U y_p - offset| + sum_g a_g < clearance,   z = sum_j w_j v_j,   A v_j = lambda_j v_j,
 ///
-/// with a_j the major semi-axis of Re(U v_j e^(i t)): exact where one mode whirls about a circle, and
+/// with a_g the major semi-axis of Re(sum_j w_j U v_j e^(i t)) over a group g of modes whose eigenvalues
+/// are equal, since these stay together: exact where one mode whirls about a circle. The bound is
 /// left out where the v_j are nearly dependent. If the free motion does not decay (undamped or
 /// rigid-body modes), nothing is certain; nor where a revolution is too long beside the fastest motion
 /// to be computed at once (see LinearFlow).
@@ -51,13 +52,15 @@ class FreeFlight {
   const ContactSystem& system_;
   std::optional<LinearFlow> flow_;
   bool is_prepared_ = false, decays_ = false;
-  Mat periodic_;              ///< y_p = periodic_ (1, cos phase, sin phase)
-  Mat P_;                     ///< of the quadratic bound
-  std::vector<double> left_;  ///< per contact: how far y_p stays away from it [m]
-  std::vector<double> room_;  ///< per contact: the largest z^T P z that cannot reach it
-  bool has_modes_ = false;    ///< whether the next two were looked for
-  CMat to_modes_;             ///< w = to_modes_ z; empty: the modes are nearly dependent
-  Mat reach_;                 ///< a_j, contacts x modes [m]
+  Mat periodic_;                      ///< y_p = periodic_ (1, cos phase, sin phase)
+  Mat P_;                             ///< of the quadratic bound
+  std::vector<double> left_;          ///< per contact: how far y_p stays away from it [m]
+  std::vector<double> room_;          ///< per contact: the largest z^T P z that cannot reach it
+  bool has_modes_ = false;            ///< whether the next two were looked for
+  CMat to_modes_;                     ///< w = to_modes_ z; empty: the modes are nearly dependent
+  CMat seen_;                         ///< U v_j, two rows for each contact [m]
+  std::vector<Eigen::Index> groups_;  ///< of each mode: the first one with its eigenvalue
+  Vec apart_;  ///< how much a mode leaves the others of its group in its damping time, relative
 };
 
 }  // namespace whirl

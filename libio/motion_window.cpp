@@ -56,7 +56,7 @@ std::pair<double, double> asked_for(const MotionWindow& window, const RecordedRa
   }
   if (!window.from_revolution) {
     const double count = window.revolutions.value_or(usual);
-    return {std::max(all.first, all.last - count), all.last};
+    return {std::max(all.first, all.end() - count), all.last};
   }
   const double from = *window.from_revolution, to = from + window.revolutions.value_or(usual);
   if (!all.begins_within(from)) all.refuse(fmt::format("--from-revolution {:g}", from));

@@ -247,7 +247,7 @@ TEST_F(Linear, UnbalanceTellsAmplificationAndMargins) {
   const auto peaks = [&](const std::string& speed, const std::string& speeds) {
     return result({"unbalance", "rotor.toml", "--speed", speed, "--speeds", speeds})["peaks"];
   };
-  const json found = peaks("125", "0:150:0.02");
+  const json found = peaks("125rad/s", "0:150:0.02rad/s");
   ASSERT_EQ(found.size(), 1u);
   const json& peak = found[0];
   EXPECT_NEAR(peak["speed_rpm"], omega / std::sqrt(1.0 - 2.0 * zeta * zeta) / rpm, 0.01);
@@ -257,8 +257,8 @@ TEST_F(Linear, UnbalanceTellsAmplificationAndMargins) {
   EXPECT_EQ(peak["side"], "below");
   EXPECT_NEAR(peak["required_margin"], 0.16, 1e-12);
   EXPECT_EQ(peak["is_kept"], true);
-  EXPECT_EQ(peaks("115", "0:150:0.02")[0]["is_kept"], false);
-  EXPECT_EQ(peaks("80", "0:150:0.02")[0]["side"], "above");
+  EXPECT_EQ(peaks("115rad/s", "0:150:0.02rad/s")[0]["is_kept"], false);
+  EXPECT_EQ(peaks("80rad/s", "0:150:0.02rad/s")[0]["side"], "above");
   EXPECT_TRUE(peaks("125", "0:100.5:0.02")[0]["amplification"].is_null());
   EXPECT_EQ(peaks("125", "0:90:1").size(), 0u);
   const std::string text =
@@ -425,7 +425,7 @@ TEST_F(Linear, UnbalanceAtChosenStations) {
 TEST_F(Linear, SpeedIsShortForSettingIt) {
   const json set = result({"modes", "rotor.toml", "--set", "operation.speed=138.4 rad/s"});
   EXPECT_EQ(result({"modes", "rotor.toml", "--speed", "138.4 rad/s"}), set);
-  EXPECT_EQ(result({"modes", "rotor.toml", "--speed=138.4"}), set);
+  EXPECT_EQ(result({"modes", "rotor.toml", "--speed=138.4rad/s"}), set);
   EXPECT_DOUBLE_EQ(set["speed_rpm"].get<double>(), 138.4 / rpm);
 }
 
@@ -438,7 +438,7 @@ TEST_F(Linear, SettingsAddUpAndTheLastOneHolds) {
 
 TEST_F(Linear, FormsOfSpeeds) {
   const auto speeds = [&](const std::string& range) {
-    return result({"unbalance", "rotor.toml", "--speeds", range})["speeds_rpm"]
+    return result({"unbalance", "rotor.toml", "--quiet", "--speeds", range})["speeds_rpm"]
         .get<std::vector<double>>();
   };
   const auto near = [](const std::vector<double>& found, const std::vector<double>& expected) {

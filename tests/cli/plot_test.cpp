@@ -883,8 +883,8 @@ TEST_F(Plot, AnalysesOfOneModelAreOneReport) {
   }
 }
 
-// Shapes of another size than the points, as of a damaged file: the page says which figure failed and
-// why, and draws the others.
+// Shapes of two nodes with a model of many, as of files that were put together: the page says which
+// figure failed and why, and draws the others.
 TEST_F(Plot, AFigureThatFailsLeavesTheOthers) {
   const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
   {
@@ -893,12 +893,19 @@ TEST_F(Plot, AFigureThatFailsLeavesTheOthers) {
     to.attribute("/model", "path", disks);
     to.dataset("/arguments", std::vector<std::string>{"whirl", "modes"},
                {"", "command line", {""}});
-    to.dataset("/points/z", Vec(Vec::LinSpaced(50, 0.0, 1.0)), {"m", "z", {""}});
+    const auto numbers = [&](const char* path) {
+      to.dataset(path, Vec(Vec::Ones(2)), {"", path, {""}});
+    };
+    to.dataset("/points/z", Vec(Vec::LinSpaced(2, 0.0, 1.0)), {"m", "z", {""}});
+    to.dataset("/points/node_name", std::vector<std::string>{"", ""}, {"", "name", {""}});
+    to.dataset("/modes/number", std::vector<int>{1, 2}, {"", "number", {""}});
+    to.dataset("/modes/eigenvalue", CVec(CVec::Ones(2)), {"1/s", "eigenvalue", {""}});
     to.dataset("/modes/shape", CMat(CMat::Ones(8, 2)), {"m", "shape", {"", ""}});
-    to.dataset("/modes/frequency", Vec(Vec::Ones(2)), {"rad/s", "frequency", {""}});
-    to.dataset("/modes/damping_ratio", Vec(Vec::Ones(2)), {"", "damping", {""}});
-    to.dataset("/modes/log_decrement", Vec(Vec::Ones(2)), {"", "decrement", {""}});
-    to.dataset("/modes/whirl", std::vector<std::string>{"forward"}, {"", "whirl", {""}});
+    for (const char* path :
+         {"/modes/frequency", "/modes/damping_ratio", "/modes/log_decrement", "/modes/kappa"}) {
+      numbers(path);
+    }
+    to.dataset("/modes/whirl", std::vector<std::string>{"forward", "forward"}, {"", "whirl", {""}});
     to.commit();
   }
   const Outcome made = whirl({"report", "d.h5"});

@@ -407,11 +407,13 @@ TEST_F(Study, StopsOnCtrlCAndGoesOn) {
 // 40 points, fewer than go together in one batch: what is done when Ctrl-C comes is kept, and the
 // same line goes on from there to the same numbers.
 TEST_F(Study, AFewPointsAreKeptOnCtrlCToo) {
-  std::vector<std::string> words{"map",       stator,
-                                 "--over",    "operation.speed=135:139:1rad/s",
-                                 "--over",    "contact.ring.friction=0.14:0.175:0.005",
-                                 "--threads", "1",
-                                 "--out",     "map.h5"};
+  std::vector<std::string> words{"map",           stator,
+                                 "--over",        "operation.speed=135:139:1rad/s",
+                                 "--over",        "contact.ring.friction=0.14:0.175:0.005",
+                                 "--threads",     "1",
+                                 "--revolutions", "4000",
+                                 "--exponents",   "4000",
+                                 "--out",         "map.h5"};
   const pid_t child = start(WHIRL_PROGRAM, words);
   while (!std::filesystem::exists(folder / "map.h5")) std::this_thread::sleep_for(1ms);
   ::kill(child, SIGINT);

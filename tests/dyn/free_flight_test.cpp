@@ -91,7 +91,7 @@ TEST(FreeFlight, IsRight) {
   for (int i = 0; i < 200; ++i) {
     MotionState state = rest;
     for (Eigen::Index k = 0; k < 8; ++k) {
-      state.y(k) += 0.01 * scene.contacts.state_scale()(k) * (i % 20) * normal(random);
+      state.y(k) += 0.02 * scene.contacts.state_scale()(k) * (i % 20) * normal(random);
     }
     state.contacts = scene.contacts.classify(0.0, state.y.data());
     if (!flight.is_certain(state)) continue;
@@ -114,7 +114,7 @@ MotionState pushed(const RotorStator& p, const Scene& scene) {
 // for contacts on one side, a jump on the other.
 TEST(FreeFlight, JumpsToWhereStepsLead) {
   constexpr double roundings = 1e-12;
-  RotorStator narrow{.Omega = 100.0, .gap = 2.5e-3}, wide{.Omega = 100.0, .gap = 1.0};
+  RotorStator narrow{.Omega = 100.0, .gap = 2.2e-3}, wide{.Omega = 100.0, .gap = 1.0};
   const Scene a = narrow.scene(), b = wide.scene();
   MotionState x = pushed(narrow, a), y = pushed(wide, b);
   x.phase = y.phase = 1.0;

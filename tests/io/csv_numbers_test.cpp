@@ -16,7 +16,7 @@ TEST_F(CsvNumbers, WithoutAnAxisAreCountedFromOne) {
   length[1] = std::numeric_limits<double>::quiet_NaN();
   length[2] = std::numeric_limits<double>::infinity();
   {
-    ResultWriter out(path);
+    ResultWriter out(path, Replaces::anything);
     out.dataset("/shaft/length", length, {"m", "length", {""}});
     out.commit();
   }

@@ -12,7 +12,7 @@ class CsvTables : public test::InResultFolder {
   /// The table of a group with names and a number for each.
   std::string table(const std::vector<std::string>& names) const {
     {
-      ResultWriter file(path);
+      ResultWriter file(path, Replaces::anything);
       file.dataset("/contacts/name", names, {"", "contact", {""}});
       file.dataset("/contacts/duty", Vec(Vec::LinSpaced(std::ssize(names), 1.0, 9.0)),
                    {"", "share of time", {"/contacts/name"}});

@@ -13,7 +13,7 @@ class MotionCodesOf : public test::InResultFolder {
  protected:
   MotionCodes file(const std::string& words) const {
     const auto place = folder / "kinds.h5";
-    ResultWriter writer(place);
+    ResultWriter writer(place, Replaces::anything);
     writer.dataset("/map/motion", std::vector<int>{0, 1}, {"", "kind", {""}});
     if (!words.empty()) writer.attribute("/map/motion", words_attribute, words);
     writer.commit();

@@ -48,7 +48,7 @@ std::string problem_of(Action action) {
 
 /// A file with one of everything.
 inline void write_example(const std::filesystem::path& path) {
-  ResultWriter out(path);
+  ResultWriter out(path, Replaces::anything);
   out.attribute("/", "whirl_version", "0.1.0");
   out.attribute("/model", "text", "title = \"Läufer\"\n");
   out.attribute("/model", "speed", 382.25);

@@ -31,7 +31,7 @@ class ResultSchema : public test::InResultFolder {
  protected:
   std::string problem(const Content& c) const {
     {
-      ResultWriter file(path);
+      ResultWriter file(path, Replaces::anything);
       file.dataset("/model", std::vector<std::string>{model}, {});
       Vec speed = Vec::LinSpaced(3, 0.0, 300.0);
       speed(0) = c.first_speed;
@@ -108,7 +108,7 @@ TEST_F(ResultSchema, RefusesNumbersThatAreNone) {
 
 TEST_F(ResultSchema, RefusesHalfASet) {
   {
-    ResultWriter file(path);
+    ResultWriter file(path, Replaces::anything);
     file.dataset("/model", std::vector<std::string>{model}, {});
     file.dataset("/modes/shape", CMat(CMat::Ones(4, 2)), {});
     file.commit();
