@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/batch/mixed.hpp"
 #include "libdyn/exponents.hpp"
 #include "libdyn/free_flight.hpp"
+#include "libdyn/proven_orbit.hpp"
 #include "libdyn/section_geometry.hpp"
-#include "libdyn/shooting.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 
@@ -20,41 +19,15 @@ namespace {
 
 /// Distances of sections that make a period worth a try: the nearer they repeat, the surer.
 constexpr double repeats[] = {1e-6, 1e-4, 1e-2};
-constexpr int sure_repeats = 2;            ///< how many of them count before the transient is over
-constexpr double nearby = 10.0;            ///< how many of them the orbit may be away
-constexpr double same = 1e-6;              ///< of a shorter period that Newton's orbit has, too
-constexpr double exact = 1e-12;            ///< tolerance of steps for an orbit and its multipliers
-constexpr double attracting = 1.0 - 1e-7;  ///< largest multiplier, whose error is below the rest
-constexpr int most_newton = 8;
-constexpr long first_search = 96;             ///< revolutions
-constexpr double later_search = 1.5;          ///< times those of the search before
+constexpr int sure_repeats = 2;       ///< how many of them count before the transient is over
+constexpr double nearby = 10.0;       ///< how many of them the orbit may be away
+constexpr long first_search = 96;     ///< revolutions
+constexpr double later_search = 1.5;  ///< times those of the search before
 constexpr Eigen::Index most_dimension = 400;  ///< sections that their dimension is taken from
-constexpr std::size_t few = 2;  ///< trajectories that are faster one by one than in lanes
 /// Change of averages over sections that a motion may have which has settled.
 constexpr double settled = 0.02;
 constexpr long most_flight =
     1'000'000'000;  ///< revolutions that a motion is followed in closed form
-
-/// Trajectories of any systems, in batches of those that have the same shape.
-void integrate_all(std::vector<Trajectory>& all, const BatchOptions& options) {
-  std::map<std::vector<std::size_t>, std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    std::vector<std::size_t> shape{static_cast<std::size_t>(all[i].system->coordinates())};
-    for (const ReducedContact& c : all[i].system->contacts()) shape.push_back(c.law.index());
-    for (const ReducedFilm& f : all[i].system->films()) shape.push_back(100 + f.law.index());
-    groups[shape].push_back(i);
-  }
-  for (const auto& [shape, members] : groups) {
-    if (members.size() <= few) {
-      for (const std::size_t i : members) integrate_single(all[i], options);
-      continue;
-    }
-    std::vector<Trajectory> batch;
-    for (const std::size_t i : members) batch.push_back(std::move(all[i]));
-    integrate_batch(batch, options);
-    for (std::size_t i = 0; i < members.size(); ++i) all[members[i]] = std::move(batch[i]);
-  }
-}
 
 /// Motions that are classified together.
 class Together {
@@ -113,17 +86,6 @@ class Together {
   }
 
  private:
-  /// An orbit that is looked for.
-  struct Candidate {
-    Subject* of;
-    int period;
-    double farthest;
-    Vec y;
-    double residual = std::numeric_limits<double>::infinity();
-    std::optional<Vec> exponents{};  ///< once it is found
-    bool is_free = false;            ///< of contact for good, on the way to it and on it
-  };
-
   std::function<bool(long)> watch(bool counts) const {
     if (!options_.watch) return {};
     return [this, counts](long done) { return options_.watch(done_ + (counts ? done : 0)); };
@@ -141,7 +103,7 @@ class Together {
       all.push_back(
           {.system = s->system, .state = std::move(s->found.end), .revolutions = revolutions});
     }
-    if (revolutions > 0) integrate_all(all, how);
+    if (revolutions > 0) integrate_mixed(all, how);
     std::vector<Trajectory> good;
     std::vector<Subject*> open;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -257,7 +219,7 @@ class Together {
   /// Closes the motions to which no contact can happen any more: they are those of the linear rotor,
   /// whose transient and multipliers are known.
   void fly() {
-    std::vector<Candidate> free;
+    std::vector<OrbitCandidate> free;
     for (Subject* s : open_) {
       const ContactSystem& system = *s->system;
       if (!system.films().empty()) continue;
@@ -265,7 +227,7 @@ class Together {
       if (!flight.is_certain(s->found.end) || !flight.decays()) continue;
       Vec exponents = system.period() * eigenvalues(first_order_matrix(system)).real();
       std::sort(exponents.begin(), exponents.end(), std::greater<>());
-      if (!(exponents(0) < std::log(attracting))) continue;
+      if (!(exponents(0) < std::log(largest_attracting))) continue;
       free.push_back({.of = s, .period = 1, .farthest = 0.0, .y = flight.steady_state(0.0)});
       free.back().exponents = std::move(exponents);
       free.back().is_free = true;
@@ -275,23 +237,24 @@ class Together {
 
   /// Closes the motions whose sections show a period, if it is proven.
   void search(const std::vector<Trajectory>& sections, bool is_last) {
-    std::vector<Candidate> candidates;
+    std::vector<OrbitCandidate> candidates;
     for (std::size_t i = 0; i < open_.size(); ++i) {
       for (int k = 0; k < (is_last ? std::ssize(repeats) : sure_repeats); ++k) {
-        const int p = period_of(*open_[i]->system, sections[i].sections, repeats[k]);
+        const int p = repeating_period(*open_[i]->system, sections[i].sections, repeats[k],
+                                       options_.longest_period);
         if (p == 0) continue;
         candidates.push_back({open_[i], p, nearby * repeats[k], open_[i]->found.end.y});
         break;
       }
     }
-    find_orbits(candidates, is_last);
+    find_orbits(candidates, options_.tolerance, watch(false), is_last);
     close(candidates);
   }
 
   /// Puts motions on the orbits that were found, and measures these.
-  void close(const std::vector<Candidate>& candidates) {
+  void close(const std::vector<OrbitCandidate>& candidates) {
     std::vector<Trajectory> orbits;
-    for (const Candidate& c : candidates) {
+    for (const OrbitCandidate& c : candidates) {
       MotionState on_it = c.of->found.end;
       on_it.y = c.y;
       on_it.phase = 0.0;
@@ -299,10 +262,10 @@ class Together {
       orbits.push_back({.system = c.of->system, .state = on_it, .revolutions = c.period});
     }
     if (orbits.empty()) return;
-    integrate_all(orbits, {.tolerance = options_.tolerance,
-                           .threads = 1,
-                           .sections = options_.sections > 0,
-                           .measures = true});
+    integrate_mixed(orbits, {.tolerance = options_.tolerance,
+                             .threads = 1,
+                             .sections = options_.sections > 0,
+                             .measures = true});
     for (std::size_t i = 0; i < orbits.size(); ++i) {
       if (orbits[i].outcome != Outcome::reached_end) continue;  // a border case: it stays open
       Classification& found = candidates[i].of->found;
@@ -317,102 +280,11 @@ class Together {
       found.is_proven = true;
       found.revolutions = found.period;
       take_measures(orbits[i], found);
-      found.kind = found.period == 1 && stands_still(*candidates[i].of) ? MotionKind::equilibrium
-                                                                        : MotionKind::periodic;
+      found.kind = found.period == 1 && stands_still(*candidates[i].of, options_.tolerance)
+                       ? MotionKind::equilibrium
+                       : MotionKind::periodic;
     }
     std::erase_if(open_, [](const Subject* s) { return s->found.is_proven; });
-  }
-
-  /// Smallest period with which the last sections repeat within a bound; 0: none.
-  int period_of(const ContactSystem& system, const std::vector<double>& sections,
-                double bound) const {
-    const int size = system.size(), count = static_cast<int>(sections.size()) / size;
-    const auto section = [&](int i) -> Vec {
-      return Eigen::Map<const Vec>(sections.data() + i * size, size);
-    };
-    for (int p = 1; p <= std::min(options_.longest_period, count / 2); ++p) {
-      double worst = 0.0;
-      for (int i = count - p; i < count && worst < bound; ++i) {
-        worst = std::max(worst, distance(system, section(i), section(i - p)));
-      }
-      if (worst < bound) return p;
-    }
-    return 0;
-  }
-
-  /// Newton's method on the return maps; candidates that are no attracting orbits go.
-  /// @param is_patient  goes on where convergence is slow
-  void find_orbits(std::vector<Candidate>& candidates, bool is_patient) const {
-    std::vector<Candidate> found;
-    for (int iteration = 0; iteration < most_newton && !candidates.empty(); ++iteration) {
-      std::vector<Trajectory> returns;
-      for (const Candidate& c : candidates) {
-        returns.push_back({.system = c.of->system,
-                           .state = {.revolution = 0, .phase = 0.0, .y = c.y},
-                           .revolutions = c.period});
-      }
-      BatchOptions how{.tolerance = std::min(options_.tolerance, exact),
-                       .threads = 1,
-                       .sections = true,
-                       .tangent = true};
-      how.watch = watch(false);
-      integrate_all(returns, how);
-      std::vector<Candidate> further;
-      for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (!improve(candidates[i], returns[i], is_patient)) continue;
-        (candidates[i].exponents ? found : further).push_back(std::move(candidates[i]));
-      }
-      candidates = std::move(further);
-    }
-    candidates = std::move(found);
-  }
-
-  /// A step of Newton's method; false: this leads nowhere.
-  static bool improve(Candidate& c, const Trajectory& t, bool is_patient) {
-    const ContactSystem& system = *c.of->system;
-    if (t.outcome != Outcome::reached_end || !t.tangent.allFinite()) return false;
-    const Mat unscale = system.state_scale().asDiagonal();
-    const Mat to_scale = system.state_scale().cwiseInverse().asDiagonal();
-    const double before = c.residual;
-    c.residual = distance(system, t.state.y, c.y);
-    const Mat tangent = to_scale * t.tangent * unscale;
-    if (is_closed(c.residual, before)) {
-      const Vec sizes = eigenvalues(tangent).cwiseAbs();
-      if (!(sizes.maxCoeff() < attracting)) return false;
-      if (distance(system, c.y, c.of->found.end.y) > c.farthest) return false;  // another one
-      Vec exponents = sizes.array().max(1e-300).log() / c.period;
-      std::sort(exponents.begin(), exponents.end(), std::greater<>());
-      c.exponents = exponents;
-      for (int p = 1; p < c.period; ++p) {  // it may have a shorter period
-        const Eigen::Map<const Vec> section(t.sections.data() + (p - 1) * system.size(),
-                                            system.size());
-        if (c.period % p == 0 && distance(system, section, c.y) < same) c.period = p;
-      }
-      return true;
-    }
-    if (c.residual > (is_patient ? 10.0 : 0.1) * before) return false;
-    const auto correction = newton_step(shooting_jacobian({&tangent, 1}),
-                                        (t.state.y - c.y).cwiseQuotient(system.state_scale()));
-    if (!correction) return false;
-    c.y -= system.state_scale().cwiseProduct(*correction);
-    return true;
-  }
-
-  /// Whether a motion stands still all through a revolution, as none does that is out of balance.
-  bool stands_still(const Subject& s) const {
-    const ContactSystem& system = *s.system;
-    if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0)) return false;
-    double moved = 0.0;
-    Trajectory t{.system = s.system, .state = s.found.end, .revolutions = 1};
-    Vec y(system.size());
-    integrate_single(t, {.tolerance = options_.tolerance}, [&](const Step& step) {
-      for (const double place : {0.5, 1.0}) {
-        step.at(place, y.data());
-        moved = std::max(moved, distance(system, y, s.found.end.y));
-      }
-      return true;
-    });
-    return t.outcome == Outcome::reached_end && moved < same;
   }
 
   const ClassifyOptions& options_;

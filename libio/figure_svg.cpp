@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "libio/panel_layout.hpp"
 #include "libio/panel_svg.hpp"
 
 namespace whirl {

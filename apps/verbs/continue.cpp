@@ -10,7 +10,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "apps/verbs/study.hpp"
+#include "apps/verbs/study_file.hpp"
 #include "libdyn/bifurcation.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/cycle.hpp"

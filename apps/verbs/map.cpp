@@ -6,6 +6,7 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/study.hpp"
+#include "apps/verbs/study_classification.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"

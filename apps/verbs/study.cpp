@@ -1,84 +1,25 @@
 #include "apps/verbs/study.hpp"
 
 #include <fmt/format.h>
-#include <signal.h>
 
 #include <algorithm>
-#include <cassert>
-#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <thread>
 
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "apps/version.hpp"
+#include "apps/verbs/study_classification.hpp"
+#include "apps/verbs/study_file.hpp"
 #include "libdyn/piece_sizes.hpp"
 #include "libdyn/work_queue.hpp"
 #include "libfe/base/error.hpp"
-#include "libio/format.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
-#include "libio/motion_codes.hpp"
-#include "libio/own_file.hpp"
-#include "libio/result_schema.hpp"
 
 namespace whirl {
 
 namespace {
-
-constexpr std::size_t classification_size = 15;  ///< columns
-
-/// The parts of a call that change what is computed; the model is compared as a text.
-std::vector<std::string> essential(const Call& call) {
-  std::vector<std::string> kept{call.verb, call.file};
-  kept.insert(kept.end(), call.words.begin(), call.words.end());
-  const std::vector<std::string> options =
-      options_without(call.options, {"out", "json", "svg", "threads", "quiet", "restart", "force"});
-  kept.insert(kept.end(), options.begin(), options.end());
-  return kept;
-}
-
-/// Where the motion began that was taken from another file, as it was written into a study.
-bool is_same_start(const ResultReader& file, const EarlierEnd& start) {
-  if (!file.has("/from/displacement")) return true;  // of an early version, which did not keep it
-  const auto is_same = [&](const char* path, const Vec& now) {
-    const Vec then = file.vector(path);
-    return then.size() == now.size() && then == now;
-  };
-  return is_same("/from/displacement", start.state.displacement) &&
-         is_same("/from/velocity", start.state.velocity) &&
-         file.number_attribute("/from", "phase") == start.phase;
-}
-
-/// Takes over what an earlier run of the same line has left in its file.
-void resume(const Invocation& call, const std::optional<EarlierEnd>& start,
-            const std::function<void(const ResultReader&)>& take) {
-  const std::string& place = call.given.at("out");
-  const ResultReader earlier(place);
-  const auto refuse = [&](const std::string& why) {
-    throw FileError(
-        fmt::format("{} {}; take another name, or --restart to replace it", place, why));
-  };
-  if (!earlier.has("/arguments") || !earlier.has("/model")) refuse("is no study of whirl");
-  if (essential(read_call(earlier)) != essential(call.parts())) {
-    refuse("holds another study: " + earlier.string_attribute("/", "command"));
-  }
-  if (earlier.strings("/model").at(0) != call.model().source) {
-    refuse("holds this study of a model that has changed since");
-  }
-  if (start && !is_same_start(earlier, *start)) {
-    refuse(fmt::format("holds this study from another start: {} has changed since",
-                       call.text("from", call.model().start.file)));
-  }
-  if (earlier.string_attribute("/", "whirl_version") != version) {
-    refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
-  }
-  check_result(earlier);
-  take(earlier);
-}
 
 /// Motions of a study that have not settled.
 struct Unsettled {
@@ -111,23 +52,6 @@ std::string unsettled_text(const Unsettled& u) {
     text += "; more --revolutions would tell what they become\n";
   }
   return text;
-}
-
-/// Removes what killed runs have left beside a file.
-void remove_leftovers(const std::filesystem::path& place) {
-  namespace fs = std::filesystem;
-  const std::string begin = place.filename().string() + ".tmp.";
-  const fs::path folder = place.has_parent_path() ? place.parent_path() : ".";
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(begin)) continue;
-    int process = 0;
-    const char* number = name.data() + begin.size();
-    const auto [end, problem] = std::from_chars(number, name.data() + name.size(), process);
-    const bool is_number = problem == std::errc{} && end == name.data() + name.size();
-    if (is_number && ::kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), ignored);
-  }
 }
 
 /// The pieces of a study that are not done, one after the other.
@@ -176,45 +100,6 @@ std::function<StudyRows()> timed(std::function<StudyRows()> work) {
 }
 
 }  // namespace
-
-std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& model) {
-  if (!call.has("from") && model.start.from != StartFrom::file) return std::nullopt;
-  return earlier_end(call.text("from", model.start.file));
-}
-
-void write_start(ResultWriter& file, const std::optional<EarlierEnd>& start) {
-  if (!start) return;
-  file.dataset("/from/displacement", start->state.displacement,
-               {"m, rad", "displacement that the motions begin with", {""}});
-  file.dataset("/from/velocity", start->state.velocity,
-               {"m/s, rad/s", "velocity that the motions begin with", {""}});
-  file.attribute("/from", "phase", start->phase);
-}
-
-StudyFile::StudyFile(const Invocation& call, const std::optional<EarlierEnd>& start, Begin begin,
-                     std::function<void(ResultWriter&)> write,
-                     const std::function<void(const ResultReader&)>& take)
-    : has_file_(call.has("out")), begin_(std::move(begin)), write_(std::move(write)) {
-  if (!has_file_) return;
-  const std::string& place = call.given.at("out");
-  remove_leftovers(place);
-  begin_();  // says at once what cannot be written
-  if (!call.has("restart") && origin_of(place) == Origin::result) resume(call, start, take);
-}
-
-void StudyFile::save() {
-  if (!has_file_) return;
-  const auto start = clock::now();
-  const auto file = begin_();
-  write_(*file);
-  file->commit();
-  last_ = clock::now();
-  next_ = last_ + std::max<clock::duration>(least, 20 * (last_ - start));
-}
-
-void StudyFile::save_if_due() {
-  if (clock::now() >= next_) save();
-}
 
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own) {
   for (const OptionSpec& option :
@@ -356,86 +241,6 @@ Record StudySetup::axes_record() const {
     list.add(r);
   }
   return list;
-}
-
-std::vector<Column> classification_columns(const Scene& scene, const std::string& group) {
-  const std::vector<Eigen::Index> exponents{scene.contacts.size()};
-  const std::vector<Eigen::Index> contacts{scene.contacts.owners()};
-  const std::vector<std::string> per{contacts[0] > 0 ? group + "/contact" : ""};
-  return {
-      {"motion", "", "kind of motion: " + motion_legend(), true, {}, {}, motion_words()},
-      {"period", "", "period of a periodic motion [revolutions]; 0: none, or longer", true},
-      {"is_proven", "", "whether Newton's method found the attracting orbit", true},
-      {"transient", "", "revolutions until this was known, or all of the transient", true},
-      {"revolutions", "", "revolutions of contact measures", true},
-      {"resolution", "",
-       "the largest exponent is known to this in 99 of 100 motions [1/revolution]"},
-      {"section_dimension", "", "dimension of the sections, 1 for a closed curve"},
-      {"exponent", "", "Lyapunov exponents, descending [1/revolution]", false, exponents},
-      {"regime", "", "regime of a contact: 0 none, 1 intermittent, 2 permanent", true, contacts,
-       per},
-      {"duty", "", "share of time in touch", false, contacts, per},
-      {"impacts_per_rev", "", "impacts per revolution", false, contacts, per},
-      {"sticking", "", "share of time sticking", false, contacts, per},
-      {"max_normal", "N", "largest normal force", false, contacts, per},
-      {"max_tangential", "N", "largest friction force", false, contacts, per},
-      {"settles_after",
-       "",
-       "revolutions of transient that would have settled the motion; 0: it has, or that is not "
-       "known",
-       true,
-       {},
-       {},
-       "",
-       true},
-  };
-}
-
-void write_classification_axes(ResultWriter& file, const Scene& scene, const std::string& group) {
-  std::vector<std::string> names(static_cast<std::size_t>(scene.contacts.owners()));
-  for (const ReducedContact& c : scene.contacts.contacts()) {
-    names[static_cast<std::size_t>(c.owner)] = c.name;
-  }
-  if (!names.empty()) file.dataset(group + "/contact", names, {"", "contact", {""}});
-}
-
-PointRow classification_row(const StudyPoint& point) {
-  const Classification& c = point.subject.found;
-  if (!point.is_good()) {
-    PointRow row(classification_size);
-    row[0] = {-1.0};
-    return row;
-  }
-  PointRow row{{static_cast<double>(c.kind)},
-               {static_cast<double>(c.period)},
-               {c.is_proven ? 1.0 : 0.0},
-               {static_cast<double>(c.transient)},
-               {static_cast<double>(c.revolutions)},
-               {c.resolution},
-               {c.section_dimension},
-               {c.exponents.begin(), c.exponents.end()},
-               {},
-               {},
-               {},
-               {},
-               {},
-               {},
-               {static_cast<double>(c.settles_after)}};
-  assert(row.size() == classification_size);
-  for (const ContactMeasure& m : c.contacts) {
-    row[8].push_back(static_cast<double>(m.regime()));
-    row[9].push_back(m.duty);
-    row[10].push_back(m.impacts / static_cast<double>(c.revolutions));
-    row[11].push_back(m.sticking);
-    row[12].push_back(m.max_normal);
-    row[13].push_back(m.max_tangential);
-  }
-  return row;
-}
-
-std::string motion_name(const PointTable& table, std::size_t point) {
-  const double code = table.number("motion", point);
-  return code < 0.0 ? "" : std::string(name_of(static_cast<MotionKind>(static_cast<int>(code))));
 }
 
 StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable& table,

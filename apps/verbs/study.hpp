@@ -1,8 +1,7 @@
 #pragma once
-/// What the verbs share that compute many points (sweep, map, basins): points from axes, rows of
-/// results, work in threads, and a file that holds what is done at every moment.
+/// What the verbs share that compute many points (sweep, map, basins): points from axes, and work in
+/// threads that fills a table and its file (study_file.hpp).
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,38 +16,6 @@
 #include "libio/parameter_axis.hpp"
 
 namespace whirl {
-
-/// The file of --out of a study: it holds what is done at every moment, and an earlier run of the same
-/// line is gone on with. Without --out it does nothing.
-class StudyFile {
- public:
-  /// Makes a file with everything in it but what is computed.
-  using Begin = std::function<std::unique_ptr<ResultWriter>()>;
-  /// @param write  adds what is computed so far
-  /// @param take   takes over what an earlier run has left; not called with --restart
-  /// @throws FileError  if the file cannot be written or is of another study
-  /// @param start  where the motions begin, where that is the end of another result
-  StudyFile(const Invocation& call, const std::optional<EarlierEnd>& start, Begin begin,
-            std::function<void(ResultWriter&)> write,
-            const std::function<void(const ResultReader&)>& take);
-
-  void save();
-  /// Saves now and then: rarely enough that writing takes no more than a twentieth of the time.
-  void save_if_due();
-
- private:
-  using clock = std::chrono::steady_clock;
-  static constexpr std::chrono::milliseconds least{100};  ///< between two savings
-  bool has_file_;
-  Begin begin_;
-  std::function<void(ResultWriter&)> write_;
-  clock::time_point last_ = clock::now(), next_ = last_ + least;
-};
-
-/// Where --from or the model's [start] ends, if there is one; read once, before the first point.
-std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& model);
-/// Group /from of a result file: so that a study does not go on from another start.
-void write_start(ResultWriter& file, const std::optional<EarlierEnd>& start);
 
 /// Options of all of them.
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);
@@ -110,16 +77,6 @@ class StudySetup {
   int threads_ = 1;
   std::optional<EarlierEnd> earlier_;
 };
-
-/// Columns of a classified motion: motion, period, exponents, what contacts do.
-std::vector<Column> classification_columns(const Scene& scene, const std::string& group);
-/// Axes of these columns.
-void write_classification_axes(ResultWriter& file, const Scene& scene, const std::string& group);
-/// Their numbers.
-PointRow classification_row(const StudyPoint& point);
-
-/// Name of the motion at a point of a table; empty where it failed.
-std::string motion_name(const PointTable& table, std::size_t point);
 
 /// Rows of some points: what a piece of work finds.
 struct StudyRows {

@@ -8,6 +8,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study.hpp"
+#include "apps/verbs/study_classification.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
