@@ -56,7 +56,7 @@ std::pair<double, double> asked_for(const MotionWindow& window, const RecordedRa
   }
   if (!window.from_revolution) {
     const double count = window.revolutions.value_or(usual);
-    return {std::max(all.first, all.end() - count), all.last};
+    return {std::max(all.first, all.last - count), all.last};
   }
   const double from = *window.from_revolution, to = from + window.revolutions.value_or(usual);
   if (!all.begins_within(from)) all.refuse(fmt::format("--from-revolution {:g}", from));
@@ -88,8 +88,11 @@ MotionSamples samples_of(const MotionWindow& window, const RecordedMotion& motio
   samples.last = static_cast<Eigen::Index>(
       std::clamp(std::floor(place(to) + rounding), static_cast<double>(samples.first), most));
   const bool is_to_the_end = samples.last == motion.time.size() - 1;
+  // the last revolutions begin a sample early, where they close; that is not worth a fraction in words
+  const bool are_last = !window.times && !window.from_revolution;
+  const double begin = motion.time(samples.first) / motion.period;
   samples.text =
-      all.text(motion.time(samples.first) / motion.period,
+      all.text(are_last && begin > all.first ? begin + all.spacing : begin,
                is_to_the_end ? all.end() : motion.time(samples.last) / motion.period,
                fmt::format(" of {}{:.6g}",
                            all.first > 0.0 ? fmt::format("{:.6g} to ", all.first) : "", all.end()));

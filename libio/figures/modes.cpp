@@ -40,6 +40,9 @@ Shapes shapes_of(const ResultView& result) {
   };
   Shapes s;
   if (result.assembler) {
+    if (nodes != result.assembler->mesh().nodes()) {
+      throw FileError("/points/z is not of the nodes of its model");
+    }
     const ShaftLine line = shaft_line(*result.assembler, parts);
     if (line.x.cols() == full.rows() && line.z.size() > 0) {
       const auto places = line.z.size();

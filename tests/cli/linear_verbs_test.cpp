@@ -259,8 +259,8 @@ TEST_F(Linear, UnbalanceTellsAmplificationAndMargins) {
   EXPECT_EQ(peak["is_kept"], true);
   EXPECT_EQ(peaks("115rad/s", "0:150:0.02rad/s")[0]["is_kept"], false);
   EXPECT_EQ(peaks("80rad/s", "0:150:0.02rad/s")[0]["side"], "above");
-  EXPECT_TRUE(peaks("125", "0:100.5:0.02")[0]["amplification"].is_null());
-  EXPECT_EQ(peaks("125", "0:90:1").size(), 0u);
+  EXPECT_TRUE(peaks("125rad/s", "0:100.5:0.02rad/s")[0]["amplification"].is_null());
+  EXPECT_EQ(peaks("125rad/s", "0:90:1rad/s").size(), 0u);
   const std::string text =
       whirl({"unbalance", "rotor.toml", "--speed", "115rad/s", "--speeds", "0:150:0.02rad/s"}).out;
   EXPECT_TRUE(has(text, "13.0 % below") && has(text, "16.0 %, NOT KEPT")) << text;

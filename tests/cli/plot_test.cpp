@@ -883,29 +883,32 @@ TEST_F(Plot, AnalysesOfOneModelAreOneReport) {
   }
 }
 
-// Shapes of two nodes with a model of many, as of files that were put together: the page says which
+// Nodes of another model than that of the file, as of files that were put together: the page says which
 // figure failed and why, and draws the others.
 TEST_F(Plot, AFigureThatFailsLeavesTheOthers) {
   const std::string disks = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  ASSERT_EQ(whirl({"modes", disks, "--out", "whole.h5"}).status, 0);
   {
+    const ResultReader from(folder / "whole.h5");
     ResultWriter to(folder / "d.h5");
-    to.dataset("/model", std::vector<std::string>{content(disks)}, {"", "model", {""}});
+    const auto copy = [&](const char* path, const std::string& of) {
+      to.dataset(path, from.vector(path), {"", of, {""}});
+    };
+    to.dataset("/model", from.strings("/model"), {"", "model", {""}});
     to.attribute("/model", "path", disks);
     to.dataset("/arguments", std::vector<std::string>{"whirl", "modes"},
                {"", "command line", {""}});
-    const auto numbers = [&](const char* path) {
-      to.dataset(path, Vec(Vec::Ones(2)), {"", path, {""}});
-    };
     to.dataset("/points/z", Vec(Vec::LinSpaced(2, 0.0, 1.0)), {"m", "z", {""}});
     to.dataset("/points/node_name", std::vector<std::string>{"", ""}, {"", "name", {""}});
-    to.dataset("/modes/number", std::vector<int>{1, 2}, {"", "number", {""}});
-    to.dataset("/modes/eigenvalue", CVec(CVec::Ones(2)), {"1/s", "eigenvalue", {""}});
-    to.dataset("/modes/shape", CMat(CMat::Ones(8, 2)), {"m", "shape", {"", ""}});
-    for (const char* path :
-         {"/modes/frequency", "/modes/damping_ratio", "/modes/log_decrement", "/modes/kappa"}) {
-      numbers(path);
-    }
-    to.dataset("/modes/whirl", std::vector<std::string>{"forward", "forward"}, {"", "whirl", {""}});
+    to.dataset("/modes/number", from.integers("/modes/number"), {"", "number", {""}});
+    to.dataset("/modes/eigenvalue", from.complex_vector("/modes/eigenvalue"),
+               {"1/s", "eigenvalue", {""}});
+    to.dataset("/modes/shape", from.complex_matrix("/modes/shape"), {"m", "shape", {"", ""}});
+    copy("/modes/frequency", "frequency");
+    copy("/modes/damping_ratio", "damping ratio");
+    copy("/modes/log_decrement", "log decrement");
+    copy("/modes/kappa", "axis ratio");
+    to.dataset("/modes/whirl", from.strings("/modes/whirl"), {"", "whirl", {""}});
     to.commit();
   }
   const Outcome made = whirl({"report", "d.h5"});

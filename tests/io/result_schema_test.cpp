@@ -91,8 +91,8 @@ TEST_F(ResultSchema, RefusesCodesWithoutMeaning) {
               branch + std::to_string(code) + ", expected 1 to 2");
   }
   const std::string motion = "/map/motion is damaged or of another program: found ";
-  EXPECT_EQ(found({.motion = {0, 0, 5, 0}}), motion + "5, expected -1 to 4");
-  EXPECT_EQ(found({.motion = {0, 0, 0, -2}}), motion + "-2, expected -1 to 4");
+  EXPECT_EQ(found({.motion = {0, 0, 6, 0}}), motion + "6, expected -1 to 5");
+  EXPECT_EQ(found({.motion = {0, 0, 0, -2}}), motion + "-2, expected -1 to 5");
 }
 
 TEST_F(ResultSchema, RefusesNumbersThatAreNone) {
