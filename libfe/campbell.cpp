@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "libfe/base/error.hpp"
+#include "libfe/base/roots.hpp"
 
 namespace whirl {
 
@@ -15,7 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double sure = 0.8;            ///< MAC from which a match needs no second look
 constexpr int deepest = 6;              ///< halvings of a speed interval
 constexpr int spare_modes = 2;          ///< computed beyond those followed, for newcomers
-constexpr double crossing_tol = 1e-12;  ///< of the speed at a crossing
+constexpr double crossing_tol = 1e-10;  ///< of the speed at a crossing; eigenvalues have 1e-11
 
 /// Shapes with their eigenvalues, in the order of the branches.
 struct Front {
@@ -77,17 +78,28 @@ class Tracker {
   }
 
   /// Follows all branches to another speed, halving the way where shapes change much.
-  Front advance(const Front& from, double Omega, int depth = 0) const {
-    Front to{.Omega = Omega};
-    const double poorest = follow(from, modes(Omega), finder_.system(Omega).M, to);
-    // at rest equal pairs of planar modes match either sense of whirl by half: nothing to refine
-    const bool is_degenerate = from.Omega == 0.0 || Omega == 0.0;
-    if (poorest >= sure || depth == deepest || is_degenerate) return to;
-    return advance(advance(from, 0.5 * (from.Omega + Omega), depth + 1), Omega, depth + 1);
-  }
+  Front advance(const Front& from, double Omega) const { return advance(from, look(Omega), 0); }
 
  private:
+  /// What there is at a speed.
+  struct Look {
+    double Omega = 0.0;
+    Modes modes;
+    Sparse M;
+  };
+
   Modes modes(double Omega) const { return finder_.at(Omega, branches_ + spare_modes); }
+  Look look(double Omega) const { return {Omega, modes(Omega), finder_.system(Omega).M}; }
+
+  Front advance(const Front& from, const Look& end, int depth) const {
+    Front to{.Omega = end.Omega};
+    const double poorest = follow(from, end.modes, end.M, to);
+    // at rest equal pairs of planar modes match either sense of whirl by half: nothing to refine
+    const bool is_degenerate = from.Omega == 0.0 || end.Omega == 0.0;
+    if (poorest >= sure || depth == deepest || is_degenerate) return to;
+    const Look middle = look(0.5 * (from.Omega + end.Omega));
+    return advance(advance(from, middle, depth + 1), end, depth + 1);
+  }
 
   const ModeFinder& finder_;
   int branches_;
@@ -126,32 +138,24 @@ std::vector<Front> all_fronts(const Tracker& tracker, const std::vector<double>&
   return fronts;
 }
 
-/// Speed between two fronts at which a branch meets the line frequency = order * Omega.
-double crossing(const Tracker& tracker, Front low, Front high, std::size_t branch, double order) {
-  const auto gap = [&](const Front& f) { return f.modes[branch].frequency() - order * f.Omega; };
-  double a = low.Omega, b = high.Omega, ga = gap(low), gb = gap(high);
-  double best = b;
-  for (int it = 0; it < 60; ++it) {
-    const double guess = std::clamp(b - gb * (b - a) / (gb - ga), std::min(a, b), std::max(a, b));
-    Front middle;
-    try {
-      middle = tracker.advance(std::abs(guess - a) < std::abs(guess - b) ? low : high, guess);
-    } catch (const NumericalError&) {
-      return nan;
-    }
-    if (!middle.is_alive[branch]) return nan;
-    const double g = gap(middle);
-    best = guess;
-    if (std::abs(g) < crossing_tol * guess || std::abs(b - a) < crossing_tol * b) break;
-    if (g * ga > 0.0) {
-      a = guess, ga = g, low = middle;
-      gb *= it > 0 ? 0.5 : 1.0;  // Illinois
+/// Speed between two fronts at which a branch meets the line frequency = order * Omega; NaN if it
+/// ends between them.
+double crossing(const Tracker& tracker, const Front& low, const Front& high, std::size_t branch,
+                double order) {
+  Front near = low;  // the last one
+  const auto gap = [&](double Omega) {
+    if (Omega == low.Omega || Omega == high.Omega) {
+      near = Omega == low.Omega ? low : high;
     } else {
-      b = guess, gb = g, high = middle;
-      ga *= it > 0 ? 0.5 : 1.0;
+      near = tracker.advance(near, Omega);
     }
+    return near.is_alive[branch] ? near.modes[branch].frequency() - order * Omega : nan;
+  };
+  try {
+    return bracketed_root(gap, low.Omega, high.Omega, crossing_tol * high.Omega);
+  } catch (const NumericalError&) {
+    return nan;
   }
-  return best;
 }
 
 Whirl usual_whirl(const std::vector<Whirl>& seen) {

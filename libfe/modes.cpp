@@ -21,6 +21,7 @@ namespace whirl {
 namespace {
 
 constexpr int dense_below = 75;          ///< freedoms; dense solvers are as fast there
+constexpr int dense_after = 160;         ///< freedoms; where Arnoldi failed, dense ones are faster
 constexpr double visible = 1e-3;         ///< of the largest orbit: smaller ones have no sense
 constexpr double flat = 1e-4;            ///< axis ratio below which an orbit is a line
 constexpr double rigid_share = 1e-5;     ///< of the first flexible omega^2: does not deform
@@ -192,31 +193,41 @@ std::optional<Modes> arnoldi_modes(const System& system, Knowledge& known, int c
   return std::nullopt;
 }
 
+/// The lowest modes by discs that cover where they can be, or nothing: if there are too many.
+std::optional<Modes> searched_modes(const System& system, const Knowledge& known, int count) {
+  int rigid = 0;
+  while (2 * (count + rigid) < system.size()) {
+    const FrequencySearch search{.count = count + rigid,
+                                 .slope = 1.0 / overdamped,
+                                 .center = shift_for(known.body),
+                                 .bounds = known.bounds};
+    QuadraticModes found;
+    try {
+      found = lowest_frequencies(system.M, system.D(), system.K, search);
+    } catch (const NumericalError&) {
+      return std::nullopt;
+    }
+    const bool is_all = (found.lambda.imag().array() > 0.0).count() < search.count;
+    Modes modes = sorted(std::move(found), system, known.body, count);
+    const int missing = count - static_cast<int>(modes.oscillatory.size());
+    if (missing <= 0 || is_all) return modes;
+    rigid += missing;
+  }
+  return std::nullopt;
+}
+
 /// The lowest modes of a large system.
 Modes sparse_modes(const System& system, Knowledge& known, int count) {
   if (known.arnoldi) {
     if (std::optional<Modes> modes = arnoldi_modes(system, known, count)) return *std::move(modes);
     known.arnoldi.reset();
   }
-  const double shift = shift_for(known.body);
-  try {
-    int rigid = 0;
-    while (2 * (count + rigid) < system.size()) {
-      const FrequencySearch search{.count = count + rigid,
-                                   .slope = 1.0 / overdamped,
-                                   .center = shift,
-                                   .bounds = known.bounds};
-      QuadraticModes found = lowest_frequencies(system.M, system.D(), system.K, search);
-      const bool is_all = (found.lambda.imag().array() > 0.0).count() < search.count;
-      Modes modes = sorted(std::move(found), system, known.body, count);
-      const int missing = count - static_cast<int>(modes.oscillatory.size());
-      if (missing <= 0 || is_all) return modes;
-      rigid += missing;
-    }
-  } catch (const NumericalError&) {  // all at once takes longer, but does not depend on shifts
+  if (system.size() > dense_after) {
+    if (std::optional<Modes> modes = searched_modes(system, known, count)) return *std::move(modes);
   }
-  return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift), system, known.body,
-                count);
+  // all at once takes longer for large systems, but does not depend on where modes are
+  return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift_for(known.body)),
+                system, known.body, count);
 }
 
 /// How many modes beside the oscillatory ones to expect among the lowest of an unknown system.

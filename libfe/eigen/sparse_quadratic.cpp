@@ -15,6 +15,9 @@ namespace whirl {
 
 namespace {
 
+constexpr int most_attempts = 5;  ///< each with room for the real eigenvalues of the one before
+constexpr int most_failures = 3;  ///< to converge; each takes long, and further ones fail as well
+
 /// Solves with a real sparse matrix: L D L^T where that is stable, L U otherwise.
 class RealFactor {
  public:
@@ -111,11 +114,13 @@ QuadraticModes QuadraticSolver::lowest(const Sparse& D, int pairs) const {
   }
   StateInverse op{s.M, D, *factor, s.shift, s.scale};
   int nev = std::min(2 * pairs + 2, states - 2);
-  for (int attempt = 0; attempt < 3; ++attempt) {
+  int failures = 0;
+  for (int attempt = 0; attempt < most_attempts && failures < most_failures; ++attempt) {
     const int ncv = std::min(2 * nev + 6, states);
     Spectra::GenEigsRealShiftSolver<StateInverse> solver(op, nev, ncv, s.shift);
     solver.init();
     if (converged_pairs(solver) < nev) {
+      ++failures;
       nev = std::min(nev + 4, states - 2);
       continue;
     }

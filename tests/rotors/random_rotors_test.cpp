@@ -17,6 +17,8 @@
 #include "libfe/base/error.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/critical.hpp"
+#include "libfe/critical_map.hpp"
+#include "libfe/resonance.hpp"
 #include "libfe/static.hpp"
 #include "libfe/unbalance.hpp"
 #include "libio/model_file.hpp"
@@ -125,8 +127,17 @@ void study(unsigned seed, const Seeds& how, Figures& figures) {
   const System system = assembler.at(model.speed);
   timed("static", [&] { static_equilibrium(assembler, model.speed); });
   timed("modes", [&] { modes = complex_modes(system, modes_asked); });
-  timed("campbell", [&] { campbell(assembler, {0.0, 100.0, 400.0, 1000.0}, 6); });
+  Campbell diagram;
+  timed("campbell", [&] { diagram = campbell(assembler, {0.0, 100.0, 400.0, 1000.0}, 6); });
+  timed("resonances", [&] {
+    for (const InternalResonance& r : internal_resonances(diagram, 4)) {
+      EXPECT_TRUE(0.0 <= r.speed && r.speed <= 1000.0 && r.frequency >= 0.0)
+          << "seed " << seed << ", resonance at " << r.speed;
+    }
+  });
   timed("critical", [&] { critical_speeds(assembler, {.count = 4}); });
+  timed("map",
+        [&] { critical_map(model.structure, {.critical = {.count = 4, .has_damped = false}}); });
   timed("unbalance", [&] {
     unbalance_response(assembler, {0.0, 101.0, 433.0, 997.0},
                        {assembler.point({.kind = Station::Kind::node, .node = 1})});
