@@ -70,6 +70,12 @@ Axis axis_of(const FigureAxis& wanted, const std::vector<double>& values) {
   return can_be_drawn(axis) ? axis : around;
 }
 
+/// Lets an axis go from edge to edge of cells, unless their middles lie in one place or run backwards.
+void show_edges(Axis& axis, const std::vector<double>& edges) {
+  const Axis across{axis.scale, edges[0], edges[1]};
+  if (can_be_drawn(across)) axis = across;
+}
+
 /// Outer edges of cells, half a step beyond the outermost middles.
 void add_edges(std::vector<double>& values, const std::vector<double>& middles) {
   if (middles.empty()) return;
@@ -175,8 +181,8 @@ PanelAxes axes_of(const Panel& panel) {
     std::vector<double> edges, heights;
     add_edges(edges, panel.cells.x);
     add_edges(heights, panel.cells.y);
-    if (!std::isfinite(panel.x.first)) axes.x.first = edges[0], axes.x.last = edges[1];
-    if (!std::isfinite(panel.y.first)) axes.y.first = heights[0], axes.y.last = heights[1];
+    if (!std::isfinite(panel.x.first)) show_edges(axes.x, edges);
+    if (!std::isfinite(panel.y.first)) show_edges(axes.y, heights);
   }
   return axes;
 }

@@ -17,6 +17,9 @@ target_link_libraries(whirl_solvers INTERFACE
   SUNDIALS::sunlinsoldense SUNDIALS::sunnonlinsolfixedpoint PkgConfig::highway quadmath
   Threads::Threads)
 
+# Meshing and errors, which see what was read, are compiled for the fuzzer too. The solvers' library may hold
+# them in one object with others (a unity build), so that it cannot leave them out: the first ones count.
+target_link_options(whirl_solvers INTERFACE LINKER:--allow-multiple-definition)
 add_library(whirl_fe STATIC libfe/base/error.cpp libfe/mesh.cpp libfe/assemble.cpp libfe/properties.cpp)
 target_link_libraries(whirl_fe PUBLIC whirl_options Eigen3::Eigen fmt::fmt whirl_solvers)
 add_library(whirl_dyn INTERFACE)

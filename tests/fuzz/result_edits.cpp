@@ -204,6 +204,19 @@ bool edit(Item& item, std::uint8_t how, std::uint8_t a, std::uint8_t b) {
   return true;
 }
 
+/// Gives whatever is as long as a side of an item another length: a file that agrees with itself, but of
+/// no points or of one.
+void resize_alike(std::vector<Item>& items, const Item& like, std::uint8_t a, std::uint8_t b) {
+  if (like.shape.empty()) return;
+  const Index before = like.shape[a % like.shape.size()], after = b % 4;
+  for (Item& item : items) {
+    const std::vector<Index> shape = item.shape;
+    std::replace(item.shape.begin(), item.shape.end(), before, after);
+    if (item.count() > most_numbers) item.shape = shape;
+    fit(item);
+  }
+}
+
 void write(ResultWriter& file, const Item& item, std::map<std::string, Index>& lines) {
   const std::size_t at = item.path.find('@');
   if (item.is_attribute()) {
@@ -242,7 +255,11 @@ void write_edited(std::span<const std::uint8_t> input, const fs::path& path) {
   std::vector<Item> items = seeds()[input[0] % seeds().size()];
   for (std::size_t i = 1; i + 3 < input.size() && !items.empty(); i += 4) {
     const auto at = items.begin() + input[i] % std::ssize(items);
-    if (!edit(*at, input[i + 1], input[i + 2], input[i + 3])) items.erase(at);
+    if (input[i + 1] >= 192) {
+      resize_alike(items, Item(*at), input[i + 2], input[i + 3]);
+    } else if (!edit(*at, input[i + 1], input[i + 2], input[i + 3])) {
+      items.erase(at);
+    }
   }
   ResultWriter file(path);
   std::map<std::string, Index> lines;

@@ -251,6 +251,17 @@ TEST(FigureAxes, GoAroundCells) {
   EXPECT_EQ(std::pair(axes.y.first, axes.y.last), std::pair(0.0, 40.0));
 }
 
+// Cells whose middles all lie in one place have no edges to go to: ticks of an axis of no width never end.
+TEST(FigureAxes, OfCellsInOnePlaceCanBeDrawn) {
+  Panel p;
+  p.cells.x = {-0.05, -0.05, -0.05};
+  p.cells.y = {3.0, 2.0};
+  p.cells.values.assign(6, 0.5);
+  const PanelAxes axes = axes_of(p);
+  EXPECT_TRUE(can_be_drawn(axes.x));
+  EXPECT_TRUE(can_be_drawn(axes.y));
+}
+
 TEST(FigureSvg, WritesDotsThatHideEachOtherOnce) {
   Curve c{.has_line = false};
   c.has_marker = true;
