@@ -7,6 +7,7 @@
 
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
+#include "libfe/modes.hpp"
 
 namespace whirl {
 
@@ -58,12 +59,6 @@ double largest_radius(const Vec2& center, const Vec2& c, const Vec2& s) {
   return largest + (c.norm() + s.norm()) * spacing * spacing / 8.0;
 }
 
-/// Largest distance of the ellipse c cos + s sin from its center.
-double major_semi_axis(const Vec2& c, const Vec2& s) {
-  const double sum = c.squaredNorm() + s.squaredNorm(), cross = c(0) * s(1) - c(1) * s(0);
-  return std::sqrt(0.5 * (sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * cross * cross))));
-}
-
 /// Solution of A^T P + P A = -Q, or nothing if e^(A t) does not decay.
 std::optional<Mat> lyapunov(const Mat& A, const Mat& Q) {
   // integral of e^(A^T t) Q e^(A t) over a short time by series, then P <- P + E^T P E, E <- E E
@@ -101,6 +96,7 @@ FreeFlight::FreeFlight(const ContactSystem& system)
 
 void FreeFlight::prepare() {
   is_prepared_ = true;
+  if (!flow_) return;  // whoever asks whether it decays wants to finish it
   const auto n = system_.coordinates();
   const auto motion = periodic_motion(system_);
   if (!motion) return;
@@ -203,7 +199,7 @@ bool FreeFlight::is_certain_by_modes(const Vec& z) {
       reached += apart_(j) * moved.col(j).norm();
     }
     for (Eigen::Index g = 0; g < w.size(); ++g) {
-      reached += major_semi_axis(together.col(g).real(), together.col(g).imag());
+      reached += Orbit(together(0, g), together(1, g)).major();
     }
     if (!(reached < careful_of_modes * left_[static_cast<std::size_t>(i)])) return false;
   }

@@ -35,7 +35,7 @@ class FreeFlight {
   /// Whether no contact can ever happen from this state on.
   bool is_certain(const MotionState& state);
 
-  /// Whether the free motion, of a system without oil films, decays towards y_p.
+  /// Whether the free motion, of a system without oil films, decays towards y_p and can be finished.
   bool decays();
   /// y_p at a phase, where the free motion decays to it.
   Vec steady_state(double phase) const;

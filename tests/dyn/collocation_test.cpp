@@ -383,6 +383,7 @@ TEST(FreeFlight, IsNotCertainWhereARevolutionIsOfTooManyPeriods) {
   MotionState state = test::state_of({1e-4, 0.0}, {0.0, 0.0});
   state.contacts = scene.contacts.classify(0.0, state.y.data());
   EXPECT_FALSE(flight.is_certain(state));
+  EXPECT_FALSE(flight.decays());  // or a motion that has not settled would be finished
 }
 
 // Contacts far stiffer than any step can follow end in a message, whatever the tables hold.
