@@ -178,7 +178,6 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
 void ContactSystem::find_slip_groups() {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     contacts_[i].slip_group = static_cast<int>(i);
-    if (!contacts_[i].friction.is_exact()) continue;
     for (std::size_t j = 0; j < i; ++j) {
       if (!whirl::slip_alike(contacts_[i], contacts_[j])) continue;
       contacts_[i].slip_group = contacts_[j].slip_group;

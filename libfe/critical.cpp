@@ -21,7 +21,9 @@ constexpr double least_alike = 0.3;   ///< MAC of a mode that goes on from speed
 constexpr double range = 5.0;         ///< damped speeds beyond so many times are not looked for
 constexpr double rounding = 1e-13;    ///< of the largest nu: smaller ones have no finite speed
 
-std::vector<Critical> of_pencil(const System& system, const CriticalOptions& options) {
+}  // namespace
+
+std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options) {
   const Sparse K = symmetric_part(system.K);
   const HermitianModes modes =
       largest_hermitian(system.M, system.G, 1.0 / options.order, K, options.count);
@@ -36,11 +38,13 @@ std::vector<Critical> of_pencil(const System& system, const CriticalOptions& opt
   return criticals;
 }
 
+namespace {
+
 /// Iterates the i-th critical speed of the stiffness at Omega until it is Omega itself.
 Critical self_consistent(const Assembler& assembler, const CriticalOptions& options, std::size_t i,
                          Critical start) {
   const auto at = [&](double Omega) {
-    std::vector<Critical> all = of_pencil(assembler.at(Omega), options);
+    std::vector<Critical> all = undamped_criticals(assembler.at(Omega), options);
     return i < all.size() ? all[i] : Critical{.speed = nan};
   };
   double a = start.speed;
@@ -132,13 +136,9 @@ void find_damped(const ModeFinder& finder, const CriticalOptions& options, Criti
 
 }  // namespace
 
-std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options) {
-  return of_pencil(system, options);
-}
-
 std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options) {
   require_supports(assembler, 0.0, "critical speeds need");
-  std::vector<Critical> criticals = of_pencil(assembler.at(0.0), options);
+  std::vector<Critical> criticals = undamped_criticals(assembler.at(0.0), options);
   if (assembler.depends_on_speed()) {
     std::vector<Critical> iterated;
     for (std::size_t i = 0; i < criticals.size(); ++i) {

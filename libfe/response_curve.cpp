@@ -114,17 +114,7 @@ class CurveBuilder {
  private:
   Eigen::Index count() const { return static_cast<Eigen::Index>(points_.size()); }
 
-  std::optional<CVec> at(double Omega) {
-    const auto full = solver_.at(Omega);
-    if (!full) return {};
-    CVec u(2 * count());
-    for (Eigen::Index p = 0; p < count(); ++p) {
-      const Point& point = points_[static_cast<std::size_t>(p)];
-      u(p) = (*full)(solver_.dofs().full_index(point, X));
-      u(p + count()) = (*full)(solver_.dofs().full_index(point, Y));
-    }
-    return u;
-  }
+  std::optional<CVec> at(double Omega) { return solver_.at(Omega, points_); }
 
   double amplitude(double Omega, Eigen::Index p) {
     const auto u = at(Omega);

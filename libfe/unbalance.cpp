@@ -40,6 +40,19 @@ std::optional<CVec> UnbalanceSolver::at(double Omega) {
   return CVec(s.system.dofs.T * *q);
 }
 
+std::optional<CVec> UnbalanceSolver::at(double Omega, const std::vector<Point>& points) {
+  const auto full = at(Omega);
+  if (!full) return {};
+  const auto count = static_cast<Eigen::Index>(points.size());
+  CVec u(2 * count);
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const Point& point = points[static_cast<std::size_t>(p)];
+    u(p) = (*full)(dofs().full_index(point, X));
+    u(p + count) = (*full)(dofs().full_index(point, Y));
+  }
+  return u;
+}
+
 UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vector<double>& speeds,
                                      const std::vector<Point>& points) {
   const auto np = static_cast<Eigen::Index>(points.size());
@@ -48,17 +61,14 @@ UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vect
   UnbalanceSolver solver(assembler);
   for (Eigen::Index s = 0; s < ns; ++s) {
     const double Omega = speeds[static_cast<std::size_t>(s)];
-    const auto full = solver.at(Omega);
-    if (!full) {
+    const auto u = solver.at(Omega, points);
+    if (!u) {
       throw NumericalError(fmt::format(
           "the rotor has an undamped resonance at {:g} rad/s: the unbalance response is unbounded",
           Omega));
     }
-    for (Eigen::Index p = 0; p < np; ++p) {
-      const Point& point = points[static_cast<std::size_t>(p)];
-      response.x(p, s) = (*full)(solver.dofs().full_index(point, X));
-      response.y(p, s) = (*full)(solver.dofs().full_index(point, Y));
-    }
+    response.x.col(s) = u->head(np);
+    response.y.col(s) = u->tail(np);
   }
   return response;
 }

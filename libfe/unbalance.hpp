@@ -26,6 +26,9 @@ class UnbalanceSolver {
   /// the dynamic stiffness is singular: the response is unbounded there.
   std::optional<CVec> at(double Omega);
 
+  /// The same at some points only: x of all of them, then y [m].
+  std::optional<CVec> at(double Omega, const std::vector<Point>& points);
+
   const DofMap& dofs() const;
 
  private:

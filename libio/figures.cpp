@@ -13,9 +13,6 @@ namespace whirl {
 
 ResultView::ResultView(const std::filesystem::path& file_path)
     : path(file_path.string()), file(file_path) {
-  if (!file.has("/model")) {
-    throw FileError(fmt::format("{} is no result of whirl: it holds no model", path));
-  }
   check_result(file);
   if (file.has_attribute("/", "title")) title = file.string_attribute("/", "title");
   if (title.empty()) title = file_path.filename().string();

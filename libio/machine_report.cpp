@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "libfe/base/error.hpp"
+#include "libio/call.hpp"
 #include "libio/comparison.hpp"
 
 namespace whirl {
@@ -45,8 +46,7 @@ std::size_t place_of(const ResultView& result) {
 
 std::string verb_of(const ResultView& result) {
   try {
-    const auto words = result.file.strings("/arguments");
-    return words.size() > 1 ? words[1] : "";
+    return read_call(result.file).verb;
   } catch (const FileError&) {
     return "";
   }

@@ -201,6 +201,10 @@ class ResultCheck {
 }  // namespace
 
 void check_result(const ResultReader& file) {
+  if (!file.has("/model")) {
+    throw FileError(
+        fmt::format("{} is no result of whirl: it holds no model", file.path().string()));
+  }
   ResultCheck check(file);
   for (const ResultSet& set : result_schema()) check.check(set);
   check.check_full_vectors();
@@ -208,9 +212,6 @@ void check_result(const ResultReader& file) {
 
 std::unique_ptr<ResultReader> open_result(const std::filesystem::path& path) {
   auto file = std::make_unique<ResultReader>(path);
-  if (!file->has("/model")) {
-    throw FileError(fmt::format("{} is no result of whirl: it holds no model", path.string()));
-  }
   check_result(*file);
   return file;
 }

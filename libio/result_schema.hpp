@@ -42,11 +42,11 @@ const std::vector<ResultSet>& result_schema();
 
 /// Checks all of a result that the schema knows: nothing that reads it afterwards meets another kind,
 /// other sizes, or codes of no meaning.
-/// @throws FileError  that names the dataset and what is wrong with it
+/// @throws FileError  that names the dataset and what is wrong with it; for files that hold no model
 void check_result(const ResultReader& file);
 
 /// Opens a result and checks it.
-/// @throws FileError  as ResultReader and check_result, and for files that hold no model
+/// @throws FileError  as ResultReader and check_result
 std::unique_ptr<ResultReader> open_result(const std::filesystem::path& path);
 
 }  // namespace whirl

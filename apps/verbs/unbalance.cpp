@@ -25,6 +25,12 @@ struct Study {
   Mat major, minor;  ///< of the rows: stations x speeds [m]
 };
 
+/// What is asked of every orbit, stations x speeds [m].
+template <class Ask>
+Mat of_orbits(const UnbalanceResponse& response, const Ask& ask) {
+  return response.x.binaryExpr(response.y, [&](Complex x, Complex y) { return ask(Orbit(x, y)); });
+}
+
 Study study_of(const Invocation& call, const Model& model, const Assembler& assembler) {
   Study study{.stations = select_points(model, assembler, call.text("stations", "all"))};
   std::vector<Point> points;
@@ -34,14 +40,8 @@ Study study_of(const Invocation& call, const Model& model, const Assembler& asse
   if (study.are_rows_asked) study.rows = unbalance_response(assembler, speeds, points);
   study.curve = response_curve(assembler, speeds, points);
   if (!study.are_rows_asked) study.rows = study.curve.response;
-  study.major = study.minor = Mat(study.rows.x.rows(), study.rows.x.cols());
-  for (Eigen::Index p = 0; p < study.major.rows(); ++p) {
-    for (Eigen::Index s = 0; s < study.major.cols(); ++s) {
-      const Orbit orbit(study.rows.x(p, s), study.rows.y(p, s));
-      study.major(p, s) = orbit.major();
-      study.minor(p, s) = orbit.forward - orbit.backward;
-    }
-  }
+  study.major = of_orbits(study.rows, [](const Orbit& o) { return o.major(); });
+  study.minor = of_orbits(study.rows, [](const Orbit& o) { return o.forward - o.backward; });
   return study;
 }
 
@@ -148,8 +148,8 @@ void add_clearances(const Model& model, const Assembler& assembler, const Study&
     if (use.beyond.empty()) continue;
     report.notes.push_back(fmt::format(
         "the response goes beyond the clearance of {} ({:.4g} mm) at {} rpm, up to {:.4g} mm, "
-        "{:.3g} "
-        "times the clearance, at {:.1f} rpm: there it touches, and this response is not its motion",
+        "{:.3g} times the clearance, at {:.1f} rpm: there it touches, and this response is not its "
+        "motion",
         use.name, 1e3 * use.clearance, ranges, 1e3 * use.largest, use.largest / use.clearance,
         use.at / rpm));
   }
@@ -176,12 +176,7 @@ void add_notes(const Model& model, const Study& study, Report& report) {
 
 void write_curve(ResultWriter& file, const ResponseCurve& curve) {
   const UnbalanceResponse& r = curve.response;
-  Mat major(r.x.rows(), r.x.cols());
-  for (Eigen::Index p = 0; p < major.rows(); ++p) {
-    for (Eigen::Index s = 0; s < major.cols(); ++s) {
-      major(p, s) = Orbit(r.x(p, s), r.y(p, s)).major();
-    }
-  }
+  const Mat major = of_orbits(r, [](const Orbit& o) { return o.major(); });
   file.dataset("/unbalance/curve_speed", r.speeds,
                {"rad/s", "rotor speed, as many as the curves need", {""}});
   const std::vector<std::string> axes{"/unbalance/station", "/unbalance/curve_speed"};

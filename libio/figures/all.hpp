@@ -39,6 +39,7 @@ namespace figures {
 
 constexpr double rpm = 3.14159265358979323846 / 30.0;  ///< [rad/s]
 constexpr double hertz = 60.0 * rpm;                   ///< [rad/s]
+constexpr double mm = 1e3;                             ///< [1/m]
 
 std::vector<double> row(const Mat& m, Eigen::Index i);
 /// The samples of a row.

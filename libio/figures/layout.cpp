@@ -12,8 +12,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double mm = 1e3;
-
 Curve area(const std::string& name, Paint paint, std::vector<double> x, std::vector<double> y,
            const std::string& hover) {
   Curve c{.name = name, .paint = paint};

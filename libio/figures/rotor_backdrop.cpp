@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
+#include "libio/figures/all.hpp"
 #include "libio/vtk_scene.hpp"
 
 namespace whirl::figures {
 
 namespace {
 
-constexpr double mm = 1e3;
 constexpr double symbol = 0.011;          ///< half width of a bearing, of the shaft's length
 constexpr double bearing_height = 0.42;   ///< of the largest radius
 constexpr double contact_height = 0.16;   ///< likewise

@@ -14,7 +14,6 @@ using namespace figures;
 
 namespace {
 
-constexpr double mm = 1e3;
 constexpr double still = 1e-6;  ///< of the largest: a plane in which nothing happens
 
 /// Lines along the shaft in both planes, and what they are called.
