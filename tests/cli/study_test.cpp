@@ -1,99 +1,13 @@
 // sweep, map and basins: JSON, motions that are known, going on after a kill, refusing.
 
 #include <cmath>
-#include <csignal>
-#include <random>
-#include <thread>
 
-#include "libio/hdf5.hpp"
-#include "tests/cli/program.hpp"
+#include "tests/cli/studies.hpp"
 
 namespace whirl::test {
 namespace study_test {
 
-using namespace std::chrono_literals;
-
-const std::string stator = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
-
-class Study : public Program {
- protected:
-  void SetUp() override {
-    Program::SetUp();
-    write("rub.toml", rubbing);
-  }
-
-  /// Whether all numbers of two result files are the same, bit by bit.
-  void expect_same(const std::string& a, const std::string& b, const std::string& group) const {
-    const ResultReader one(folder / a), other(folder / b);
-    const auto names = one.list(group);
-    EXPECT_EQ(names, other.list(group));
-    for (const std::string& name : names) {
-      const std::string path = group + '/' + name;
-      if (name.ends_with("multiplier")) {
-        const CMat x =
-            name == "multiplier" ? one.complex_matrix(path) : CMat(one.complex_vector(path));
-        const CMat y =
-            name == "multiplier" ? other.complex_matrix(path) : CMat(other.complex_vector(path));
-        ASSERT_EQ(x.size(), y.size()) << path;
-        const auto bytes = static_cast<std::size_t>(x.size()) * sizeof(Complex);
-        EXPECT_EQ(std::memcmp(x.data(), y.data(), bytes), 0) << path;
-        continue;
-      }
-      if (name.ends_with("contact") || name == "station" || name == "direction" || name == "end" ||
-          name == "bifurcation_kind") {
-        EXPECT_EQ(one.strings(path), other.strings(path));
-        continue;
-      }
-      const std::vector<double> x = one.numbers(path), y = other.numbers(path);
-      ASSERT_EQ(x.size(), y.size()) << path;
-      EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
-    }
-  }
-
-  /// Kills a study again and again at random times; once it ends, it starts anew.
-  void kill_and_compare(std::vector<std::string> words, const std::string& group, int kills,
-                        unsigned seed) {
-    for (const char* name : {"whole.h5", "killed.h5"}) std::filesystem::remove(folder / name);
-    words.insert(words.end(), {"--out", "whole.h5"});
-    const auto begin = std::chrono::steady_clock::now();
-    ASSERT_EQ(whirl(words).status, 0);
-    const double takes =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    words.back() = "killed.h5";
-    std::mt19937 random(seed);
-    long resumed = 0;
-    for (int k = 0; k < kills || resumed == 0;) {
-      const pid_t child = start(WHIRL_PROGRAM, words);
-      if (k < kills) {
-        std::this_thread::sleep_for(std::chrono::duration<double>(
-            takes * std::uniform_real_distribution<double>(0.05, 0.9)(random)));
-      } else {  // none of these moments was after something had been saved: such a one
-        while (!std::filesystem::exists(folder / "killed.h5") && ::kill(child, 0) == 0 &&
-               std::chrono::steady_clock::now() - begin < 60s) {
-          std::this_thread::sleep_for(1ms);
-        }
-      }
-      ::kill(child, SIGKILL);
-      const Outcome outcome = wait(child);
-      if (outcome.status == 128 + SIGKILL) {
-        ++k;
-        ASSERT_LT(k, kills + 20) << "nothing is saved before it ends";
-        if (!std::filesystem::exists(folder / "killed.h5")) continue;
-        const ResultReader file(folder / "killed.h5");  // whole, at whatever moment
-        if (file.number_attribute(group, "complete") == 1.0) continue;
-        ++resumed;
-      } else {  // it was done: compare, and begin again
-        ASSERT_EQ(outcome.status, 0) << outcome.err;
-        expect_same("whole.h5", "killed.h5", group);
-        std::filesystem::remove(folder / "killed.h5");
-      }
-    }
-    ASSERT_EQ(whirl(words).status, 0);
-    expect_same("whole.h5", "killed.h5", group);
-    EXPECT_GT(resumed, 0);
-    for (const std::string& name : files()) EXPECT_FALSE(has(name, ".tmp.")) << name;
-  }
-};
+class Study : public Studies {};
 
 // The rotor in its stator: from permanent contact to bouncing, whatever the contact stiffness.
 TEST_F(Study, MapTellsRegimesAndMotions) {
@@ -392,10 +306,7 @@ TEST_F(Study, StopsOnCtrlCAndGoesOn) {
                                        "--over",    "contact.ring.friction=0:0.3:0.02",
                                        "--discard", "300",
                                        "--out",     "map.h5"};
-  const pid_t child = start(WHIRL_PROGRAM, words);
-  while (!std::filesystem::exists(folder / "map.h5")) std::this_thread::sleep_for(10ms);
-  ::kill(child, SIGINT);
-  const Outcome stopped = wait(child);
+  const Outcome stopped = interrupted(words);
   EXPECT_EQ(stopped.status, 130) << stopped.err;
   EXPECT_TRUE(has(stopped.out, "the same line goes on from there")) << stopped.out;
   const ResultReader file(folder / "map.h5");
@@ -414,10 +325,7 @@ TEST_F(Study, AFewPointsAreKeptOnCtrlCToo) {
                                  "--revolutions", "4000",
                                  "--exponents",   "4000",
                                  "--out",         "map.h5"};
-  const pid_t child = start(WHIRL_PROGRAM, words);
-  while (!std::filesystem::exists(folder / "map.h5")) std::this_thread::sleep_for(1ms);
-  ::kill(child, SIGINT);
-  EXPECT_EQ(wait(child).status, 130);
+  EXPECT_EQ(interrupted(words).status, 130);
   const json rest = result(words);
   EXPECT_GT(rest["resumed"], 0);
   EXPECT_LT(rest["resumed"], 40);
@@ -524,137 +432,6 @@ TEST_F(Study, BadInput) {
        "1e-15");
   says({"sweep", "rub.toml", "--over", "operation.speed=90:100:5rad/s", "--sections", "0"},
        "sections");
-}
-
-// At 138.4 rad/s and 64 MN/m, from friction 0.15 down: period 1, 2, 4, as simulations say at 0.15,
-// 0.12 and 0.11, and the orbit of period 1 goes on beside them, unstable. Each point is an orbit that
-// Newton's method finds at once, with the multipliers of the point.
-TEST_F(Study, ContinueFollowsPeriodDoublings) {
-  const json r =
-      result({"continue", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
-              "--over", "contact.ring.friction=0.1:0.15:0.002", "--at", "0.15", "--switch", "1",
-              "--out", "branch.h5"});
-  EXPECT_EQ(r["parameter"], "contact.ring.friction");
-  ASSERT_EQ(r["branches"].size(), 2u);
-  EXPECT_EQ(r["branches"][0]["period_revs"], 1);
-  EXPECT_EQ(r["branches"][1]["period_revs"], 2);
-  EXPECT_EQ(r["branches"][1]["parent"], 1);
-  ASSERT_EQ(r["bifurcations"].size(), 2u);
-  for (const int i : {0, 1}) {
-    EXPECT_EQ(r["bifurcations"][i]["kind"], "period-doubling");
-    EXPECT_NEAR(r["bifurcations"][i]["multiplier"][0], -1.0, 1e-6);
-  }
-  EXPECT_GT(r["bifurcations"][0]["value"], 0.12);
-  EXPECT_LT(r["bifurcations"][1]["value"], 0.12);
-  EXPECT_GT(r["bifurcations"][1]["value"], 0.11);
-  const auto orbit_at = [&](const std::string& number) {
-    return result({"orbit", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
-                   "--from", "branch.h5", "--point", number});
-  };
-  int unstable = 0;
-  for (std::size_t i = 3; i < r["points"].size(); i += 12) {
-    const json& p = r["points"][i];
-    if (p["stable"].is_null()) continue;
-    const json orbit = orbit_at(std::to_string(i + 1));
-    EXPECT_EQ(orbit["period_revs"], p["branch"]);
-    EXPECT_EQ(orbit["stable"], p["stable"]);
-    EXPECT_LE(orbit["steps"], 1);
-    EXPECT_NEAR(orbit["floquet"][0][0], p["floquet"][0][0], 1e-5);
-    EXPECT_NEAR(orbit["contacts"][0]["duty"], p["duty"][0], 1e-6);
-    unstable += p["stable"] == false ? 1 : 0;
-  }
-  EXPECT_GT(unstable, 0);
-  const auto problem = [&](std::vector<std::string> words) {
-    words.insert(words.begin(), {"orbit", stator, "--speed", "138.4rad/s", "--point"});
-    const Outcome o = whirl(words);
-    EXPECT_EQ(o.status, 2);
-    return o.err;
-  };
-  EXPECT_TRUE(has(problem({"4711", "--from", "branch.h5"}), "expected a number from 1 to "));
-  EXPECT_TRUE(has(problem({"1"}), "of which branches?"));
-  std::size_t of_one = 0;
-  for (const json& p : r["points"]) {
-    const double value = p["value"];
-    if (p["branch"] == 1) {
-      ++of_one;
-      EXPECT_EQ(p["stable"].get<bool>(), value > r["bifurcations"][0]["value"].get<double>());
-    }
-    EXPECT_EQ(p["impacts_per_rev"][0], 7.0);
-    EXPECT_GT(p["max_normal_n"][0], 0.0);
-    EXPECT_GT(p["duty"][0], 0.0);
-    EXPECT_GT(p["amplitude_m"], 5e-3);  // the clearance less the sag
-    EXPECT_LT(p["amplitude_m"], 8e-3);
-    EXPECT_TRUE(p["stable"].is_null() || p["floquet"].size() == 8u);
-  }
-  EXPECT_GT(of_one, 20u);
-  const ResultReader file(folder / "branch.h5");
-  EXPECT_EQ(file.number_attribute("/branch", "complete"), 1.0);
-  EXPECT_EQ(file.strings("/branch/bifurcation_kind")[1], "period-doubling");
-  EXPECT_EQ(file.numbers("/branch/value").size(), r["points"].size());
-  // a point of the branch is an orbit
-  const json orbit = result({"orbit", stator, "--speed", "138.4rad/s", "--set",
-                             "contact.ring.stiffness=64e6", "--set", "contact.ring.friction=0.15"});
-  EXPECT_NEAR(orbit["state"][0], file.numbers("/branch/state")[0], 1e-10);
-}
-
-// A branch of more than 100 points, with most kinds of bifurcations on the way.
-TEST_F(Study, ContinueGoesOnAfterKills) {
-  kill_and_compare(
-      {"continue", stator, "--over", "operation.speed=130:136:0.1rad/s", "--at", "136"}, "/branch",
-      2, 5);
-}
-
-// The same branch as Fourier series: the doubling within what 40 harmonics leave, the state at phase 0
-// near that of shooting, and the same numbers again after kills.
-TEST_F(Study, ContinueFollowsSeries) {
-  const std::vector<std::string> branch{"continue", stator,
-                                        "--speed",  "138.4rad/s",
-                                        "--set",    "contact.ring.stiffness=64e6",
-                                        "--over",   "contact.ring.friction=0.12:0.15:0.003",
-                                        "--at",     "0.15"};
-  auto shooting = branch, series = branch;
-  shooting.insert(shooting.end(), {"--out", "shot.h5"});
-  series.insert(series.end(), {"--method", "harmonic-balance", "--harmonics", "40"});
-  const json a = result(shooting);
-  auto once = series;
-  once.insert(once.end(), {"--out", "series.h5"});
-  const json b = result(once);
-  EXPECT_EQ(a["method"], "shooting");
-  EXPECT_EQ(b["method"], "harmonic-balance");
-  EXPECT_EQ(b["harmonics"], 40);
-  ASSERT_EQ(b["bifurcations"].size(), 1u);
-  EXPECT_EQ(b["bifurcations"][0]["kind"], "period-doubling");
-  EXPECT_NEAR(b["bifurcations"][0]["value"], a["bifurcations"][0]["value"], 1e-3);
-  EXPECT_NEAR(b["points"][0]["amplitude_m"], a["points"][0]["amplitude_m"], 1e-6);
-  EXPECT_EQ(b["points"][0]["impacts_per_rev"][0], 7.0);
-  EXPECT_EQ(b["points"][0]["floquet"].size(), 8u);
-  const ResultReader shot(folder / "shot.h5"), file(folder / "series.h5");
-  EXPECT_EQ(file.number_attribute("/branch", "harmonics"), 40.0);
-  for (const std::size_t i : {0u, 1u, 2u, 3u}) {
-    EXPECT_NEAR(file.numbers("/branch/state")[i], shot.numbers("/branch/state")[i], 1e-6);
-  }
-  // a longer one, for kills
-  series[7] = "contact.ring.friction=0.135:0.15:0.0003";
-  series.back() = "20";
-  kill_and_compare(series, "/branch", 2, 3);
-}
-
-TEST_F(Study, ContinueSaysWhatIsWrong) {
-  const auto error = [&](const std::vector<std::string>& words) {
-    std::vector<std::string> all{"continue", stator};
-    all.insert(all.end(), words.begin(), words.end());
-    const Outcome outcome = whirl(all);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    return outcome.err;
-  };
-  EXPECT_TRUE(has(error({}), "expected one"));
-  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--at", "150"}), "within"));
-  EXPECT_TRUE(has(error({"--over", "contact.ring.stiffness=-1:150MN/m"}), "stiffness"));
-  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--harmonics", "9"}),
-                  "goes with --method harmonic-balance"));
-  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--method", "harmonic-balance",
-                         "--switch", "1"}),
-                  "goes with --method shooting only"));
 }
 
 }  // namespace study_test

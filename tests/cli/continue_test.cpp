@@ -1,0 +1,144 @@
+// continue: branches that are known, going on after kills, refusing.
+
+#include <cmath>
+
+#include "tests/cli/studies.hpp"
+
+namespace whirl::test {
+namespace continue_test {
+
+class ContinueStudy : public Studies {};
+
+// At 138.4 rad/s and 64 MN/m, from friction 0.15 down: period 1, 2, 4, as simulations say at 0.15,
+// 0.12 and 0.11, and the orbit of period 1 goes on beside them, unstable. Each point is an orbit that
+// Newton's method finds at once, with the multipliers of the point.
+TEST_F(ContinueStudy, ContinueFollowsPeriodDoublings) {
+  const json r =
+      result({"continue", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
+              "--over", "contact.ring.friction=0.1:0.15:0.002", "--at", "0.15", "--switch", "1",
+              "--out", "branch.h5"});
+  EXPECT_EQ(r["parameter"], "contact.ring.friction");
+  ASSERT_EQ(r["branches"].size(), 2u);
+  EXPECT_EQ(r["branches"][0]["period_revs"], 1);
+  EXPECT_EQ(r["branches"][1]["period_revs"], 2);
+  EXPECT_EQ(r["branches"][1]["parent"], 1);
+  ASSERT_EQ(r["bifurcations"].size(), 2u);
+  for (const int i : {0, 1}) {
+    EXPECT_EQ(r["bifurcations"][i]["kind"], "period-doubling");
+    EXPECT_NEAR(r["bifurcations"][i]["multiplier"][0], -1.0, 1e-6);
+  }
+  EXPECT_GT(r["bifurcations"][0]["value"], 0.12);
+  EXPECT_LT(r["bifurcations"][1]["value"], 0.12);
+  EXPECT_GT(r["bifurcations"][1]["value"], 0.11);
+  const auto orbit_at = [&](const std::string& number) {
+    return result({"orbit", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
+                   "--from", "branch.h5", "--point", number});
+  };
+  int unstable = 0;
+  for (std::size_t i = 3; i < r["points"].size(); i += 12) {
+    const json& p = r["points"][i];
+    if (p["stable"].is_null()) continue;
+    const json orbit = orbit_at(std::to_string(i + 1));
+    EXPECT_EQ(orbit["period_revs"], p["branch"]);
+    EXPECT_EQ(orbit["stable"], p["stable"]);
+    EXPECT_LE(orbit["steps"], 1);
+    EXPECT_NEAR(orbit["floquet"][0][0], p["floquet"][0][0], 1e-5);
+    EXPECT_NEAR(orbit["contacts"][0]["duty"], p["duty"][0], 1e-6);
+    unstable += p["stable"] == false ? 1 : 0;
+  }
+  EXPECT_GT(unstable, 0);
+  const auto problem = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"orbit", stator, "--speed", "138.4rad/s", "--point"});
+    const Outcome o = whirl(words);
+    EXPECT_EQ(o.status, 2);
+    return o.err;
+  };
+  EXPECT_TRUE(has(problem({"4711", "--from", "branch.h5"}), "expected a number from 1 to "));
+  EXPECT_TRUE(has(problem({"1"}), "of which branches?"));
+  std::size_t of_one = 0;
+  for (const json& p : r["points"]) {
+    const double value = p["value"];
+    if (p["branch"] == 1) {
+      ++of_one;
+      EXPECT_EQ(p["stable"].get<bool>(), value > r["bifurcations"][0]["value"].get<double>());
+    }
+    EXPECT_EQ(p["impacts_per_rev"][0], 7.0);
+    EXPECT_GT(p["max_normal_n"][0], 0.0);
+    EXPECT_GT(p["duty"][0], 0.0);
+    EXPECT_GT(p["amplitude_m"], 5e-3);  // the clearance less the sag
+    EXPECT_LT(p["amplitude_m"], 8e-3);
+    EXPECT_TRUE(p["stable"].is_null() || p["floquet"].size() == 8u);
+  }
+  EXPECT_GT(of_one, 20u);
+  const ResultReader file(folder / "branch.h5");
+  EXPECT_EQ(file.number_attribute("/branch", "complete"), 1.0);
+  EXPECT_EQ(file.strings("/branch/bifurcation_kind")[1], "period-doubling");
+  EXPECT_EQ(file.numbers("/branch/value").size(), r["points"].size());
+  // a point of the branch is an orbit
+  const json orbit = result({"orbit", stator, "--speed", "138.4rad/s", "--set",
+                             "contact.ring.stiffness=64e6", "--set", "contact.ring.friction=0.15"});
+  EXPECT_NEAR(orbit["state"][0], file.numbers("/branch/state")[0], 1e-10);
+}
+
+// A branch of more than 100 points, with most kinds of bifurcations on the way.
+TEST_F(ContinueStudy, ContinueGoesOnAfterKills) {
+  kill_and_compare(
+      {"continue", stator, "--over", "operation.speed=130:136:0.1rad/s", "--at", "136"}, "/branch",
+      2, 5);
+}
+
+// The same branch as Fourier series: the doubling within what 40 harmonics leave, the state at phase 0
+// near that of shooting, and the same numbers again after kills.
+TEST_F(ContinueStudy, ContinueFollowsSeries) {
+  const std::vector<std::string> branch{"continue", stator,
+                                        "--speed",  "138.4rad/s",
+                                        "--set",    "contact.ring.stiffness=64e6",
+                                        "--over",   "contact.ring.friction=0.12:0.15:0.003",
+                                        "--at",     "0.15"};
+  auto shooting = branch, series = branch;
+  shooting.insert(shooting.end(), {"--out", "shot.h5"});
+  series.insert(series.end(), {"--method", "harmonic-balance", "--harmonics", "40"});
+  const json a = result(shooting);
+  auto once = series;
+  once.insert(once.end(), {"--out", "series.h5"});
+  const json b = result(once);
+  EXPECT_EQ(a["method"], "shooting");
+  EXPECT_EQ(b["method"], "harmonic-balance");
+  EXPECT_EQ(b["harmonics"], 40);
+  ASSERT_EQ(b["bifurcations"].size(), 1u);
+  EXPECT_EQ(b["bifurcations"][0]["kind"], "period-doubling");
+  EXPECT_NEAR(b["bifurcations"][0]["value"], a["bifurcations"][0]["value"], 1e-3);
+  EXPECT_NEAR(b["points"][0]["amplitude_m"], a["points"][0]["amplitude_m"], 1e-6);
+  EXPECT_EQ(b["points"][0]["impacts_per_rev"][0], 7.0);
+  EXPECT_EQ(b["points"][0]["floquet"].size(), 8u);
+  const ResultReader shot(folder / "shot.h5"), file(folder / "series.h5");
+  EXPECT_EQ(file.number_attribute("/branch", "harmonics"), 40.0);
+  for (const std::size_t i : {0u, 1u, 2u, 3u}) {
+    EXPECT_NEAR(file.numbers("/branch/state")[i], shot.numbers("/branch/state")[i], 1e-6);
+  }
+  // a longer one, for kills
+  series[7] = "contact.ring.friction=0.135:0.15:0.0003";
+  series.back() = "20";
+  kill_and_compare(series, "/branch", 2, 3);
+}
+
+TEST_F(ContinueStudy, ContinueSaysWhatIsWrong) {
+  const auto error = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> all{"continue", stator};
+    all.insert(all.end(), words.begin(), words.end());
+    const Outcome outcome = whirl(all);
+    EXPECT_EQ(outcome.status, 2) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_TRUE(has(error({}), "expected one"));
+  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--at", "150"}), "within"));
+  EXPECT_TRUE(has(error({"--over", "contact.ring.stiffness=-1:150MN/m"}), "stiffness"));
+  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--harmonics", "9"}),
+                  "goes with --method harmonic-balance"));
+  EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--method", "harmonic-balance",
+                         "--switch", "1"}),
+                  "goes with --method shooting only"));
+}
+
+}  // namespace continue_test
+}  // namespace whirl::test

@@ -1,0 +1,112 @@
+#pragma once
+/// What tests of studies share: that they go on where they were.
+
+#include <sys/wait.h>
+
+#include <csignal>
+#include <cstring>
+#include <random>
+#include <thread>
+
+#include "libio/hdf5.hpp"
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+
+inline const std::string stator = WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml";
+
+/// Studies that are stopped, killed and gone on with.
+class Studies : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("rub.toml", rubbing);
+  }
+
+  /// Whether all numbers of two result files are the same, bit by bit.
+  void expect_same(const std::string& a, const std::string& b, const std::string& group) const {
+    const ResultReader one(folder / a), other(folder / b);
+    const auto names = one.list(group);
+    EXPECT_EQ(names, other.list(group));
+    for (const std::string& name : names) {
+      const std::string path = group + '/' + name;
+      if (name.ends_with("multiplier")) {
+        const CMat x =
+            name == "multiplier" ? one.complex_matrix(path) : CMat(one.complex_vector(path));
+        const CMat y =
+            name == "multiplier" ? other.complex_matrix(path) : CMat(other.complex_vector(path));
+        ASSERT_EQ(x.size(), y.size()) << path;
+        const auto bytes = static_cast<std::size_t>(x.size()) * sizeof(Complex);
+        EXPECT_EQ(std::memcmp(x.data(), y.data(), bytes), 0) << path;
+        continue;
+      }
+      if (name.ends_with("contact") || name == "station" || name == "direction" || name == "end" ||
+          name == "bifurcation_kind") {
+        EXPECT_EQ(one.strings(path), other.strings(path));
+        continue;
+      }
+      const std::vector<double> x = one.numbers(path), y = other.numbers(path);
+      ASSERT_EQ(x.size(), y.size()) << path;
+      EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
+    }
+  }
+
+  /// Kills a study again and again at random times; once it ends, it starts anew.
+  void kill_and_compare(std::vector<std::string> words, const std::string& group, int kills,
+                        unsigned seed) {
+    for (const char* name : {"whole.h5", "killed.h5"}) std::filesystem::remove(folder / name);
+    words.insert(words.end(), {"--out", "whole.h5"});
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(whirl(words).status, 0);
+    const double takes =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    words.back() = "killed.h5";
+    std::mt19937 random(seed);
+    long resumed = 0;
+    for (int k = 0; k < kills || resumed == 0;) {
+      const pid_t child = start(WHIRL_PROGRAM, words);
+      if (k < kills) {
+        std::this_thread::sleep_for(std::chrono::duration<double>(
+            takes * std::uniform_real_distribution<double>(0.05, 0.9)(random)));
+      } else {  // none of these moments was after something had been saved: such a one
+        while (!std::filesystem::exists(folder / "killed.h5") && ::kill(child, 0) == 0 &&
+               std::chrono::steady_clock::now() - begin < std::chrono::seconds(60)) {
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+      }
+      ::kill(child, SIGKILL);
+      const Outcome outcome = wait(child);
+      if (outcome.status == 128 + SIGKILL) {
+        ++k;
+        ASSERT_LT(k, kills + 20) << "nothing is saved before it ends";
+        if (!std::filesystem::exists(folder / "killed.h5")) continue;
+        const ResultReader file(folder / "killed.h5");  // whole, at whatever moment
+        if (file.number_attribute(group, "complete") == 1.0) continue;
+        ++resumed;
+      } else {  // it was done: compare, and begin again
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        expect_same("whole.h5", "killed.h5", group);
+        std::filesystem::remove(folder / "killed.h5");
+      }
+    }
+    ASSERT_EQ(whirl(words).status, 0);
+    expect_same("whole.h5", "killed.h5", group);
+    EXPECT_GT(resumed, 0);
+    for (const std::string& name : files()) EXPECT_FALSE(has(name, ".tmp.")) << name;
+  }
+
+  /// A study that Ctrl-C meets as soon as it has saved something.
+  Outcome interrupted(const std::vector<std::string>& words) const {
+    const std::filesystem::path saved = folder / words.back();
+    const pid_t child = start(WHIRL_PROGRAM, words);
+    siginfo_t ended{};
+    while (!std::filesystem::exists(saved) && ended.si_pid == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+    ::kill(child, SIGINT);
+    return wait(child);
+  }
+};
+
+}  // namespace whirl::test
