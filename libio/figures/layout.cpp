@@ -10,6 +10,8 @@
 
 namespace whirl {
 
+using namespace figures;
+
 namespace {
 
 Curve area(const std::string& name, Paint paint, std::vector<double> x, std::vector<double> y,
