@@ -147,6 +147,8 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
     refinement.improve(lambda, q);
     if (lambda != mode.lambda) mode = describe(lambda, q, system.dofs);
   }
+  std::erase_if(modes.oscillatory,
+                [&](const Mode& m) { return !refinement.balances(m.lambda, m.shape); });
   return modes;
 }
 

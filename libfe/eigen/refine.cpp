@@ -11,6 +11,7 @@ namespace {
 constexpr double accurate = 2e-11;  ///< backward error: a fifth of what is promised
 constexpr double same = 1e-5;       ///< relative change of an eigenvalue that is still the same
 constexpr int most_steps = 3;
+constexpr double unbalanced = 0.5;  ///< residual over the sum of its parts: 1 at infinity
 
 double longest_column(const Sparse& A) {
   double longest = 0.0;
@@ -32,6 +33,13 @@ double Refinement::backward_error(Complex lambda, const CVec& q) const {
   const CVec residual = lambda * lambda * (M_ * q) + lambda * (D_ * q) + K_ * q;
   const double size = std::norm(lambda) * size_M_ + std::abs(lambda) * size_D_ + size_K_;
   return residual.norm() / (size * q.norm());
+}
+
+bool Refinement::balances(Complex lambda, const CVec& q) const {
+  if (backward_error(lambda, q) <= accurate) return true;
+  const CVec inertia = lambda * lambda * (M_ * q), damping = lambda * (D_ * q), elastic = K_ * q;
+  return (inertia + damping + elastic).norm() <
+         unbalanced * (inertia.norm() + damping.norm() + elastic.norm());
 }
 
 void Refinement::improve(Complex& lambda, CVec& q) const {

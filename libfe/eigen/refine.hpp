@@ -13,6 +13,11 @@ class Refinement {
   /// longest column for the size of a matrix. [Tisseur2000]
   double backward_error(Complex lambda, const CVec& q) const;
 
+  /// Whether the parts lambda^2 M q, lambda D q and K q of an eigenpair balance at all. At an
+  /// infinite eigenvalue (parts without mass, M q = 0) that rounding made finite, nothing holds the
+  /// first: what is left of the sum is as large as the parts.
+  bool balances(Complex lambda, const CVec& q) const;
+
   /// Newton's iteration, where the backward error is above 2e-11 and as long as it falls.
   void improve(Complex& lambda, CVec& q) const;
 

@@ -242,6 +242,33 @@ TEST(Modes, FewerComeBackIfThereAreFewer) {
   EXPECT_EQ(complex_modes(assemble(test::Jeffcott{}.structure(), 0.0), 10).oscillatory.size(), 2u);
 }
 
+// A shaft element and a disk have eight degrees of freedom with mass; the dampers of the left
+// bearing keep two motions from oscillating. The massless end of the shaft in its bearing has four eigenvalues at
+// infinity, which rounding moves to some 1e10 rad/s.
+TEST(Modes, AreNotThoseOfPartsWithoutMassAtInfinity) {
+  Segment heavy = test::cylinder(0.13217445398790448, 0.022821769534020705, 1),
+          light = test::cylinder(0.197777962606788, 0.021103455400970514, 1);
+  heavy.material = {.name = "steel", .rho = 7800.0, .E = 210e9, .G = 210e9 / 2.6, .nu = 0.3};
+  light.material = heavy.material;
+  light.material.rho = 0.0;
+  const Structure s{
+      .shaft = {heavy, light},
+      .disks = {{.at = test::node(1),
+                 .m = 0.24078270155447765,
+                 .Id = 0.00041473468485874913,
+                 .Ip = 0.0006709329018913512}},
+      .bearings = {test::bearing(test::node(1),
+                                 test::orthotropic(948256.471963386, 338199.5764436885,
+                                                   5064.26777915017, 5514.171136118596)),
+                   test::bearing(test::node(3),
+                                 test::orthotropic(23214723361.828716, 191141202626.68933,
+                                                   30198.81064752865, 64552.059476604285))},
+      .damping = {.mass = 5.243102139147648}};
+  const Modes modes = complex_modes(assemble(s, 106.9106199327959), 8);
+  ASSERT_EQ(modes.oscillatory.size(), 6u);
+  EXPECT_NEAR(modes.oscillatory.back().frequency(), 78052.25, 0.01);  // LAPACK's QZ
+}
+
 // At rest nothing turns: every mode is planar, of equal pairs too, and the planes of a pair are
 // perpendicular.
 TEST(Modes, AtRestAllArePlanarEvenInEqualPairs) {
