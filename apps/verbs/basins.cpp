@@ -8,6 +8,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "libfe/base/error.hpp"
@@ -184,6 +185,7 @@ Report run_basins(const Invocation& call) {
   }
 
   Report report{.record = begin_record(call, setup.model()), .status = outcome.status};
+  note_tables(call, setup.model(), report);
   std::vector<std::size_t> order(basins.size());
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),

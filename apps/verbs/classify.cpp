@@ -4,6 +4,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
@@ -98,6 +99,7 @@ Report run_classify(const Invocation& call) {
 
   Report report{
       .record = begin_record(call, model), .failure = c.diagnosis, .status = status_of(c.outcome)};
+  note_tables(call, model, report);
   const bool is_known = report.status == 0;
   Record& r = report.record;
   r.set("motion", is_known ? Record(name_of(c.kind)) : Record(nullptr));

@@ -8,6 +8,7 @@
 #include "apps/verbs/borders.hpp"
 #include "apps/verbs/branches.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study_file.hpp"
@@ -374,6 +375,7 @@ Report run_continue(const Invocation& call) {
 
   const std::vector<TracedBranch>& branches = tracing.branches();
   Report report{.record = begin_record(call, model), .status = status};
+  note_tables(call, model, report);
   Record list = Record::array();
   for (const TracedBranch& b : branches) {
     Record r;

@@ -4,6 +4,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/format.hpp"
 #include "libio/hdf5.hpp"
@@ -103,6 +104,7 @@ Report run_identify(const Invocation& call) {
   Report report{.record = begin_record(call, model),
                 .failure = run.simulation.integration.diagnosis,
                 .status = status_of(run.simulation.integration.outcome)};
+  note_tables(call, model, report);
   add_run(report.record, run);
   report.text = "Identification" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
                 run_text(run, model);

@@ -5,6 +5,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "libfe/base/error.hpp"
@@ -228,6 +229,7 @@ Report run_map(const Invocation& call) {
   });
 
   Report report{.record = begin_record(call, setup.model()), .status = outcome.status};
+  note_tables(call, setup.model(), report);
   const auto known = [&](std::size_t i) { return !motion_name(table, i).empty(); };
   report.record.set("axes", setup.axes_record());
   report.record.set("motion", nested(setup, [&](std::size_t i) {

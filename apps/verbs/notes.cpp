@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/verbs/common.hpp"
 #include "libfe/base/names.hpp"
 #include "libfe/exceeded_tables.hpp"
+#include "libio/parameter_axis.hpp"
 
 namespace whirl {
 
@@ -46,6 +49,18 @@ void note_tables(const Model& model, double lowest, double highest, Report& repo
         fmt::format("the table of {} goes from {:.6g} to {:.6g} rpm; its ends are held constant {}",
                     table.name, table.first / rpm, table.last / rpm, beyond));
   }
+}
+
+void note_tables(const Invocation& call, const Model& model, Report& report) {
+  double lowest = model.speed, highest = model.speed;
+  for (const std::string& over : call.over) {
+    const auto axis = parse_axis(over, 2);  // of a range without a step both ends are enough
+    if (!axis || axis->path.find("operation.speed") == std::string::npos) continue;
+    const auto [low, high] = std::minmax_element(axis->values.begin(), axis->values.end());
+    lowest = *low;
+    highest = *high;
+  }
+  note_tables(model, lowest, highest, report);
 }
 
 }  // namespace whirl

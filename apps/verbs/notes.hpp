@@ -1,5 +1,5 @@
 #pragma once
-/// Notes of linear verbs: what of a model they leave out, and where they go beyond its data.
+/// Notes of verbs: what of a model they leave out, and where they go beyond its data.
 
 #include "apps/verb.hpp"
 
@@ -15,5 +15,7 @@ void note_left_out(const Model& model, Report& report);
 
 /// Says which bearing tables are held constant at their ends for speeds in a range [rad/s].
 void note_tables(const Model& model, double lowest, double highest, Report& report);
+/// The same for the speed of the model, or for those that --over goes through.
+void note_tables(const Invocation& call, const Model& model, Report& report);
 
 }  // namespace whirl

@@ -5,6 +5,7 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/branch_point.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/batch/batch.hpp"
@@ -100,6 +101,7 @@ Report rotating_orbit(const Invocation& call, const Model& model) {
   Report report{.record = begin_record(call, model),
                 .failure = cycle.failure,
                 .status = cycle.is_good() ? 0 : 3};
+  note_tables(call, model, report);
   MotionState on_it;
   on_it.y = cycle.state;
   Record floquet = Record::array();
@@ -245,6 +247,7 @@ Report run_orbit(const Invocation& given) {
   }
 
   Report report{.record = begin_record(call, model), .failure = orbit.failure, .status = status};
+  note_tables(call, model, report);
   MotionState on_it;
   on_it.y = orbit.states.front();
   Record floquet = Record::array(), exponents = Record::array();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/basins.hpp"
@@ -81,6 +82,7 @@ Report search_orbits(const Invocation& call, const Model& model) {
   });
 
   Report report{.record = begin_record(call, model), .status = done < starts ? 130 : 0};
+  note_tables(call, model, report);
   Record list = Record::array();
   Table table({"orbit", "", "repeats after", "impacts", "largest multiplier", "of starts"});
   for (std::size_t i = 0; i < all.size(); ++i) {

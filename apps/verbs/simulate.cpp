@@ -1,5 +1,6 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/hdf5.hpp"
 
@@ -13,6 +14,7 @@ Report run_simulate(const Invocation& call) {
   Report report{.record = begin_record(call, model),
                 .failure = run.simulation.integration.diagnosis,
                 .status = status_of(run.simulation.integration.outcome)};
+  note_tables(call, model, report);
   add_run(report.record, run);
   add_stations(report.record, run);
   report.text = "Simulation" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +

@@ -6,6 +6,7 @@
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
@@ -362,6 +363,7 @@ Report run_sweep(const Invocation& call) {
   const StudyOutcome outcome = run_study(call, work, table, setup.earlier(), begin);
 
   Report report{.record = begin_record(call, setup.model()), .status = outcome.status};
+  note_tables(call, setup.model(), report);
   Record& r = report.record;
   r.set("parameter", setup.axes()[0].path).set("unit", setup.axes()[0].unit);
   r.set("values", setup.axes()[0].values);

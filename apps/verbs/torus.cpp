@@ -8,6 +8,7 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/borders.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libfe/base/error.hpp"
@@ -72,6 +73,7 @@ Report run_torus(const Invocation& call) {
   const auto scene = std::make_shared<const Scene>(make_scene(at_first));
   Trajectory motion = after_transient(call, at_first, *scene);
   Report report{.record = begin_record(call, model), .status = status_of(motion.outcome)};
+  note_tables(call, model, report);
   if (report.status == 130) {
     report.failure = "stopped in the transient";
     return report;

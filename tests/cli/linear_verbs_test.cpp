@@ -369,15 +369,24 @@ offset = "0.1 mm"
 )");
   const auto notes = [&](const std::vector<std::string>& words) { return result(words)["notes"]; };
   EXPECT_EQ(notes({"modes", "table.toml"}).size(), 0u);
-  const json above = notes({"modes", "table.toml", "--speed", "2500rpm"});
-  ASSERT_EQ(above.size(), 1u);
-  EXPECT_EQ(above[0],
-            "the table of bearing seat goes from 500 to 2000 rpm; its ends are held constant above "
-            "(asked: 2500 rpm)");
+  const json above_alone{
+      "the table of bearing seat goes from 500 to 2000 rpm; its ends are held constant above "
+      "(asked: 2500 rpm)"};
+  EXPECT_EQ(notes({"modes", "table.toml", "--speed", "2500rpm"}), above_alone);
   const json both = notes({"campbell", "table.toml", "--speeds", "0:3000:100rpm"});
   ASSERT_EQ(both.size(), 1u);
   EXPECT_TRUE(has(both[0], "below (asked: 0 rpm) and above (asked: 3000 rpm)")) << both;
   EXPECT_EQ(notes({"unbalance", "table.toml", "--speeds", "600:1900:100rpm"}).size(), 0u);
+  for (const char* verb : {"simulate", "classify", "orbit"}) {
+    SCOPED_TRACE(verb);
+    EXPECT_EQ(notes({verb, "table.toml", "--discard", "10"}).size(), 0u);
+    EXPECT_EQ(notes({verb, "table.toml", "--discard", "10", "--speed", "2500rpm"}), above_alone);
+  }
+  const auto swept = [&](const char* range) {
+    return notes({"sweep", "table.toml", "--over", range, "--revolutions", "4", "--discard", "4"});
+  };
+  EXPECT_EQ(swept("operation.speed=1000:2000:500rpm").size(), 0u);
+  EXPECT_EQ(swept("operation.speed=1500:2500:500rpm"), above_alone);
 }
 
 // zeta = 0.6: above 0.5 a mode of the bearings
@@ -463,7 +472,8 @@ TEST_F(Linear, FormsOfSpeeds) {
 TEST_F(Linear, JsonToStandardOutputIsAllThatIsPrinted) {
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
-    const Outcome outcome = whirl(briefly({verb, "rotor.toml", "--speed", "100rad/s", "--json", "-"}));
+    const Outcome outcome =
+        whirl(briefly({verb, "rotor.toml", "--speed", "100rad/s", "--json", "-"}));
     EXPECT_EQ(outcome.status, 0);
     EXPECT_TRUE(json::accept(outcome.out)) << outcome.out;
     EXPECT_EQ(outcome.err, "");
@@ -473,7 +483,8 @@ TEST_F(Linear, JsonToStandardOutputIsAllThatIsPrinted) {
 TEST_F(Linear, JsonToAFileLeavesTheTextAndQuietLeavesNothing) {
   for (const std::string& verb : model_verbs) {
     SCOPED_TRACE(verb);
-    const Outcome text = whirl(briefly({verb, "rotor.toml", "--speed", "100rad/s", "--json", "r.json"}));
+    const Outcome text =
+        whirl(briefly({verb, "rotor.toml", "--speed", "100rad/s", "--json", "r.json"}));
     EXPECT_EQ(text.status, 0);
     EXPECT_NE(text.out, "");
     const json from_file = json::parse(content(folder / "r.json"));
