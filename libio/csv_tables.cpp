@@ -214,6 +214,16 @@ std::string csv_of(const ResultReader& file, const CsvTable& table,
   return out;
 }
 
+/// Axes of a dataset. Complex numbers label nothing: their dimension is numbered, and they are two
+/// columns beside the values they belong to.
+std::vector<std::string> real_axes(const ResultReader& file, const std::string& path) {
+  std::vector<std::string> axes = file.axes(path);
+  for (std::string& axis : axes) {
+    if (!axis.empty() && file.kind(axis) == ObjectKind::complex) axis.clear();
+  }
+  return axes;
+}
+
 }  // namespace
 
 std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::path& stem,
@@ -228,7 +238,7 @@ std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::pat
       const ObjectKind kind = result.kind(path);
       if (kind == ObjectKind::group || kind == ObjectKind::other || is_internal(name)) continue;
       datasets.emplace_back(group, path);
-      for (const std::string& axis : result.axes(path)) is_axis.insert(axis);
+      for (const std::string& axis : real_axes(result, path)) is_axis.insert(axis);
     }
   }
 
@@ -238,7 +248,7 @@ std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::pat
     if (is_axis.count(path) > 0) continue;
     const auto shape = result.shape(path);
     if (shape.empty()) continue;
-    const auto axes = result.axes(path);
+    const auto axes = real_axes(result, path);
     std::vector<Dimension> all(shape.size()), rows, across;
     Index stride = 1;
     for (std::size_t i = shape.size(); i-- > 0;) {

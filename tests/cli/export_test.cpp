@@ -135,7 +135,8 @@ TEST_F(Export, StudiesAndBranchesAreTables) {
   make(briefly({"sweep", "rub.toml", "--out", "s.h5", "--quiet"}));
   make({"campbell", disks, "--speeds", "0:1000:500rpm", "--out", "c.h5", "--quiet"});
   make({"unbalance", disks, "--speeds", "0:1000:500rpm", "--out", "u.h5", "--quiet"});
-  for (const char* file : {"s.h5", "c.h5", "u.h5"}) {
+  make({"orbit", "rub.toml", "--out", "o.h5", "--quiet"});
+  for (const char* file : {"s.h5", "c.h5", "u.h5", "o.h5"}) {
     make({"export", file, "--format", "csv", "--quiet"});
   }
   const std::string sweep = content(folder / "s_sweep_axis_1.csv");
@@ -147,6 +148,11 @@ TEST_F(Export, StudiesAndBranchesAreTables) {
   EXPECT_EQ(branches.rfind("speed [rad/s],frequency 1 [rad/s],frequency 2 [rad/s],", 0), 0u);
   EXPECT_EQ(std::count(branches.begin(), branches.end(), '\n'), 4);
   EXPECT_TRUE(has(content(folder / "u_unbalance_speed.csv"), ",x 4 left disk im [m],"));
+  const std::string orbit = content(folder / "o_orbit_exponent.csv");  // against the multipliers
+  EXPECT_EQ(
+      orbit.rfind("number,exponent re [1/s],exponent im [1/s],multiplier re,multiplier im\n", 0),
+      0u)
+      << orbit;
   EXPECT_TRUE(has(problem({"export", "rub.toml", "--format", "csv"}), "a model holds no tables"));
 }
 
