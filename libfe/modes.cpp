@@ -29,6 +29,9 @@ constexpr double overdamped = 0.2;       ///< |Im| over |Re| of an eigenvalue th
 constexpr int most_others = 40;          ///< modes that do not oscillate, beyond those expected
 constexpr double cut_pair = 1e-6;        ///< of the farthest eigenvalue: its twin may be missing
 constexpr double off_axis = 0.05;        ///< Re over Im of a center for modes near a frequency
+constexpr double rough = 1e-3;           ///< relative error of an eigenvalue that can be refined
+constexpr double fine = 1e-5;            ///< the same among others that are as near
+constexpr double apart = 0.1;            ///< of the distance to the next one: it stays the same
 constexpr double same_frequency = 1e-9;  ///< relative distance of equal eigenvalues
 
 /// What the modes of a free system are compared with.
@@ -114,6 +117,15 @@ Mode describe(Complex lambda, const CVec& q, const DofMap& dofs) {
   return mode;
 }
 
+/// How far refinement may move an eigenvalue.
+double reach_of(Complex lambda, const CVec& all) {
+  double next = std::numeric_limits<double>::infinity();  // distance of the nearest other one
+  for (const Complex other : all) {
+    if (other != lambda) next = std::min(next, std::abs(other - lambda));
+  }
+  return std::abs(lambda) * std::clamp(apart * next / std::abs(lambda), fine, rough);
+}
+
 Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, int count) {
   if (system.Omega == 0.0) separate_planes(found, system.dofs);
   Modes modes;
@@ -144,7 +156,7 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
   for (Mode& mode : modes.oscillatory) {
     Complex lambda = mode.lambda;
     CVec q = mode.shape;
-    refinement.improve(lambda, q);
+    refinement.improve(lambda, q, reach_of(lambda, found.lambda));
     if (lambda != mode.lambda) mode = describe(lambda, q, system.dofs);
   }
   std::erase_if(modes.oscillatory,

@@ -9,7 +9,6 @@ namespace whirl {
 namespace {
 
 constexpr double accurate = 2e-11;  ///< backward error: a fifth of what is promised
-constexpr double same = 1e-5;       ///< relative change of an eigenvalue that is still the same
 constexpr int most_steps = 3;
 constexpr double unbalanced = 0.5;  ///< residual over the sum of its parts: 1 at infinity
 
@@ -42,7 +41,7 @@ bool Refinement::balances(Complex lambda, const CVec& q) const {
          unbalanced * (inertia.norm() + damping.norm() + elastic.norm());
 }
 
-void Refinement::improve(Complex& lambda, CVec& q) const {
+void Refinement::improve(Complex& lambda, CVec& q, double reach) const {
   double error = backward_error(lambda, q);
   const Complex start = lambda;
   for (int i = 0; i < most_steps && error > accurate; ++i) {
@@ -53,7 +52,7 @@ void Refinement::improve(Complex& lambda, CVec& q) const {
     const CVec x = factor.solve(CVec(2.0 * lambda * (M_ * q) + D_ * q));
     const Complex next = lambda - q.squaredNorm() / q.dot(x);
     const double then = x.allFinite() ? backward_error(next, x) : error;
-    if (!(then < error) || !(std::abs(next - start) < same * std::abs(start))) return;
+    if (!(then < error) || !(std::abs(next - start) < reach)) return;
     lambda = next;
     q = x.normalized();
     error = then;

@@ -19,7 +19,9 @@ class Refinement {
   bool balances(Complex lambda, const CVec& q) const;
 
   /// Newton's iteration, where the backward error is above 2e-11 and as long as it falls.
-  void improve(Complex& lambda, CVec& q) const;
+  ///
+  /// @param reach  how far lambda may move: less than to another eigenvalue
+  void improve(Complex& lambda, CVec& q, double reach) const;
 
  private:
   const Sparse &M_, &D_, &K_;

@@ -176,4 +176,12 @@ TEST(RandomRotors, HaveEveryLinearStudyAndTheModesOfQz) {
   }
 }
 
+// 124: massless ends, whose infinite eigenvalues came out as modes; 675: two modes within 1e-4,
+// of which one was left with a backward error of 8e-10.
+TEST(RandomRotors, OfSeedsThatFailedOnceDoSoNoLonger) {
+  Figures figures;
+  for (const unsigned seed : {124u, 675u}) study(seed, {.most_elements = 99}, figures);
+  EXPECT_EQ(figures.rotors, 2);
+}
+
 }  // namespace whirl::random_rotors_test
