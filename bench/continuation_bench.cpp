@@ -9,6 +9,7 @@
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/branch_equations.hpp"
 #include "libdyn/methods/rk4.hpp"
+#include "libdyn/start.hpp"
 #include "libio/model_file.hpp"
 #include "tests/support/scenes.hpp"
 

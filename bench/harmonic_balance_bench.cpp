@@ -14,6 +14,7 @@
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/hill.hpp"
+#include "libdyn/start.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "libdyn/simulate.hpp"
+#include "libdyn/start.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl {

@@ -2,17 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 
-#include "libdyn/equilibrium.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/eigen/dense.hpp"
 #include "libfe/eigen/symmetric.hpp"
-#include "libfe/modes.hpp"
-#include "libfe/static.hpp"
 
 namespace whirl {
 
@@ -97,75 +92,6 @@ FullState full_state(const Scene& scene, const MotionState& state) {
   const Mat map = scene.displacement_map();
   const auto n = scene.contacts.coordinates();
   return {map * state.y.head(n), map * state.y.tail(n)};
-}
-
-MotionState start_state(const Model& model, const Scene& scene, const FullState* end) {
-  const int n = scene.contacts.coordinates();
-  MotionState state;
-  state.y = Vec::Zero(2 * n);
-
-  // the coordinates whose motion is nearest to a given one in kinetic energy
-  const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
-  const DenseLu<Mat> mass(scene.reduced.M);
-  const auto coordinates = [&](const Vec& q) -> Vec { return mass.solve(weighted * q); };
-
-  switch (model.start.from) {
-    case StartFrom::rest:
-      break;
-    case StartFrom::equilibrium:
-      if (model.structure.gravity != 0.0) {
-        if (model.films.empty()) {
-          require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
-        }
-        state.y.head(n) = equilibrium(scene.contacts);
-      }
-      break;
-    case StartFrom::file: {
-      if (!end) throw ModelError({}, "start.file", "no result file was given to start from");
-      const Sparse& T = scene.system.dofs.T;
-      if (end->displacement.size() != T.rows()) {
-        throw ModelError({}, "start.file",
-                         fmt::format("the result has {} freedoms, the model {}: they do not fit",
-                                     end->displacement.size(), T.rows()));
-      }
-      // full vectors to the system's coordinates by least squares (T has full column rank)
-      const Mat dense_T(T);
-      const DenseLu<Mat> normal(dense_T.transpose() * dense_T);
-      state.y.head(n) = coordinates(normal.solve(dense_T.transpose() * end->displacement));
-      state.y.tail(n) = coordinates(normal.solve(dense_T.transpose() * end->velocity));
-      break;
-    }
-  }
-  for (const Displaced& d : model.start.displaced) {
-    // what the place does alone: the motion of least kinetic energy with it
-    const Point p = scene.assembler.point(d.at);
-    Mat rows(2, n);
-    rows.row(0) = scene.system.dofs.row(p, X).transpose() * scene.reduced.Phi;
-    rows.row(1) = scene.system.dofs.row(p, Y).transpose() * scene.reduced.Phi;
-    const Mat pull = mass.solve(rows.transpose());
-    const DenseLu<Mat> share(rows * pull);
-    if (!(share.rcond() > 1e-12)) {
-      throw ModelError(d.at.where, "start.displaced", "this place cannot move by itself");
-    }
-    state.y.head(n) += pull * share.solve(Vec2(d.x, d.y));
-    state.y.tail(n) += pull * share.solve(Vec2(d.vx, d.vy));
-  }
-  if (model.start.whirl.empty()) return state;
-  int highest = 0;
-  for (const WhirlStart& w : model.start.whirl) highest = std::max(highest, w.mode);
-  const Modes modes = complex_modes(scene.system, highest);
-  for (const WhirlStart& w : model.start.whirl) {
-    if (w.mode < 1 || w.mode > static_cast<int>(modes.oscillatory.size())) {
-      throw ModelError(w.where, "start.whirl",
-                       fmt::format("found mode {}, expected a mode from 1 to {}", w.mode,
-                                   modes.oscillatory.size()));
-    }
-    const Mode& mode = modes.oscillatory[static_cast<std::size_t>(w.mode - 1)];
-    const CVec q = std::polar(w.amplitude, w.phase) * mode.shape;
-    state.y.head(n) += coordinates(q.real());
-    state.y.tail(n) += coordinates((mode.lambda * q).real());
-  }
-  return state;
 }
 
 }  // namespace whirl

@@ -38,13 +38,6 @@ struct FullState {
   Vec displacement, velocity;  ///< full vectors
 };
 
-/// State at the start of a simulation, from the model's [start].
-///
-/// @param end  end of an earlier result, for `from = "file"`; may be null otherwise
-/// @throws ModelError  if the start asks for a mode that does not exist, or for a file that is
-///                     not given
-MotionState start_state(const Model& model, const Scene& scene, const FullState* end);
-
 /// Motion of all points of a state.
 FullState full_state(const Scene& scene, const MotionState& state);
 

@@ -9,6 +9,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/basins.hpp"
 #include "libdyn/contact_flow.hpp"
+#include "libdyn/start.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"

@@ -12,6 +12,7 @@
 #include "apps/verbs/study_classification.hpp"
 #include "apps/verbs/study_file.hpp"
 #include "libdyn/piece_sizes.hpp"
+#include "libdyn/start.hpp"
 #include "libdyn/work_queue.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"

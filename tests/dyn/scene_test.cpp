@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "libdyn/start.hpp"
 #include "libfe/base/error.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"

@@ -11,6 +11,7 @@
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/classify.hpp"
 #include "libdyn/scene.hpp"
+#include "libdyn/start.hpp"
 #include "libfe/critical.hpp"
 #include "libio/model_file.hpp"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "libdyn/simulate.hpp"
+#include "libdyn/start.hpp"
 #include "libfe/critical.hpp"
 #include "libfe/modes.hpp"
 #include "libio/model_file.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "libdyn/scene.hpp"
+#include "libdyn/start.hpp"
 #include "libfe/base/error.hpp"
 #include "libio/model_file.hpp"
 

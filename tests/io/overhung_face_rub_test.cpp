@@ -8,6 +8,7 @@
 
 #include "libdyn/classify.hpp"
 #include "libdyn/scene.hpp"
+#include "libdyn/start.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl::overhung_face_rub_test {

@@ -8,6 +8,7 @@
 
 #include "libdyn/methods.hpp"
 #include "libdyn/scene.hpp"
+#include "libdyn/start.hpp"
 #include "libfe/elements/disk.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/rotors.hpp"

@@ -1,0 +1,111 @@
+#include "libdyn/start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libdyn/equilibrium.hpp"
+#include "libfe/base/error.hpp"
+#include "libfe/eigen/dense.hpp"
+#include "libfe/modes.hpp"
+#include "libfe/static.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// Least share of a displacement that a place takes by itself.
+constexpr double rigid = 1e-12;
+
+/// Motions of all freedoms in coordinates: those nearest in kinetic energy.
+struct Nearest {
+  explicit Nearest(const Scene& scene)
+      : weighted(scene.reduced.Phi.transpose() * Mat(scene.system.M)), mass(scene.reduced.M) {}
+
+  Vec coordinates(const Vec& q) const { return mass.solve(weighted * q); }
+
+  Mat weighted;  ///< Phi^T M
+  DenseLu<Mat> mass;
+};
+
+Vec at_rest_under_gravity(const Model& model, const Scene& scene) {
+  if (model.structure.gravity == 0.0) return Vec::Zero(scene.contacts.coordinates());
+  if (model.films.empty()) {
+    require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
+  }
+  return equilibrium(scene.contacts);
+}
+
+Vec end_of(const FullState* end, const Scene& scene, const Nearest& nearest) {
+  if (!end) throw ModelError({}, "start.file", "no result file was given to start from");
+  const Sparse& T = scene.system.dofs.T;
+  if (end->displacement.size() != T.rows()) {
+    throw ModelError({}, "start.file",
+                     fmt::format("the result has {} freedoms, the model {}: they do not fit",
+                                 end->displacement.size(), T.rows()));
+  }
+  // full vectors to the system's coordinates by least squares (T has full column rank)
+  const Mat dense_T(T);
+  const DenseLu<Mat> normal(dense_T.transpose() * dense_T);
+  const auto coordinates = [&](const Vec& full) {
+    return nearest.coordinates(normal.solve(dense_T.transpose() * full));
+  };
+  Vec y(2 * scene.contacts.coordinates());
+  y << coordinates(end->displacement), coordinates(end->velocity);
+  return y;
+}
+
+/// What a place does alone: the motion of least kinetic energy with it.
+void displace(const Displaced& d, const Scene& scene, const Nearest& nearest, Vec& y) {
+  const int n = scene.contacts.coordinates();
+  const Point p = scene.assembler.point(d.at);
+  Mat rows(2, n);
+  rows.row(0) = scene.system.dofs.row(p, X).transpose() * scene.reduced.Phi;
+  rows.row(1) = scene.system.dofs.row(p, Y).transpose() * scene.reduced.Phi;
+  const Mat pull = nearest.mass.solve(rows.transpose());
+  const DenseLu<Mat> share(rows * pull);
+  if (!(share.rcond() > rigid)) {
+    throw ModelError(d.at.where, "start.displaced", "this place cannot move by itself");
+  }
+  y.head(n) += pull * share.solve(Vec2(d.x, d.y));
+  y.tail(n) += pull * share.solve(Vec2(d.vx, d.vy));
+}
+
+void whirl_in(const std::vector<WhirlStart>& wanted, const Scene& scene, const Nearest& nearest,
+              Vec& y) {
+  const int n = scene.contacts.coordinates();
+  int highest = 0;
+  for (const WhirlStart& w : wanted) highest = std::max(highest, w.mode);
+  const Modes modes = complex_modes(scene.system, highest);
+  for (const WhirlStart& w : wanted) {
+    if (w.mode < 1 || w.mode > static_cast<int>(modes.oscillatory.size())) {
+      throw ModelError(w.where, "start.whirl",
+                       fmt::format("found mode {}, expected a mode from 1 to {}", w.mode,
+                                   modes.oscillatory.size()));
+    }
+    const Mode& mode = modes.oscillatory[static_cast<std::size_t>(w.mode - 1)];
+    const CVec q = std::polar(w.amplitude, w.phase) * mode.shape;
+    y.head(n) += nearest.coordinates(q.real());
+    y.tail(n) += nearest.coordinates((mode.lambda * q).real());
+  }
+}
+
+}  // namespace
+
+MotionState start_state(const Model& model, const Scene& scene, const FullState* end) {
+  const Nearest nearest(scene);
+  const int n = scene.contacts.coordinates();
+  MotionState state;
+  state.y = Vec::Zero(2 * n);
+  if (model.start.from == StartFrom::equilibrium) {
+    state.y.head(n) = at_rest_under_gravity(model, scene);
+  } else if (model.start.from == StartFrom::file) {
+    state.y = end_of(end, scene, nearest);
+  }
+  for (const Displaced& d : model.start.displaced) displace(d, scene, nearest, state.y);
+  if (!model.start.whirl.empty()) whirl_in(model.start.whirl, scene, nearest, state.y);
+  return state;
+}
+
+}  // namespace whirl
