@@ -16,8 +16,8 @@
 #include "libdyn/batch/contact_lanes-inl.h"
 #include "libdyn/batch/equation_lanes-inl.h"
 #include "libdyn/batch/film_lanes-inl.h"
+#include "libdyn/equal_steps.hpp"
 #include "libdyn/methods/diagnosis.hpp"
-#include "libdyn/methods/rk4.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {
@@ -109,7 +109,7 @@ class Rk4Lanes {
       const auto l = static_cast<size_t>(__builtin_ctzll(rest));
       const ContactSystem& s = *all[l].system;
       const double left = s.period() - all[l].state.phase / s.phase_rate();
-      most = std::max(most, Rk4::steps(s, left, options));
+      most = std::max(most, equal_steps(s.period(), left, options));
     }
     return static_cast<long>(most);
   }

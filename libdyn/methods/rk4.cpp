@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libdyn/equal_steps.hpp"
 #include "libdyn/methods/diagnosis.hpp"
 
 namespace whirl {
 
 namespace {
-
-constexpr double usual_steps = 1000.0, usual_tolerance = 1e-10;  ///< per revolution
-
-double longest_step(const ContactSystem& system, const IntegrationOptions& options) {
-  if (options.fixed_step > 0.0) return options.fixed_step;
-  return system.period() / usual_steps * std::pow(options.tolerance / usual_tolerance, 0.25);
-}
 
 /// The step as polynomials: the quintic through displacements, velocities and accelerations of both
 /// ends, and its derivative. They meet the ends exactly and keep the order within.
@@ -33,10 +27,6 @@ void dense(const Vec& y0, const Vec& dy0, const Vec& y1, const Vec& dy1, Step& s
 }
 
 }  // namespace
-
-double Rk4::steps(const ContactSystem& system, double left, const IntegrationOptions& options) {
-  return std::max(1.0, std::ceil(left / longest_step(system, options) * (1.0 - 1e-9)));
-}
 
 Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long revolutions,
                            const IntegrationOptions& options, const Observer& observer) {
@@ -59,7 +49,7 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
   derivative(state.phase, y, k1);
   while (state.revolution < last) {
     const double first = state.phase, left = period - first / rate;
-    const double count = steps(system, left, options);
+    const double count = equal_steps(period, left, options);
     const double h = left / count, turn = h * rate;
     for (double i = 0.0; i < count; ++i) {  // a double: counts beyond any integer fail by time
       const double phase = first + i * turn;

@@ -29,9 +29,6 @@ struct Rk4 {
   static constexpr std::string_view name = "rk4";
   static Integration integrate(const ContactSystem& system, MotionState& state, long revolutions,
                                const IntegrationOptions& options, const Observer& observer);
-
-  /// Number of equal steps over what is left of a revolution [s], a whole number.
-  static double steps(const ContactSystem& system, double left, const IntegrationOptions& options);
 };
 
 }  // namespace whirl
