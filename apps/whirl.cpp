@@ -17,7 +17,7 @@
 #include "apps/completion.hpp"
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_schema.hpp"
 #include "libio/nearest.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 /// How much a blade gets shorter as friction bends it.
 
+#include "libbase/dense.hpp"
 #include "libcontact/laws/blade_tip.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

@@ -19,8 +19,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "libbase/field.hpp"
 #include "libcontact/law.hpp"
-#include "libfe/base/field.hpp"
 
 namespace whirl {
 

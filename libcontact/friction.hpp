@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "libfe/base/field.hpp"
+#include "libbase/field.hpp"
 
 namespace whirl {
 

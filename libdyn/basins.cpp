@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "libdyn/random.hpp"
+#include "libbase/random.hpp"
 
 namespace whirl {
 

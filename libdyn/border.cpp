@@ -5,9 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/bifurcation.hpp"
-#include "libfe/base/error.hpp"
 
 namespace whirl {
 

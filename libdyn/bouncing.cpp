@@ -5,9 +5,9 @@
 #include <numbers>
 #include <random>
 
+#include "libbase/error.hpp"
+#include "libbase/random.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libdyn/random.hpp"
-#include "libfe/base/error.hpp"
 
 namespace whirl {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "libbase/field.hpp"
 #include "libdyn/shooting.hpp"
-#include "libfe/base/field.hpp"
 
 namespace whirl {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

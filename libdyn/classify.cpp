@@ -5,13 +5,13 @@
 #include <limits>
 #include <map>
 
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
+#include "libbase/section_geometry.hpp"
 #include "libdyn/batch/mixed.hpp"
 #include "libdyn/exponents.hpp"
 #include "libdyn/free_flight.hpp"
 #include "libdyn/proven_orbit.hpp"
-#include "libdyn/section_geometry.hpp"
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

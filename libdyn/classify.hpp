@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "libbase/field.hpp"
 #include "libdyn/contact_measures.hpp"
 #include "libdyn/contact_system.hpp"
 #include "libdyn/settling.hpp"
 #include "libdyn/trajectory.hpp"
-#include "libfe/base/field.hpp"
 
 namespace whirl {
 

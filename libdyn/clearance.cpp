@@ -5,8 +5,8 @@
 #include <functional>
 #include <numbers>
 
-#include "libfe/base/names.hpp"
-#include "libfe/base/roots.hpp"
+#include "libbase/names.hpp"
+#include "libbase/roots.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/unbalance.hpp"
 

@@ -1,8 +1,8 @@
 #include "libdyn/contact_flow.hpp"
 
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

@@ -3,9 +3,9 @@
 
 #include <memory>
 
+#include "libbase/dense.hpp"
 #include "libdyn/scene.hpp"
 #include "libdyn/shooting.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "libbase/error.hpp"
 #include "libdyn/contact_ports.hpp"
 #include "libdyn/methods.hpp"
-#include "libfe/base/error.hpp"
 
 namespace whirl {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "libbase/field.hpp"
 #include "libdyn/trajectory.hpp"
-#include "libfe/base/field.hpp"
 
 namespace whirl {
 

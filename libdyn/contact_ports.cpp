@@ -5,8 +5,8 @@
 #include <memory>
 #include <numbers>
 
+#include "libbase/legendre.hpp"
 #include "libcontact/dual.hpp"
-#include "libdyn/legendre.hpp"
 #include "libdyn/touch_spans.hpp"
 
 namespace whirl {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libcontact/blade.hpp"
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

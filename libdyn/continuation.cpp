@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "libbase/error.hpp"
 #include "libdyn/bifurcation.hpp"
-#include "libfe/base/error.hpp"
 
 namespace whirl {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <numbers>
 
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/shooting.hpp"
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/methods/kinsol.hpp"
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "libdyn/polynomial.hpp"
+#include "libbase/polynomial.hpp"
 #include "libdyn/trajectory.hpp"
 
 namespace whirl {

@@ -1,7 +1,7 @@
 #pragma once
 /// Lyapunov exponents from the growth of tangents, and how well they are known.
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "libbase/linalg.hpp"
 #include "libcontact/oil_film.hpp"
-#include "libfe/base/linalg.hpp"
 
 namespace whirl {
 

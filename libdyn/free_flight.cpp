@@ -5,8 +5,8 @@
 #include <numbers>
 #include <optional>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "libbase/error.hpp"
 #include "libdyn/shooting.hpp"
-#include "libfe/base/error.hpp"
 
 namespace whirl {
 

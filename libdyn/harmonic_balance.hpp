@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "libbase/dense.hpp"
 #include "libdyn/contact_measures.hpp"
 #include "libdyn/port_forces.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "libbase/error.hpp"
 #include "libdyn/hill.hpp"
-#include "libfe/base/error.hpp"
 
 namespace whirl {
 

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "libbase/legendre.hpp"
 #include "libdyn/contact_system.hpp"
-#include "libdyn/legendre.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "libbase/quadrature.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libfe/base/quadrature.hpp"
 
 namespace whirl {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "libdyn/fourier.hpp"
+#include "libbase/fourier.hpp"
 #include "libdyn/scene.hpp"
 
 namespace whirl {

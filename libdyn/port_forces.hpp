@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/fourier.hpp"
+#include "libbase/fourier.hpp"
 
 namespace whirl {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libbase/dense.hpp"
 #include "libdyn/batch/mixed.hpp"
 #include "libdyn/shooting.hpp"
-#include "libfe/eigen/dense.hpp"
 
 namespace whirl {
 

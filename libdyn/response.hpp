@@ -1,8 +1,8 @@
 #pragma once
 /// Steady motion in frequencies: signed spectra at points, and peaks in both frames.
 
+#include "libbase/spectrum.hpp"
 #include "libdyn/simulate.hpp"
-#include "libdyn/spectrum.hpp"
 
 namespace whirl {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <span>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/smooth_average.hpp"
+#include "libbase/smooth_average.hpp"
 
 namespace whirl {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Whether a motion has settled: what its sections say.
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

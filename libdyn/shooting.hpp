@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "libbase/linalg.hpp"
 #include "libdyn/contact_measures.hpp"
-#include "libfe/base/linalg.hpp"
 
 namespace whirl {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/equilibrium.hpp"
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/static.hpp"
 

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <sstream>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "libdyn/smooth_average.hpp"
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
+#include "libbase/smooth_average.hpp"
 
 namespace whirl {
 

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
+#include "libbase/fourier.hpp"
 #include "libdyn/contact_system.hpp"
-#include "libdyn/fourier.hpp"
 
 namespace whirl {
 

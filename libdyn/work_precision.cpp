@@ -7,9 +7,9 @@
 #include <ctime>
 #include <limits>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/batch/pattern.hpp"
-#include "libfe/base/error.hpp"
 
 namespace whirl {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

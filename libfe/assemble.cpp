@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "libfe/eigen/sparse_lu.hpp"
+#include "libbase/sparse_lu.hpp"
 #include "libfe/elements/body.hpp"
 #include "libfe/elements/connection.hpp"
 #include "libfe/elements/disk.hpp"

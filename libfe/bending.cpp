@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <array>
 
-#include "libfe/base/quadrature.hpp"
+#include "libbase/quadrature.hpp"
 #include "libfe/shaft_elements.hpp"
 
 namespace whirl {

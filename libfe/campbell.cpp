@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "libfe/base/error.hpp"
-#include "libfe/base/roots.hpp"
+#include "libbase/error.hpp"
+#include "libbase/roots.hpp"
 
 namespace whirl {
 

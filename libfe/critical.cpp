@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
+#include "libbase/hermitian.hpp"
 #include "libfe/campbell.hpp"
-#include "libfe/eigen/hermitian.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/static.hpp"
 

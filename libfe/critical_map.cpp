@@ -9,8 +9,8 @@
 #include <map>
 #include <optional>
 
-#include "libfe/base/error.hpp"
-#include "libfe/base/roots.hpp"
+#include "libbase/error.hpp"
+#include "libbase/roots.hpp"
 #include "libfe/campbell.hpp"
 
 namespace whirl {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "libfe/base/names.hpp"
+#include "libbase/names.hpp"
 
 namespace whirl {
 

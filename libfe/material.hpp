@@ -3,7 +3,7 @@
 #include <string>
 #include <tuple>
 
-#include "libfe/base/field.hpp"
+#include "libbase/field.hpp"
 
 namespace whirl {
 

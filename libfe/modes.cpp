@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libfe/eigen/disc.hpp"
 #include "libfe/eigen/energy_bounds.hpp"
 #include "libfe/eigen/lowest_frequencies.hpp"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "libbase/field.hpp"
 #include "libfe/assemble.hpp"
-#include "libfe/base/field.hpp"
 
 namespace whirl {
 

@@ -1,6 +1,6 @@
 #include "libfe/properties.hpp"
 
-#include "libfe/base/quadrature.hpp"
+#include "libbase/quadrature.hpp"
 
 namespace whirl {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
+#include "libbase/sparse_lu.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/quadratic.hpp"
-#include "libfe/eigen/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/modes.hpp"
 

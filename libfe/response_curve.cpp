@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "libfe/base/error.hpp"
-#include "libfe/base/roots.hpp"
+#include "libbase/error.hpp"
+#include "libbase/roots.hpp"
 #include "libfe/campbell.hpp"
 
 namespace whirl {

@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "libfe/base/field.hpp"
+#include "libbase/field.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

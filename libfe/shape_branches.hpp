@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/sparse_lu.hpp"
+#include "libbase/error.hpp"
+#include "libbase/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl {

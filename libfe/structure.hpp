@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
-#include "libfe/base/error.hpp"
-#include "libfe/base/linalg.hpp"
+#include "libbase/error.hpp"
+#include "libbase/linalg.hpp"
 #include "libfe/bearings.hpp"
 #include "libfe/material.hpp"
 #include "libfe/section.hpp"

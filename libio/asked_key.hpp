@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/field.hpp"
+#include "libbase/field.hpp"
 
 namespace whirl {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/bearings/table.hpp"
 
 namespace whirl {

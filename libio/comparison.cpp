@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/config.hpp"
 #include "libio/units.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/figures/all.hpp"
 #include "libio/model_file.hpp"
 #include "libio/result_schema.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 #include "libio/replace_file.hpp"
 
 namespace whirl {

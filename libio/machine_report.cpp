@@ -5,7 +5,7 @@
 #include <set>
 #include <string_view>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/call.hpp"
 #include "libio/comparison.hpp"
 

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <iterator>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/config.hpp"
 #include "libio/model_builder.hpp"
 

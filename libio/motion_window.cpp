@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

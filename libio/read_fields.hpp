@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "libfe/base/error.hpp"
-#include "libfe/base/field.hpp"
+#include "libbase/error.hpp"
+#include "libbase/field.hpp"
 #include "libio/asked_key.hpp"
 #include "libio/config.hpp"
 

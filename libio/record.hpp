@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

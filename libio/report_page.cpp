@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/properties.hpp"
 #include "libio/comparison.hpp"
 #include "libio/figure_json.hpp"

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/own_file.hpp"
 #include "libio/vtk/surfaces.hpp"
 

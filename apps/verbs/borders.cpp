@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "apps/verbs/simulation.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
 #include "libio/table.hpp"

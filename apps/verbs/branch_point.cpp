@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
 #include "libio/parameter_axis.hpp"

@@ -4,7 +4,7 @@
 
 #include "apps/verbs/notes.hpp"
 #include "apps/version.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/modes.hpp"
 #include "libio/figures.hpp"
 #include "libio/hdf5.hpp"

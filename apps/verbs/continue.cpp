@@ -12,12 +12,12 @@
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study_file.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/bifurcation.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/cycle.hpp"
 #include "libdyn/harmonic_branch.hpp"
 #include "libdyn/orbit_measure.hpp"
-#include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

@@ -8,7 +8,7 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/modes.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
@@ -47,8 +47,8 @@ Report run_critical(const Invocation& call) {
     table.row({fmt::format("{}{}", i + 1, is_heavy ? heavy_mark : ""),
                fmt::format("{:.2f}", c.speed / rpm), fmt::format("{:.3f}", c.speed / rpm / 60.0),
                is_met ? fmt::format("{:.2f}", c.damped_speed / rpm) : "-",
-               is_met ? fixed(c.damping_ratio, 5) : "-",
-               std::string(name_of(c.whirl)), excitation});
+               is_met ? fixed(c.damping_ratio, 5) : "-", std::string(name_of(c.whirl)),
+               excitation});
   }
   report.record.set("criticals", list);
   report.text =

@@ -8,10 +8,10 @@
 
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/orbits.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/hill.hpp"
-#include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 
 namespace whirl {

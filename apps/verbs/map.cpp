@@ -8,7 +8,7 @@
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

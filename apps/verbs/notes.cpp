@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "apps/verbs/common.hpp"
-#include "libfe/base/names.hpp"
+#include "libbase/names.hpp"
 #include "libfe/exceeded_tables.hpp"
 #include "libio/parameter_axis.hpp"
 

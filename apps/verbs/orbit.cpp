@@ -8,10 +8,10 @@
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/cycle.hpp"
-#include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

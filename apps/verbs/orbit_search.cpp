@@ -7,10 +7,10 @@
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/basins.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/start.hpp"
-#include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

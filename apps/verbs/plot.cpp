@@ -14,7 +14,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures.hpp"
 #include "libio/nearest.hpp"

@@ -6,7 +6,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/report_page.hpp"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "apps/verbs/common.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/model_file.hpp"
 #include "libio/result_schema.hpp"
 

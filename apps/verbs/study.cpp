@@ -11,10 +11,10 @@
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "apps/verbs/study_file.hpp"
-#include "libdyn/piece_sizes.hpp"
+#include "libbase/error.hpp"
+#include "libbase/piece_sizes.hpp"
+#include "libbase/work_queue.hpp"
 #include "libdyn/start.hpp"
-#include "libdyn/work_queue.hpp"
-#include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
 

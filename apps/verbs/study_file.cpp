@@ -10,7 +10,7 @@
 
 #include "apps/verbs/common.hpp"
 #include "apps/version.hpp"
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/own_file.hpp"
 #include "libio/result_schema.hpp"

@@ -10,8 +10,8 @@
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libfe/base/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

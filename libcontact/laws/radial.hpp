@@ -3,8 +3,8 @@
 #include <string_view>
 #include <tuple>
 
+#include "libbase/field.hpp"
 #include "libcontact/law.hpp"
-#include "libfe/base/field.hpp"
 
 namespace whirl {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

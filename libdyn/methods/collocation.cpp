@@ -5,10 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "libbase/error.hpp"
 #include "libdyn/free_flight.hpp"
 #include "libdyn/methods/contact_step.hpp"
 #include "libdyn/methods/diagnosis.hpp"
-#include "libfe/base/error.hpp"
 
 namespace whirl {
 

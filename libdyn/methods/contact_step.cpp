@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "libdyn/legendre.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/legendre.hpp"
 
 namespace whirl {
 

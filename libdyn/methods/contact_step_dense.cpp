@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/legendre.hpp"
+#include "libbase/legendre.hpp"
 #include "libdyn/methods/contact_step.hpp"
 
 namespace whirl {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

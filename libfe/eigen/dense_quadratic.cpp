@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libfe/eigen/quadratic.hpp"
 
 namespace whirl {

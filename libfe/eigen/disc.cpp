@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "libfe/eigen/dense_complex.hpp"
+#include "libbase/dense_complex.hpp"
 
 namespace whirl {
 

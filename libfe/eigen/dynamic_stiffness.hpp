@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl {

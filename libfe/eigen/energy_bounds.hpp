@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/eigen/disc.hpp"
 
 namespace whirl {

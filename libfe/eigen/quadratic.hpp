@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

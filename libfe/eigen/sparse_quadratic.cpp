@@ -6,9 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
+#include "libbase/sparse_lu.hpp"
 #include "libfe/eigen/quadratic.hpp"
-#include "libfe/eigen/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "libfe/base/error.hpp"
-#include "libfe/base/quadrature.hpp"
+#include "libbase/error.hpp"
+#include "libbase/quadrature.hpp"
 
 namespace whirl {
 

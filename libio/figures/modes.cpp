@@ -5,7 +5,7 @@
 #include <iterator>
 #include <numeric>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/shaft_line.hpp"
 #include "libio/figures/all.hpp"
 #include "libio/figures/rotor_backdrop.hpp"

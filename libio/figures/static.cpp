@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/figures/all.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
 

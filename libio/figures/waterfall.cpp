@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libdyn/spectrum.hpp"
+#include "libbase/spectrum.hpp"
 #include "libio/figures/all.hpp"
 
 namespace whirl {

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 #include "libio/replace_file.hpp"
 
 namespace whirl::hdf5 {

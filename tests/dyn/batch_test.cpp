@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/trajectories.hpp"
 
 namespace whirl::batch_test {

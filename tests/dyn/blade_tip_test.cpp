@@ -7,10 +7,10 @@
 #include <numbers>
 #include <random>
 
+#include "libbase/error.hpp"
 #include "libcontact/blade.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/simulate.hpp"
-#include "libfe/base/error.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <complex>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libfe/base/error.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
 

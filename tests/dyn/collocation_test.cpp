@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "libbase/error.hpp"
 #include "libdyn/free_flight.hpp"
-#include "libfe/base/error.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::collocation_test {

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::contact_system_test {

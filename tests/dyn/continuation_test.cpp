@@ -9,10 +9,10 @@
 #include <cstring>
 #include <numbers>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/bifurcation.hpp"
 #include "libdyn/contact_flow.hpp"
-#include "libfe/base/error.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/impact_oscillator.hpp"
 #include "tests/support/scenes.hpp"

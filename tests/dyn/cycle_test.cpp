@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/branch_equations.hpp"
-#include "libfe/base/error.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
 

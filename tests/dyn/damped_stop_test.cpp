@@ -7,8 +7,8 @@
 #include <complex>
 #include <numbers>
 
+#include "libbase/dense.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libfe/eigen/dense.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::damped_stop_test {

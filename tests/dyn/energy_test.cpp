@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "libfe/base/quadrature.hpp"
+#include "libbase/quadrature.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::energy_test {

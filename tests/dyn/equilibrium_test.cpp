@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::equilibrium_test {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libfe/base/error.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
 

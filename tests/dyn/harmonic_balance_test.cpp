@@ -9,12 +9,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/contact_ports.hpp"
 #include "libdyn/hill.hpp"
-#include "libfe/base/error.hpp"
 #include "libfe/unbalance.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/oil_films.hpp"

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::methods_test {

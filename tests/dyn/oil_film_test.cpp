@@ -7,10 +7,10 @@
 #include <numbers>
 #include <string>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/classify.hpp"
 #include "libdyn/equilibrium.hpp"
-#include "libfe/base/error.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/trajectories.hpp"
 

@@ -1,6 +1,6 @@
 // The first fall of a polynomial below zero: no root is missed, none is invented.
 
-#include "libdyn/polynomial.hpp"
+#include "libbase/polynomial.hpp"
 
 #include <gtest/gtest.h>
 

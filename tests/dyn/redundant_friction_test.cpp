@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "libbase/quadrature.hpp"
 #include "libdyn/simulate.hpp"
-#include "libfe/base/quadrature.hpp"
 #include "tests/support/trajectories.hpp"
 
 namespace whirl::redundant_friction_test {

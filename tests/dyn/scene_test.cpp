@@ -6,8 +6,8 @@
 
 #include <cmath>
 
+#include "libbase/error.hpp"
 #include "libdyn/start.hpp"
-#include "libfe/base/error.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -1,6 +1,6 @@
 // The dimension of sections, on sets whose dimension is known.
 
-#include "libdyn/section_geometry.hpp"
+#include "libbase/section_geometry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "libbase/error.hpp"
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_flow.hpp"
-#include "libfe/base/error.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -1,6 +1,6 @@
 // Signed spectra, their peaks between the bins, and both frames.
 
-#include "libdyn/spectrum.hpp"
+#include "libbase/spectrum.hpp"
 
 #include <gtest/gtest.h>
 

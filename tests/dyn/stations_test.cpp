@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::stations_test {

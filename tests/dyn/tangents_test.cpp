@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libbase/dense.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libfe/eigen/dense.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::tangents_test {

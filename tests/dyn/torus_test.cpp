@@ -8,7 +8,7 @@
 #include <complex>
 #include <numbers>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/flows.hpp"
 
 namespace whirl::torus_test {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::work_precision_test {

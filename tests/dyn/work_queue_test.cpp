@@ -1,6 +1,6 @@
 // The queue of a study: every piece is done once, whatever the threads.
 
-#include "libdyn/work_queue.hpp"
+#include "libbase/work_queue.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
-#include "libfe/eigen/sparse_lu.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
+#include "libbase/sparse_lu.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/properties.hpp"
 #include "libfe/static.hpp"

@@ -6,7 +6,7 @@
 #include <complex>
 #include <limits>
 
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/rotors.hpp"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::critical_map_test {

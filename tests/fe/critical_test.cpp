@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
+#include "libbase/hermitian.hpp"
 #include "libfe/campbell.hpp"
-#include "libfe/eigen/hermitian.hpp"
 #include "libfe/eigen/quadratic.hpp"
 #include "tests/support/rotors.hpp"
 

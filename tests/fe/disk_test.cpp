@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
 #include "libfe/elements/body.hpp"
 
 namespace whirl::disk_test {

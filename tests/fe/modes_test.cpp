@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "tests/support/rotors.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/eigen/disc.hpp"
 #include "libfe/eigen/energy_bounds.hpp"
 #include "libfe/eigen/refine.hpp"

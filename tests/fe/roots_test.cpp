@@ -1,6 +1,6 @@
 // Roots and maxima between bounds, against known ones.
 
-#include "libfe/base/roots.hpp"
+#include "libbase/roots.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/properties.hpp"
 #include "tests/support/rotors.hpp"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::symmetric_test {

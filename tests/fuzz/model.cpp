@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/model_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

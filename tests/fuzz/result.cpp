@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/csv_tables.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures.hpp"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/config.hpp"
 
 namespace {

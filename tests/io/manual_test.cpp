@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "libbase/error.hpp"
 #include "libdyn/scene.hpp"
-#include "libfe/base/error.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl::manual_test {

@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "libbase/error.hpp"
 #include "libdyn/scene.hpp"
 #include "libdyn/start.hpp"
-#include "libfe/base/error.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl::model_films_test {

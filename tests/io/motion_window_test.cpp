@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl::motion_window_test {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl::mutation_test {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "libfe/base/error.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 #include "libfe/critical.hpp"
-#include "libfe/eigen/dense.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/static.hpp"

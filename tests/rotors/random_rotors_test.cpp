@@ -14,7 +14,7 @@
 #include <map>
 #include <string>
 
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/critical.hpp"
 #include "libfe/critical_map.hpp"

@@ -1,4 +1,4 @@
-#include "libdyn/smooth_average.hpp"
+#include "libbase/smooth_average.hpp"
 
 #include <cmath>
 

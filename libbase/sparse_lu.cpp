@@ -1,4 +1,4 @@
-#include "libfe/eigen/sparse_lu.hpp"
+#include "libbase/sparse_lu.hpp"
 
 #include <Eigen/SparseLU>
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
 
 namespace whirl {
 

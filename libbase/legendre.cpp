@@ -1,9 +1,9 @@
-#include "libdyn/legendre.hpp"
+#include "libbase/legendre.hpp"
 
 #include <cmath>
 #include <numbers>
 
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libfe/base/quadrature.hpp"
+#include "libbase/quadrature.hpp"
 
 #include <cmath>
 #include <numbers>

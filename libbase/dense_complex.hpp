@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libfe/eigen/hermitian.hpp"
+#include "libbase/hermitian.hpp"
 
 #include <Spectra/MatOp/SparseCholesky.h>
 #include <Spectra/MatOp/SparseSymMatProd.h>
@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "libfe/base/error.hpp"
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
 
 namespace whirl {
 

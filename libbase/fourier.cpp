@@ -1,4 +1,4 @@
-#include "libdyn/fourier.hpp"
+#include "libbase/fourier.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "libdyn/section_geometry.hpp"
+#include "libbase/section_geometry.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 /// Polynomials on [0, 1] in Legendre's basis P_k(2 s - 1), and nodes to sample them.
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/spectrum.hpp"
+#include "libbase/spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>

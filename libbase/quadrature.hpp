@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

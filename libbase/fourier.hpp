@@ -1,7 +1,7 @@
 #pragma once
 /// Periodic motions as Fourier series.
 
-#include "libfe/base/linalg.hpp"
+#include "libbase/linalg.hpp"
 
 namespace whirl {
 

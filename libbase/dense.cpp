@@ -1,4 +1,4 @@
-#include "libfe/eigen/dense.hpp"
+#include "libbase/dense.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

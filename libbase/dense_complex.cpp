@@ -1,4 +1,4 @@
-#include "libfe/eigen/dense_complex.hpp"
+#include "libbase/dense_complex.hpp"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,4 +1,4 @@
-#include "libfe/base/error.hpp"
+#include "libbase/error.hpp"
 
 #include <utility>
 
