@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libdyn/model.hpp"
+#include "libdyn/system/model.hpp"
 #include "libio/call.hpp"
 #include "libio/record.hpp"
 #include "libio/replace_file.hpp"

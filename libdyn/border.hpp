@@ -6,7 +6,7 @@
 #include <span>
 
 #include "libdyn/branch_equations.hpp"
-#include "libdyn/scene.hpp"
+#include "libdyn/system/scene.hpp"
 
 namespace whirl {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "libbase/field.hpp"
-#include "libdyn/contact_measures.hpp"
-#include "libdyn/contact_system.hpp"
 #include "libdyn/settling.hpp"
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/contact_system.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
 

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "libbase/dense.hpp"
-#include "libdyn/scene.hpp"
 #include "libdyn/shooting.hpp"
+#include "libdyn/system/scene.hpp"
 
 namespace whirl {
 

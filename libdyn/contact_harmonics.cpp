@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/contact_ports.hpp"
 #include "libdyn/methods.hpp"
+#include "libdyn/system/contact_ports.hpp"
 
 namespace whirl {
 

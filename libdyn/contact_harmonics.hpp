@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "libdyn/contact_measures.hpp"
 #include "libdyn/harmonic_balance.hpp"
+#include "libdyn/system/contact_measures.hpp"
 
 namespace whirl {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Where a rotor lies at rest, on its stators if its sag is more than their clearance.
 
-#include "libdyn/contact_system.hpp"
+#include "libdyn/system/contact_system.hpp"
 
 namespace whirl {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "libdyn/linear_flow.hpp"
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
 

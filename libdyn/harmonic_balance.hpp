@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "libbase/dense.hpp"
-#include "libdyn/contact_measures.hpp"
-#include "libdyn/port_forces.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/port_forces.hpp"
 
 namespace whirl {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "libdyn/scene.hpp"
 #include "libdyn/shooting.hpp"
+#include "libdyn/system/scene.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libbase/fourier.hpp"
-#include "libdyn/scene.hpp"
+#include "libdyn/system/scene.hpp"
 
 namespace whirl {
 

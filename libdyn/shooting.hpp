@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libbase/linalg.hpp"
-#include "libdyn/contact_measures.hpp"
+#include "libdyn/system/contact_measures.hpp"
 
 namespace whirl {
 

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "libdyn/contact_measures.hpp"
 #include "libdyn/methods.hpp"
-#include "libdyn/scene.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/scene.hpp"
 
 namespace whirl {
 

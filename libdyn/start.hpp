@@ -1,7 +1,7 @@
 #pragma once
 /// Where a motion begins.
 
-#include "libdyn/scene.hpp"
+#include "libdyn/system/scene.hpp"
 
 namespace whirl {
 

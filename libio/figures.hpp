@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libdyn/model.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 #include "libio/figure.hpp"
 #include "libio/hdf5.hpp"

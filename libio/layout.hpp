@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "libdyn/model.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl {

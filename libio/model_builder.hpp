@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/model.hpp"
+#include "libdyn/system/model.hpp"
 #include "libio/config.hpp"
 #include "libio/read_fields.hpp"
 

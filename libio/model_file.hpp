@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/model.hpp"
+#include "libdyn/system/model.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/model.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 #include "libio/vtk.hpp"
 

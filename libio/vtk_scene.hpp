@@ -1,7 +1,7 @@
 #pragma once
 /// From models and results to what ParaView shows.
 
-#include "libdyn/model.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/modes.hpp"
 #include "libio/vtk.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/verb.hpp"
-#include "libdyn/stations.hpp"
+#include "libdyn/system/stations.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/modes.hpp"
 #include "libio/motion_window.hpp"

@@ -8,9 +8,9 @@
 
 #include "apps/verb.hpp"
 #include "libdyn/batch/batch.hpp"
-#include "libdyn/contact_measures.hpp"
 #include "libdyn/multiplier_modes.hpp"
-#include "libdyn/scene.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/scene.hpp"
 
 namespace whirl {
 

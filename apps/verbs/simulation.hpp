@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "apps/verb.hpp"
-#include "libdyn/contact_measures.hpp"
 #include "libdyn/response.hpp"
 #include "libdyn/simulate.hpp"
-#include "libdyn/stations.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/stations.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/verbs/study.hpp"
-#include "libdyn/scene.hpp"
+#include "libdyn/system/scene.hpp"
 #include "libio/checkpoint.hpp"
 
 namespace whirl {

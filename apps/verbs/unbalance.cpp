@@ -7,7 +7,7 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
-#include "libdyn/clearance.hpp"
+#include "libdyn/system/clearance.hpp"
 #include "libfe/response_curve.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/contact_measures.hpp"
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
 
@@ -26,7 +26,7 @@ struct Trajectory {
   /// Logarithms of what the columns of tangents have grown by at the ends of revolutions, 2 n after
   /// 2 n, if asked for; the last ones over the time are the exponents, before they are sorted.
   std::vector<double> growths;
-  Mat tangent;                           ///< derivative of the end by the start, if asked for
+  Mat tangent;  ///< derivative of the end by the start, if asked for
   /// Mean divergence of the flow, with exponents or tangent [1/s]: the sum of all exponents, and
   /// over the time the logarithm of the tangent's determinant. Not with sticking, which has none.
   double divergence = 0.0;

@@ -8,7 +8,7 @@
 #endif
 
 #include "libdyn/batch/series-inl.h"
-#include "libdyn/contact_system.hpp"
+#include "libdyn/system/contact_system.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

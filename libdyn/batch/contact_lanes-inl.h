@@ -17,7 +17,7 @@
 #include "libdyn/batch/law_lanes-inl.h"
 #include "libdyn/batch/older_terms-inl.h"
 #include "libdyn/batch/pattern.hpp"
-#include "libdyn/contact_system.hpp"
+#include "libdyn/system/contact_system.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -17,11 +17,11 @@
 #include "libdyn/batch/events-inl.h"
 #include "libdyn/batch/film_lanes-inl.h"
 #include "libdyn/batch/tangents-inl.h"
-#include "libdyn/events.hpp"
 #include "libdyn/free_flight.hpp"
 #include "libdyn/linear_flow.hpp"
-#include "libdyn/methods/diagnosis.hpp"
-#include "libdyn/saltation.hpp"
+#include "libdyn/system/diagnosis.hpp"
+#include "libdyn/system/events.hpp"
+#include "libdyn/system/saltation.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

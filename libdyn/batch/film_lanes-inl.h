@@ -12,7 +12,7 @@
 
 #include "libdyn/batch/contact_slopes-inl.h"
 #include "libdyn/batch/series_tape-inl.h"
-#include "libdyn/film.hpp"
+#include "libdyn/system/film.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -16,8 +16,8 @@
 #include "libdyn/batch/contact_lanes-inl.h"
 #include "libdyn/batch/equation_lanes-inl.h"
 #include "libdyn/batch/film_lanes-inl.h"
-#include "libdyn/equal_steps.hpp"
-#include "libdyn/methods/diagnosis.hpp"
+#include "libdyn/system/diagnosis.hpp"
+#include "libdyn/system/equal_steps.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
 

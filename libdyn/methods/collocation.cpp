@@ -8,7 +8,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/free_flight.hpp"
 #include "libdyn/methods/contact_step.hpp"
-#include "libdyn/methods/diagnosis.hpp"
+#include "libdyn/system/diagnosis.hpp"
 
 namespace whirl {
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "libdyn/events.hpp"
 #include "libdyn/linear_flow.hpp"
+#include "libdyn/system/events.hpp"
 
 namespace whirl {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "libdyn/events.hpp"
-#include "libdyn/methods/diagnosis.hpp"
 #include "libdyn/methods/dop853_coefficients.hpp"
+#include "libdyn/system/diagnosis.hpp"
+#include "libdyn/system/events.hpp"
 
 namespace whirl {
 

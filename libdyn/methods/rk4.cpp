@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/equal_steps.hpp"
-#include "libdyn/methods/diagnosis.hpp"
+#include "libdyn/system/diagnosis.hpp"
+#include "libdyn/system/equal_steps.hpp"
 
 namespace whirl {
 

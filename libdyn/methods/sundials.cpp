@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/methods/diagnosis.hpp"
+#include "libdyn/system/diagnosis.hpp"
 
 namespace whirl::sundials {
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "libdyn/events.hpp"
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/events.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl::sundials {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/stations.hpp"
+#include "libdyn/system/stations.hpp"
 #include "libio/figures/all.hpp"
 #include "libio/format.hpp"
 #include "libio/vtk_scene.hpp"

@@ -1,7 +1,7 @@
 // Forces of contacts and films on periodic motions: the same as those of the equations of motion, with
 // the slopes of differences, and Fourier integrals that kinks and jumps do not spoil.
 
-#include "libdyn/contact_ports.hpp"
+#include "libdyn/system/contact_ports.hpp"
 
 #include <gtest/gtest.h>
 

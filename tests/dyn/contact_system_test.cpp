@@ -1,6 +1,6 @@
 // Equations of motion with contacts against hand formulas.
 
-#include "libdyn/contact_system.hpp"
+#include "libdyn/system/contact_system.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Events of friction, each against what defines it: the gradient of a slip velocity against
 // differences, the jump against the accelerations, the limit of sticking against a weight on a wall.
 
-#include "libdyn/saltation.hpp"
+#include "libdyn/system/saltation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // From a model to where its motion starts.
 
-#include "libdyn/scene.hpp"
+#include "libdyn/system/scene.hpp"
 
 #include <gtest/gtest.h>
 

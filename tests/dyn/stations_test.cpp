@@ -1,6 +1,6 @@
 // Names of points: what is asked for is found, what is not there is refused with what is.
 
-#include "libdyn/stations.hpp"
+#include "libdyn/system/stations.hpp"
 
 #include <gtest/gtest.h>
 

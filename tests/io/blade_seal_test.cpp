@@ -10,8 +10,8 @@
 
 #include "libdyn/batch/batch.hpp"
 #include "libdyn/classify.hpp"
-#include "libdyn/scene.hpp"
 #include "libdyn/start.hpp"
+#include "libdyn/system/scene.hpp"
 #include "libfe/critical.hpp"
 #include "libio/model_file.hpp"
 

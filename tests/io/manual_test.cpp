@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libdyn/scene.hpp"
+#include "libdyn/system/scene.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl::manual_test {

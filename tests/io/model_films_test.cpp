@@ -5,8 +5,8 @@
 #include <string>
 
 #include "libbase/error.hpp"
-#include "libdyn/scene.hpp"
 #include "libdyn/start.hpp"
+#include "libdyn/system/scene.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl::model_films_test {

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "libdyn/classify.hpp"
-#include "libdyn/scene.hpp"
 #include "libdyn/start.hpp"
+#include "libdyn/system/scene.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl::overhung_face_rub_test {

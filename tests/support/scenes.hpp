@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "libdyn/methods.hpp"
-#include "libdyn/scene.hpp"
 #include "libdyn/start.hpp"
+#include "libdyn/system/scene.hpp"
 #include "libfe/elements/disk.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/rotors.hpp"

@@ -1,4 +1,4 @@
-#include "libdyn/scene.hpp"
+#include "libdyn/system/scene.hpp"
 
 #include <fmt/format.h>
 

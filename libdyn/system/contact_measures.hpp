@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libbase/field.hpp"
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
 

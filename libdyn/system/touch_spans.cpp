@@ -1,4 +1,4 @@
-#include "libdyn/touch_spans.hpp"
+#include "libdyn/system/touch_spans.hpp"
 
 #include <algorithm>
 #include <cmath>

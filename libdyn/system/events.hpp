@@ -5,7 +5,7 @@
 #include <span>
 
 #include "libbase/polynomial.hpp"
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/contact_system.hpp"
+#include "libdyn/system/contact_system.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "libdyn/contact_measures.hpp"
+#include "libdyn/system/contact_measures.hpp"
 
 #include <algorithm>
 #include <cmath>

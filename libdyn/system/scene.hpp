@@ -1,9 +1,9 @@
 #pragma once
 /// A model made ready for computing at one speed: assembled, reduced, with its contacts.
 
-#include "libdyn/contact_system.hpp"
-#include "libdyn/model.hpp"
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/contact_system.hpp"
+#include "libdyn/system/model.hpp"
+#include "libdyn/system/trajectory.hpp"
 #include "libfe/reduce.hpp"
 
 namespace whirl {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/contact_system.hpp"
+#include "libdyn/system/contact_system.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/stations.hpp"
+#include "libdyn/system/stations.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "libdyn/events.hpp"
+#include "libdyn/system/events.hpp"
 
 #include <cassert>
 #include <cmath>

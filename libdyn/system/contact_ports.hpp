@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "libdyn/contact_measures.hpp"
-#include "libdyn/port_forces.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/port_forces.hpp"
 
 namespace whirl {
 

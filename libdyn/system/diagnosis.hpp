@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/saltation.hpp"
+#include "libdyn/system/saltation.hpp"
 
 #include <cassert>
 #include <cmath>

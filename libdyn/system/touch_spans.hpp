@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libbase/fourier.hpp"
-#include "libdyn/contact_system.hpp"
+#include "libdyn/system/contact_system.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/methods/diagnosis.hpp"
+#include "libdyn/system/diagnosis.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "libdyn/port_forces.hpp"
+#include "libdyn/system/port_forces.hpp"
 
 #include <algorithm>
 #include <numbers>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/film.hpp"
-#include "libdyn/model.hpp"
+#include "libdyn/system/film.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl {

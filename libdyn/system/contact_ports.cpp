@@ -1,4 +1,4 @@
-#include "libdyn/contact_ports.hpp"
+#include "libdyn/system/contact_ports.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "libbase/legendre.hpp"
 #include "libcontact/dual.hpp"
-#include "libdyn/touch_spans.hpp"
+#include "libdyn/system/touch_spans.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/film.hpp"
+#include "libdyn/system/film.hpp"
 
 namespace whirl {
 

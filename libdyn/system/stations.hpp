@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/model.hpp"
+#include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "libdyn/events.hpp"
+#include "libdyn/system/events.hpp"
 
 namespace whirl {
 

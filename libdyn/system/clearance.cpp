@@ -1,4 +1,4 @@
-#include "libdyn/clearance.hpp"
+#include "libdyn/system/clearance.hpp"
 
 #include <algorithm>
 #include <cmath>

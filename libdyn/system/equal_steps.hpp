@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/trajectory.hpp"
+#include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
 
