@@ -10,7 +10,7 @@
 #include "libbase/section_geometry.hpp"
 #include "libdyn/batch/mixed.hpp"
 #include "libdyn/exponents.hpp"
-#include "libdyn/free_flight.hpp"
+#include "libdyn/flow/free_flight.hpp"
 #include "libdyn/proven_orbit.hpp"
 
 namespace whirl {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/free_flight.hpp"
+#include "libdyn/flow/free_flight.hpp"
 #include "libdyn/methods/contact_step.hpp"
 #include "libdyn/system/diagnosis.hpp"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "libdyn/linear_flow.hpp"
+#include "libdyn/flow/linear_flow.hpp"
 #include "libdyn/system/events.hpp"
 
 namespace whirl {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libdyn/free_flight.hpp"
+#include "libdyn/flow/free_flight.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::collocation_test {

@@ -1,6 +1,6 @@
 // Free flight: whether nothing can be touched any more, and the rest of the motion in closed form.
 
-#include "libdyn/free_flight.hpp"
+#include "libdyn/flow/free_flight.hpp"
 
 #include <gtest/gtest.h>
 

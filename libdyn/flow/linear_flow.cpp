@@ -1,4 +1,4 @@
-#include "libdyn/linear_flow.hpp"
+#include "libdyn/flow/linear_flow.hpp"
 
 #include <fmt/format.h>
 

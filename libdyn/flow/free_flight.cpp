@@ -1,4 +1,4 @@
-#include "libdyn/free_flight.hpp"
+#include "libdyn/flow/free_flight.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "libdyn/linear_flow.hpp"
+#include "libdyn/flow/linear_flow.hpp"
 #include "libdyn/system/trajectory.hpp"
 
 namespace whirl {
