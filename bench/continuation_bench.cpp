@@ -6,10 +6,10 @@
 #include <memory>
 #include <numbers>
 
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/branch_equations.hpp"
 #include "libdyn/methods/rk4.hpp"
 #include "libdyn/start.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/model_file.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/trajectories.hpp"
 
 namespace whirl {

@@ -12,9 +12,9 @@
 #include <random>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/classify.hpp"
 #include "libdyn/exponents.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/table.hpp"
 #include "tests/support/scenes.hpp"
 

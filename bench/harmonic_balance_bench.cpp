@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/hill.hpp"
 #include "libdyn/start.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/oil_films.hpp"
 
 namespace whirl {

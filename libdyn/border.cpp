@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/bifurcation.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

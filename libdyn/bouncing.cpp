@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/random.hpp"
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

@@ -8,10 +8,10 @@
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libbase/section_geometry.hpp"
-#include "libdyn/batch/mixed.hpp"
 #include "libdyn/exponents.hpp"
 #include "libdyn/flow/free_flight.hpp"
 #include "libdyn/proven_orbit.hpp"
+#include "libdyn/taylor/mixed.hpp"
 
 namespace whirl {
 

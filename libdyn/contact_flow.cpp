@@ -2,7 +2,7 @@
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

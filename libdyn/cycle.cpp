@@ -9,8 +9,8 @@
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/shooting.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

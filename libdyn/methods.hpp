@@ -11,7 +11,7 @@
 #include "libdyn/methods/cvode.hpp"
 #include "libdyn/methods/dop853.hpp"
 #include "libdyn/methods/rk4.hpp"
-#include "libdyn/methods/taylor.hpp"
+#include "libdyn/taylor/taylor.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "libbase/quadrature.hpp"
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

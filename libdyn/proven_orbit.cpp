@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "libbase/dense.hpp"
-#include "libdyn/batch/mixed.hpp"
 #include "libdyn/shooting.hpp"
+#include "libdyn/taylor/mixed.hpp"
 
 namespace whirl {
 

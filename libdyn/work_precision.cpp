@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
-#include "libdyn/batch/pattern.hpp"
+#include "libdyn/taylor/batch.hpp"
+#include "libdyn/taylor/pattern.hpp"
 
 namespace whirl {
 

@@ -9,9 +9,9 @@
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/cycle.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "apps/verb.hpp"
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/multiplier_modes.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

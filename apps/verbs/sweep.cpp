@@ -11,7 +11,7 @@
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

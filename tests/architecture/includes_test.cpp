@@ -69,7 +69,7 @@ TEST(Architecture, EachLibraryHasOneHome) {
       {"zlib", "libio/hdf5/"},
       {"vtk", "libio/vtk/"},
       {"CLI/", "apps/whirl.cpp"},
-      {"hwy/", "libdyn/batch/"}};
+      {"hwy/", "libdyn/taylor/"}};
   for (const Include& i : includes()) {
     if (rank_of(i.name) >= 0) continue;
     for (const auto& [library, home] : homes) {

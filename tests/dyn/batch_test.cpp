@@ -1,6 +1,6 @@
 // A batch of trajectories: each is what it would be alone, bit by bit.
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 #include <gtest/gtest.h>
 

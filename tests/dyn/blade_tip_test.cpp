@@ -9,8 +9,8 @@
 
 #include "libbase/error.hpp"
 #include "libcontact/blade.hpp"
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/simulate.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -9,7 +9,7 @@
 #include <complex>
 
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/branch_equations.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "libbase/dense.hpp"
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::damped_stop_test {

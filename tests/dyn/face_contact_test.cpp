@@ -7,7 +7,7 @@
 #include <random>
 
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
 

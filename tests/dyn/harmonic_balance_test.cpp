@@ -10,11 +10,11 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/hill.hpp"
 #include "libdyn/system/contact_ports.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libfe/unbalance.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/oil_films.hpp"

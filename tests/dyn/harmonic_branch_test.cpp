@@ -9,11 +9,11 @@
 #include <memory>
 #include <numbers>
 
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/branch_equations.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/continuation.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"
 

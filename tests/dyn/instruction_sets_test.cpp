@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::instruction_sets_test {

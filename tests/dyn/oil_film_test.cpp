@@ -8,9 +8,9 @@
 #include <string>
 
 #include "libbase/error.hpp"
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/classify.hpp"
 #include "libdyn/equilibrium.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/trajectories.hpp"
 

@@ -8,9 +8,9 @@
 #include <complex>
 #include <numbers>
 
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/shooting.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::orbit_measure_test {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::quad_test {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::rk4_batch_test {

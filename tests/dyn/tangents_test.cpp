@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "libbase/dense.hpp"
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::tangents_test {

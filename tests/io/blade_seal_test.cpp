@@ -8,10 +8,10 @@
 #include <numbers>
 #include <random>
 
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/classify.hpp"
 #include "libdyn/start.hpp"
 #include "libdyn/system/scene.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libfe/critical.hpp"
 #include "libio/model_file.hpp"
 

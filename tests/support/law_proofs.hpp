@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
 #include "libdyn/methods.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::test {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::test {

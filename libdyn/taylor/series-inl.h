@@ -12,7 +12,7 @@
 #include <array>
 #include <type_traits>
 
-#include "libdyn/batch/pack-inl.h"
+#include "libdyn/taylor/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -9,8 +9,8 @@
 
 #include <vector>
 
-#include "libdyn/batch/pack-inl.h"
-#include "libdyn/batch/pattern.hpp"
+#include "libdyn/taylor/pack-inl.h"
+#include "libdyn/taylor/pattern.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -1,4 +1,4 @@
-#include "libdyn/batch/mixed.hpp"
+#include "libdyn/taylor/mixed.hpp"
 
 #include <map>
 

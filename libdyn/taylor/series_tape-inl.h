@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "libdyn/batch/series-inl.h"
+#include "libdyn/taylor/series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

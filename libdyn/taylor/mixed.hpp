@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

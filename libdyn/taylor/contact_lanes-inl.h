@@ -12,12 +12,12 @@
 #include <memory>
 #include <vector>
 
-#include "libdyn/batch/blade_lanes-inl.h"
-#include "libdyn/batch/face_lanes-inl.h"
-#include "libdyn/batch/law_lanes-inl.h"
-#include "libdyn/batch/older_terms-inl.h"
-#include "libdyn/batch/pattern.hpp"
 #include "libdyn/system/contact_system.hpp"
+#include "libdyn/taylor/blade_lanes-inl.h"
+#include "libdyn/taylor/face_lanes-inl.h"
+#include "libdyn/taylor/law_lanes-inl.h"
+#include "libdyn/taylor/older_terms-inl.h"
+#include "libdyn/taylor/pattern.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -7,8 +7,8 @@
 #define WHIRL_BLADE_LANES_INL_H
 #endif
 
-#include "libdyn/batch/series-inl.h"
 #include "libdyn/system/contact_system.hpp"
+#include "libdyn/taylor/series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

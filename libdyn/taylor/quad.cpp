@@ -3,15 +3,15 @@
 
 #include <memory>
 
-#include "libdyn/batch/batch.hpp"
-#include "libdyn/batch/quad_pack.hpp"
+#include "libdyn/taylor/batch.hpp"
+#include "libdyn/taylor/quad_pack.hpp"
 // after the pack that they are for
-#include "libdyn/batch/engine_bodies-inl.h"
-#include "libdyn/batch/engine_events-inl.h"
-#include "libdyn/batch/engine_films-inl.h"
-#include "libdyn/batch/engine_series-inl.h"
-#include "libdyn/batch/engine_step-inl.h"
-#include "libdyn/batch/engine_tangents-inl.h"
+#include "libdyn/taylor/engine_bodies-inl.h"
+#include "libdyn/taylor/engine_events-inl.h"
+#include "libdyn/taylor/engine_films-inl.h"
+#include "libdyn/taylor/engine_series-inl.h"
+#include "libdyn/taylor/engine_step-inl.h"
+#include "libdyn/taylor/engine_tangents-inl.h"
 
 namespace whirl {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "libdyn/batch/pack-inl.h"
+#include "libdyn/taylor/pack-inl.h"
 
 namespace whirl {
 namespace HWY_NAMESPACE {  // that of the templates, which it specializes

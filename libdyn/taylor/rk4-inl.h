@@ -12,12 +12,12 @@
 #include <memory>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
-#include "libdyn/batch/contact_lanes-inl.h"
-#include "libdyn/batch/equation_lanes-inl.h"
-#include "libdyn/batch/film_lanes-inl.h"
 #include "libdyn/system/diagnosis.hpp"
 #include "libdyn/system/equal_steps.hpp"
+#include "libdyn/taylor/batch.hpp"
+#include "libdyn/taylor/contact_lanes-inl.h"
+#include "libdyn/taylor/equation_lanes-inl.h"
+#include "libdyn/taylor/film_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-#include "libdyn/batch/contact_slopes-inl.h"
+#include "libdyn/taylor/contact_slopes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

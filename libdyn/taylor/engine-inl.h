@@ -12,16 +12,16 @@
 #include <memory>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
-#include "libdyn/batch/equation_lanes-inl.h"
-#include "libdyn/batch/events-inl.h"
-#include "libdyn/batch/film_lanes-inl.h"
-#include "libdyn/batch/tangents-inl.h"
 #include "libdyn/flow/free_flight.hpp"
 #include "libdyn/flow/linear_flow.hpp"
 #include "libdyn/system/diagnosis.hpp"
 #include "libdyn/system/events.hpp"
 #include "libdyn/system/saltation.hpp"
+#include "libdyn/taylor/batch.hpp"
+#include "libdyn/taylor/equation_lanes-inl.h"
+#include "libdyn/taylor/events-inl.h"
+#include "libdyn/taylor/film_lanes-inl.h"
+#include "libdyn/taylor/tangents-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -10,9 +10,9 @@
 #include <array>
 #include <vector>
 
-#include "libdyn/batch/contact_slopes-inl.h"
-#include "libdyn/batch/series_tape-inl.h"
 #include "libdyn/system/film.hpp"
+#include "libdyn/taylor/contact_slopes-inl.h"
+#include "libdyn/taylor/series_tape-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

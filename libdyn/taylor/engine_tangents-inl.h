@@ -11,7 +11,7 @@
 #include <functional>
 #include <utility>
 
-#include "libdyn/batch/engine-inl.h"
+#include "libdyn/taylor/engine-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

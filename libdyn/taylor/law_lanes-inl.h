@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "libcontact/laws.hpp"
-#include "libdyn/batch/series-inl.h"
+#include "libdyn/taylor/series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -1,4 +1,4 @@
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -7,16 +7,16 @@
 // instruction sets: what every processor has, AVX2, AVX-512
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "libdyn/batch/batch.cpp"
+#define HWY_TARGET_INCLUDE "libdyn/taylor/batch.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "libdyn/batch/engine_bodies-inl.h"
-#include "libdyn/batch/engine_events-inl.h"
-#include "libdyn/batch/engine_films-inl.h"
-#include "libdyn/batch/engine_series-inl.h"
-#include "libdyn/batch/engine_step-inl.h"
-#include "libdyn/batch/engine_tangents-inl.h"
+#include "libdyn/taylor/engine_bodies-inl.h"
+#include "libdyn/taylor/engine_events-inl.h"
+#include "libdyn/taylor/engine_films-inl.h"
+#include "libdyn/taylor/engine_series-inl.h"
+#include "libdyn/taylor/engine_step-inl.h"
+#include "libdyn/taylor/engine_tangents-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -7,7 +7,7 @@
 #define WHIRL_CONTACT_SLOPES_INL_H
 #endif
 
-#include "libdyn/batch/contact_lanes-inl.h"
+#include "libdyn/taylor/contact_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

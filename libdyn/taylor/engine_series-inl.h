@@ -7,7 +7,7 @@
 #define WHIRL_ENGINE_SERIES_INL_H
 #endif
 
-#include "libdyn/batch/engine-inl.h"
+#include "libdyn/taylor/engine-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

@@ -1,4 +1,4 @@
-#include "libdyn/batch/pattern.hpp"
+#include "libdyn/taylor/pattern.hpp"
 
 #include <algorithm>
 

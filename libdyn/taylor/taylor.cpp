@@ -1,8 +1,8 @@
-#include "libdyn/methods/taylor.hpp"
+#include "libdyn/taylor/taylor.hpp"
 
 #include <utility>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

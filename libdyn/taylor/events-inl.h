@@ -7,7 +7,7 @@
 #define WHIRL_EVENTS_INL_H
 #endif
 
-#include "libdyn/batch/pack-inl.h"
+#include "libdyn/taylor/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {

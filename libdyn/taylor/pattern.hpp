@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 

@@ -1,15 +1,15 @@
 #include <algorithm>
 
-#include "libdyn/batch/batch.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 // the same instruction sets as batch.cpp
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "libdyn/batch/rk4.cpp"
+#define HWY_TARGET_INCLUDE "libdyn/taylor/rk4.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "libdyn/batch/rk4-inl.h"
+#include "libdyn/taylor/rk4-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {
