@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/methods.hpp"
+#include "libdyn/methods/methods.hpp"
 #include "libdyn/system/contact_ports.hpp"
 
 namespace whirl {

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "libdyn/methods.hpp"
+#include "libdyn/methods/methods.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
 

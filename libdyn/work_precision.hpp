@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libdyn/methods.hpp"
+#include "libdyn/methods/methods.hpp"
 
 namespace whirl {
 

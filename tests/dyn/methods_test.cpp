@@ -1,6 +1,6 @@
 // The list of integrators, and what every one of them keeps to.
 
-#include "libdyn/methods.hpp"
+#include "libdyn/methods/methods.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/methods.hpp"
+#include "libdyn/methods/methods.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 

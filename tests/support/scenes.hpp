@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "libdyn/methods.hpp"
+#include "libdyn/methods/methods.hpp"
 #include "libdyn/start.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libfe/elements/disk.hpp"

@@ -1,4 +1,4 @@
-#include "libdyn/methods.hpp"
+#include "libdyn/methods/methods.hpp"
 
 #include <fmt/format.h>
 
