@@ -8,7 +8,7 @@
 
 #include "libdyn/branch_equations.hpp"
 #include "libdyn/methods/rk4.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/model_file.hpp"
 #include "tests/support/scenes.hpp"

@@ -13,7 +13,7 @@
 #include "libdyn/contact_flow.hpp"
 #include "libdyn/contact_harmonics.hpp"
 #include "libdyn/hill.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/model_file.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The rotor and stator of tests/support/scenes.hpp as a user of Boost.odeint would write them.
 
-#include "libdyn/work_precision.hpp"
+#include "libdyn/motions/work_precision.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl {

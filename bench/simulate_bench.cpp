@@ -9,8 +9,8 @@
 #include <iterator>
 #include <string>
 
-#include "libdyn/simulate.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/simulate.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libio/model_file.hpp"
 
 namespace whirl {

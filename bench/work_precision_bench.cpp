@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "bench/odeint.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libio/table.hpp"
 
 namespace whirl {

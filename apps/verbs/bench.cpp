@@ -8,7 +8,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/work_precision.hpp"
+#include "libdyn/motions/work_precision.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures/work_precision.hpp"
 #include "libio/hdf5.hpp"

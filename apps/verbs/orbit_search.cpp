@@ -10,7 +10,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/basins.hpp"
 #include "libdyn/contact_flow.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

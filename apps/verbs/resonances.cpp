@@ -10,7 +10,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/bouncing.hpp"
-#include "libdyn/identify.hpp"
+#include "libdyn/motions/identify.hpp"
 #include "libfe/resonance.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"

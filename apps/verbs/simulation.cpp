@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "apps/verbs/common.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libio/format.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/result_schema.hpp"

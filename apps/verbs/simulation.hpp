@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/verb.hpp"
-#include "libdyn/response.hpp"
-#include "libdyn/simulate.hpp"
+#include "libdyn/motions/response.hpp"
+#include "libdyn/motions/simulate.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/stations.hpp"
 

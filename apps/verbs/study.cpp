@@ -14,7 +14,7 @@
 #include "libbase/error.hpp"
 #include "libbase/piece_sizes.hpp"
 #include "libbase/work_queue.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "libbase/error.hpp"
 #include "libcontact/blade.hpp"
-#include "libdyn/simulate.hpp"
+#include "libdyn/motions/simulate.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"

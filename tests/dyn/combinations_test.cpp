@@ -1,6 +1,6 @@
 // Frequencies made of others: found where they were made, and not by chance.
 
-#include "libdyn/combinations.hpp"
+#include "libdyn/motions/combinations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "libdyn/identify.hpp"
+#include "libdyn/motions/identify.hpp"
 #include "libfe/campbell.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -1,6 +1,6 @@
 // Where rotors lie at rest: closed forms, and no acceleration.
 
-#include "libdyn/equilibrium.hpp"
+#include "libdyn/motions/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 

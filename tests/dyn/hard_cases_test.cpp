@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "libdyn/simulate.hpp"
+#include "libdyn/motions/simulate.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -1,6 +1,6 @@
 // MAC tables: pure modes are found as themselves, and ratios of frequencies by small numbers.
 
-#include "libdyn/identify.hpp"
+#include "libdyn/motions/identify.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/classify.hpp"
-#include "libdyn/equilibrium.hpp"
+#include "libdyn/motions/equilibrium.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/trajectories.hpp"

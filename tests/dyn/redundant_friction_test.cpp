@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libbase/quadrature.hpp"
-#include "libdyn/simulate.hpp"
+#include "libdyn/motions/simulate.hpp"
 #include "tests/support/trajectories.hpp"
 
 namespace whirl::redundant_friction_test {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "libbase/error.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -1,6 +1,6 @@
 // Simulations: what is recorded, when, and what their contacts did.
 
-#include "libdyn/simulate.hpp"
+#include "libdyn/motions/simulate.hpp"
 
 #include <gtest/gtest.h>
 

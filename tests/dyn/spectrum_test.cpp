@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libdyn/response.hpp"
+#include "libdyn/motions/response.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::spectrum_test {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <vector>
 
-#include "libdyn/identify.hpp"
-#include "libdyn/simulate.hpp"
+#include "libdyn/motions/identify.hpp"
+#include "libdyn/motions/simulate.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -1,6 +1,6 @@
 // Measuring integrators: errors against the reference, its own error, times, failures.
 
-#include "libdyn/work_precision.hpp"
+#include "libdyn/motions/work_precision.hpp"
 
 #include <gtest/gtest.h>
 

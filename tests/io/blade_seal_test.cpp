@@ -9,7 +9,7 @@
 #include <random>
 
 #include "libdyn/classify.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libfe/critical.hpp"

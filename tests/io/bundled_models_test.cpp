@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/simulate.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/simulate.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libfe/critical.hpp"
 #include "libfe/modes.hpp"
 #include "libio/model_file.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "libbase/error.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libio/model_file.hpp"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "libdyn/classify.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libio/model_file.hpp"
 

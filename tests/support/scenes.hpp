@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libdyn/methods/methods.hpp"
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libfe/elements/disk.hpp"
 #include "tests/support/convergence.hpp"

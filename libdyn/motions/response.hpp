@@ -2,7 +2,7 @@
 /// Steady motion in frequencies: signed spectra at points, and peaks in both frames.
 
 #include "libbase/spectrum.hpp"
-#include "libdyn/simulate.hpp"
+#include "libdyn/motions/simulate.hpp"
 
 namespace whirl {
 

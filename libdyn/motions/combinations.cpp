@@ -1,4 +1,4 @@
-#include "libdyn/combinations.hpp"
+#include "libdyn/motions/combinations.hpp"
 
 #include <algorithm>
 #include <cmath>

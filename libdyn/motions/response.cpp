@@ -1,4 +1,4 @@
-#include "libdyn/response.hpp"
+#include "libdyn/motions/response.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "libdyn/combinations.hpp"
-#include "libdyn/response.hpp"
+#include "libdyn/motions/combinations.hpp"
+#include "libdyn/motions/response.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl {

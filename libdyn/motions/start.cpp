@@ -1,4 +1,4 @@
-#include "libdyn/start.hpp"
+#include "libdyn/motions/start.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/equilibrium.hpp"
+#include "libdyn/motions/equilibrium.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/static.hpp"
 

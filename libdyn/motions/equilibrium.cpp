@@ -1,4 +1,4 @@
-#include "libdyn/equilibrium.hpp"
+#include "libdyn/motions/equilibrium.hpp"
 
 #include <algorithm>
 #include <optional>

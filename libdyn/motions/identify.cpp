@@ -1,4 +1,4 @@
-#include "libdyn/identify.hpp"
+#include "libdyn/motions/identify.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "libdyn/work_precision.hpp"
+#include "libdyn/motions/work_precision.hpp"
 
 #include <fmt/format.h>
 

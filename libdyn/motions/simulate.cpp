@@ -1,4 +1,4 @@
-#include "libdyn/simulate.hpp"
+#include "libdyn/motions/simulate.hpp"
 
 #include <algorithm>
 #include <chrono>
