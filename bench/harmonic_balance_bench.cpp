@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/contact_flow.hpp"
-#include "libdyn/contact_harmonics.hpp"
-#include "libdyn/hill.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
+#include "libdyn/orbits/hill.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/model_file.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "libdyn/cycle.hpp"
+#include "libdyn/orbits/cycle.hpp"
 #include "libfe/resonance.hpp"
 
 namespace whirl {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libbase/field.hpp"
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 
 namespace whirl {
 

@@ -2,7 +2,7 @@
 /// What branches of periodic motions solve: multiple shooting, and closed motions of a free period.
 
 #include "libdyn/continuation.hpp"
-#include "libdyn/cycle.hpp"
+#include "libdyn/orbits/cycle.hpp"
 
 namespace whirl {
 

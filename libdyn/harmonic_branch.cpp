@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
-#include "libdyn/hill.hpp"
+#include "libdyn/orbits/hill.hpp"
 
 namespace whirl {
 

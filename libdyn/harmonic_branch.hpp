@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "libdyn/branch.hpp"
-#include "libdyn/harmonic_balance.hpp"
+#include "libdyn/orbits/harmonic_balance.hpp"
 
 namespace whirl {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "libbase/dense.hpp"
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/mixed.hpp"
 
 namespace whirl {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libdyn/continuation.hpp"
-#include "libdyn/orbit_measure.hpp"
+#include "libdyn/orbits/orbit_measure.hpp"
 
 namespace whirl {
 

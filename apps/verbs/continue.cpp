@@ -14,10 +14,10 @@
 #include "apps/verbs/study_file.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/bifurcation.hpp"
-#include "libdyn/contact_harmonics.hpp"
-#include "libdyn/cycle.hpp"
 #include "libdyn/harmonic_branch.hpp"
-#include "libdyn/orbit_measure.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
+#include "libdyn/orbits/cycle.hpp"
+#include "libdyn/orbits/orbit_measure.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

@@ -9,9 +9,9 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/contact_flow.hpp"
-#include "libdyn/contact_harmonics.hpp"
-#include "libdyn/hill.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
+#include "libdyn/orbits/hill.hpp"
 #include "libio/hdf5.hpp"
 
 namespace whirl {

@@ -9,8 +9,8 @@
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/basins.hpp"
-#include "libdyn/contact_flow.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

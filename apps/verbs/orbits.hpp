@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/verb.hpp"
-#include "libdyn/multiplier_modes.hpp"
+#include "libdyn/orbits/multiplier_modes.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/taylor/batch.hpp"

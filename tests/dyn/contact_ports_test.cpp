@@ -10,7 +10,7 @@
 #include <random>
 
 #include "libcontact/dual.hpp"
-#include "libdyn/contact_harmonics.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/scenes.hpp"
 

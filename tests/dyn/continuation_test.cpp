@@ -11,7 +11,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/bifurcation.hpp"
-#include "libdyn/contact_flow.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/impact_oscillator.hpp"

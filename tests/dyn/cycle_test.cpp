@@ -1,6 +1,6 @@
 // Closed motions of unknown period: van der Pol's, and a rotor that bounces seen from itself.
 
-#include "libdyn/cycle.hpp"
+#include "libdyn/orbits/cycle.hpp"
 
 #include <gtest/gtest.h>
 

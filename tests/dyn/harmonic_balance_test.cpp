@@ -1,7 +1,7 @@
 // Harmonic balance: closed forms of one harmonic, exponential convergence, and orbits of rotors with
 // every kind of force against shooting, with measured orders.
 
-#include "libdyn/harmonic_balance.hpp"
+#include "libdyn/orbits/harmonic_balance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/contact_flow.hpp"
-#include "libdyn/contact_harmonics.hpp"
-#include "libdyn/hill.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
+#include "libdyn/orbits/hill.hpp"
 #include "libdyn/system/contact_ports.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libfe/unbalance.hpp"

@@ -10,9 +10,9 @@
 #include <numbers>
 
 #include "libdyn/branch_equations.hpp"
-#include "libdyn/contact_flow.hpp"
-#include "libdyn/contact_harmonics.hpp"
 #include "libdyn/continuation.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"

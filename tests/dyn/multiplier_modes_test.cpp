@@ -1,14 +1,14 @@
 // Modes of multipliers: without contact each multiplier is e^(lambda T) of one mode, and its direction
 // is that mode.
 
-#include "libdyn/multiplier_modes.hpp"
+#include "libdyn/orbits/multiplier_modes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "libdyn/contact_flow.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -1,6 +1,6 @@
 // What orbits do at stations, and the work of the unbalance: a circle in closed form.
 
-#include "libdyn/orbit_measure.hpp"
+#include "libdyn/orbits/orbit_measure.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <complex>
 #include <numbers>
 
-#include "libdyn/contact_flow.hpp"
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 

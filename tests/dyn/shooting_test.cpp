@@ -1,7 +1,7 @@
 // Periodic orbits by shooting: closed forms of linear and Mathieu equations, the order of Newton's
 // method on Duffing's, multipliers of many segments, and the rotor in its stator.
 
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/contact_flow.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 
 namespace whirl::test {
 

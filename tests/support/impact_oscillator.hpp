@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 
 namespace whirl::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Stability of orbits that are Fourier series, by Hill's method.
 
-#include "libdyn/harmonic_balance.hpp"
+#include "libdyn/orbits/harmonic_balance.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/orbit_measure.hpp"
+#include "libdyn/orbits/orbit_measure.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/contact_flow.hpp"
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/shooting.hpp"
 
 namespace whirl {
 

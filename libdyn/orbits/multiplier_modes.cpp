@@ -1,4 +1,4 @@
-#include "libdyn/multiplier_modes.hpp"
+#include "libdyn/orbits/multiplier_modes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "libdyn/contact_harmonics.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
 
 #include <fmt/format.h>
 

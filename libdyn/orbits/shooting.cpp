@@ -1,4 +1,4 @@
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 
 #include <fmt/format.h>
 

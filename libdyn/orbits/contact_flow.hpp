@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "libbase/dense.hpp"
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 #include "libdyn/system/scene.hpp"
 
 namespace whirl {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 #include "libdyn/system/scene.hpp"
 
 namespace whirl {

@@ -1,4 +1,4 @@
-#include "libdyn/hill.hpp"
+#include "libdyn/orbits/hill.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/harmonic_balance.hpp"
+#include "libdyn/orbits/harmonic_balance.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 
 namespace whirl {
 

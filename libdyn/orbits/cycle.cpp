@@ -1,4 +1,4 @@
-#include "libdyn/cycle.hpp"
+#include "libdyn/orbits/cycle.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/shooting.hpp"
+#include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl {

@@ -1,4 +1,4 @@
-#include "libdyn/contact_flow.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"

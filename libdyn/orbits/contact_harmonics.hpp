@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libdyn/harmonic_balance.hpp"
+#include "libdyn/orbits/harmonic_balance.hpp"
 #include "libdyn/system/contact_measures.hpp"
 
 namespace whirl {
