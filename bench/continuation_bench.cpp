@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 
-#include "libdyn/branch_equations.hpp"
+#include "libdyn/branches/branch_equations.hpp"
 #include "libdyn/methods/rk4.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/taylor/batch.hpp"

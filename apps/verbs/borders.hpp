@@ -9,7 +9,7 @@
 
 #include "apps/verb.hpp"
 #include "apps/verbs/branches.hpp"
-#include "libdyn/border.hpp"
+#include "libdyn/branches/border.hpp"
 #include "libio/parameter_axis.hpp"
 
 namespace whirl {

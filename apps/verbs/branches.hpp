@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/continuation.hpp"
+#include "libdyn/branches/continuation.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
 
 namespace whirl {

@@ -1,7 +1,7 @@
 // Curves of bifurcations in two parameters: maps whose borders are known exactly, and the touch of a
 // rotor in closed form.
 
-#include "libdyn/border.hpp"
+#include "libdyn/branches/border.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Branches of periodic orbits: maps whose bifurcations are known exactly, Duffing's folds, an impact
 // oscillator in closed form, and the rotor in its stator.
 
-#include "libdyn/continuation.hpp"
+#include "libdyn/branches/continuation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/bifurcation.hpp"
+#include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"

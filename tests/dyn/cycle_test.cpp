@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/branch_equations.hpp"
+#include "libdyn/branches/branch_equations.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"

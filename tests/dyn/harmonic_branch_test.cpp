@@ -1,7 +1,7 @@
 // Branches by harmonic balance: folds of one harmonic in closed form, of many against shooting, and a
 // period doubling of the rotor in its stator.
 
-#include "libdyn/harmonic_branch.hpp"
+#include "libdyn/branches/harmonic_branch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <memory>
 #include <numbers>
 
-#include "libdyn/branch_equations.hpp"
-#include "libdyn/continuation.hpp"
+#include "libdyn/branches/branch_equations.hpp"
+#include "libdyn/branches/continuation.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/taylor/batch.hpp"

@@ -1,6 +1,6 @@
 // Invariant circles: one that is known exactly, and one beside its simulation.
 
-#include "libdyn/torus.hpp"
+#include "libdyn/branches/torus.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "libdyn/harmonic_branch.hpp"
+#include "libdyn/branches/harmonic_branch.hpp"
 
 #include <limits>
 #include <utility>

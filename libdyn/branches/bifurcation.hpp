@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "libdyn/branch_equations.hpp"
+#include "libdyn/branches/branch_equations.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/continuation.hpp"
+#include "libdyn/branches/continuation.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "libbase/error.hpp"
-#include "libdyn/bifurcation.hpp"
+#include "libdyn/branches/bifurcation.hpp"
 
 namespace whirl {
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "libdyn/branch.hpp"
+#include "libdyn/branches/branch.hpp"
 
 namespace whirl {
 

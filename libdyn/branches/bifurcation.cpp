@@ -1,4 +1,4 @@
-#include "libdyn/bifurcation.hpp"
+#include "libdyn/branches/bifurcation.hpp"
 
 #include <algorithm>
 #include <cmath>

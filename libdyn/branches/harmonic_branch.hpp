@@ -4,7 +4,7 @@
 #include <functional>
 #include <memory>
 
-#include "libdyn/branch.hpp"
+#include "libdyn/branches/branch.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
 
 namespace whirl {

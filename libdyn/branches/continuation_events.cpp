@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/bifurcation.hpp"
-#include "libdyn/continuation.hpp"
+#include "libdyn/branches/bifurcation.hpp"
+#include "libdyn/branches/continuation.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libdyn/torus.hpp"
+#include "libdyn/branches/torus.hpp"
 
 #include <fmt/format.h>
 

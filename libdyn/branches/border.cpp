@@ -1,4 +1,4 @@
-#include "libdyn/border.hpp"
+#include "libdyn/branches/border.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "libbase/error.hpp"
-#include "libdyn/bifurcation.hpp"
+#include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl {

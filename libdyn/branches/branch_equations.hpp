@@ -1,7 +1,7 @@
 #pragma once
 /// What branches of periodic motions solve: multiple shooting, and closed motions of a free period.
 
-#include "libdyn/continuation.hpp"
+#include "libdyn/branches/continuation.hpp"
 #include "libdyn/orbits/cycle.hpp"
 
 namespace whirl {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/branch_equations.hpp"
+#include "libdyn/branches/branch_equations.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <span>
 
-#include "libdyn/branch_equations.hpp"
+#include "libdyn/branches/branch_equations.hpp"
 #include "libdyn/system/scene.hpp"
 
 namespace whirl {

@@ -1,4 +1,4 @@
-#include "libdyn/branch_equations.hpp"
+#include "libdyn/branches/branch_equations.hpp"
 
 #include <fmt/format.h>
 
