@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 #include "libio/table.hpp"
 #include "tests/support/scenes.hpp"
 

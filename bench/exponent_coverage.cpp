@@ -12,8 +12,8 @@
 #include <random>
 #include <vector>
 
-#include "libdyn/classify.hpp"
-#include "libdyn/exponents.hpp"
+#include "libdyn/studies/classify.hpp"
+#include "libdyn/studies/exponents.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/table.hpp"
 #include "tests/support/scenes.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 #include "libio/hdf5.hpp"
 
 namespace whirl {

@@ -1,4 +1,4 @@
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 
 #include <fmt/format.h>
 

@@ -8,9 +8,9 @@
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/basins.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/studies/basins.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/table.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "apps/verb.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libio/checkpoint.hpp"
 #include "libio/parameter_axis.hpp"

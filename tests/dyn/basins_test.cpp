@@ -1,6 +1,6 @@
 // Coexisting motions of a mass in a well whose two basins are known.
 
-#include "libdyn/basins.hpp"
+#include "libdyn/studies/basins.hpp"
 
 #include <gtest/gtest.h>
 

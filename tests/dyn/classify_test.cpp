@@ -1,6 +1,6 @@
 // Kinds of motion: published ones of the rotor and stator, and those that are known in closed form.
 
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Exponents from the growth of tangents, where their limits are known.
 
-#include "libdyn/exponents.hpp"
+#include "libdyn/studies/exponents.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::exponents_test {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "libbase/error.hpp"
-#include "libdyn/classify.hpp"
 #include "libdyn/motions/equilibrium.hpp"
+#include "libdyn/studies/classify.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/trajectories.hpp"

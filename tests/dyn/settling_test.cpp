@@ -1,6 +1,6 @@
 // Whether sections have settled, on sequences whose drift is known.
 
-#include "libdyn/settling.hpp"
+#include "libdyn/studies/settling.hpp"
 
 #include <gtest/gtest.h>
 

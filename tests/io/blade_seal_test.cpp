@@ -8,8 +8,8 @@
 #include <numbers>
 #include <random>
 
-#include "libdyn/classify.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libfe/critical.hpp"

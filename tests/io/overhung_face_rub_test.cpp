@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "libdyn/classify.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libio/model_file.hpp"
 

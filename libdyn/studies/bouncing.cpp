@@ -1,4 +1,4 @@
-#include "libdyn/bouncing.hpp"
+#include "libdyn/studies/bouncing.hpp"
 
 #include <algorithm>
 #include <cmath>

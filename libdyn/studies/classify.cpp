@@ -1,4 +1,4 @@
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libbase/section_geometry.hpp"
-#include "libdyn/exponents.hpp"
 #include "libdyn/flow/free_flight.hpp"
-#include "libdyn/proven_orbit.hpp"
+#include "libdyn/studies/exponents.hpp"
+#include "libdyn/studies/proven_orbit.hpp"
 #include "libdyn/taylor/mixed.hpp"
 
 namespace whirl {

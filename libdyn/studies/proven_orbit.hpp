@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 
 namespace whirl {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libbase/field.hpp"
-#include "libdyn/settling.hpp"
+#include "libdyn/studies/settling.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/trajectory.hpp"

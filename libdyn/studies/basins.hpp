@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "libdyn/classify.hpp"
+#include "libdyn/studies/classify.hpp"
 
 namespace whirl {
 

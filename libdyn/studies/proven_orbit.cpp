@@ -1,4 +1,4 @@
-#include "libdyn/proven_orbit.hpp"
+#include "libdyn/studies/proven_orbit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "libdyn/settling.hpp"
+#include "libdyn/studies/settling.hpp"
 
 #include <algorithm>
 #include <cmath>

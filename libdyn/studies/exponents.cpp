@@ -1,4 +1,4 @@
-#include "libdyn/exponents.hpp"
+#include "libdyn/studies/exponents.hpp"
 
 #include <algorithm>
 #include <cmath>

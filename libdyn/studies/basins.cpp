@@ -1,4 +1,4 @@
-#include "libdyn/basins.hpp"
+#include "libdyn/studies/basins.hpp"
 
 #include <cmath>
 #include <random>
