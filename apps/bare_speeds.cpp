@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "apps/verbs/common.hpp"
-#include "libio/format.hpp"
-#include "libio/units.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

@@ -10,8 +10,8 @@
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
 #include "libio/replace_file.hpp"
-#include "libio/units.hpp"
-#include "libio/value_range.hpp"
+#include "libio/text/units.hpp"
+#include "libio/text/value_range.hpp"
 
 namespace whirl {
 

@@ -12,8 +12,8 @@
 
 #include "libdyn/system/model.hpp"
 #include "libio/call.hpp"
-#include "libio/record.hpp"
 #include "libio/replace_file.hpp"
+#include "libio/text/record.hpp"
 
 namespace whirl {
 

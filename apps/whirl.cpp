@@ -20,10 +20,10 @@
 #include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_schema.hpp"
-#include "libio/nearest.hpp"
 #include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
-#include "libio/terminal.hpp"
+#include "libio/text/nearest.hpp"
+#include "libio/text/terminal.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <random>
 
 #include "libdyn/studies/classify.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl {

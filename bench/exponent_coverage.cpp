@@ -15,7 +15,7 @@
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl {

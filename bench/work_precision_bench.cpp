@@ -7,7 +7,7 @@
 
 #include "bench/odeint.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "libbase/error.hpp"
 #include "libio/config.hpp"
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

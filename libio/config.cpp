@@ -9,7 +9,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "libio/nearest.hpp"
+#include "libio/text/nearest.hpp"
 
 namespace whirl {
 

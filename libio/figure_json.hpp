@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libio/figure.hpp"
-#include "libio/record.hpp"
+#include "libio/text/record.hpp"
 
 namespace whirl {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "libfe/assemble.hpp"
-#include "libio/nearest.hpp"
-#include "libio/units.hpp"
+#include "libio/text/nearest.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "libio/model_builder.hpp"
-#include "libio/nearest.hpp"
-#include "libio/units.hpp"
+#include "libio/text/nearest.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "libio/model_builder.hpp"
-#include "libio/nearest.hpp"
+#include "libio/text/nearest.hpp"
 
 namespace whirl {
 

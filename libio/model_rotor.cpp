@@ -6,7 +6,7 @@
 
 #include "libfe/elements/disk.hpp"
 #include "libio/model_builder.hpp"
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libbase/field.hpp"
-#include "libio/record.hpp"
+#include "libio/text/record.hpp"
 
 namespace whirl {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "libio/model_schema.hpp"
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

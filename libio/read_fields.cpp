@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libio/nearest.hpp"
-#include "libio/units.hpp"
+#include "libio/text/nearest.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

@@ -10,11 +10,11 @@
 #include "libfe/properties.hpp"
 #include "libio/comparison.hpp"
 #include "libio/figure_json.hpp"
-#include "libio/format.hpp"
 #include "libio/machine_report.hpp"
 #include "libio/motion_json.hpp"
 #include "libio/page_assets.hpp"
-#include "libio/xml.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/xml.hpp"
 
 namespace whirl {
 

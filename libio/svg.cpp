@@ -7,7 +7,7 @@
 #include <unordered_set>
 
 #include "libio/own_file.hpp"
-#include "libio/xml.hpp"
+#include "libio/text/xml.hpp"
 
 namespace whirl {
 

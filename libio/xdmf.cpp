@@ -7,7 +7,7 @@
 #include "libio/hdf5.hpp"
 #include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
-#include "libio/xml.hpp"
+#include "libio/text/xml.hpp"
 
 namespace whirl {
 

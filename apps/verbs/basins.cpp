@@ -12,9 +12,9 @@
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "libbase/error.hpp"
-#include "libio/format.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

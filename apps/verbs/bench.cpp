@@ -13,8 +13,8 @@
 #include "libio/figures/work_precision.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/replace_file.hpp"
-#include "libio/table.hpp"
-#include "libio/units.hpp"
+#include "libio/text/table.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

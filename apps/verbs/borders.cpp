@@ -11,7 +11,7 @@
 #include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

@@ -10,7 +10,7 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/branches.hpp"
 #include "libdyn/branches/border.hpp"
-#include "libio/parameter_axis.hpp"
+#include "libio/text/parameter_axis.hpp"
 
 namespace whirl {
 

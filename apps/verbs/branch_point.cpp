@@ -8,8 +8,8 @@
 #include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/model_file.hpp"
-#include "libio/parameter_axis.hpp"
 #include "libio/result_schema.hpp"
+#include "libio/text/parameter_axis.hpp"
 
 namespace whirl {
 

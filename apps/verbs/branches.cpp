@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "libio/hdf5.hpp"
-#include "libio/record.hpp"
+#include "libio/text/record.hpp"
 
 namespace whirl {
 

@@ -5,11 +5,11 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "libfe/properties.hpp"
-#include "libio/format.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/layout.hpp"
-#include "libio/table.hpp"
-#include "libio/terminal.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/table.hpp"
+#include "libio/text/terminal.hpp"
 
 namespace whirl {
 

@@ -7,7 +7,7 @@
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

@@ -8,8 +8,8 @@
 #include "libfe/modes.hpp"
 #include "libio/figures.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
-#include "libio/value_range.hpp"
+#include "libio/text/table.hpp"
+#include "libio/text/value_range.hpp"
 
 namespace whirl {
 

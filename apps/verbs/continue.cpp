@@ -19,7 +19,7 @@
 #include "libdyn/orbits/cycle.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

@@ -6,8 +6,8 @@
 #include "apps/verbs/mesh_formats.hpp"
 #include "apps/verbs/scene_source.hpp"
 #include "libio/csv_tables.hpp"
-#include "libio/nearest.hpp"
 #include "libio/rotor_mesh.hpp"
+#include "libio/text/nearest.hpp"
 #include "libio/xdmf.hpp"
 
 namespace whirl {
@@ -85,8 +85,7 @@ Written export_csv(const Invocation& call, const SceneSource& source, const fs::
   }
   std::optional<MotionSamples> samples;
   if (source.has_motion() && window_of(call).is_given()) samples = source.samples(call, 1e9);
-  Written written{
-      write_csv_tables(*source.result, stem, call.picture_replaces(), samples), ""};
+  Written written{write_csv_tables(*source.result, stem, call.picture_replaces(), samples), ""};
   if (samples) written.text = fmt::format("  of the motion {}\n", samples->text);
   for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
   if (written.files.empty()) written.text = "There are no tables in this result\n";

@@ -10,7 +10,7 @@
 #include "apps/verbs/study_classification.hpp"
 #include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

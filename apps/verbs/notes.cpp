@@ -7,7 +7,7 @@
 #include "apps/verbs/common.hpp"
 #include "libbase/names.hpp"
 #include "libfe/exceeded_tables.hpp"
-#include "libio/parameter_axis.hpp"
+#include "libio/text/parameter_axis.hpp"
 
 namespace whirl {
 

@@ -12,7 +12,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/studies/basins.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

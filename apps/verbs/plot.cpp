@@ -17,10 +17,10 @@
 #include "libbase/error.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures.hpp"
-#include "libio/nearest.hpp"
 #include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
-#include "libio/table.hpp"
+#include "libio/text/nearest.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

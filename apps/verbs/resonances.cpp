@@ -13,7 +13,7 @@
 #include "libdyn/studies/bouncing.hpp"
 #include "libfe/resonance.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

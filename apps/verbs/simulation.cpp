@@ -8,10 +8,10 @@
 
 #include "apps/verbs/common.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libio/format.hpp"
 #include "libio/hdf5.hpp"
 #include "libio/result_schema.hpp"
-#include "libio/table.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

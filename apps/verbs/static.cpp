@@ -6,9 +6,9 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "libfe/bending.hpp"
-#include "libio/format.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

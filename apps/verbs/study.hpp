@@ -13,7 +13,7 @@
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libio/checkpoint.hpp"
-#include "libio/parameter_axis.hpp"
+#include "libio/text/parameter_axis.hpp"
 
 namespace whirl {
 

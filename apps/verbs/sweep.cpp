@@ -13,7 +13,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

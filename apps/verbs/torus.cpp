@@ -13,7 +13,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

@@ -10,7 +10,7 @@
 #include "libdyn/system/clearance.hpp"
 #include "libfe/response_curve.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 
 #include "libio/call.hpp"
 #include "libio/figures/branch_lines.hpp"
-#include "libio/format.hpp"
+#include "libio/text/format.hpp"
 
 namespace whirl {
 

@@ -10,7 +10,7 @@
 #include "libio/comparison.hpp"
 #include "libio/figures/border_lines.hpp"
 #include "libio/figures/branch_lines.hpp"
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

@@ -5,7 +5,7 @@
 
 #include "libdyn/system/stations.hpp"
 #include "libio/figures/all.hpp"
-#include "libio/format.hpp"
+#include "libio/text/format.hpp"
 #include "libio/vtk_scene.hpp"
 
 namespace whirl {

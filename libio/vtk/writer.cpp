@@ -21,9 +21,9 @@
 
 #include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
+#include "libio/text/xml.hpp"
 #include "libio/vtk.hpp"
 #include "libio/vtk/surfaces.hpp"
-#include "libio/xml.hpp"
 
 namespace whirl {
 

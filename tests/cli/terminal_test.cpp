@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "libio/parameter_axis.hpp"
-#include "libio/value_range.hpp"
+#include "libio/text/parameter_axis.hpp"
+#include "libio/text/value_range.hpp"
 
 namespace {
 

@@ -1,6 +1,6 @@
 // Numbers with units: a finite number comes of a text, or a problem in words.
 
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 #include <cmath>
 #include <cstddef>

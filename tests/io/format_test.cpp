@@ -1,6 +1,6 @@
 // Quantities for people: prefixes, four digits, and back again.
 
-#include "libio/format.hpp"
+#include "libio/text/format.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl::format_test {
 

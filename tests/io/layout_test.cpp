@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "libio/model_file.hpp"
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl::layout_test {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "libio/model_schema.hpp"
-#include "libio/record.hpp"
 #include "libio/svg.hpp"
+#include "libio/text/record.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::own_file_test {

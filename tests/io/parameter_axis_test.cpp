@@ -1,6 +1,6 @@
 // Axes of studies: what --over says.
 
-#include "libio/parameter_axis.hpp"
+#include "libio/text/parameter_axis.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include "libio/figure_json.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/svg.hpp"
-#include "libio/xml.hpp"
+#include "libio/text/xml.hpp"
 
 namespace whirl::plot_test {
 

@@ -1,6 +1,6 @@
 // JSON: read back by another library.
 
-#include "libio/record.hpp"
+#include "libio/text/record.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // Tables for the terminal.
 
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "libio/table_text.hpp"
-#include "libio/terminal.hpp"
+#include "libio/text/table_text.hpp"
+#include "libio/text/terminal.hpp"
 
 namespace whirl::table_test {
 

@@ -1,6 +1,6 @@
 // Quantities with units: every good spelling against its SI value, every bad one its message.
 
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 #include <gtest/gtest.h>
 

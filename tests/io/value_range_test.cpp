@@ -1,6 +1,6 @@
 // Ranges of the command line, first:last:step.
 
-#include "libio/value_range.hpp"
+#include "libio/text/value_range.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "libio/parameter_axis.hpp"
+#include "libio/text/parameter_axis.hpp"
 
 #include <fmt/format.h>
 
-#include "libio/value_range.hpp"
+#include "libio/text/value_range.hpp"
 
 namespace whirl {
 

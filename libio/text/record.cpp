@@ -1,4 +1,4 @@
-#include "libio/record.hpp"
+#include "libio/text/record.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "libio/xml.hpp"
+#include "libio/text/xml.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libio/terminal.hpp"
+#include "libio/text/terminal.hpp"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libio/value_range.hpp"
+#include "libio/text/value_range.hpp"
 
 #include <fmt/format.h>
 

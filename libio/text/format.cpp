@@ -1,4 +1,4 @@
-#include "libio/format.hpp"
+#include "libio/text/format.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "libio/nearest.hpp"
+#include "libio/text/nearest.hpp"
 
 namespace whirl {
 

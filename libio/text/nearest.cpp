@@ -1,4 +1,4 @@
-#include "libio/nearest.hpp"
+#include "libio/text/nearest.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libio/units.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl {
 

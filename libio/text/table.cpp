@@ -1,10 +1,10 @@
-#include "libio/table.hpp"
+#include "libio/text/table.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-#include "libio/table_text.hpp"
-#include "libio/terminal.hpp"
+#include "libio/text/table_text.hpp"
+#include "libio/text/terminal.hpp"
 
 namespace whirl {
 
