@@ -19,7 +19,7 @@
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/model_schema.hpp"
+#include "libio/model/model_schema.hpp"
 #include "libio/own_file.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/text/nearest.hpp"

@@ -10,7 +10,7 @@
 #include "libdyn/methods/rk4.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl {

@@ -15,7 +15,7 @@
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/hill.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "libfe/campbell.hpp"
 #include "libfe/unbalance.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl {
 namespace {

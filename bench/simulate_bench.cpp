@@ -11,7 +11,7 @@
 
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl {
 namespace {

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "libbase/error.hpp"
-#include "libio/config.hpp"
+#include "libio/model/config.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl {

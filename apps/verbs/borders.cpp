@@ -10,7 +10,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 #include "libio/result_schema.hpp"
 #include "libio/text/parameter_axis.hpp"
 

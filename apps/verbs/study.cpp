@@ -16,7 +16,7 @@
 #include "libbase/work_queue.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libio/hdf5.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl {
 

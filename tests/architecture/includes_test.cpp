@@ -63,7 +63,7 @@ TEST(Architecture, EachLibraryHasOneHome) {
       {"arkode/", "libdyn/methods/"},
       {"sun", "libdyn/methods/"},
       {"nvector/", "libdyn/methods/"},
-      {"toml", "libio/config"},
+      {"toml", "libio/model/config"},
       {"hdf5", "libio/hdf5/"},
       {"H5", "libio/hdf5/"},
       {"zlib", "libio/hdf5/"},

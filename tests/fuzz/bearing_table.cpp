@@ -1,6 +1,6 @@
 // Tables of bearings: a table comes of a text, or problems with their lines.
 
-#include "libio/bearing_table.hpp"
+#include "libio/model/bearing_table.hpp"
 
 #include <cstddef>
 #include <cstdint>

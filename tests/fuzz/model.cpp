@@ -5,7 +5,7 @@
 #include <string>
 
 #include "libbase/error.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "libbase/error.hpp"
-#include "libio/config.hpp"
+#include "libio/model/config.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::bad_file_test {
 

@@ -1,6 +1,6 @@
 // Bearing coefficients over speed, from CSV.
 
-#include "libio/bearing_table.hpp"
+#include "libio/model/bearing_table.hpp"
 
 #include <gtest/gtest.h>
 

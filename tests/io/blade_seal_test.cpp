@@ -13,7 +13,7 @@
 #include "libdyn/system/scene.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libfe/critical.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::blade_seal_test {
 

@@ -12,7 +12,7 @@
 #include "libdyn/motions/start.hpp"
 #include "libfe/critical.hpp"
 #include "libfe/modes.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::bundled_models_test {
 

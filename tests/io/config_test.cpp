@@ -1,6 +1,6 @@
 // The tree of a model file: places, --set paths, and back to TOML.
 
-#include "libio/config.hpp"
+#include "libio/model/config.hpp"
 
 #include <gtest/gtest.h>
 

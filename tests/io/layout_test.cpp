@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl::layout_test {

@@ -11,7 +11,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/system/scene.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::manual_test {
 

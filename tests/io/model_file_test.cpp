@@ -1,6 +1,6 @@
 // Model files: every key arrives where it belongs, in SI.
 
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -7,7 +7,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/system/scene.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::model_films_test {
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::model_reference_test {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::mutation_test {
 

@@ -9,7 +9,7 @@
 #include "libdyn/motions/start.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::overhung_face_rub_test {
 

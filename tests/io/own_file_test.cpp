@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "libio/model_schema.hpp"
+#include "libio/model/model_schema.hpp"
 #include "libio/svg.hpp"
 #include "libio/text/record.hpp"
 #include "tests/io/result_folder.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::rotor_mesh_test {
 

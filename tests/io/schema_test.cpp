@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "libio/model_schema.hpp"
+#include "libio/model/model_schema.hpp"
 
 namespace whirl::schema_test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 namespace whirl::test {
 

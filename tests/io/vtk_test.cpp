@@ -21,7 +21,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 #include "libio/replace_file.hpp"
 #include "libio/vtk_scene.hpp"
 

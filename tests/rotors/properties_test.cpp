@@ -12,7 +12,7 @@
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/static.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 #include "tests/support/random_rotors.hpp"
 
 namespace whirl::rotor_properties_test {

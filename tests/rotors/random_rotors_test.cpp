@@ -21,7 +21,7 @@
 #include "libfe/resonance.hpp"
 #include "libfe/static.hpp"
 #include "libfe/unbalance.hpp"
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 #include "tests/support/qz.hpp"
 
 namespace whirl::random_rotors_test {

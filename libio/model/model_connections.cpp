@@ -4,8 +4,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "libio/bearing_table.hpp"
-#include "libio/model_builder.hpp"
+#include "libio/model/bearing_table.hpp"
+#include "libio/model/model_builder.hpp"
 
 namespace whirl {
 

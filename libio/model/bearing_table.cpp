@@ -1,4 +1,4 @@
-#include "libio/bearing_table.hpp"
+#include "libio/model/bearing_table.hpp"
 
 #include <fmt/format.h>
 

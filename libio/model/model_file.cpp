@@ -1,11 +1,11 @@
-#include "libio/model_file.hpp"
+#include "libio/model/model_file.hpp"
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
-#include "libio/model_builder.hpp"
+#include "libio/model/model_builder.hpp"
 
 namespace whirl {
 

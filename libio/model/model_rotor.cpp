@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "libfe/elements/disk.hpp"
-#include "libio/model_builder.hpp"
+#include "libio/model/model_builder.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl {

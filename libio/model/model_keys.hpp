@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libio/asked_key.hpp"
+#include "libio/model/asked_key.hpp"
 
 namespace whirl {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "libio/model_schema.hpp"
+#include "libio/model/model_schema.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl {

@@ -1,4 +1,4 @@
-#include "libio/read_fields.hpp"
+#include "libio/model/read_fields.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "libio/model_builder.hpp"
+#include "libio/model/model_builder.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 

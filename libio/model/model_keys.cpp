@@ -1,4 +1,4 @@
-#include "libio/model_keys.hpp"
+#include "libio/model/model_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "libbase/error.hpp"
-#include "libio/config.hpp"
-#include "libio/model_builder.hpp"
+#include "libio/model/config.hpp"
+#include "libio/model/model_builder.hpp"
 
 namespace whirl {
 

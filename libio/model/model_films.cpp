@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "libio/model_builder.hpp"
+#include "libio/model/model_builder.hpp"
 #include "libio/text/nearest.hpp"
 
 namespace whirl {

@@ -11,8 +11,8 @@
 
 #include "libbase/error.hpp"
 #include "libbase/field.hpp"
-#include "libio/asked_key.hpp"
-#include "libio/config.hpp"
+#include "libio/model/asked_key.hpp"
+#include "libio/model/config.hpp"
 
 namespace whirl {
 

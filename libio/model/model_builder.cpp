@@ -1,4 +1,4 @@
-#include "libio/model_builder.hpp"
+#include "libio/model/model_builder.hpp"
 
 #include <fmt/format.h>
 

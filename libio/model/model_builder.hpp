@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "libdyn/system/model.hpp"
-#include "libio/config.hpp"
-#include "libio/read_fields.hpp"
+#include "libio/model/config.hpp"
+#include "libio/model/read_fields.hpp"
 
 namespace whirl {
 

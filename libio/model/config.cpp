@@ -1,4 +1,4 @@
-#include "libio/config.hpp"
+#include "libio/model/config.hpp"
 
 #define TOML_HEADER_ONLY 0
 #include <fmt/format.h>

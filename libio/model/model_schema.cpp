@@ -1,11 +1,11 @@
-#include "libio/model_schema.hpp"
+#include "libio/model/model_schema.hpp"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <map>
 
-#include "libio/model_keys.hpp"
+#include "libio/model/model_keys.hpp"
 
 namespace whirl {
 
