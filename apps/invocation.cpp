@@ -7,9 +7,9 @@
 
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
-#include "libio/hdf5.hpp"
 #include "libio/model/model_file.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/text/units.hpp"
 #include "libio/text/value_range.hpp"
 

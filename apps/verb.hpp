@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "libdyn/system/model.hpp"
-#include "libio/call.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/call.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/text/record.hpp"
 
 namespace whirl {

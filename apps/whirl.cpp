@@ -18,10 +18,10 @@
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
-#include "libio/hdf5.hpp"
 #include "libio/model/model_schema.hpp"
-#include "libio/own_file.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/own_file.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/terminal.hpp"
 

@@ -7,7 +7,7 @@
 #include "libbase/error.hpp"
 #include "libio/figures/all.hpp"
 #include "libio/model/model_file.hpp"
-#include "libio/result_schema.hpp"
+#include "libio/results/result_schema.hpp"
 
 namespace whirl {
 

@@ -11,8 +11,8 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 #include "libio/figure.hpp"
-#include "libio/hdf5.hpp"
-#include "libio/motion_window.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/motion_window.hpp"
 
 namespace whirl {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "libbase/error.hpp"
-#include "libio/call.hpp"
 #include "libio/comparison.hpp"
+#include "libio/results/call.hpp"
 
 namespace whirl {
 

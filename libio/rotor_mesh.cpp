@@ -5,7 +5,7 @@
 #include <map>
 
 #include "libbase/error.hpp"
-#include "libio/own_file.hpp"
+#include "libio/results/own_file.hpp"
 #include "libio/vtk/surfaces.hpp"
 
 namespace whirl {

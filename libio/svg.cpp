@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <unordered_set>
 
-#include "libio/own_file.hpp"
+#include "libio/results/own_file.hpp"
 #include "libio/text/xml.hpp"
 
 namespace whirl {

@@ -4,9 +4,9 @@
 
 #include <cassert>
 
-#include "libio/hdf5.hpp"
-#include "libio/own_file.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/own_file.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/text/xml.hpp"
 
 namespace whirl {

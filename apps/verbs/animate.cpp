@@ -12,8 +12,8 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/scene_source.hpp"
-#include "libio/own_file.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/own_file.hpp"
+#include "libio/results/replace_file.hpp"
 
 namespace whirl {
 

@@ -12,7 +12,7 @@
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "libbase/error.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 

@@ -11,8 +11,8 @@
 #include "libdyn/motions/work_precision.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures/work_precision.hpp"
-#include "libio/hdf5.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/units.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libio/hdf5.hpp"
 #include "libio/model/model_file.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "libbase/error.hpp"
-#include "libio/hdf5.hpp"
 #include "libio/model/model_file.hpp"
-#include "libio/result_schema.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/result_schema.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/record.hpp"
 
 namespace whirl {

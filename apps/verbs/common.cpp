@@ -7,7 +7,7 @@
 #include "libbase/error.hpp"
 #include "libfe/modes.hpp"
 #include "libio/figures.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/value_range.hpp"
 

@@ -9,7 +9,7 @@
 #include "libdyn/system/stations.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/modes.hpp"
-#include "libio/motion_window.hpp"
+#include "libio/results/motion_window.hpp"
 
 namespace whirl {
 

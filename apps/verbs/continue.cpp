@@ -18,7 +18,7 @@
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/cycle.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

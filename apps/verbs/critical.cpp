@@ -10,7 +10,7 @@
 #include "apps/verbs/notes.hpp"
 #include "libbase/error.hpp"
 #include "libfe/modes.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

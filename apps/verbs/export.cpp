@@ -5,7 +5,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/mesh_formats.hpp"
 #include "apps/verbs/scene_source.hpp"
-#include "libio/csv_tables.hpp"
+#include "libio/results/csv_tables.hpp"
 #include "libio/rotor_mesh.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/xdmf.hpp"

@@ -6,7 +6,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "apps/program.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/replace_file.hpp"
 
 namespace whirl {
 

@@ -12,7 +12,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/cycle.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

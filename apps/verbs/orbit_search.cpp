@@ -11,7 +11,7 @@
 #include "libdyn/motions/start.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/studies/basins.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

@@ -17,8 +17,8 @@
 #include "libbase/error.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures.hpp"
-#include "libio/own_file.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/own_file.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/table.hpp"
 

@@ -7,8 +7,8 @@
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
-#include "libio/replace_file.hpp"
 #include "libio/report_page.hpp"
+#include "libio/results/replace_file.hpp"
 
 namespace whirl {
 

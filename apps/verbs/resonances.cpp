@@ -12,7 +12,7 @@
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/studies/bouncing.hpp"
 #include "libfe/resonance.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

@@ -9,8 +9,8 @@
 #include "apps/verb.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/modes.hpp"
-#include "libio/hdf5.hpp"
-#include "libio/motion_window.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/motion_window.hpp"
 #include "libio/vtk_scene.hpp"
 
 namespace whirl {

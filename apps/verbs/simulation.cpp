@@ -8,8 +8,8 @@
 
 #include "apps/verbs/common.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libio/hdf5.hpp"
-#include "libio/result_schema.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/result_schema.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 

@@ -15,8 +15,8 @@
 #include "libbase/piece_sizes.hpp"
 #include "libbase/work_queue.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libio/hdf5.hpp"
 #include "libio/model/model_file.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl {
 

@@ -12,7 +12,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"
-#include "libio/checkpoint.hpp"
+#include "libio/results/checkpoint.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl {

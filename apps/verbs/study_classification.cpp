@@ -2,8 +2,8 @@
 
 #include <cassert>
 
-#include "libio/hdf5.hpp"
-#include "libio/motion_codes.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/motion_codes.hpp"
 
 namespace whirl {
 

@@ -6,7 +6,7 @@
 
 #include "apps/verbs/study.hpp"
 #include "libdyn/system/scene.hpp"
-#include "libio/checkpoint.hpp"
+#include "libio/results/checkpoint.hpp"
 
 namespace whirl {
 

@@ -11,9 +11,9 @@
 #include "apps/verbs/common.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
-#include "libio/hdf5.hpp"
-#include "libio/own_file.hpp"
-#include "libio/result_schema.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/own_file.hpp"
+#include "libio/results/result_schema.hpp"
 
 namespace whirl {
 

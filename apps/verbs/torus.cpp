@@ -12,7 +12,7 @@
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

@@ -9,7 +9,7 @@
 #include "apps/verbs/notes.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libfe/response_curve.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {

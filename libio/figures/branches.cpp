@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libio/call.hpp"
 #include "libio/figures/branch_lines.hpp"
+#include "libio/results/call.hpp"
 #include "libio/text/format.hpp"
 
 namespace whirl {

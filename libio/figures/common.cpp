@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "libio/call.hpp"
 #include "libio/figures/all.hpp"
+#include "libio/results/call.hpp"
 
 namespace whirl::figures {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "libio/figures/all.hpp"
-#include "libio/motion_codes.hpp"
+#include "libio/results/motion_codes.hpp"
 
 namespace whirl {
 

@@ -19,8 +19,8 @@
 #include <cassert>
 #include <fstream>
 
-#include "libio/own_file.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/own_file.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/text/xml.hpp"
 #include "libio/vtk.hpp"
 #include "libio/vtk/surfaces.hpp"

@@ -64,9 +64,9 @@ TEST(Architecture, EachLibraryHasOneHome) {
       {"sun", "libdyn/methods/"},
       {"nvector/", "libdyn/methods/"},
       {"toml", "libio/model/config"},
-      {"hdf5", "libio/hdf5/"},
-      {"H5", "libio/hdf5/"},
-      {"zlib", "libio/hdf5/"},
+      {"hdf5", "libio/results/hdf5/"},
+      {"H5", "libio/results/hdf5/"},
+      {"zlib", "libio/results/hdf5/"},
       {"vtk", "libio/vtk/"},
       {"CLI/", "apps/whirl.cpp"},
       {"hwy/", "libdyn/taylor/"}};

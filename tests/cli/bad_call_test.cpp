@@ -1,6 +1,6 @@
 // Calls that cannot be: exit status 2, what is wrong on standard error, and nothing written.
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
@@ -184,7 +184,8 @@ TEST_F(BadCall, PlacesThatCannotBeWrittenAreSaidBeforeTheWork) {
   EXPECT_EQ(json.status, 2);
   EXPECT_EQ(json.out, "");
   EXPECT_TRUE(has(json.err, "cannot write nowhere/x.json: there is no directory nowhere"));
-  const Outcome out = whirl({"simulate", "rotor.toml", "--speed", "100rad/s", "--out", "nowhere/x.h5"});
+  const Outcome out =
+      whirl({"simulate", "rotor.toml", "--speed", "100rad/s", "--out", "nowhere/x.h5"});
   EXPECT_EQ(out.status, 2);
   EXPECT_TRUE(has(out.err, "cannot write nowhere/x.h5: there is no directory nowhere"));
 }
@@ -296,10 +297,11 @@ TEST_F(BadCall, AStartNeedsAMotionThatFits) {
                    "run.h5", "--quiet"})
                 .status,
             0);
-  EXPECT_TRUE(has(problem({"simulate", "rotor.toml", "--speed", "100rad/s", "--from", "run.h5", "--set",
-                           "body.rotor.tilts=true", "--set", "body.rotor.diametral_inertia=1",
-                           "--set", "bearing.shaft.tilt_stiffness=1"}),
-                  "the result has 2 freedoms, the model 4: they do not fit"));
+  EXPECT_TRUE(
+      has(problem({"simulate", "rotor.toml", "--speed", "100rad/s", "--from", "run.h5", "--set",
+                   "body.rotor.tilts=true", "--set", "body.rotor.diametral_inertia=1", "--set",
+                   "bearing.shaft.tilt_stiffness=1"}),
+          "the result has 2 freedoms, the model 4: they do not fit"));
 }
 
 }  // namespace bad_call_test

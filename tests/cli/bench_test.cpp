@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {

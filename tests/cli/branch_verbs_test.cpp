@@ -1,6 +1,6 @@
 // The command line: branches of orbits in the rotating frame, and where they are born.
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::branch_verbs_test {

@@ -4,7 +4,7 @@
 #include <regex>
 
 #include "libio/figures.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/cli/pictures.hpp"
 
 namespace whirl::test {

@@ -1,6 +1,6 @@
 // What is there already: nothing is replaced that whirl did not write, and everything that it did.
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {

@@ -5,7 +5,7 @@
 
 #include "libio/comparison.hpp"
 #include "libio/figures.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/cli/pictures.hpp"
 
 namespace whirl::test {

@@ -8,7 +8,7 @@
 #include <random>
 #include <thread>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {

@@ -18,11 +18,11 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libio/csv_tables.hpp"
 #include "libio/figure_svg.hpp"
 #include "libio/figures.hpp"
-#include "libio/hdf5.hpp"
 #include "libio/report_page.hpp"
+#include "libio/results/csv_tables.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/fuzz/result_edits.hpp"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "libio/hdf5.hpp"
-#include "libio/result_schema.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/result_schema.hpp"
 
 namespace whirl::fuzz {
 

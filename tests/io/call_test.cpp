@@ -1,12 +1,12 @@
 // Calls in result files, and as lines for a shell.
 
-#include "libio/call.hpp"
+#include "libio/results/call.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::call_test {

@@ -1,6 +1,6 @@
 // Tables of studies: what is computed survives a file, bit by bit.
 
-#include "libio/checkpoint.hpp"
+#include "libio/results/checkpoint.hpp"
 
 #include <gtest/gtest.h>
 

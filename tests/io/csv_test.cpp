@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libio/csv_tables.hpp"
+#include "libio/results/csv_tables.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::csv_test {

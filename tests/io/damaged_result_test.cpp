@@ -7,8 +7,8 @@
 #include <functional>
 #include <random>
 
-#include "libio/hdf5/checksum.hpp"
-#include "libio/result_schema.hpp"
+#include "libio/results/hdf5/checksum.hpp"
+#include "libio/results/result_schema.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::damaged_result_test {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdio>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::hdf5_programs_test {

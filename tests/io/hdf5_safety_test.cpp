@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::hdf5_safety_test {

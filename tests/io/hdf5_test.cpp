@@ -1,6 +1,6 @@
 // Result files: what is written is read back.
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 #include <gtest/gtest.h>
 

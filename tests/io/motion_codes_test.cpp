@@ -1,10 +1,10 @@
 // Kinds of motion in files: by their words, and in files without words by their order.
 
-#include "libio/motion_codes.hpp"
+#include "libio/results/motion_codes.hpp"
 
 #include <gtest/gtest.h>
 
-#include "libio/checkpoint.hpp"
+#include "libio/results/checkpoint.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::motion_codes_test {

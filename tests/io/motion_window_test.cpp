@@ -1,6 +1,6 @@
 // Stretches of a recorded motion: by revolutions, by times, the end where nothing is asked for.
 
-#include "libio/motion_window.hpp"
+#include "libio/results/motion_window.hpp"
 
 #include <gtest/gtest.h>
 

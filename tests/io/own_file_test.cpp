@@ -1,6 +1,6 @@
 // Files that this program wrote are told from others by what is in them.
 
-#include "libio/own_file.hpp"
+#include "libio/results/own_file.hpp"
 
 #include <cstdint>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // Files that take their place when they are complete.
 
-#include "libio/replace_file.hpp"
+#include "libio/results/replace_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl::test {
 

@@ -1,7 +1,7 @@
 // What a result file says is checked when it is opened: sizes that fit each other, codes that mean
 // something. What readers relied on without looking ended the process by a signal.
 
-#include "libio/result_schema.hpp"
+#include "libio/results/result_schema.hpp"
 
 #include <gtest/gtest.h>
 

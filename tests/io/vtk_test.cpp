@@ -22,7 +22,7 @@
 #include <sstream>
 
 #include "libio/model/model_file.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/vtk_scene.hpp"
 
 namespace whirl::vtk_test {

@@ -1,4 +1,4 @@
-#include "libio/own_file.hpp"
+#include "libio/results/own_file.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "libio/hdf5.hpp"
-#include "libio/motion_window.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/motion_window.hpp"
 
 namespace whirl {
 

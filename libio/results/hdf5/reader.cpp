@@ -4,10 +4,10 @@
 #include <limits>
 #include <optional>
 
-#include "libio/hdf5.hpp"
-#include "libio/hdf5/checksum.hpp"
-#include "libio/hdf5/handle.hpp"
-#include "libio/hdf5/trial.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/hdf5/checksum.hpp"
+#include "libio/results/hdf5/handle.hpp"
+#include "libio/results/hdf5/trial.hpp"
 
 namespace whirl {
 

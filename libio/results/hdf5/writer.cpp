@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cassert>
 
-#include "libio/hdf5.hpp"
-#include "libio/hdf5/checksum.hpp"
-#include "libio/hdf5/handle.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/hdf5/checksum.hpp"
+#include "libio/results/hdf5/handle.hpp"
 
 namespace whirl {
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "libio/result_schema.hpp"
+#include "libio/results/result_schema.hpp"
 
 namespace whirl {
 

@@ -1,11 +1,11 @@
-#include "libio/motion_codes.hpp"
+#include "libio/results/motion_codes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "libio/checkpoint.hpp"
+#include "libio/results/checkpoint.hpp"
 
 namespace whirl {
 

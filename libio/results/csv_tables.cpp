@@ -1,4 +1,4 @@
-#include "libio/csv_tables.hpp"
+#include "libio/results/csv_tables.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <memory>
 #include <set>
 
-#include "libio/own_file.hpp"
+#include "libio/results/own_file.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libio/replace_file.hpp"
+#include "libio/results/replace_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "libio/own_file.hpp"
+#include "libio/results/own_file.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libio/hdf5/checksum.hpp"
+#include "libio/results/hdf5/checksum.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "libio/replace_file.hpp"
+#include "libio/results/replace_file.hpp"
 
 namespace whirl::hdf5 {
 

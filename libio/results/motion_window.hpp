@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl {
 

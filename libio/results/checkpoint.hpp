@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libbase/linalg.hpp"
-#include "libio/replace_file.hpp"
+#include "libio/results/replace_file.hpp"
 
 namespace whirl {
 

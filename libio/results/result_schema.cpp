@@ -1,4 +1,4 @@
-#include "libio/result_schema.hpp"
+#include "libio/results/result_schema.hpp"
 
 #include <fmt/format.h>
 

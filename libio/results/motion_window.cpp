@@ -1,4 +1,4 @@
-#include "libio/motion_window.hpp"
+#include "libio/results/motion_window.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "libio/call.hpp"
+#include "libio/results/call.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl {
 

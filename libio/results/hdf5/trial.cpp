@@ -1,4 +1,4 @@
-#include "libio/hdf5/trial.hpp"
+#include "libio/results/hdf5/trial.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl::hdf5 {
 

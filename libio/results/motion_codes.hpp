@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libdyn/studies/classify.hpp"
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libio/checkpoint.hpp"
+#include "libio/results/checkpoint.hpp"
 
 #include <fmt/format.h>
 

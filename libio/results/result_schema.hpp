@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libio/hdf5.hpp"
+#include "libio/results/hdf5.hpp"
 
 namespace whirl {
 
