@@ -10,7 +10,7 @@
 
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
-#include "libio/figure.hpp"
+#include "libio/drawing/figure.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libio/figure_json.hpp"
+#include "libio/drawing/figure_json.hpp"
 #include "libio/figures.hpp"
 
 namespace whirl {

@@ -9,7 +9,7 @@
 #include "libbase/error.hpp"
 #include "libfe/properties.hpp"
 #include "libio/comparison.hpp"
-#include "libio/figure_json.hpp"
+#include "libio/drawing/figure_json.hpp"
 #include "libio/machine_report.hpp"
 #include "libio/motion_json.hpp"
 #include "libio/page_assets.hpp"

@@ -9,7 +9,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/work_precision.hpp"
-#include "libio/figure_svg.hpp"
+#include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/work_precision.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/replace_file.hpp"

@@ -5,7 +5,7 @@
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
 #include "libfe/properties.hpp"
-#include "libio/layout.hpp"
+#include "libio/drawing/terminal_layout.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"

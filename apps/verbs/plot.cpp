@@ -15,7 +15,7 @@
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
-#include "libio/figure_svg.hpp"
+#include "libio/drawing/figure_svg.hpp"
 #include "libio/figures.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"

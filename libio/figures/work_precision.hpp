@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "libio/figure.hpp"
+#include "libio/drawing/figure.hpp"
 
 namespace whirl {
 

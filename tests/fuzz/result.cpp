@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libio/figure_svg.hpp"
+#include "libio/drawing/figure_svg.hpp"
 #include "libio/figures.hpp"
 #include "libio/report_page.hpp"
 #include "libio/results/csv_tables.hpp"

@@ -1,12 +1,11 @@
 // The drawing of a rotor in the terminal.
 
-#include "libio/layout.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
+#include "libio/drawing/terminal_layout.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/text/table.hpp"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "libio/drawing/svg.hpp"
 #include "libio/model/model_schema.hpp"
-#include "libio/svg.hpp"
 #include "libio/text/record.hpp"
 #include "tests/io/result_folder.hpp"
 

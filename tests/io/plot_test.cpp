@@ -8,9 +8,9 @@
 #include <regex>
 #include <sstream>
 
-#include "libio/figure_json.hpp"
-#include "libio/figure_svg.hpp"
-#include "libio/svg.hpp"
+#include "libio/drawing/figure_json.hpp"
+#include "libio/drawing/figure_svg.hpp"
+#include "libio/drawing/svg.hpp"
 #include "libio/text/xml.hpp"
 
 namespace whirl::plot_test {

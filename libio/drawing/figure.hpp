@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libio/axis.hpp"
-#include "libio/svg.hpp"
+#include "libio/drawing/axis.hpp"
+#include "libio/drawing/svg.hpp"
 
 namespace whirl {
 

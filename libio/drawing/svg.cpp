@@ -1,4 +1,4 @@
-#include "libio/svg.hpp"
+#include "libio/drawing/svg.hpp"
 
 #include <fmt/format.h>
 

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "libio/figure.hpp"
-#include "libio/panel_layout.hpp"
-#include "libio/svg.hpp"
+#include "libio/drawing/figure.hpp"
+#include "libio/drawing/panel_layout.hpp"
+#include "libio/drawing/svg.hpp"
 
 namespace whirl {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "libio/axis.hpp"
-#include "libio/figure.hpp"
-#include "libio/svg.hpp"
+#include "libio/drawing/axis.hpp"
+#include "libio/drawing/figure.hpp"
+#include "libio/drawing/svg.hpp"
 
 namespace whirl {
 

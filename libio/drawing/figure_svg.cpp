@@ -1,12 +1,12 @@
-#include "libio/figure_svg.hpp"
+#include "libio/drawing/figure_svg.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "libio/panel_layout.hpp"
-#include "libio/panel_svg.hpp"
+#include "libio/drawing/panel_layout.hpp"
+#include "libio/drawing/panel_svg.hpp"
 
 namespace whirl {
 

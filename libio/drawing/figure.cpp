@@ -1,4 +1,4 @@
-#include "libio/figure.hpp"
+#include "libio/drawing/figure.hpp"
 
 #include <algorithm>
 #include <array>

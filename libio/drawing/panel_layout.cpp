@@ -1,4 +1,4 @@
-#include "libio/panel_layout.hpp"
+#include "libio/drawing/panel_layout.hpp"
 
 #include <fmt/format.h>
 

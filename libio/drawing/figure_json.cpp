@@ -1,4 +1,4 @@
-#include "libio/figure_json.hpp"
+#include "libio/drawing/figure_json.hpp"
 
 #include <cmath>
 #include <cstdint>

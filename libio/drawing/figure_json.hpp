@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "libio/figure.hpp"
+#include "libio/drawing/figure.hpp"
 #include "libio/text/record.hpp"
 
 namespace whirl {

@@ -1,11 +1,11 @@
-#include "libio/panel_svg.hpp"
+#include "libio/drawing/panel_svg.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "libio/panel_cells.hpp"
+#include "libio/drawing/panel_cells.hpp"
 
 namespace whirl {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Cells of a panel that are colored by their values, and the scale of these colors.
 
-#include "libio/panel_layout.hpp"
-#include "libio/svg.hpp"
+#include "libio/drawing/panel_layout.hpp"
+#include "libio/drawing/svg.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libio/axis.hpp"
+#include "libio/drawing/axis.hpp"
 
 #include <fmt/format.h>
 

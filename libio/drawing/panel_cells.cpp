@@ -1,4 +1,4 @@
-#include "libio/panel_cells.hpp"
+#include "libio/drawing/panel_cells.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "libio/panel_svg.hpp"
+#include "libio/drawing/panel_svg.hpp"
 
 namespace whirl {
 

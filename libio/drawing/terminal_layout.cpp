@@ -1,4 +1,4 @@
-#include "libio/layout.hpp"
+#include "libio/drawing/terminal_layout.hpp"
 
 #include <fmt/format.h>
 
