@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "libbase/error.hpp"
-#include "libio/comparison.hpp"
+#include "libio/figures/comparison.hpp"
 #include "libio/results/call.hpp"
 
 namespace whirl {

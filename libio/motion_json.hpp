@@ -1,7 +1,7 @@
 #pragma once
 
 #include "libio/drawing/figure_json.hpp"
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 
 namespace whirl {
 

@@ -8,8 +8,8 @@
 
 #include "libbase/error.hpp"
 #include "libfe/properties.hpp"
-#include "libio/comparison.hpp"
 #include "libio/drawing/figure_json.hpp"
+#include "libio/figures/comparison.hpp"
 #include "libio/machine_report.hpp"
 #include "libio/motion_json.hpp"
 #include "libio/page_assets.hpp"

@@ -6,7 +6,7 @@
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
 #include "libfe/modes.hpp"
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/value_range.hpp"

@@ -16,7 +16,7 @@
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
 #include "libio/drawing/figure_svg.hpp"
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/text/nearest.hpp"

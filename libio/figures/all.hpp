@@ -1,7 +1,7 @@
 #pragma once
 /// The functions behind the kinds of figures, and what they share.
 
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 
 namespace whirl {
 

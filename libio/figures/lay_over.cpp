@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
-#include "libio/comparison.hpp"
 #include "libio/figures/border_lines.hpp"
 #include "libio/figures/branch_lines.hpp"
+#include "libio/figures/comparison.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl {

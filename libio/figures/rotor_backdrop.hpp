@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 
 namespace whirl::figures {
 

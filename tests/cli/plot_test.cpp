@@ -3,7 +3,7 @@
 #include <complex>
 #include <regex>
 
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/pictures.hpp"
 

@@ -3,8 +3,8 @@
 #include <cstring>
 #include <regex>
 
-#include "libio/comparison.hpp"
-#include "libio/figures.hpp"
+#include "libio/figures/comparison.hpp"
+#include "libio/figures/figures.hpp"
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/pictures.hpp"
 

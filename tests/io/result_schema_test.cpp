@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::result_schema_test {

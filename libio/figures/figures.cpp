@@ -1,4 +1,4 @@
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 
 #include <fmt/format.h>
 

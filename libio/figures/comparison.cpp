@@ -1,4 +1,4 @@
-#include "libio/comparison.hpp"
+#include "libio/figures/comparison.hpp"
 
 #include <fmt/format.h>
 

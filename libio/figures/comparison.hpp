@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libio/figures.hpp"
+#include "libio/figures/figures.hpp"
 
 namespace whirl {
 
