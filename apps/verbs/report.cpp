@@ -7,7 +7,7 @@
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
-#include "libio/report_page.hpp"
+#include "libio/page/report_page.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl {

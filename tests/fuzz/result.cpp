@@ -20,7 +20,7 @@
 #include "libbase/error.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/figures.hpp"
-#include "libio/report_page.hpp"
+#include "libio/page/report_page.hpp"
 #include "libio/results/csv_tables.hpp"
 #include "libio/results/hdf5.hpp"
 #include "tests/fuzz/result_edits.hpp"

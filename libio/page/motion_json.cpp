@@ -1,4 +1,4 @@
-#include "libio/motion_json.hpp"
+#include "libio/page/motion_json.hpp"
 
 #include <fmt/format.h>
 

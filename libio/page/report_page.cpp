@@ -1,4 +1,4 @@
-#include "libio/report_page.hpp"
+#include "libio/page/report_page.hpp"
 
 #include <fmt/format.h>
 
@@ -10,9 +10,9 @@
 #include "libfe/properties.hpp"
 #include "libio/drawing/figure_json.hpp"
 #include "libio/figures/comparison.hpp"
-#include "libio/machine_report.hpp"
-#include "libio/motion_json.hpp"
-#include "libio/page_assets.hpp"
+#include "libio/page/machine_report.hpp"
+#include "libio/page/motion_json.hpp"
+#include "libio/page/page_assets.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/xml.hpp"
 

@@ -1,4 +1,4 @@
-#include "libio/machine_report.hpp"
+#include "libio/page/machine_report.hpp"
 
 #include <algorithm>
 #include <array>
