@@ -5,10 +5,10 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/mesh_formats.hpp"
 #include "apps/verbs/scene_source.hpp"
+#include "libio/export/rotor_mesh.hpp"
+#include "libio/export/xdmf.hpp"
 #include "libio/results/csv_tables.hpp"
-#include "libio/rotor_mesh.hpp"
 #include "libio/text/nearest.hpp"
-#include "libio/xdmf.hpp"
 
 namespace whirl {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libio/rotor_mesh.hpp"
+#include "libio/export/rotor_mesh.hpp"
 
 namespace whirl {
 

@@ -9,9 +9,9 @@
 #include "apps/verb.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/modes.hpp"
+#include "libio/export/vtk_scene.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"
-#include "libio/vtk_scene.hpp"
 
 namespace whirl {
 

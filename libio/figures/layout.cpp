@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "libdyn/system/stations.hpp"
+#include "libio/export/vtk_scene.hpp"
 #include "libio/figures/all.hpp"
 #include "libio/text/format.hpp"
-#include "libio/vtk_scene.hpp"
 
 namespace whirl {
 

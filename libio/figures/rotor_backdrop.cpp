@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "libio/export/vtk_scene.hpp"
 #include "libio/figures/all.hpp"
-#include "libio/vtk_scene.hpp"
 
 namespace whirl::figures {
 

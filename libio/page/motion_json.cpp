@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "libfe/unbalance.hpp"
+#include "libio/export/vtk_scene.hpp"
 #include "libio/figures/all.hpp"
-#include "libio/vtk_scene.hpp"
 
 namespace whirl {
 

@@ -67,7 +67,7 @@ TEST(Architecture, EachLibraryHasOneHome) {
       {"hdf5", "libio/results/hdf5/"},
       {"H5", "libio/results/hdf5/"},
       {"zlib", "libio/results/hdf5/"},
-      {"vtk", "libio/vtk/"},
+      {"vtk", "libio/export/vtk/"},
       {"CLI/", "apps/whirl.cpp"},
       {"hwy/", "libdyn/taylor/"}};
   for (const Include& i : includes()) {

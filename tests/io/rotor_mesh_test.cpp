@@ -1,6 +1,6 @@
 // What meshes of a rotor say of its nodes.
 
-#include "libio/rotor_mesh.hpp"
+#include "libio/export/rotor_mesh.hpp"
 
 #include <gtest/gtest.h>
 

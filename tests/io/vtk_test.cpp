@@ -1,6 +1,6 @@
 // Series for ParaView: read back by VTK, with true displacements at true places.
 
-#include "libio/vtk.hpp"
+#include "libio/export/vtk.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -21,9 +21,9 @@
 #include <numbers>
 #include <sstream>
 
+#include "libio/export/vtk_scene.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/replace_file.hpp"
-#include "libio/vtk_scene.hpp"
 
 namespace whirl::vtk_test {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libio/vtk.hpp"
+#include "libio/export/vtk.hpp"
 
 namespace whirl::vtk {
 

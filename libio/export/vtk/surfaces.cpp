@@ -1,4 +1,4 @@
-#include "libio/vtk/surfaces.hpp"
+#include "libio/export/vtk/surfaces.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -7,7 +7,7 @@
 
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
-#include "libio/vtk.hpp"
+#include "libio/export/vtk.hpp"
 
 namespace whirl {
 

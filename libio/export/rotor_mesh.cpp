@@ -1,12 +1,12 @@
-#include "libio/rotor_mesh.hpp"
+#include "libio/export/rotor_mesh.hpp"
 
 #include <fmt/format.h>
 
 #include <map>
 
 #include "libbase/error.hpp"
+#include "libio/export/vtk/surfaces.hpp"
 #include "libio/results/own_file.hpp"
-#include "libio/vtk/surfaces.hpp"
 
 namespace whirl {
 

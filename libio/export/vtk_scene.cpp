@@ -1,4 +1,4 @@
-#include "libio/vtk_scene.hpp"
+#include "libio/export/vtk_scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "libio/vtk.hpp"
+#include "libio/export/vtk.hpp"
 
 namespace whirl {
 

@@ -1,4 +1,4 @@
-#include "libio/xdmf.hpp"
+#include "libio/export/xdmf.hpp"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/modes.hpp"
-#include "libio/vtk.hpp"
+#include "libio/export/vtk.hpp"
 
 namespace whirl {
 

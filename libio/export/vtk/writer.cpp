@@ -19,11 +19,11 @@
 #include <cassert>
 #include <fstream>
 
+#include "libio/export/vtk.hpp"
+#include "libio/export/vtk/surfaces.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/text/xml.hpp"
-#include "libio/vtk.hpp"
-#include "libio/vtk/surfaces.hpp"
 
 namespace whirl {
 
