@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libio/model/model_file.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
@@ -62,21 +60,9 @@ bool is_followed(const Bifurcation& b) {
 
 }  // namespace
 
-Model BranchParameters::model(double first, double second) const {
-  const auto assignments = [](ParameterAxis axis, double value) {
-    axis.values = {value};
-    return axis.assignments(0);
-  };
-  std::vector<std::string> sets = assignments(along.axis, first);
-  if (across) {
-    for (std::string& set : assignments(across->axis, second)) sets.push_back(std::move(set));
-  }
-  return parse_model(source, file, sets, std::filesystem::path(file).parent_path());
-}
-
 std::shared_ptr<const Scene> BranchParameters::scene(double first, double second) const {
   try {
-    return std::make_shared<const Scene>(make_scene(model(first, second), ReductionEstimate::no));
+    return family->scene(values(first, second));
   } catch (const ModelError& error) {  // no model there: the branch ends
     throw NumericalError(error.what());
   }
@@ -99,9 +85,13 @@ BranchParameters branch_parameters(const Invocation& call, const Model& model) {
     }
   }
   const int points = static_cast<int>(call.integer("points", 101, 2));
-  BranchParameters p{
-      .along = parameter_of(call.over[0], at, points), .file = call.file, .source = model.source};
-  if (call.over.size() == 2) p.across = parameter_of(call.over[1], second_at, points);
+  BranchParameters p{.along = parameter_of(call.over[0], at, points)};
+  std::vector<ParameterAxis> axes{p.along.axis};
+  if (call.over.size() == 2) {
+    p.across = parameter_of(call.over[1], second_at, points);
+    axes.push_back(p.across->axis);
+  }
+  p.family = std::make_shared<const ModelFamily>(model, std::move(axes));
   for (const double first : {p.along.low, p.along.high, p.along.first}) {
     require_speed(p.model(first));
     if (!p.across) continue;
@@ -113,9 +103,9 @@ BranchParameters branch_parameters(const Invocation& call, const Model& model) {
 
 void write_fixed(ResultWriter& file, const BranchParameters& parameters) {
   if (!parameters.across) return;
-  ParameterAxis axis = parameters.across->axis;
-  axis.values = {parameters.across->first};
-  file.attribute("/branch", "fixed", fmt::format("{}", fmt::join(axis.assignments(0), "\n")));
+  const BranchParameter& fixed = *parameters.across;
+  file.attribute("/branch", "fixed",
+                 fmt::format("{}", fmt::join(fixed.axis.assignments_of(fixed.first), "\n")));
 }
 
 Borders::Borders(const BranchParameters& parameters, std::shared_ptr<const Scene> first,

@@ -10,6 +10,7 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/branches.hpp"
 #include "libdyn/branches/border.hpp"
+#include "libio/model/model_family.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl {
@@ -34,16 +35,21 @@ struct BranchParameter {
 struct BranchParameters {
   BranchParameter along;
   std::optional<BranchParameter> across;
-  std::string file, source;
+  std::shared_ptr<const ModelFamily> family{};
 
   /// At the first value of the second parameter.
   Model model(double first) const { return model(first, across ? across->first : 0.0); }
-  Model model(double first, double second) const;
+  Model model(double first, double second) const { return family->model(values(first, second)); }
   std::shared_ptr<const Scene> scene(double first) const {
     return scene(first, across ? across->first : 0.0);
   }
   /// @throws NumericalError  where there is no such model
   std::shared_ptr<const Scene> scene(double first, double second) const;
+
+ private:
+  std::vector<double> values(double first, double second) const {
+    return across ? std::vector{first, second} : std::vector{first};
+  }
 };
 
 /// From --over, once or twice, and --at.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <thread>
 
 #include "apps/verbs/common.hpp"
@@ -15,7 +14,6 @@
 #include "libbase/piece_sizes.hpp"
 #include "libbase/work_queue.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libio/model/model_file.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl {
@@ -128,7 +126,7 @@ void together(const std::vector<StudyPoint*>& points,
 }
 
 StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t most)
-    : model_(call.model()), file_(call.file) {
+    : model_(call.model()) {
   const int count = static_cast<int>(call.integer("points", 0, 2));
   for (const std::string& text : call.over) {
     const auto axis = parse_axis(text, count);
@@ -152,13 +150,14 @@ StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t mo
   threads_ = static_cast<int>(call.integer("threads", processors));
   earlier_ = earlier_start(call, model_);
   if (call.has("from")) model_.start.whirl.clear();  // it goes on as it was
+  family_.emplace(model_, axes_);
   // what is wrong at the ends is said before the work
   for (std::size_t corner = 0; corner < (std::size_t{1} << axes_.size()); ++corner) {
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       indices.push_back((corner >> i & 1) != 0 ? axes_[i].values.size() - 1 : 0);
     }
-    require_speed(model_at(indices));
+    require_speed(family_->model(values_at(indices)));
   }
 }
 
@@ -177,24 +176,22 @@ std::vector<std::size_t> StudySetup::indices_of(std::size_t number) const {
   return indices;
 }
 
-Model StudySetup::model_at(const std::vector<std::size_t>& indices) const {
-  std::vector<std::string> sets;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    for (std::string& set : axes_[i].assignments(indices[i])) sets.push_back(std::move(set));
-  }
-  return parse_model(model_.source, file_, sets, std::filesystem::path(file_).parent_path());
+std::vector<double> StudySetup::values_at(const std::vector<std::size_t>& indices) const {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < axes_.size(); ++i) values.push_back(axes_[i].values[indices[i]]);
+  return values;
 }
 
 StudyPoint StudySetup::point(std::size_t number, const FullState* from) const {
   StudyPoint p;
-  p.model = std::make_unique<Model>(model_at(indices_of(number)));
+  p.model = std::make_unique<Model>(family_->model(values_at(indices_of(number))));
   const FullState* start = from ? from : earlier_ ? &earlier_->state : nullptr;
   if (start) {
     p.model->start.from = StartFrom::file;
     p.model->start.whirl.clear();
   }
   try {
-    p.scene = std::make_unique<Scene>(make_scene(*p.model, ReductionEstimate::no));
+    p.scene = family_->scene(*p.model);
     p.subject.system = &p.scene->contacts;
     p.subject.found.end = start_state(*p.model, *p.scene, start);
     if (start && !from) p.subject.found.end.phase = earlier_->phase;

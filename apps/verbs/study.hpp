@@ -12,6 +12,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"
+#include "libio/model/model_family.hpp"
 #include "libio/results/checkpoint.hpp"
 #include "libio/text/parameter_axis.hpp"
 
@@ -23,7 +24,7 @@ std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);
 /// A motion at one point of a study.
 struct StudyPoint {
   std::unique_ptr<Model> model;
-  std::unique_ptr<Scene> scene;
+  std::shared_ptr<const Scene> scene;
   Subject subject;
   std::string failure;  ///< why there is no scene
 
@@ -67,12 +68,12 @@ class StudySetup {
   Record axes_record() const;
 
  private:
-  Model model_at(const std::vector<std::size_t>& indices) const;
+  std::vector<double> values_at(const std::vector<std::size_t>& indices) const;
   std::vector<std::size_t> indices_of(std::size_t number) const;
 
   Model model_;
-  std::string file_;
   std::vector<ParameterAxis> axes_;
+  std::optional<ModelFamily> family_;  ///< set with the axes
   ClassifyOptions options_;
   int threads_ = 1;
   std::optional<EarlierEnd> earlier_;

@@ -52,7 +52,10 @@ void require_inertia(const Assembler& assembler, const System& system, const Sta
 }  // namespace
 
 Scene make_scene(const Model& model, ReductionEstimate wanted) {
-  Assembler assembler(model.structure);
+  return make_scene(Assembler(model.structure), model, wanted);
+}
+
+Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate wanted) {
   System system = assembler.at(model.speed);
   std::vector<Vec> ports, others;
   for (const Contact& c : model.contacts) {
@@ -81,6 +84,11 @@ Scene make_scene(const Model& model, ReductionEstimate wanted) {
                                  wanted == ReductionEstimate::yes ? &error : nullptr);
   ContactSystem contacts(assembler, reduced, model.contacts, model.films);
   return {std::move(assembler), std::move(system), std::move(reduced), error, std::move(contacts)};
+}
+
+Scene with_contacts(const Scene& scene, const Model& model) {
+  return {scene.assembler, scene.system, scene.reduced, scene.error,
+          ContactSystem(scene.assembler, scene.reduced, model.contacts, model.films)};
 }
 
 Mat coordinates_of(const Scene& scene) {

@@ -29,6 +29,12 @@ enum class ReductionEstimate { no, yes };
 /// @throws NumericalError  as reduce
 Scene make_scene(const Model& model, ReductionEstimate wanted = ReductionEstimate::yes);
 
+/// The same of a structure that has been assembled already.
+Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate wanted);
+
+/// A scene with other laws of its contacts and films, at the same stations and speed.
+Scene with_contacts(const Scene& scene, const Model& model);
+
 /// What makes coordinates of a motion of all freedoms: those nearest to it in kinetic energy,
 /// eta = (Phi^T M Phi)^-1 Phi^T M q, coordinates x freedoms.
 Mat coordinates_of(const Scene& scene);

@@ -29,23 +29,40 @@ Model ModelBuilder::build() {
   read_films();
   read_settings();
   check_places();
-  if (!problems_.empty()) {
-    // in the order of the file; what is in other files (bearing tables) comes behind
-    const auto place = [&](const Problem& p) {
-      const bool is_elsewhere = p.where.line > 0 && p.where.file != root_.where.file;
-      return std::tuple(is_elsewhere, p.where.line, p.where.column);
-    };
-    std::stable_sort(problems_.begin(), problems_.end(),
-                     [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
-    // a station that is used twice is wrong once
-    const auto last =
-        std::unique(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
-          return a.where == b.where && a.key == b.key && a.message == b.message;
-        });
-    problems_.erase(last, problems_.end());
-    throw ModelError(problems_);
+  throw_problems();
+  return std::move(model_);
+}
+
+Model ModelBuilder::rebuild(const Model& base) {
+  model_ = base;
+  model_.contacts.clear();
+  model_.start = {};
+  read_contacts();
+  read_settings();
+  throw_problems();
+  model_.structure.stations = base.structure.stations;
+  for (const MissingRadius& m : missing_radii_) {
+    model_.contacts[m.contact].friction.radius = base.contacts[m.contact].friction.radius;
   }
   return std::move(model_);
+}
+
+void ModelBuilder::throw_problems() {
+  if (problems_.empty()) return;
+  // in the order of the file; what is in other files (bearing tables) comes behind
+  const auto place = [&](const Problem& p) {
+    const bool is_elsewhere = p.where.line > 0 && p.where.file != root_.where.file;
+    return std::tuple(is_elsewhere, p.where.line, p.where.column);
+  };
+  std::stable_sort(problems_.begin(), problems_.end(),
+                   [&](const Problem& a, const Problem& b) { return place(a) < place(b); });
+  // a station that is used twice is wrong once
+  const auto last =
+      std::unique(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
+        return a.where == b.where && a.key == b.key && a.message == b.message;
+      });
+  problems_.erase(last, problems_.end());
+  throw ModelError(problems_);
 }
 
 void ModelBuilder::read_top() {

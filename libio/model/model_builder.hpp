@@ -22,6 +22,11 @@ class ModelBuilder {
 
   /// @throws ModelError  with every problem found
   Model build();
+  /// The model again, where since `base` only contacts, the speed and the start were changed in
+  /// the tree, and no contact has moved: the rotor is not read again.
+  ///
+  /// @throws ModelError  likewise
+  Model rebuild(const Model& base);
 
   /// Text of a bearing table that came from a file of its own.
   struct Table {
@@ -33,6 +38,7 @@ class ModelBuilder {
 
  private:
   // model_builder.cpp
+  void throw_problems();
   void read_top();
   void read_settings();
   void check_places();

@@ -31,10 +31,14 @@ std::vector<std::string> split(std::string_view text, char at) {
 
 }  // namespace
 
-std::vector<std::string> ParameterAxis::assignments(std::size_t index) const {
+std::vector<std::string> ParameterAxis::paths() const {
+  return split(path, ',');
+}
+
+std::vector<std::string> ParameterAxis::assignments_of(double value) const {
   std::vector<std::string> all;
-  for (const std::string& one : split(path, ',')) {
-    all.push_back(fmt::format("{}={:.17g}{}{}", one, values[index], unit.empty() ? "" : " ", unit));
+  for (const std::string& one : paths()) {
+    all.push_back(fmt::format("{}={:.17g}{}{}", one, value, unit.empty() ? "" : " ", unit));
   }
   return all;
 }

@@ -20,8 +20,14 @@ struct ParameterAxis {
   /// "operation.speed [rpm]"
   std::string title() const { return shown_unit.empty() ? path : path + " [" + shown_unit + "]"; }
 
-  /// The value at an index, as --set takes it, for every path.
-  std::vector<std::string> assignments(std::size_t index) const;
+  /// Its paths, one by one.
+  std::vector<std::string> paths() const;
+  /// A value [SI], as --set takes it, for every path.
+  std::vector<std::string> assignments_of(double value) const;
+  /// The same of the value at an index.
+  std::vector<std::string> assignments(std::size_t index) const {
+    return assignments_of(values[index]);
+  }
 };
 
 /// Reads what --over says: PATH=first:last:step (or PATH,PATH,...=first:last:step), PATH=first:last with a number of points, or

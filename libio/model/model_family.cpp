@@ -1,0 +1,122 @@
+#include "libio/model/model_family.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <mutex>
+#include <utility>
+
+#include "libio/model/config.hpp"
+#include "libio/model/model_builder.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr std::size_t remembered = 4;  ///< scenes; a difference of an equation asks for two
+
+/// Whether a path leaves the rotor and its stations as they are.
+bool is_light(const std::string& path) {
+  return path.starts_with("contact.") || path.starts_with("start.") || path == "operation.speed";
+}
+
+bool same_place(const Station& a, const Station& b) {
+  return a.kind == b.kind && a.z == b.z && a.node == b.node && a.body == b.body;
+}
+
+/// Whether contacts act on the same coordinates of the rotor.
+bool same_ports(const std::vector<Contact>& a, const std::vector<Contact>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Contact& x, const Contact& y) {
+    return same_place(x.at, y.at) && same_place(x.against, y.against) &&
+           geometry_of(x.law) == geometry_of(y.law);
+  });
+}
+
+}  // namespace
+
+struct ModelFamily::State {
+  Model base;
+  std::vector<ParameterAxis> axes;
+  ConfigNode root;
+  std::filesystem::path directory;
+  bool is_light = false;  ///< no value changes the rotor
+
+  struct Known {
+    std::vector<double> values;
+    std::shared_ptr<const Scene> scene;
+  };
+  std::mutex mutex;
+  std::shared_ptr<const Scene> foundation;  ///< assembled and reduced, with some contacts
+  std::deque<Known> last;
+};
+
+ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
+    : state_(std::make_unique<State>()) {
+  state_->base = base;
+  state_->axes = std::move(axes);
+  state_->root = parse_toml(base.source, base.path);
+  state_->directory = std::filesystem::path(base.path).parent_path();
+  state_->is_light =
+      std::all_of(state_->axes.begin(), state_->axes.end(), [](const ParameterAxis& axis) {
+        const std::vector<std::string> paths = axis.paths();
+        return std::all_of(paths.begin(), paths.end(), is_light);
+      });
+}
+
+ModelFamily::~ModelFamily() = default;
+ModelFamily::ModelFamily(ModelFamily&&) noexcept = default;
+ModelFamily& ModelFamily::operator=(ModelFamily&&) noexcept = default;
+
+Model ModelFamily::model(std::span<const double> values) const {
+  ConfigNode root = state_->root;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (const std::string& set : state_->axes[i].assignments_of(values[i])) set_value(root, set);
+  }
+  const Model& base = state_->base;
+  Model member;
+  if (state_->is_light) member = ModelBuilder(root, state_->directory).rebuild(base);
+  if (!state_->is_light || !same_ports(member.contacts, base.contacts)) {
+    member = ModelBuilder(root, state_->directory).build();
+  }
+  member.source = base.source;
+  member.path = base.path;
+  return member;
+}
+
+std::shared_ptr<const Scene> ModelFamily::scene(const Model& member) const {
+  const auto whole = [&] {
+    return std::make_shared<const Scene>(make_scene(member, ReductionEstimate::no));
+  };
+  if (!state_->is_light || !same_ports(member.contacts, state_->base.contacts)) return whole();
+  std::shared_ptr<const Scene> on;
+  {
+    const std::lock_guard lock(state_->mutex);
+    on = state_->foundation;
+  }
+  if (on && on->system.Omega == member.speed) {
+    return std::make_shared<const Scene>(with_contacts(*on, member));
+  }
+  on = on ? std::make_shared<const Scene>(make_scene(on->assembler, member, ReductionEstimate::no))
+          : whole();
+  const std::lock_guard lock(state_->mutex);
+  state_->foundation = on;
+  return on;
+}
+
+std::shared_ptr<const Scene> ModelFamily::scene(std::span<const double> values) const {
+  const auto is_it = [&](const State::Known& known) {
+    return std::equal(known.values.begin(), known.values.end(), values.begin(), values.end());
+  };
+  {
+    const std::lock_guard lock(state_->mutex);
+    const auto known = std::find_if(state_->last.begin(), state_->last.end(), is_it);
+    if (known != state_->last.end()) return known->scene;
+  }
+  auto made = scene(model(values));
+  const std::lock_guard lock(state_->mutex);
+  state_->last.push_front({{values.begin(), values.end()}, made});
+  if (state_->last.size() > remembered) state_->last.pop_back();
+  return made;
+}
+
+}  // namespace whirl

@@ -1,0 +1,43 @@
+#pragma once
+/// Models that differ in the values of a few parameters, as the points of a study do.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "libdyn/system/scene.hpp"
+#include "libio/text/parameter_axis.hpp"
+
+namespace whirl {
+
+/// The text is read once, and for a value only that is made again which it changes: a contact's
+/// stiffness needs no mesh and no reduction, a speed no mesh. Members are to the last bit what
+/// parse_model and make_scene make of the same values. May be asked by several threads at once.
+class ModelFamily {
+ public:
+  /// @param base  as it was read: its `source` is the text that values are set in
+  /// @param axes  paths and units of the parameters; their values do not count here
+  ModelFamily(const Model& base, std::vector<ParameterAxis> axes);
+  ~ModelFamily();
+  ModelFamily(ModelFamily&&) noexcept;
+  ModelFamily& operator=(ModelFamily&&) noexcept;
+
+  /// The model with these values, one per axis [SI]. Its `source` is that of the base.
+  ///
+  /// @throws ModelError  for values that make no model
+  Model model(std::span<const double> values) const;
+
+  /// A member made ready for computing, without an estimate of the error of its reduction.
+  ///
+  /// @throws ModelError, NumericalError  as make_scene
+  std::shared_ptr<const Scene> scene(const Model& member) const;
+  /// Of the member with these values; the last few are remembered.
+  std::shared_ptr<const Scene> scene(std::span<const double> values) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace whirl

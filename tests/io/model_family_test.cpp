@@ -1,0 +1,106 @@
+// Members of a family are to the last bit what reading and reducing the whole model makes of them.
+
+#include "libio/model/model_family.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "libbase/error.hpp"
+#include "libio/model/model_file.hpp"
+
+namespace whirl::model_family_test {
+
+const std::string two_disk = std::string(WHIRL_SOURCE_DIR) + "/models/two_disk_mac.toml";
+
+ParameterAxis axis(const std::string& text) {
+  const auto parsed = parse_axis(text, 0);
+  EXPECT_TRUE(parsed) << parsed.problem;
+  return *parsed;
+}
+
+/// All that a scene is integrated with, as numbers.
+std::vector<double> numbers_of(const Scene& scene) {
+  const ContactSystem& system = scene.contacts;
+  const auto n = system.coordinates();
+  Vec y = Vec::Zero(2 * n);
+  for (int i = 0; i < 2 * n; ++i) y(i) = 1e-2 * std::sin(1.0 + i);  // contacts touch
+  std::vector<double> numbers{system.phase_rate(), system.length_scale()};
+  Vec acceleration(n);
+  system.acceleration(0.3, y.data(), acceleration.data());
+  numbers.insert(numbers.end(), acceleration.begin(), acceleration.end());
+  const Mat map = scene.displacement_map();
+  numbers.insert(numbers.end(), map.data(), map.data() + map.size());
+  return numbers;
+}
+
+TEST(ModelFamily, MembersAreThoseOfTheWholeModel) {
+  const Model base = read_model(two_disk);
+  const std::string contact = "contact." + base.contacts.at(0).name;
+  for (const std::string& text :
+       {contact + ".stiffness=1e6,2.5e6 N/m", contact + ".friction=0.05,0.2",
+        std::string("operation.speed=3000,4430 rpm"), std::string("gravity=0,9.81 m/s^2"),
+        contact + ".node=6,8", std::string("bearing.left.damping=100,500 N.s/m")}) {
+    SCOPED_TRACE(text);
+    const ParameterAxis one = axis(text);
+    const ModelFamily family(base, {one});
+    for (const double value : one.values) {
+      const Model whole = parse_model(base.source, base.path, one.assignments_of(value));
+      const Scene expected = make_scene(whole, ReductionEstimate::no);
+      const auto scene = family.scene(std::vector{value});
+      EXPECT_EQ(numbers_of(*scene), numbers_of(expected)) << value;
+      EXPECT_EQ(family.model(std::vector{value}).speed, whole.speed);
+    }
+  }
+}
+
+TEST(ModelFamily, SeveralParametersGoTogether) {
+  const Model base = read_model(two_disk);
+  const std::string contact = "contact." + base.contacts.at(0).name;
+  const ParameterAxis speed = axis("operation.speed=3000 rpm"),
+                      friction = axis(contact + ".friction=0.05");
+  const ModelFamily family(base, {speed, friction});
+  for (const double rate : {300.0, 400.0}) {
+    for (const double mu : {0.0, 0.1}) {
+      std::vector<std::string> sets = speed.assignments_of(rate);
+      for (const std::string& set : friction.assignments_of(mu)) sets.push_back(set);
+      const Scene expected =
+          make_scene(parse_model(base.source, base.path, sets), ReductionEstimate::no);
+      EXPECT_EQ(numbers_of(*family.scene(std::vector{rate, mu})), numbers_of(expected));
+    }
+  }
+}
+
+TEST(ModelFamily, RemembersItsLastMembers) {
+  const Model base = read_model(two_disk);
+  const ModelFamily family(base, {axis("operation.speed=3000 rpm")});
+  const auto one = family.scene(std::vector{300.0});
+  EXPECT_EQ(family.scene(std::vector{300.0}), one);
+  EXPECT_NE(family.scene(std::vector{301.0}), one);
+}
+
+TEST(ModelFamily, WrongValuesAreToldAsInTheWholeModel) {
+  const Model base = read_model(two_disk);
+  const std::string contact = "contact." + base.contacts.at(0).name;
+  for (const std::string& text : {contact + ".clearance=-1 mm", contact + ".node=70",
+                                  std::string("operation.speed=-3 rpm")}) {
+    SCOPED_TRACE(text);
+    const ParameterAxis one = axis(text);
+    const auto told = [](const auto& f) -> std::string {
+      try {
+        f();
+      } catch (const ModelError& error) {
+        return error.what();
+      }
+      return "nothing";
+    };
+    const std::string whole =
+        told([&] { parse_model(base.source, base.path, one.assignments(0)); });
+    EXPECT_NE(whole, "nothing");
+    EXPECT_EQ(told([&] { ModelFamily(base, {one}).model(one.values); }), whole);
+  }
+}
+
+}  // namespace whirl::model_family_test
