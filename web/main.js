@@ -3,12 +3,6 @@
 const page = JSON.parse(document.getElementById("data").textContent);
 const arrays = new Arrays(page.arrays);
 
-const NAMES = { layout: "Layout", static: "Sag and bending", campbell: "Campbell", log_decrement: "Log decrement", critical_map: "Critical speeds",
-  modes: "Mode shapes", bode: "Bode", polar: "Polar", deflection: "Deflected shapes", orbit: "Orbit", time_history: "Time history",
-  spectrum: "Spectrum", waterfall: "Waterfall", poincare: "Poincaré", contact_forces: "Contact forces", contact_angles: "Contact angles", mac: "MAC",
-  exponents: "Exponents", bifurcation: "Bifurcation", branches: "Branches", borders: "Borders", torus: "Quasi-periodic", spectral_map: "Spectral map", cascade: "Cascade", map: "Map",
-  exponent_map: "Exponent map", regime_map: "Contact map", basins: "Basins", work_precision: "Speed against error" };
-
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
   for (const view of views) {
@@ -49,7 +43,7 @@ const modelText = (text) => element("details", {}, element("summary", {}, "model
 /** The figures of a result as cards, and what moves in space after its layout, or last. */
 function addFigures(result, grid, link) {
   for (const figures of kindsOf(result)) {
-    const kind = figures[0].kind, name = NAMES[kind] || kind;
+    const kind = figures[0].kind, name = figures[0].heading;
     const view = attempt(name, grid, () => new FigureView(figures, result, arrays));
     if (!view) continue;
     grid.append(view.card);
@@ -134,7 +128,7 @@ function build() {
     const start = performance.now();
     while (waiting.length && performance.now() - start < 30) {
       const view = waiting.shift();
-      attempt(NAMES[view.figure.kind] || view.figure.kind, view.card, () => view.draw());
+      attempt(view.figure.heading, view.card, () => view.draw());
     }
     if (waiting.length) setTimeout(drawSome, 0);
     else document.documentElement.dataset.state = "drawn";
@@ -159,7 +153,7 @@ function addComparison(compared, main, contents) {
     const view = attempt(figures[0].kind, grid, () => new FigureView(figures, result, arrays));
     if (!view) continue;
     grid.append(view.card);
-    contents.append(element("a", { href: `#${view.card.id}` }, `compared ${NAMES[figures[0].kind] || figures[0].kind}`));
+    contents.append(element("a", { href: `#${view.card.id}` }, `compared ${figures[0].heading}`));
   }
   main.append(section);
 }

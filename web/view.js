@@ -85,7 +85,7 @@ class FigureView {
   choose(number) {
     this.figure = this.figures[number];
     this.over.setAttribute("aria-label", this.figure.subtitle);
-    this.title.textContent = NAMES[this.figure.kind] || this.figure.kind;
+    this.title.textContent = this.figure.heading;
     this.title.title = this.figure.summary;
     this.about.textContent = this.figure.subtitle || this.figure.summary;
     this.cursor = null;

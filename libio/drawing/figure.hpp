@@ -159,6 +159,7 @@ struct FigureTable {
 
 struct Figure {
   std::string kind{};     ///< name in figures.hpp
+  std::string heading{};  ///< title of its kind
   std::string variant{};  ///< of several of one kind: the station, the mode
   std::string title{}, subtitle{};
   std::vector<Panel> panels{};

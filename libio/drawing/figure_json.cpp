@@ -142,7 +142,7 @@ Record ArrayStore::record() const {
 
 Record record_of(const Figure& figure, ArrayStore& arrays) {
   Record r;
-  r.set("kind", figure.kind).set("variant", figure.variant);
+  r.set("kind", figure.kind).set("heading", figure.heading).set("variant", figure.variant);
   r.set("title", figure.title).set("subtitle", figure.subtitle);
   r.set("columns", figure.columns).set("width", figure.width).set("height", figure.height);
   Record panels = Record::array();

@@ -38,6 +38,7 @@ std::optional<DisplayUnit> frequency_unit(std::string_view name);
 /// A kind of figure.
 struct FigureKind {
   std::string_view name;
+  std::string_view title;  ///< "Bode", above its card on a page
   std::string_view summary;
   std::vector<std::string_view> needs;  ///< datasets; without all of them there is no figure
   bool needs_model = false;
