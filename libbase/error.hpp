@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace whirl {
@@ -36,6 +37,13 @@ class ModelError : public std::runtime_error {
 
  private:
   std::vector<Problem> problems_;
+};
+
+/// An option of an analysis means nothing, whatever the model; says which one and what would be
+/// right.
+class OptionError : public ModelError {
+ public:
+  explicit OptionError(std::string message) : ModelError({}, "", std::move(message)) {}
 };
 
 /// The model is well-formed, but a computation on it failed; says what was tried.

@@ -180,7 +180,7 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
   Campbell result{.speeds = speeds};
   if (speeds.empty()) return result;
   if (!std::is_sorted(speeds.begin(), speeds.end()) || speeds.front() < 0.0) {
-    throw NumericalError("speeds of a Campbell diagram must ascend from zero or above");
+    throw OptionError("speeds of a Campbell diagram must ascend from zero or above");
   }
   const ModeFinder finder(assembler);
   const Tracker tracker(finder, branches);

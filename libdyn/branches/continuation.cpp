@@ -29,11 +29,11 @@ using enum BifurcationKind;
 
 void ContinuationOptions::check() const {
   if (!(low < high) || !(first >= low) || !(first <= high)) {
-    throw NumericalError("continuation: the parameter's range must hold its first value");
+    throw OptionError("continuation: the parameter's range must hold its first value");
   }
   if (period < 1 || most_points < 1 || !(smallest_step > 0.0) || !(located > 0.0) ||
       !(largest_step >= 0.0) || std::abs(direction) != 1.0) {
-    throw NumericalError("continuation: steps, points and period must be positive");
+    throw OptionError("continuation: steps, points and period must be positive");
   }
 }
 

@@ -17,7 +17,7 @@ struct ContinuationOptions {
   int period = 1;                ///< of orbits [revolutions]
   int most_points = 10000;
 
-  /// @throws NumericalError  if a number is outside of what it may be
+  /// @throws OptionError  if a number is outside of what it may be
   void check() const;
   double range() const { return high - low; }
 };

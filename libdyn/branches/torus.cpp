@@ -197,7 +197,7 @@ BranchEquations circle_equations(FlowAt flow_at, Vec scale, int period, Eigen::I
 std::optional<InvariantCircle> guessed_circle(const Mat& sections, const Vec& scale, int period,
                                               int harmonics) {
   const Eigen::Index count = sections.cols();
-  if (count < 200) throw NumericalError("a circle needs 200 sections or more");
+  if (count < 200) throw OptionError("a circle needs 200 sections or more");
   const Mat scaled = scale.cwiseInverse().asDiagonal() * sections;
   const Vec mean = scaled * smooth_weights(count);
   const Mat moving = scaled.colwise() - mean;

@@ -47,10 +47,10 @@ void set_amplitude(Mat& c, Eigen::Index k, const CMat& z) {
 void HarmonicOptions::check() const {
   if (period < 1 || harmonics < 0 || most_harmonics < 1 || most_steps < 1 || !(tolerance > 0.0) ||
       !(accurate > 0.0)) {
-    throw NumericalError("harmonic balance: period, harmonics and accuracy must be positive");
+    throw OptionError("harmonic balance: period, harmonics and accuracy must be positive");
   }
   if (harmonics > 0 && harmonics < period) {
-    throw NumericalError(
+    throw OptionError(
         fmt::format("harmonic balance: the speed is harmonic {} of the orbit, there are {}", period,
                     harmonics));
   }

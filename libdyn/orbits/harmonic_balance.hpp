@@ -35,7 +35,7 @@ struct HarmonicOptions {
   int most_steps = 30;       ///< of Newton's method
   double accurate = 1e-11;   ///< residual of an orbit [length scales]
 
-  /// @throws NumericalError  if a number is outside of what it may be
+  /// @throws OptionError  if a number is outside of what it may be
   void check() const;
 };
 

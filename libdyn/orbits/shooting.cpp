@@ -52,10 +52,10 @@ void sort_by_size(CVec& values) {
 
 void ShootingOptions::check() const {
   if (period < 1 || most_steps < 1 || segments < 0 || !(accurate > 0.0)) {
-    throw NumericalError("shooting: period, steps and accuracy must be positive");
+    throw OptionError("shooting: period, steps and accuracy must be positive");
   }
   if (segments > 0 && period % segments != 0) {
-    throw NumericalError(
+    throw OptionError(
         fmt::format("shooting: {} segments do not divide a period of {}", segments, period));
   }
 }

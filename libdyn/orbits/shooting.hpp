@@ -37,7 +37,7 @@ struct ShootingOptions {
   int most_steps = 12;      ///< of Newton's method
   double accurate = 1e-11;  ///< residual of an orbit [scales]
 
-  /// @throws NumericalError  if segments does not divide the period, or a number is not positive
+  /// @throws OptionError  if segments does not divide the period, or a number is not positive
   void check() const;
 };
 

@@ -130,7 +130,7 @@ PlaneFields shape_functions(const Beam& beam, const Along& along, const Quadratu
 
 ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam) {
   if (beam.internal_functions < 0 || beam.internal_functions > 4) {
-    throw NumericalError("a beam element takes 0 to 4 pairs of internal functions");
+    throw OptionError("a beam element takes 0 to 4 pairs of internal functions");
   }
   static const Quadrature q = Quadrature::gauss(points);
   const Along along = properties(beam, q);

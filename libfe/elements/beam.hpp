@@ -39,7 +39,7 @@ struct Beam {
 /// Axial force: N integral w' w'. Torque: each section turns its axis, T integral
 /// (theta_y_i' theta_x_j ...), the skew remainder kept: the torque vector stays along z.
 ///
-/// @throws NumericalError  if internal_functions is out of range
+/// @throws OptionError  if internal_functions is out of range
 /// @source [NelsonMcVaugh1976], [Nelson1980], [Przemieniecki1968] ch. 11 for the functions;
 ///         [ZorziNelson1977] for rotating damping; [ZorziNelson1980], [Greenhill1883] for torque
 ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam);

@@ -376,10 +376,9 @@ TEST(Continuation, GoesOnBitByBit) {
 
 TEST(Continuation, RefusesWrongOptions) {
   EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.low = 1.0, .high = 0.0}),
-               NumericalError);
-  EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.first = 2.0}), NumericalError);
-  EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.direction = 0.5}),
-               NumericalError);
+               OptionError);
+  EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.first = 2.0}), OptionError);
+  EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.direction = 0.5}), OptionError);
   // x^2 + 1 has no real fixed point
   EXPECT_THROW(orbit_continuation(quadratic, Vec(Vec::Zero(1)), {.first = 1.0}), NumericalError);
 }

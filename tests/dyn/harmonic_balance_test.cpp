@@ -429,10 +429,10 @@ TEST(HarmonicBalance, MeasuresWhatContactsDo) {
 // What cannot be found is said.
 TEST(HarmonicBalance, SaysWhyThereIsNoOrbit) {
   const HarmonicProblem duffing = problem_of({});
-  EXPECT_THROW(find_harmonic_orbit(duffing, Mat::Zero(1, 1), {.period = 0}), NumericalError);
-  EXPECT_THROW(find_harmonic_orbit(duffing, Mat::Zero(1, 1), {.tolerance = 0.0}), NumericalError);
+  EXPECT_THROW(find_harmonic_orbit(duffing, Mat::Zero(1, 1), {.period = 0}), OptionError);
+  EXPECT_THROW(find_harmonic_orbit(duffing, Mat::Zero(1, 1), {.tolerance = 0.0}), OptionError);
   EXPECT_THROW(find_harmonic_orbit(duffing, Mat::Zero(1, 1), {.period = 3, .harmonics = 2}),
-               NumericalError);
+               OptionError);
   HarmonicProblem resonant = duffing;  // without a force, without damping, at its own frequency
   resonant.forces.clear();
   resonant.D.setZero();

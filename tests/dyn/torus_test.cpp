@@ -71,7 +71,7 @@ TEST(InvariantCircle, IsThatOfTheNormalForm) {
 // A motion that stands still is no circle; few sections say nothing.
 TEST(InvariantCircle, NeedsAMotion) {
   EXPECT_FALSE(guessed_circle(Mat::Ones(2, 400), Vec::Ones(2), 1, 8));
-  EXPECT_THROW(guessed_circle(Mat::Ones(2, 100), Vec::Ones(2), 1, 8), NumericalError);
+  EXPECT_THROW(guessed_circle(Mat::Ones(2, 100), Vec::Ones(2), 1, 8), OptionError);
 }
 
 // Harmonics of the circle fall off exponentially: the rotation at K is wrong by less and less, and it is
