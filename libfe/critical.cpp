@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/hermitian.hpp"
 #include "libfe/campbell.hpp"
+#include "libfe/eigen/hermitian.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/static.hpp"
 
@@ -14,7 +14,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double speed_tol = 1e-12;
 constexpr double damped_tol = 1e-10;  ///< of a speed, |Im lambda - order * Omega|
 constexpr double least_alike = 0.3;   ///< MAC of a mode that goes on from speed to speed

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libbase/hermitian.hpp"
 #include "libfe/campbell.hpp"
+#include "libfe/eigen/hermitian.hpp"
 #include "libfe/eigen/quadratic.hpp"
 #include "tests/support/rotors.hpp"
 

@@ -1,4 +1,4 @@
-#include "libbase/hermitian.hpp"
+#include "libfe/eigen/hermitian.hpp"
 
 #include <Spectra/MatOp/SparseCholesky.h>
 #include <Spectra/MatOp/SparseSymMatProd.h>
