@@ -7,9 +7,11 @@
 
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
+#include "libbase/constants.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libio/results/result_schema.hpp"
 #include "libio/text/units.hpp"
 #include "libio/text/value_range.hpp"
 
@@ -17,7 +19,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double rpm = 3.14159265358979323846 / 30.0;
 constexpr int default_speeds = 101;
 
 ModelError option_error(const std::string& option, const std::string& value, std::string message) {
@@ -145,6 +146,7 @@ std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const 
   if (!has("out")) return nullptr;
   auto writer = std::make_unique<ResultWriter>(given.at("out"), result_replaces());
   writer->attribute("/", "whirl_version", version);
+  writer->attribute("/", "format", result_format);
   writer->attribute("/", "command", shell_line(line));
   writer->attribute("/", "created", utc_now());
   writer->attribute("/", "title", model.title);

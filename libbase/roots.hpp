@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "libbase/constants.hpp"
+
 namespace whirl {
 
 /// Where a function with opposite signs at two places is zero, by Brent's method: inverse quadratic
@@ -13,17 +15,16 @@ namespace whirl {
 ///
 /// @param f          double -> double, finite; where it is not, the search ends there
 /// @param a, b       bounds in any order, f(a) f(b) <= 0
+/// @param fa, fb     values there
 /// @param tolerance  of the root, absolute
 /// @return           NaN if the signs at the bounds are the same or the function is not finite
 /// @source [Brent1973], ch. 4
 template <class Function>
-double bracketed_root(Function&& f, double a, double b, double tolerance) {
+double bracketed_root(Function&& f, double a, double fa, double b, double fb, double tolerance) {
   constexpr int most = 200;  // bisection alone needs 60 from any bounds
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  double fa = f(a), fb = f(b);
   if (fa == 0.0) return a;
   if (fb == 0.0) return b;
-  if (!(fa * fb < 0.0)) return nan;
+  if (!std::isfinite(fa) || !std::isfinite(fb) || (fa > 0.0) == (fb > 0.0)) return nan;
   double c = a, fc = fa;               // root between b and c, b the better one
   double step = b - a, before = step;  // this step and the last but one
   for (int i = 0; i < most; ++i) {
@@ -66,6 +67,13 @@ double bracketed_root(Function&& f, double a, double b, double tolerance) {
     if (!std::isfinite(fb)) return nan;
   }
   return b;
+}
+
+/// The same, where the values at the bounds are not known yet.
+template <class Function>
+double bracketed_root(Function&& f, double a, double b, double tolerance) {
+  const double fa = f(a), fb = f(b);
+  return bracketed_root(f, a, fa, b, fb, tolerance);
 }
 
 /// A place and the value of a function there.

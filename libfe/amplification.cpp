@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "libbase/constants.hpp"
 
 namespace whirl {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Moves a peak to the top of the parabola through three samples.
 void refine(const std::vector<double>& speeds, const Vec& a, Eigen::Index k, ResponsePeak& peak) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libbase/roots.hpp"
 
@@ -12,7 +12,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double sure = 0.8;            ///< MAC from which a match needs no second look
 constexpr int deepest = 6;              ///< halvings of a speed interval
 constexpr int spare_modes = 2;          ///< computed beyond those followed, for newcomers

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libbase/roots.hpp"
 #include "libfe/campbell.hpp"
@@ -13,8 +14,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr double visible =
     1e-3;                        ///< of a point's largest motion: below, its phase is not looked at
 constexpr double finest = 1e-8;  ///< relative distance of speeds; a sharper turn has no damping

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "libbase/constants.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/record.hpp"
 
@@ -15,7 +15,6 @@ namespace {
 
 const std::string group = "/branch";
 constexpr double most_small = 1e6;  ///< of a packed number that counts nothing in its file
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// All numbers of points one after another.
 class Packed {

@@ -1,11 +1,11 @@
 #pragma once
 /// What several verbs say in the same words.
 
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "apps/verb.hpp"
+#include "libbase/constants.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/modes.hpp"
@@ -15,8 +15,6 @@ namespace whirl {
 
 class ResultWriter;
 struct ResultView;
-
-constexpr double rpm = std::numbers::pi / 30.0;  ///< one revolution per minute [rad/s]
 
 /// Record with the entries that all verbs have: model, version, speed_rpm.
 Record begin_record(const Invocation& call, const Model& model);

@@ -8,6 +8,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/studies/bouncing.hpp"
@@ -18,8 +19,6 @@
 namespace whirl {
 
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Orbit of a mode in each contact, by the largest of the rotor.
 std::vector<double> sizes_at_contacts(const Model& model, const Assembler& assembler,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "apps/verbs/all.hpp"
 #include "apps/verbs/common.hpp"
@@ -10,6 +9,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/hdf5.hpp"
@@ -74,7 +74,7 @@ void Portraits::write_axes(ResultWriter& file) const {
   const long lines = spectrum_revolutions * highest_order;
   file.dataset(group + "/order", Vec(Vec::LinSpaced(2 * lines + 1, -highest_order, highest_order)),
                {"", "signed frequency over speed, forward > 0", {""}});
-  const double width = 2.0 * std::numbers::pi / sectors;
+  const double width = turn / sectors;
   file.dataset(group + "/sector",
                Vec(Vec::LinSpaced(sectors, 0.5 * width, (sectors - 0.5) * width)),
                {"rad", "middle of a sector, from x to y", {""}});
@@ -92,8 +92,8 @@ void add_angles(const StudyPoint& point, const Recording& recording, std::vector
     for (Eigen::Index j = 0; j < recording.eta.cols(); ++j) {
       if (recording.normal(c.owner, j) <= 0.0) continue;
       const Vec2 d = c.U * recording.eta.col(j) - c.offset;
-      const double turn = std::atan2(d(1), d(0)) / (2.0 * std::numbers::pi);
-      const auto sector = static_cast<std::size_t>((turn < 0.0 ? turn + 1.0 : turn) * sectors);
+      const double share = std::atan2(d(1), d(0)) / turn;
+      const auto sector = static_cast<std::size_t>((share < 0.0 ? share + 1.0 : share) * sectors);
       shares[static_cast<std::size_t>(c.owner) * sectors +
              std::min<std::size_t>(sector, sectors - 1)] += each;
     }

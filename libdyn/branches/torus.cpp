@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libbase/smooth_average.hpp"
@@ -14,7 +14,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double broken = 1e-2;     ///< tail beyond which there is no circle
 constexpr int iterations = 4000;    ///< of tangents, for exponents
 constexpr int parts = 6;            ///< of the strongest line that are tried as the circle's own

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/methods/methods.hpp"
 #include "libdyn/system/contact_ports.hpp"
@@ -13,7 +13,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int samples = 256;  ///< of a revolution, for a start
 constexpr int kept = 80;      ///< harmonics of them
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/orbits/shooting.hpp"
@@ -16,7 +16,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double isotropic = 1e-9;  ///< relative, to which rotations must not matter
 constexpr double nearby = 0.3;      ///< of the way that a motion goes, for a recurrence
 constexpr int most_parts = 128;     ///< of a period, that are tried as a shorter one

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/quadrature.hpp"
 #include "libdyn/taylor/batch.hpp"
 
@@ -11,7 +11,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int quadrature_points = 10;  ///< of a step, whose series have order 12 or so
 
 /// Rows that are asked for at every instant.

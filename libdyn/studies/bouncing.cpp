@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libbase/random.hpp"
 #include "libdyn/taylor/batch.hpp"
@@ -13,7 +13,6 @@ namespace whirl {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int samples = 128;          ///< of a period, for its lines
 constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
 constexpr long watched = 20;          ///< revolutions in which it is seen whether a motion bounces

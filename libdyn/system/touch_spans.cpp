@@ -2,38 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "libbase/constants.hpp"
+#include "libbase/roots.hpp"
 
 namespace whirl {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
-constexpr int fewest = 256;      ///< angles a revolution at which events are looked for
-constexpr int per_harmonic = 8;  ///< and of a harmonic
-constexpr int most_refinements = 60;
-
-/// Where a function of opposite signs at two angles is zero: false position with halved weights.
-template <class Function>
-double zero_between(Function&& f, double a, double fa, double b, double fb) {
-  int side = 0;
-  for (int i = 0; i < most_refinements && std::abs(b - a) > 1e-15 * turn; ++i) {
-    const bool bisects = i % 8 == 7;
-    const double x = bisects ? 0.5 * (a + b) : (a * fb - b * fa) / (fb - fa);
-    const double fx = f(x);
-    if (fx == 0.0 || x == a || x == b) return x;
-    if ((fx > 0.0) == (fb > 0.0)) {
-      b = x, fb = fx;
-      if (side == 1) fa *= 0.5;
-      side = 1;
-    } else {
-      a = x, fa = fx;
-      if (side == -1) fb *= 0.5;
-      side = -1;
-    }
-  }
-  return 0.5 * (a + b);
-}
+constexpr int fewest = 256;         ///< angles a revolution at which events are looked for
+constexpr int per_harmonic = 8;     ///< and of a harmonic
+constexpr double sharpest = 1e-15;  ///< of a turn: how well events are known
 
 }  // namespace
 
@@ -70,7 +49,8 @@ std::vector<double> ContactPath::zeros(const std::function<double(const ContactF
   const auto value = [&](double theta) { return f(at(theta)); };
   std::vector<double> found;
   const auto add = [&](double a, double fa, double b, double fb) {
-    if ((fa > 0.0) != (fb > 0.0)) found.push_back(zero_between(value, a, fa, b, fb));
+    if ((fa > 0.0) != (fb > 0.0))
+      found.push_back(bracketed_root(value, a, fa, b, fb, sharpest * turn));
   };
   const std::size_t N = angles_.size() - 1;
   for (std::size_t i = 0; i < N; ++i) {

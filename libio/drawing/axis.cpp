@@ -9,9 +9,9 @@ namespace whirl {
 
 namespace {
 
-constexpr double slack = 1e-9;       ///< of a step: rounding at the limits
-constexpr double widest = 1e300;     ///< limits beyond it would overflow
-constexpr double narrowest = 1e-12;  ///< of the limits: steps between nearer ones are rounding
+constexpr double slack = 1e-9;            ///< of a step: rounding at the limits
+constexpr double largest_limit = 1e300;   ///< limits beyond it would overflow
+constexpr double nearest_limits = 1e-12;  ///< of the limits: steps between nearer ones are rounding
 
 /// 1, 2 or 5 times a power of ten, not below a number.
 double round_up(double value) {
@@ -79,18 +79,20 @@ std::vector<Tick> Axis::ticks(int most) const {
 }
 
 bool can_be_drawn(const Axis& axis) {
-  if (!(std::abs(axis.first) <= widest && std::abs(axis.last) <= widest)) return false;
+  if (!(std::abs(axis.first) <= largest_limit && std::abs(axis.last) <= largest_limit))
+    return false;
   if (axis.scale == Scale::logarithmic) {
-    return axis.first >= 1.0 / widest && axis.last > axis.first * (1.0 + narrowest);
+    return axis.first >= 1.0 / largest_limit && axis.last > axis.first * (1.0 + nearest_limits);
   }
-  return axis.last - axis.first > narrowest * std::max(std::abs(axis.first), std::abs(axis.last));
+  return axis.last - axis.first >
+         nearest_limits * std::max(std::abs(axis.first), std::abs(axis.last));
 }
 
 Axis axis_around(const std::vector<double>& values, Scale scale) {
   const bool is_log = scale == Scale::logarithmic;
   double least = INFINITY, largest = -INFINITY;
   for (const double v : values) {
-    if (!(std::abs(v) <= widest) || (is_log && v < 1.0 / widest)) continue;
+    if (!(std::abs(v) <= largest_limit) || (is_log && v < 1.0 / largest_limit)) continue;
     least = std::min(least, v);
     largest = std::max(largest, v);
   }

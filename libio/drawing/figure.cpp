@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "libbase/constants.hpp"
+
 namespace whirl {
 
 namespace {
@@ -117,7 +119,7 @@ Rgb color_at(ColorMap map, double place) {
 }
 
 DisplayUnit unit_for(double largest, const std::string& si_unit) {
-  if (si_unit == "rad/s") return {"rpm", 30.0 / 3.14159265358979323846};
+  if (si_unit == "rad/s") return {"rpm", 1.0 / rpm};
   if (si_unit == "m" || si_unit == "N" || si_unit == "N/m" || si_unit == "s") {
     // metres and seconds without a prefix above one
     if ((si_unit == "m" || si_unit == "s") && largest >= 0.999) return {si_unit, 1.0};

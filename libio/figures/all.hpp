@@ -1,6 +1,7 @@
 #pragma once
 /// The functions behind the kinds of figures, and what they share.
 
+#include "libbase/constants.hpp"
 #include "libio/figures/figures.hpp"
 
 namespace whirl {
@@ -37,9 +38,7 @@ std::vector<Figure> work_precision_figures(const ResultView& result);
 
 namespace figures {
 
-constexpr double rpm = 3.14159265358979323846 / 30.0;  ///< [rad/s]
-constexpr double hertz = 60.0 * rpm;                   ///< [rad/s]
-constexpr double mm = 1e3;                             ///< [1/m]
+constexpr double mm = 1e3;  ///< [1/m]
 
 std::vector<double> row(const Mat& m, Eigen::Index i);
 /// The samples of a row.

@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libio/figures/all.hpp"
 
 namespace whirl {
@@ -13,7 +13,6 @@ namespace {
 using namespace figures;
 
 constexpr int sectors = 36;
-constexpr double turn = 2.0 * std::numbers::pi;
 
 /// Rings and rays of a plot in polar coordinates, without frame.
 void add_grid(Panel& p, double radius, const std::string& unit) {

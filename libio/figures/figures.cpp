@@ -36,7 +36,7 @@ ResultView::ResultView(const std::filesystem::path& file_path)
 
 std::optional<DisplayUnit> frequency_unit(std::string_view name) {
   for (const DisplayUnit& unit :
-       {DisplayUnit{"Hz", 1.0 / figures::hertz}, {"cpm", 1.0 / figures::rpm}, {"rad/s", 1.0}}) {
+       {DisplayUnit{"Hz", 1.0 / hertz}, {"cpm", 1.0 / rpm}, {"rad/s", 1.0}}) {
     if (unit.name == name) return unit;
   }
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "libbase/constants.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 #include "libio/drawing/figure.hpp"
@@ -28,7 +29,7 @@ struct ResultView {
   std::optional<Model> model;  ///< none: see problem
   std::optional<Assembler> assembler;
   std::string problem;  ///< why there is no model, such as a bearing table that is gone
-  DisplayUnit frequency{"Hz", 0.15915494309189535};  ///< of frequency axes; speeds are in rpm
+  DisplayUnit frequency{"Hz", 1.0 / hertz};  ///< of frequency axes; speeds are in rpm
   MotionWindow window;  ///< of motions that are drawn in time; left open: their end
 };
 

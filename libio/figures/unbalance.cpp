@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libfe/amplification.hpp"
 #include "libio/figures/all.hpp"
 
@@ -13,8 +13,6 @@ namespace whirl {
 namespace {
 
 using namespace figures;
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// Group of the datasets that curves are drawn from: those with as many speeds as they need, which
 /// stand beside the speeds that were asked for.

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libfe/unbalance.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/all.hpp"
@@ -124,7 +124,7 @@ void add_responses(const ResultView& result, const DofMap& dofs, Record& motions
     }
     Record r;
     r.set("kind", "mode").set("whirl", forward >= backward ? "forward" : "backward");
-    r.set("name", fmt::format("Unbalance response at {:.0f} rpm", speeds[s] / figures::rpm));
+    r.set("name", fmt::format("Unbalance response at {:.0f} rpm", speeds[s] / rpm));
     r.set("about", "One revolution of the steady motion, without contacts.");
     motions.add(r.set("re", arrays.add(re)).set("im", arrays.add(im)));
   }
@@ -147,7 +147,6 @@ Record motion_record(const ResultView& result, ArrayStore& arrays) {
     const Vec frequency = result.file.vector("/modes/frequency");
     const Vec decrement = result.file.vector("/modes/log_decrement");
     const auto whirl = result.file.strings("/modes/whirl");
-    constexpr double rpm = std::numbers::pi / 30.0;
     for (Eigen::Index k = 0; k < shapes.cols() && shapes.rows() == dofs.full_size; ++k) {
       std::vector<double> re, im;
       for (const int row : rows) {

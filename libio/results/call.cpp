@@ -10,14 +10,14 @@ namespace whirl {
 
 namespace {
 
-const std::string group = "/call";
+const std::string call_group = "/call";
 
 /// Options that took no value when files held the words of a command line only.
-constexpr std::array flags{"quiet",     "restart",       "fresh",     "confirm",
-                           "rotations", "mass-weighted", "stiffened", "verify"};
+constexpr std::array flag_options{"quiet",     "restart",       "fresh",     "confirm",
+                                  "rotations", "mass-weighted", "stiffened", "verify"};
 
 bool is_flag(std::string_view name) {
-  return std::find(flags.begin(), flags.end(), name) != flags.end();
+  return std::find(flag_options.begin(), flag_options.end(), name) != flag_options.end();
 }
 
 std::vector<std::string> filtered(const std::vector<std::string>& options,
@@ -86,11 +86,11 @@ Call parse_call(const std::vector<std::string>& words) {
 }
 
 void write_call(ResultWriter& file, const Call& call) {
-  file.attribute(group, "verb", call.verb);
-  file.attribute(group, "file", call.file);
+  file.attribute(call_group, "verb", call.verb);
+  file.attribute(call_group, "file", call.file);
   const auto write = [&](const char* name, const char* what,
                          const std::vector<std::string>& texts) {
-    if (!texts.empty()) file.dataset(group + '/' + name, texts, {"", what, {""}});
+    if (!texts.empty()) file.dataset(call_group + '/' + name, texts, {"", what, {""}});
   };
   write("word", "words after the file", call.words);
   write("set", "what was set of the model", call.sets);
@@ -98,13 +98,13 @@ void write_call(ResultWriter& file, const Call& call) {
 }
 
 Call read_call(const ResultReader& file) {
-  if (!file.has(group)) return parse_call(file.strings("/arguments"));
+  if (!file.has(call_group)) return parse_call(file.strings("/arguments"));
   const auto read = [&](const char* name) {
-    const std::string path = group + '/' + name;
+    const std::string path = call_group + '/' + name;
     return file.has(path) ? file.strings(path) : std::vector<std::string>{};
   };
-  return {.verb = file.string_attribute(group, "verb"),
-          .file = file.string_attribute(group, "file"),
+  return {.verb = file.string_attribute(call_group, "verb"),
+          .file = file.string_attribute(call_group, "file"),
           .words = read("word"),
           .sets = read("set"),
           .options = read("option")};
