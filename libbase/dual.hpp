@@ -1,11 +1,8 @@
 #pragma once
-/// Numbers that carry their derivatives: a law called with them gives its slopes with its force.
+/// Numbers that carry their derivatives: a function called with them gives its slopes with its value.
 
 #include <Eigen/Core>
 #include <cmath>
-
-#include "libcontact/film.hpp"
-#include "libcontact/laws/blade_tip.hpp"
 
 namespace whirl {
 
@@ -48,14 +45,6 @@ struct Dual {
   friend Dual tanh(const Dual& a) {
     const double y = std::tanh(a.value);
     return {y, (1.0 - y * y) * a.slopes};
-  }
-  friend Dual arc_cotangent(const Dual& a) {
-    return {whirl::arc_cotangent(a.value), -a.slopes / (1.0 + a.value * a.value)};
-  }
-  /// z of z + bend z^3 = d:  z' = d' / (1 + 3 bend z^2).
-  friend Dual indentation(const Dual& d, double bend) {
-    const double z = whirl::indentation(d.value, bend);
-    return {z, d.slopes / (1.0 + 3.0 * bend * z * z)};
   }
 };
 

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/legendre.hpp"
-#include "libcontact/dual.hpp"
+#include "libcontact/dual_functions.hpp"
 #include "libdyn/system/touch_spans.hpp"
 
 namespace whirl {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int gauss_points = 16;
 constexpr double panel = 10.0;    ///< of a span [rad of the product of two highest harmonics]
 constexpr int per_harmonic = 8;   ///< instants of what touches all the time, and of films

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "libcontact/dual.hpp"
+#include "libcontact/dual_functions.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/scenes.hpp"

@@ -1,0 +1,22 @@
+#pragma once
+/// Functions of laws that are no sums, products or roots, for numbers that carry their derivatives.
+
+#include "libbase/dual.hpp"
+#include "libcontact/film.hpp"
+#include "libcontact/laws/blade_tip.hpp"
+
+namespace whirl {
+
+template <int N>
+Dual<N> arc_cotangent(const Dual<N>& a) {
+  return {arc_cotangent(a.value), -a.slopes / (1.0 + a.value * a.value)};
+}
+
+/// z of z + bend z^3 = d:  z' = d' / (1 + 3 bend z^2).
+template <int N>
+Dual<N> indentation(const Dual<N>& d, double bend) {
+  const double z = indentation(d.value, bend);
+  return {z, d.slopes / (1.0 + 3.0 * bend * z * z)};
+}
+
+}  // namespace whirl
