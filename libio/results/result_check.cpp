@@ -205,6 +205,13 @@ void check_result(const ResultReader& file) {
     throw FileError(
         fmt::format("{} is no result of whirl: it holds no model", file.path().string()));
   }
+  const double format =
+      file.has_attribute("/", "format") ? file.number_attribute("/", "format") : 1;
+  if (!(format <= result_format)) {
+    throw FileError(
+        fmt::format("{} has format {}, this whirl reads formats up to {}: take a newer one",
+                    file.path().string(), format, result_format));
+  }
   ResultCheck check(file);
   for (const ResultSet& set : result_schema()) check.check(set);
   check.check_full_vectors();

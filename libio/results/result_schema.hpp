@@ -11,6 +11,11 @@
 
 namespace whirl {
 
+/// Number of the arrangement of result files, their root attribute `format`. It grows when an older
+/// whirl would take a dataset for something else; datasets that are added do not count. Files
+/// without the attribute are of the first one.
+constexpr int result_format = 1;
+
 /// Values that numbers of a dataset or attribute can have.
 struct ValidValues {
   double least = -std::numeric_limits<double>::infinity();

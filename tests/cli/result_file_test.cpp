@@ -46,6 +46,7 @@ TEST_F(Results, HoldTheModelAndTheCommand) {
     make(verb);
     const ResultReader file(folder / (verb + ".h5"));
     EXPECT_TRUE(file.string_attribute("/", "whirl_version").starts_with("0."));
+    EXPECT_EQ(file.number_attribute("/", "format"), 1.0);
     EXPECT_TRUE(has(file.string_attribute("/", "command"), " " + verb + " rub.toml "));
     EXPECT_TRUE(std::regex_match(file.string_attribute("/", "created"),
                                  std::regex("\\d{4}-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ")));

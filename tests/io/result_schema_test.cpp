@@ -25,6 +25,7 @@ struct Content {
   std::vector<int> motion{0, 1, 4, -1};
   double first_speed = 0.0;
   double samples = 64.0;
+  int format = 1;
 };
 
 class ResultSchema : public test::InResultFolder {
@@ -33,6 +34,7 @@ class ResultSchema : public test::InResultFolder {
     {
       ResultWriter file(path, Replaces::anything);
       file.dataset("/model", std::vector<std::string>{model}, {});
+      file.attribute("/", "format", c.format);
       Vec speed = Vec::LinSpaced(3, 0.0, 300.0);
       speed(0) = c.first_speed;
       file.dataset("/campbell/speed", speed, {"rad/s", "speed", {}});
@@ -104,6 +106,11 @@ TEST_F(ResultSchema, RefusesNumbersThatAreNone) {
   EXPECT_EQ(
       found({.first_speed = std::nan("")}),
       "/campbell/speed is damaged or of another program: found nan, expected a finite number");
+}
+
+TEST_F(ResultSchema, RefusesALaterFormat) {
+  EXPECT_NE(problem({.format = 2}).find("has format 2, this whirl reads formats up to 1"),
+            std::string::npos);
 }
 
 TEST_F(ResultSchema, RefusesHalfASet) {
