@@ -13,7 +13,6 @@
 #include "libbase/error.hpp"
 #include "libbase/piece_sizes.hpp"
 #include "libbase/work_queue.hpp"
-#include "libdyn/motions/start.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl {
@@ -193,7 +192,7 @@ StudyPoint StudySetup::point(std::size_t number, const FullState* from) const {
   try {
     p.scene = family_->scene(*p.model);
     p.subject.system = &p.scene->contacts;
-    p.subject.found.end = start_state(*p.model, *p.scene, start);
+    p.subject.found.end = family_->start(*p.model, *p.scene, start);
     if (start && !from) p.subject.found.end.phase = earlier_->phase;
   } catch (const NumericalError& error) {
     p.failure = error.what();

@@ -72,12 +72,9 @@ void displace(const Displaced& d, const Scene& scene, const Nearest& nearest, Ve
   y.tail(n) += pull * share.solve(Vec2(d.vx, d.vy));
 }
 
-void whirl_in(const std::vector<WhirlStart>& wanted, const Scene& scene, const Nearest& nearest,
+void whirl_in(const std::vector<WhirlStart>& wanted, const Modes& modes, const Nearest& nearest,
               Vec& y) {
-  const int n = scene.contacts.coordinates();
-  int highest = 0;
-  for (const WhirlStart& w : wanted) highest = std::max(highest, w.mode);
-  const Modes modes = complex_modes(scene.system, highest);
+  const auto n = y.size() / 2;
   for (const WhirlStart& w : wanted) {
     if (w.mode < 1 || w.mode > static_cast<int>(modes.oscillatory.size())) {
       throw ModelError(w.where, "start.whirl",
@@ -93,7 +90,20 @@ void whirl_in(const std::vector<WhirlStart>& wanted, const Scene& scene, const N
 
 }  // namespace
 
+int modes_of(const Start& start) {
+  int highest = 0;
+  for (const WhirlStart& w : start.whirl) highest = std::max(highest, w.mode);
+  return highest;
+}
+
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end) {
+  const bool has_whirl = !model.start.whirl.empty();
+  return start_state(model, scene, end,
+                     has_whirl ? complex_modes(scene.system, modes_of(model.start)) : Modes{});
+}
+
+MotionState start_state(const Model& model, const Scene& scene, const FullState* end,
+                        const Modes& modes) {
   const Nearest nearest(scene);
   const int n = scene.contacts.coordinates();
   MotionState state;
@@ -104,7 +114,7 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
     state.y = end_of(end, scene, nearest);
   }
   for (const Displaced& d : model.start.displaced) displace(d, scene, nearest, state.y);
-  if (!model.start.whirl.empty()) whirl_in(model.start.whirl, scene, nearest, state.y);
+  whirl_in(model.start.whirl, modes, nearest, state.y);
   return state;
 }
 

@@ -2,6 +2,7 @@
 /// Where a motion begins.
 
 #include "libdyn/system/scene.hpp"
+#include "libfe/modes.hpp"
 
 namespace whirl {
 
@@ -11,5 +12,12 @@ namespace whirl {
 /// @throws ModelError  if the start asks for a mode that does not exist, or for a file that is
 ///                     not given
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end);
+
+/// How many of the lowest modes a start asks for, 0 for none.
+int modes_of(const Start& start);
+
+/// The same with these modes of the scene's system, where many scenes have the same one.
+MotionState start_state(const Model& model, const Scene& scene, const FullState* end,
+                        const Modes& modes);
 
 }  // namespace whirl

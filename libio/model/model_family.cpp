@@ -48,6 +48,12 @@ struct ModelFamily::State {
   std::mutex mutex;
   std::shared_ptr<const Scene> foundation;  ///< assembled and reduced, with some contacts
   std::deque<Known> last;
+  struct KnownModes {
+    double Omega = 0.0;
+    int count = 0;
+    Modes modes;
+  };
+  std::shared_ptr<const KnownModes> modes;  ///< of the last start, in a light family
 };
 
 ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
@@ -117,6 +123,24 @@ std::shared_ptr<const Scene> ModelFamily::scene(std::span<const double> values) 
   state_->last.push_front({{values.begin(), values.end()}, made});
   if (state_->last.size() > remembered) state_->last.pop_back();
   return made;
+}
+
+MotionState ModelFamily::start(const Model& member, const Scene& scene,
+                               const FullState* end) const {
+  const int count = modes_of(member.start);
+  if (count == 0 || !state_->is_light) return start_state(member, scene, end);
+  std::shared_ptr<const State::KnownModes> known;
+  {
+    const std::lock_guard lock(state_->mutex);
+    known = state_->modes;
+  }
+  if (!known || known->Omega != member.speed || known->count != count) {
+    known = std::make_shared<const State::KnownModes>(
+        State::KnownModes{member.speed, count, complex_modes(scene.system, count)});
+    const std::lock_guard lock(state_->mutex);
+    state_->modes = known;
+  }
+  return start_state(member, scene, end, known->modes);
 }
 
 }  // namespace whirl

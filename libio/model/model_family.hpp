@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "libdyn/motions/start.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libio/text/parameter_axis.hpp"
 
@@ -34,6 +35,9 @@ class ModelFamily {
   std::shared_ptr<const Scene> scene(const Model& member) const;
   /// Of the member with these values; the last few are remembered.
   std::shared_ptr<const Scene> scene(std::span<const double> values) const;
+
+  /// Where the motion of a member begins, as start_state.
+  MotionState start(const Model& member, const Scene& scene, const FullState* end) const;
 
  private:
   struct State;

@@ -51,7 +51,9 @@ TEST(ModelFamily, MembersAreThoseOfTheWholeModel) {
       const Scene expected = make_scene(whole, ReductionEstimate::no);
       const auto scene = family.scene(std::vector{value});
       EXPECT_EQ(numbers_of(*scene), numbers_of(expected)) << value;
-      EXPECT_EQ(family.model(std::vector{value}).speed, whole.speed);
+      const Model member = family.model(std::vector{value});
+      EXPECT_EQ(member.speed, whole.speed);
+      EXPECT_EQ(family.start(member, *scene, nullptr).y, start_state(whole, expected, nullptr).y);
     }
   }
 }
