@@ -1,7 +1,6 @@
 // The program: command line in, reports out. The only file that sees CLI11.
 
 #include <fcntl.h>
-#include <fmt/color.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,12 +8,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "apps/bare_speeds.hpp"
 #include "apps/completion.hpp"
+#include "apps/problems.hpp"
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
@@ -30,59 +28,6 @@ namespace {
 using namespace whirl;
 
 enum Status { done = 0, wrong_input = 2, failed = 3 };
-
-/// The part of a line around a column that fits a terminal, and the column in that part.
-std::pair<std::string, int> excerpt(const std::string& line, int column) {
-  constexpr int most = 100, before = 60;
-  std::vector<std::string> signs;  // columns count characters, not bytes
-  for (const char c : line) {
-    const bool continues = (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
-    if (continues && !signs.empty()) {
-      signs.back() += c;
-    } else {
-      signs.emplace_back(1, static_cast<unsigned char>(c) < ' ' ? ' ' : c);
-    }
-  }
-  const int size = static_cast<int>(signs.size());
-  column = std::clamp(column, 1, size + 1);
-  const int from = size <= most ? 0 : std::max(0, column - 1 - before);
-  const int to = std::min(size, from + most);
-  std::string text = from > 0 ? "…" : "";
-  for (int i = from; i < to; ++i) text += signs[static_cast<std::size_t>(i)];
-  return {text + (to < size ? "…" : ""), column - from + (from > 0 ? 1 : 0)};
-}
-
-/// Prints every problem with the line it is in and a mark below the place.
-void print_problems(const ModelError& error, const Invocation& call, const std::string* speed) {
-  std::map<std::string, std::vector<std::string>> texts;
-  const auto lines_of = [&](const std::string& name) -> const std::vector<std::string>& {
-    const auto known = texts.find(name);
-    if (known != texts.end()) return known->second;
-    std::vector<std::string> lines;
-    std::istringstream stored(call.model_text);
-    std::ifstream file(name);
-    const bool is_stored = name == call.file && !call.model_text.empty();
-    std::istream& from = is_stored ? stored : static_cast<std::istream&>(file);
-    for (std::string line; std::getline(from, line);) lines.push_back(line);
-    if (!lines.empty() && lines[0].starts_with("\x89HDF"))
-      lines.clear();  // a result: nothing to show
-    return texts[name] = lines;
-  };
-  for (Problem problem : error.problems()) {
-    if (problem.where.file.empty()) problem.where.file = call.file;
-    if (speed && problem.where.file == "--set operation.speed=" + *speed) {
-      problem.where.file = "--speed " + *speed;
-      problem.key.clear();
-    }
-    fmt::print(stderr, "{}\n", describe(problem));
-    const Where& w = problem.where;
-    if (w.line <= 0) continue;
-    const auto& lines = lines_of(w.file);
-    if (static_cast<std::size_t>(w.line) > lines.size()) continue;
-    const auto [text, column] = excerpt(lines[static_cast<std::size_t>(w.line - 1)], w.column);
-    fmt::print(stderr, "{:>5} | {}\n      | {:>{}}\n", w.line, text, "^", column);
-  }
-}
 
 /// Help of the whole program: verbs by group, an example each.
 std::string overview() {
