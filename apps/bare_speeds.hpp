@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 
 namespace whirl {
 

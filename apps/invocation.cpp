@@ -1,6 +1,8 @@
+#include "apps/invocation.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <ctime>
 #include <filesystem>
@@ -43,14 +45,19 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 
 }  // namespace
 
-std::string Invocation::text(const std::string& option, const std::string& otherwise) const {
-  const auto found = given.find(option);
-  return found == given.end() ? otherwise : found->second;
+std::string Invocation::text(const std::string& option) const {
+  if (has(option)) return given.at(option);
+  const auto spec = option_named(*verb_named(verb), option);
+  return spec ? std::string(spec->otherwise) : "";
 }
 
-long Invocation::integer(const std::string& option, long otherwise, long least) const {
-  if (!has(option)) return otherwise;
-  const std::string& value = given.at(option);
+std::string Invocation::text_or(const std::string& option, const std::string& otherwise) const {
+  return has(option) ? given.at(option) : otherwise;
+}
+
+long Invocation::integer(const std::string& option, long least) const {
+  const std::string value = text(option);
+  assert(has(option) || !value.empty());
   long number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   constexpr long most = 1'000'000'000;
@@ -61,11 +68,15 @@ long Invocation::integer(const std::string& option, long otherwise, long least) 
   return number;
 }
 
-double Invocation::number(const std::string& option, std::string_view unit,
-                          double otherwise) const {
-  if (!has(option)) return otherwise;
-  const auto value = parse_as(given.at(option), unit);
-  if (!value) throw option_error(option, given.at(option), value.problem);
+long Invocation::integer_or(const std::string& option, long otherwise, long least) const {
+  return has(option) ? integer(option, least) : otherwise;
+}
+
+double Invocation::number(const std::string& option, std::string_view unit) const {
+  const std::string given_or_default = text(option);
+  assert(has(option) || !given_or_default.empty());
+  const auto value = parse_as(given_or_default, unit);
+  if (!value) throw option_error(option, given_or_default, value.problem);
   return *value;
 }
 
@@ -91,11 +102,7 @@ Call Invocation::parts() const {
   parts.sets.insert(parts.sets.end(), sets.begin(), sets.end());
   for (const std::string& values : over) parts.options.push_back("--over=" + values);
   for (const auto& [name, value] : given) {
-    const auto& own = verb_named(verb)->options;
-    const bool is_own_flag = std::any_of(own.begin(), own.end(), [&](const OptionSpec& option) {
-      return option.name == name && option.value.empty();
-    });
-    const bool is_flag = is_own_flag || name == "force";
+    const bool is_flag = option_named(*verb_named(verb), name)->is_flag();
     parts.options.push_back(is_flag ? "--" + name : "--" + name + "=" + value);
   }
   return parts;
@@ -123,13 +130,11 @@ void Invocation::require_free_places(const std::string& json) const {
       if (is_same_file(place, other)) refuse(place, "this command reads it");
     }
   };
-  const auto& own = verb_named(verb)->options;
-  const auto own_out =
-      std::find_if(own.begin(), own.end(), [](const OptionSpec& o) { return o.name == "out"; });
-  if (!out.empty() && own_out == own.end()) {
+  const std::string_view kind = option_named(*verb_named(verb), "out")->value;
+  if (!out.empty() && kind == "FILE.h5") {
     FileReplacement{out, result_replaces()};  // what is wrong with it is said before the work
   }
-  const bool is_stem = own_out != own.end() && own_out->value == "NAME";
+  const bool is_stem = kind == "NAME";
   if (!out.empty() && !is_stem) require_no_input(out);
   if (has("svg")) {
     require_no_input(text("svg"));

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 #include "libbase/error.hpp"
 
 namespace whirl {

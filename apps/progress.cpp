@@ -1,3 +1,5 @@
+#include "apps/progress.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -5,8 +7,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-
-#include "apps/verb.hpp"
 
 namespace whirl {
 

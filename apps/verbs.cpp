@@ -1,284 +1,40 @@
-// The list of verbs. A new verb is a file in verbs/ and an entry here.
+// The list of verbs, in the order of the help. A new verb is a file in verbs/ and a line here.
 
-#include "apps/verbs/all.hpp"
-#include "apps/verbs/simulation.hpp"
-#include "apps/verbs/study.hpp"
+#include "apps/verb.hpp"
+
+// clang-format off
+#define VERBS        \
+  check_verb(),      \
+  static_verb(),     \
+  modes_verb(),      \
+  campbell_verb(),   \
+  resonances_verb(), \
+  critical_verb(),   \
+  unbalance_verb(),  \
+  simulate_verb(),   \
+  identify_verb(),   \
+  classify_verb(),   \
+  orbit_verb(),      \
+  continue_verb(),   \
+  torus_verb(),      \
+  sweep_verb(),      \
+  map_verb(),        \
+  basins_verb(),     \
+  bench_verb(),      \
+  export_verb(),     \
+  animate_verb(),    \
+  report_verb(),     \
+  plot_verb()
+// clang-format on
 
 namespace whirl {
 
-namespace {
-
-const OptionSpec speeds{"speeds", "A:B:STEP", "speeds, such as 0:8000:50rpm"};
-
-const OptionSpec over{"over", "PATH=A:B:STEP",
-                      "a value of the model and what it runs over: first:last:step, first:last "
-                      "with --points, or value,value,..."};
-const OptionSpec frame{"frame", "F", "in which it repeats: stationary (the default), or rotating"};
-const OptionSpec frequency{"frequency", "U", "unit of frequency axes: Hz, cpm or rad/s (Hz)"};
-const OptionSpec orbit_method_option{"method", "M", "shooting (the default), or harmonic-balance"};
-const OptionSpec harmonics{"harmonics", "N",
-                           "of harmonic balance, of the orbit's frequency (as many as it takes)"};
-const OptionSpec from_revolution{"from-revolution", "N",
-                                 "first revolution of a motion, counted from its start"};
-const OptionSpec times{"times", "A:B", "instead of revolutions, from A to B [s] of a motion"};
-const OptionSpec points{"points", "N", "how many values a range without a step has"};
-
-std::vector<OptionSpec> with_integration(std::vector<OptionSpec> own) {
-  own.insert(own.end(), integration_options().begin(), integration_options().end());
-  return own;
-}
-
-}  // namespace
+// The list twice: as declarations of functions, each in the file of its verb, and as their calls.
+Verb VERBS;
 
 const std::vector<Verb>& verbs() {
-  static const std::vector<Verb> all{
-      {"check",
-       "The model",
-       "reads and checks a model, draws its layout",
-       "MODEL",
-       "whirl check models/two_disk_mac.toml",
-       {},
-       run_check},
-      {"static",
-       "The model",
-       "sag under gravity and bearing loads",
-       "MODEL",
-       "whirl static models/two_disk_double_rub.toml",
-       {},
-       run_static},
-      {"modes",
-       "Linear rotordynamics",
-       "complex modes at a speed",
-       "MODEL",
-       "whirl modes models/two_disk_mac.toml --speed 4430rpm",
-       {{"modes", "N", "how many modes (8)"}},
-       run_modes},
-      {"campbell",
-       "Linear rotordynamics",
-       "modes followed over speeds, with the critical speeds",
-       "MODEL",
-       "whirl campbell models/two_disk_mac.toml --speeds 0:8000:50rpm",
-       {{"modes", "N", "how many modes (8)"}, speeds},
-       run_campbell},
-      {"resonances",
-       "Linear rotordynamics",
-       "speeds at which two modes are in p:q resonance seen from the rotor, where it may bounce",
-       "MODEL",
-       "whirl resonances models/two_disk_mac.toml --speeds 1000:8000:50rpm --confirm",
-       {{"modes", "N", "how many modes (4)"},
-        speeds,
-        {"largest", "N", "of p and q (4)"},
-        {"confirm", "", "look for bouncing motions near each of them"},
-        {"starts", "N", "of them at every speed that is tried (16)"},
-        {"seed", "S", "of the random starts (1)"}},
-       run_resonances},
-      {"critical",
-       "Linear rotordynamics",
-       "critical speeds, directly",
-       "MODEL",
-       "whirl critical models/two_disk_mac.toml",
-       {{"modes", "N", "how many critical speeds (6)"},
-        {"order", "N", "excitation frequency over speed (1)"}},
-       run_critical},
-      {"unbalance",
-       "Linear rotordynamics",
-       "steady unbalance response over speeds",
-       "MODEL",
-       "whirl unbalance models/two_disk_mac.toml --speeds 0:8000:10rpm",
-       {speeds, {"stations", "NAME,...", "names, node numbers or all (all)"}},
-       run_unbalance},
-      {"simulate", "Contact", "integrates in time, contacts and all", "MODEL",
-       "whirl simulate models/two_disk_mac.toml --speed 4430rpm --out run.h5", with_integration({}),
-       run_simulate},
-      {"identify", "Contact", "says which complex modes make up the motion (MAC)", "MODEL",
-       "whirl identify models/two_disk_mac.toml --out run.h5",
-       with_integration(
-           {{"modes", "N", "how many modes to compare with (8)"},
-            {"rotations", "", "let tilts count too, times the rotor's length"},
-            {"mass-weighted", "", "weight the MAC with the mass matrix"},
-            {"stiffened", "", "modes of the rotor with its contacts closed for good"}}),
-       run_identify},
-      {"classify",
-       "Contact",
-       "tells the kind of the steady motion: periodic, quasi-periodic, chaotic",
-       "MODEL",
-       "whirl classify models/jeffcott_stator.toml --set contact.ring.friction=0.15",
-       {{"revolutions", "N", "revolutions over which Lyapunov exponents are averaged (1000)"},
-        discard_option,
-        tolerance_option,
-        from_option},
-       run_classify},
-      {"orbit",
-       "Contact",
-       "one periodic orbit, stable or not, with its Floquet multipliers",
-       "MODEL",
-       "whirl orbit models/jeffcott_stator.toml --period 1",
-       {{"period", "N", "revolutions after which it repeats (1; of --point, that of its branch)"},
-        frame,
-        {"point", "N", "begins at this point of the branches of --from, its value included"},
-        orbit_method_option,
-        harmonics,
-        {"verify", "", "how far harmonic balance is from shooting"},
-        {"starts", "N", "all orbits near so many random starts, unstable ones too"},
-        {"seed", "S", "of the random starts (1)"},
-        {"size", "R", "how far they are, in clearances (0.5)"},
-        discard_option,
-        tolerance_option,
-        from_option},
-       run_orbit},
-      {"continue",
-       "Contact",
-       "a branch of periodic orbits along a parameter, round its folds, with its bifurcations",
-       "MODEL",
-       "whirl continue models/jeffcott_stator.toml --speed 138.4rad/s --set "
-       "contact.ring.stiffness=64e6 --over contact.ring.friction=0.1:0.15:0.002 --at 0.15",
-       {{"over", "PATH=A:B:STEP",
-         "a value of the model, from where to where, and the largest step; first:last: a "
-         "hundredth; a second one: borders in the plane of both"},
-        points,
-        {"at", "VALUE[,VALUE]",
-         "where the first orbit is looked for, between first and last (first)"},
-        {"period", "N", "revolutions after which the first orbit repeats (1)"},
-        frame,
-        orbit_method_option,
-        harmonics,
-        {"switch", "N",
-         "generations of branches that begin at period doublings and pitchforks (0)"},
-        {"most", "N", "points of a branch at most (2000)"},
-        {"stations", "NAME,...", "whose amplitude is said: names, node numbers, all (as sweep)"},
-        discard_option,
-        tolerance_option,
-        from_option,
-        {"restart", "", "begin anew, whatever the file of --out holds"}},
-       run_continue},
-      {"torus",
-       "Contact",
-       "a quasi-periodic motion as an invariant circle, and along a parameter until it locks or "
-       "breaks",
-       "MODEL",
-       "whirl torus models/two_disk_mac.toml --discard 1500 --harmonics 33",
-       {{"over", "PATH=A:B:STEP", "a value of the model along which the circle is followed"},
-        points,
-        {"at", "VALUE", "where the first circle is looked for, between first and last (first)"},
-        {"period", "N", "revolutions of the map that it is a circle of (1)"},
-        {"harmonics", "N", "of the circle at first, doubled up to 64 (16)"},
-        {"revolutions", "N", "sections from which it is guessed (1000)"},
-        {"most", "N", "circles at most (200)"},
-        discard_option,
-        tolerance_option,
-        from_option},
-       run_torus},
-      {"sweep", "Contact", "bifurcation diagram and spectra along one parameter, up and down",
-       "MODEL",
-       "whirl sweep models/jeffcott_stator.toml --over operation.speed=130:140:0.5rad/s --out "
-       "sweep.h5",
-       study_options({over,
-                      points,
-                      {"fresh", "", "every value from the model's start, not from the one before"},
-                      {"sections", "N", "Poincare sections kept of a motion (64)"},
-                      {"spectra", "N", "revolutions of a value's spectrum (32); 0: none"},
-                      {"stations", "NAME,...",
-                       "of sections and spectra: names, node numbers, all (contacts, disks, "
-                       "bearings)"}}),
-       run_sweep},
-      {"map", "Contact", "a plane of two parameters, or several planes, every point classified",
-       "MODEL",
-       "whirl map models/jeffcott_stator.toml --over operation.speed=130:160:2rad/s --over "
-       "contact.ring.stiffness=10:150:10MN/m --out map.h5",
-       study_options({over, points}), run_map},
-      {"basins", "Contact", "coexisting motions, and how much of the starts each attracts", "MODEL",
-       "whirl basins models/jeffcott_stator.toml --set contact.ring.stiffness=50e6 --starts 500",
-       study_options({{"starts", "N", "starts: that of the model, the others random around it (256)"},
-                      {"seed", "S", "of the random starts (1)"},
-                      {"size", "R", "how far they are, in clearances (0.5)"},
-                      {"over", "PATH=A:B:STEP",
-                       "instead of random starts, values of the model's start: "
-                       "start.displaced.1.x=-1:1:0.1mm"},
-                      points}),
-       run_basins},
-      {"bench",
-       "Contact",
-       "speed against error of every integrator on this model",
-       "MODEL",
-       "whirl bench models/two_disk_mac.toml --methods dop853,rk4 --tolerances 1e-6,1e-10 --svg "
-       "bench.svg",
-       {{"revolutions", "N", "revolutions that are measured (20)"},
-        discard_option,
-        {"methods", "M,...", "integrators, as of simulate --method (all)"},
-        {"tolerances", "T,...", "of their steps (1e-4,1e-6,1e-8,1e-10,1e-12)"},
-        from_option,
-        {"svg", "FILE", "picture of time over error, both logarithmic"}},
-       run_bench},
-      {"export",
-       "Results",
-       "a result or a model to other programs",
-       "FILE",
-       "whirl export run.h5 --format vtk --out run",
-       {{"format", "F",
-         "vtk: series for ParaView (the default); xdmf: longer ones; csv: tables; vtu; with meshio "
-         "abaqus, nastran, gmsh, exodus, "
-         "med, stl, ..."},
-        {"out", "NAME", "where the files go, without an ending; left out: beside FILE"},
-        from_revolution,
-        {"revolutions", "N", "revolutions of a motion, left alone: the last ones (4; xdmf: 64)"},
-        times,
-        {"frames", "N", "frames of a motion at most (128; xdmf: all)"},
-        {"modes", "N", "mode shapes (4)"}},
-       run_export},
-      {"animate",
-       "Results",
-       "a film of a motion or of a mode",
-       "FILE",
-       "whirl animate run.h5 --out run.ogv",
-       {{"out", "FILE",
-         "film .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE"},
-        {"mode", "N", "this mode (the motion of a result; of others, 1)"},
-        from_revolution,
-        {"revolutions", "N", "revolutions of a motion, left alone: the last ones (4)"},
-        times,
-        {"frames", "N", "pictures: of a motion at most (120), of a mode's cycle (60)"},
-        {"size", "WxH", "pixels (960x540)"},
-        {"rate", "N", "pictures per second of a film (25)"}},
-       run_animate},
-      {"report",
-       "Results",
-       "one HTML page with every figure of a result",
-       "RESULT.h5",
-       "whirl report run.h5 --out run.html",
-       {{"out", "FILE.html", "the page; left out: beside the result"}, frequency},
-       run_report,
-       "OTHER.h5",
-       "further results on the same page"},
-      {"plot",
-       "Results",
-       "one figure of a result, ready for a paper",
-       "RESULT.h5",
-       "whirl plot run.h5 orbit --out orbit.svg",
-       {{"out", "FILE", "picture, .svg, .png or .pdf; left out: .svg beside the result"},
-        {"which", "NAME", "of several of a kind: the station, contact or plane (the first)"},
-        {"with", "OTHER.h5",
-         "branches over bifurcation, borders over map, where both are of the same values"},
-        {"size", "WxHmm", "of the printed picture, such as 85x60mm; cm, in and pt too"},
-        {"font", "PT", "letters of axes and legend in points (9; of a given size 8)"},
-        {"no-title", "", "without title and subtitle, for a caption below"},
-        {"format", "F", "svg, png or pdf, whatever --out ends in"},
-        from_revolution,
-        {"revolutions", "N",
-         "revolutions of a motion, left alone: the last ones (8; orbit: 48; poincare: all)"},
-        times,
-        frequency},
-       run_plot,
-       "KIND",
-       "what to draw; left out: lists what the result holds"},
-  };
+  static const std::vector<Verb> all{VERBS};
   return all;
-}
-
-const Verb* verb_named(std::string_view name) {
-  for (const Verb& verb : verbs()) {
-    if (verb.name == name) return &verb;
-  }
-  return nullptr;
 }
 
 }  // namespace whirl

@@ -12,6 +12,7 @@
 
 #include "apps/bare_speeds.hpp"
 #include "apps/completion.hpp"
+#include "apps/invocation.hpp"
 #include "apps/problems.hpp"
 #include "apps/verb.hpp"
 #include "apps/version.hpp"
@@ -138,8 +139,6 @@ int run(const std::vector<std::string>& words, const StoredModel& stored) {
   std::vector<std::string> sets;
   std::map<std::string, std::string> values;
   std::map<std::string, bool> flags;
-  std::string json, speed;
-  bool quiet = false;
 
   const std::string word = words.size() > 1 ? words[1] : "";
   const Verb* const verb = verb_named(word);
@@ -159,38 +158,19 @@ int run(const std::vector<std::string>& words, const StoredModel& stored) {
     app.add_option(std::string(verb->takes_more), call.words, std::string(verb->takes_more_help))
         ->type_name("");
   }
-  app.add_option("--set", sets, "set a value of the model by its path; may be given several times")
-      ->type_name("PATH=VALUE")
-      ->take_all()
-      ->expected(1);
-  app.add_option("--speed", speed, "operating speed, such as 3650rpm")->type_name("S")->take_last();
-  bool has_out = false;
-  for (const OptionSpec& option : verb->options) {
-    const std::string name(option.name);
-    has_out = has_out || name == "out";
-    if (name == "over") {
-      app.add_option("--over", call.over, std::string(option.help))
+  for (const OptionSpec& option : options_of(*verb)) {
+    const std::string name(option.name), dashed = "--" + name, help = help_of(option);
+    if (name == "set" || name == "over") {
+      app.add_option(dashed, name == "set" ? sets : call.over, help)
           ->type_name(std::string(option.value))
           ->take_all()
           ->expected(1);
-    } else if (option.value.empty()) {
-      app.add_flag("--" + name, flags[name], std::string(option.help));
+    } else if (option.is_flag()) {
+      app.add_flag(dashed, flags[name], help);
     } else {
-      app.add_option("--" + name, values[name], std::string(option.help))
-          ->type_name(std::string(option.value))
-          ->take_last();
+      app.add_option(dashed, values[name], help)->type_name(std::string(option.value))->take_last();
     }
   }
-  if (!has_out)
-    app.add_option("--out", values["out"], "result file (HDF5)")->type_name("FILE.h5")->take_last();
-  app.add_option("--json", json, "write the result as JSON; - is standard output")
-      ->type_name("FILE")
-      ->take_last();
-  app.add_option("--threads", values["threads"], "processors to use at most; left out: all")
-      ->type_name("N")
-      ->take_last();
-  app.add_flag("--force", flags["force"], "replace files that whirl did not write, too");
-  app.add_flag("--quiet", quiet, "print nothing but errors");
   try {
     std::vector<std::string> arguments(words.rbegin(), words.rend() - 2);
     app.parse(arguments);
@@ -203,11 +183,14 @@ int run(const std::vector<std::string>& words, const StoredModel& stored) {
     return wrong_input;
   }
   for (const auto& [name, value] : values) {
+    if (name == "json" || name == "speed") continue;
     if (app.count("--" + name) > 0) call.given[name] = value;
   }
   for (const auto& [name, value] : flags) {
-    if (value) call.given[name] = "";
+    if (value && name != "quiet") call.given[name] = "";
   }
+  const std::string json = values["json"], speed = values["speed"];
+  const bool quiet = flags["quiet"];
   if (app.count("--speed") > 0) sets.push_back("operation.speed=" + speed);
   call.sets = sets;
   call.shows_progress = !quiet;
@@ -217,7 +200,7 @@ int run(const std::vector<std::string>& words, const StoredModel& stored) {
   }
 
   try {
-    call.integer("threads", 1);
+    if (call.has("threads")) call.integer("threads");
     call.require_free_places(json);
     const std::vector<BareSpeed> bare = bare_speeds(call, speed);
     if (!quiet) {

@@ -8,9 +8,11 @@
 #include <cstring>
 #include <optional>
 
+#include "apps/invocation.hpp"
 #include "apps/program.hpp"
-#include "apps/verbs/all.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/scene_source.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"
@@ -143,23 +145,21 @@ void make_gif(const fs::path& name, const fs::path& to, long rate, const fs::pat
                  "imagemagick), and neither is there; .ogv and .png need none of them");
 }
 
-}  // namespace
-
 Report run_animate(const Invocation& call) {
   const SceneSource source(call);
-  const fs::path out = call.text("out", fs::path(call.file).replace_extension(".ogv").string());
+  const fs::path out = call.text_or("out", fs::path(call.file).replace_extension(".ogv").string());
   const std::string ending = out.extension();
   if (ending != ".ogv" && ending != ".gif" && ending != ".png") {
     throw wrong("--out " + out.string(), "expected a film .ogv or .gif, or pictures .png");
   }
   FileReplacement{out, call.picture_replaces()};  // a wrong place is said before the work
-  const auto size = size_of(call.text("size", "960x540"));
-  const long number = call.integer("mode", 0);
+  const auto size = size_of(call.text("size"));
+  const long number = call.integer_or("mode", 0);
   std::vector<VtkFrame> frames;
   std::string title, shown;
   if (number == 0 && source.has_motion()) {
     const MotionSamples samples = source.samples(call, 4.0);
-    frames = source.motion(samples, call.integer("frames", 120));
+    frames = source.motion(samples, call.integer_or("frames", 120));
     title = source.model.title.empty() ? samples.text : source.model.title;
     shown = ", " + samples.text;
   } else {
@@ -168,19 +168,19 @@ Report run_animate(const Invocation& call) {
                   "are of motions, and this is a mode");
     }
     const long wanted = std::max(1L, number);
-    source.each_mode(wanted, static_cast<int>(call.integer("frames", 60)),
+    source.each_mode(wanted, static_cast<int>(call.integer_or("frames", 60)),
                      [&](int n, const Mode& mode, const std::vector<VtkFrame>& cycle) {
                        if (n != wanted) return;
                        frames = cycle;
                        title = told(n, mode);
                      });
-    if (frames.empty()) throw wrong("--mode " + call.text("mode", "1"), "there is no such mode");
+    if (frames.empty()) throw wrong("--mode " + call.text_or("mode", "1"), "there is no such mode");
   }
 
   const Folder folder(out);
   const fs::path series = folder.path / "series.pvd";
   write_vtk_series(series, source.scene, frames);
-  const long rate = call.integer("rate", 25);
+  const long rate = call.integer("rate");
   const fs::path drawn = folder.path / (ending == ".gif" ? "film.png" : "film" + ending);
   render(series, drawn, size, rate, title, folder.path / "output.txt");
   if (ending == ".gif") make_gif(drawn, folder.path / "film.gif", rate, folder.path / "output.txt");
@@ -206,6 +206,30 @@ Report run_animate(const Invocation& call) {
   report.text =
       fmt::format("  {}: {} frames{}, {}\n", files.front().string(), frames.size(), shown, title);
   return report;
+}
+
+}  // namespace
+
+Verb animate_verb() {
+  return {
+      .name = "animate",
+      .group = "Results",
+      .summary = "a film of a motion or of a mode",
+      .takes = "FILE",
+      .example = "whirl animate run.h5 --out run.ogv",
+      .options = {{"out", "FILE",
+                   "film .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE"},
+                  {"mode", "N", "this mode; left out: the motion of a result, of others mode 1"},
+                  from_revolution_option,
+                  {"revolutions", "N",
+                   "revolutions of a motion, given alone: the last ones; left out: 4"},
+                  times_option,
+                  {"frames", "N",
+                   "pictures; left out: of a motion at most 120, of a mode's cycle 60"},
+                  {"size", "WxH", "pixels", "960x540"},
+                  {"rate", "N", "pictures per second of a film", "25"}},
+      .run = run_animate,
+  };
 }
 
 }  // namespace whirl

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "libbase/error.hpp"
@@ -94,8 +97,6 @@ struct Basin {
   std::size_t first = 0, count = 0;
 };
 
-}  // namespace
-
 Report run_basins(const Invocation& call) {
   StudySetup setup(call, 0, 2);
   for (const ParameterAxis& axis : setup.axes()) {
@@ -108,9 +109,9 @@ Report run_basins(const Invocation& call) {
   setup.options().sections = setup.options().longest_period;
   const Starts starts{
       .setup = setup,
-      .count = setup.axes().empty() ? static_cast<std::size_t>(call.integer("starts", 256)) : 0,
-      .size = call.number("size", "", 0.5),
-      .seed = static_cast<std::uint64_t>(call.integer("seed", 1, 0))};
+      .count = setup.axes().empty() ? static_cast<std::size_t>(call.integer("starts")) : 0,
+      .size = call.number("size", ""),
+      .seed = static_cast<std::uint64_t>(call.integer("seed", 0))};
   if (!setup.axes().empty() && call.has("starts")) {
     throw ModelError({"--starts " + call.text("starts")}, "",
                      "with --over the starts are those of its values");
@@ -237,6 +238,27 @@ Report run_basins(const Invocation& call) {
                 fmt::format("; {} starts\n\n", table.points()) + text.text();
   add_outcome(call, outcome, table, report);
   return report;
+}
+
+}  // namespace
+
+Verb basins_verb() {
+  return {
+      .name = "basins",
+      .group = "Contact",
+      .summary = "coexisting motions, and how much of the starts each attracts",
+      .example =
+          "whirl basins models/jeffcott_stator.toml --set contact.ring.stiffness=50e6 --starts 500",
+      .options = study_options(
+          {{"starts", "N", "starts: that of the model, the others random around it", "256"},
+           seed_option,
+           start_size_option,
+           {"over", "PATH=A:B:STEP",
+            "instead of random starts, values of the model's start: "
+            "start.displaced.1.x=-1:1:0.1mm"},
+           points_option}),
+      .run = run_basins,
+  };
 }
 
 }  // namespace whirl

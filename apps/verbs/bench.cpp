@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/work_precision.hpp"
@@ -26,8 +29,8 @@ constexpr double poor_reference = 1e-10;  ///< its own error
 
 struct BenchOptions {
   std::vector<std::string> methods;
-  std::vector<double> tolerances{1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  long revolutions = 20, discard = 500;
+  std::vector<double> tolerances;
+  long revolutions = 0, discard = 0;
 };
 
 std::vector<std::string> parts_of(const std::string& list) {
@@ -42,20 +45,17 @@ std::vector<std::string> parts_of(const std::string& list) {
 
 BenchOptions options_of(const Invocation& call) {
   BenchOptions options;
-  options.revolutions = call.integer("revolutions", options.revolutions);
-  options.discard = call.integer("discard", options.discard, 0);
+  options.revolutions = call.integer("revolutions");
+  options.discard = call.integer("discard", 0);
   const auto names = candidate_names();
   options.methods.assign(names.begin(), names.end());
   if (call.has("methods")) options.methods = parts_of(call.text("methods"));
   for (const std::string& m : options.methods) require_method(m, names, "--methods " + m);
-  if (call.has("tolerances")) {
-    options.tolerances.clear();
-    for (const std::string& part : parts_of(call.text("tolerances"))) {
-      const auto value = parse_as(part, "");
-      if (!value) throw ModelError({"--tolerances " + part}, "", value.problem);
-      require_tolerance(*value, "--tolerances " + part);
-      options.tolerances.push_back(*value);
-    }
+  for (const std::string& part : parts_of(call.text("tolerances"))) {
+    const auto value = parse_as(part, "");
+    if (!value) throw ModelError({"--tolerances " + part}, "", value.problem);
+    require_tolerance(*value, "--tolerances " + part);
+    options.tolerances.push_back(*value);
   }
   return options;
 }
@@ -227,8 +227,6 @@ Figure figure_of(const Bench& bench, const Model& model) {
   return work_precision_figure(data);
 }
 
-}  // namespace
-
 Report run_bench(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
@@ -247,6 +245,27 @@ Report run_bench(const Invocation& call) {
   if (file) write(*file, bench, model);
   commit(call, file.get(), report);
   return report;
+}
+
+}  // namespace
+
+Verb bench_verb() {
+  return {
+      .name = "bench",
+      .group = "Contact",
+      .summary = "speed against error of every integrator on this model",
+      .example =
+          "whirl bench models/two_disk_mac.toml --methods dop853,rk4 --tolerances 1e-6,1e-10 --svg "
+          "bench.svg",
+      .options = {{"revolutions", "N", "revolutions that are measured", "20"},
+                  discard_option,
+                  {"methods", "M,...",
+                   "integrators, as of simulate --method; left out: all that suit the model"},
+                  {"tolerances", "T,...", "of their steps", "1e-4,1e-6,1e-8,1e-10,1e-12"},
+                  from_option,
+                  {"svg", "FILE", "picture of time over error, both logarithmic"}},
+      .run = run_bench,
+  };
 }
 
 }  // namespace whirl

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/progress.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
 #include "libio/results/hdf5.hpp"
@@ -84,7 +85,7 @@ BranchParameters branch_parameters(const Invocation& call, const Model& model) {
       throw ModelError({"--at " + call.text("at")}, "", "expected one value for one --over");
     }
   }
-  const int points = static_cast<int>(call.integer("points", 101, 2));
+  const int points = static_cast<int>(call.integer("points", 2));
   BranchParameters p{.along = parameter_of(call.over[0], at, points)};
   std::vector<ParameterAxis> axes{p.along.axis};
   if (call.over.size() == 2) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 #include "apps/verbs/branches.hpp"
 #include "libdyn/branches/border.hpp"
 #include "libio/model/model_family.hpp"

@@ -25,7 +25,7 @@ BranchStart branch_start(const Invocation& call) {
     throw FileError(name + " holds no branches; whirl continue --out writes them");
   }
   const Mat states = file.matrix("/branch/state");
-  const long number = call.integer("point", 1);
+  const long number = call.integer("point");
   if (number > states.rows()) {
     throw ModelError({"--point " + call.text("point")}, "",
                      fmt::format("expected a number from 1 to {}", states.rows()));

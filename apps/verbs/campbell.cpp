@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "libfe/modes.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
@@ -102,13 +104,11 @@ std::string campbell_text(const Campbell& diagram) {
       which, frequency.text(), decrement.text(), has_heavy ? heavy_legend : "");
 }
 
-}  // namespace
-
 Report run_campbell(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
   const std::vector<double> speeds = call.speeds(model);
-  const int count = static_cast<int>(call.integer("modes", 8));
+  const int count = static_cast<int>(call.integer("modes"));
   const Campbell diagram = campbell(assembler, speeds, count);
 
   Report report{.record = begin_record(call, model)};
@@ -156,6 +156,19 @@ Report run_campbell(const Invocation& call) {
     commit(call, file.get(), report);
   }
   return report;
+}
+
+}  // namespace
+
+Verb campbell_verb() {
+  return {
+      .name = "campbell",
+      .group = "Linear rotordynamics",
+      .summary = "modes followed over speeds, with the critical speeds",
+      .example = "whirl campbell models/two_disk_mac.toml --speeds 0:8000:50rpm",
+      .options = {{"modes", "N", "how many modes", "8"}, speeds_option},
+      .run = run_campbell,
+  };
 }
 
 }  // namespace whirl

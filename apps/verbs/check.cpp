@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "libfe/properties.hpp"
 #include "libio/drawing/terminal_layout.hpp"
@@ -12,6 +13,8 @@
 #include "libio/text/terminal.hpp"
 
 namespace whirl {
+
+namespace {
 
 Report run_check(const Invocation& call) {
   const Model model = call.model();
@@ -61,6 +64,18 @@ Report run_check(const Invocation& call) {
     commit(call, file.get(), report);
   }
   return report;
+}
+
+}  // namespace
+
+Verb check_verb() {
+  return {
+      .name = "check",
+      .group = "The model",
+      .summary = "reads and checks a model, draws its layout",
+      .example = "whirl check models/two_disk_mac.toml",
+      .run = run_check,
+  };
 }
 
 }  // namespace whirl

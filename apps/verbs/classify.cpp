@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
@@ -76,17 +79,15 @@ std::string evidence(const Classification& c, double period) {
   return text + "\n" + table.text();
 }
 
-}  // namespace
-
 Report run_classify(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);
   ClassifyOptions options;
-  options.revolutions = call.integer("revolutions", options.revolutions);
-  options.discard = call.integer("discard", options.discard, 0);
+  options.revolutions = call.integer("revolutions");
+  options.discard = call.integer("discard", 0);
   options.exponents = options.revolutions;
-  options.tolerance = call.number("tolerance", "", options.tolerance);
+  options.tolerance = call.number("tolerance", "");
   require_tolerance(options.tolerance, "--tolerance " + call.text("tolerance"));
   const Scene scene = make_scene(model);
   Progress progress("classifying", options.discard + options.revolutions, call.shows_progress);
@@ -137,6 +138,23 @@ Report run_classify(const Invocation& call) {
   }
   commit(call, file.get(), report);
   return report;
+}
+
+}  // namespace
+
+Verb classify_verb() {
+  return {
+      .name = "classify",
+      .group = "Contact",
+      .summary = "tells the kind of the steady motion: periodic, quasi-periodic, chaotic",
+      .example = "whirl classify models/jeffcott_stator.toml --set contact.ring.friction=0.15",
+      .options = {{"revolutions", "N", "revolutions over which Lyapunov exponents are averaged",
+                   "1000"},
+                  discard_option,
+                  tolerance_option,
+                  from_option},
+      .run = run_classify,
+  };
 }
 
 }  // namespace whirl

@@ -137,7 +137,6 @@ std::string point_label(const NamedPoint& point) {
 }
 
 void set_frequency_unit(const Invocation& call, ResultView& result) {
-  if (!call.has("frequency")) return;
   const std::string name = call.text("frequency");
   const auto unit = frequency_unit(name);
   if (!unit) throw ModelError({"--frequency " + name}, "", "expected Hz, cpm or rad/s");
@@ -159,10 +158,10 @@ MotionWindow window_of(const Invocation& call) {
     window.times = {range->first, range->last};
   }
   if (call.has("from-revolution")) {
-    window.from_revolution = static_cast<double>(call.integer("from-revolution", 0, 0));
+    window.from_revolution = static_cast<double>(call.integer("from-revolution", 0));
   }
   if (call.has("revolutions")) {
-    window.revolutions = static_cast<double>(call.integer("revolutions", 1));
+    window.revolutions = static_cast<double>(call.integer("revolutions"));
   }
   return window;
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 #include "libbase/constants.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/campbell.hpp"

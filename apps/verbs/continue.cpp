@@ -4,11 +4,14 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/borders.hpp"
 #include "apps/verbs/branches.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study_file.hpp"
@@ -293,8 +296,6 @@ std::string branches_text(const std::vector<TracedBranch>& branches, const Branc
   return text;
 }
 
-}  // namespace
-
 Report run_continue(const Invocation& call) {
   const Model model = call.model();
   const bool is_rotating = is_rotating_frame(call);
@@ -306,9 +307,9 @@ Report run_continue(const Invocation& call) {
     throw ModelError({"--frame rotating"}, "", "expected one --over beside it");
   }
   ContinuationOptions options = parameters.along.options();
-  options.period = static_cast<int>(call.integer("period", 1));
-  options.most_points = static_cast<int>(call.integer("most", 2000));
-  const int generations = static_cast<int>(call.integer("switch", 0, 0));
+  options.period = static_cast<int>(call.integer("period"));
+  options.most_points = static_cast<int>(call.integer("most"));
+  const int generations = static_cast<int>(call.integer("switch", 0));
   const OrbitMethod method = orbit_method(call);
   const bool is_series = method == OrbitMethod::harmonic_balance;
   if (is_series && (generations > 0 || parameters.across || is_rotating)) {
@@ -385,7 +386,7 @@ Report run_continue(const Invocation& call) {
   }
   Record& r = report.record;
   r.set("parameter", parameters.along.axis.path).set("unit", parameters.along.axis.unit);
-  r.set("method", call.text("method", "shooting"));
+  r.set("method", call.text("method"));
   if (is_series) r.set("harmonics", tracing.layout().harmonics);
   r.set("branches", list).set("points", points_record(branches, tracing.layout()));
   r.set("bifurcations", bifurcations_record(branches)).set("resumed", static_cast<long>(resumed));
@@ -406,6 +407,40 @@ Report run_continue(const Invocation& call) {
   }
   if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
   return report;
+}
+
+}  // namespace
+
+Verb continue_verb() {
+  return {
+      .name = "continue",
+      .group = "Contact",
+      .summary =
+          "a branch of periodic orbits along a parameter, round its folds, with its bifurcations",
+      .example =
+          "whirl continue models/jeffcott_stator.toml --speed 138.4rad/s --set "
+          "contact.ring.stiffness=64e6 --over contact.ring.friction=0.1:0.15:0.002 --at 0.15",
+      .options = {{"over", "PATH=A:B:STEP",
+                   "a value of the model, from where to where, and the largest step; first:last: a "
+                   "hundredth; a second one: borders in the plane of both"},
+                  branch_points_option,
+                  {"at", "VALUE[,VALUE]",
+                   "where the first orbit is looked for, between first and last; left out: first"},
+                  {"period", "N", "revolutions after which the first orbit repeats", "1"},
+                  frame_option,
+                  orbit_method_option,
+                  harmonics_option,
+                  {"switch", "N",
+                   "generations of branches that begin at period doublings and pitchforks", "0"},
+                  {"most", "N", "points of a branch at most", "2000"},
+                  {"stations", "NAME,...",
+                   "whose amplitude is said: names, node numbers, all; left out: as sweep"},
+                  branch_discard_option,
+                  tolerance_option,
+                  from_option,
+                  restart_option},
+      .run = run_continue,
+  };
 }
 
 }  // namespace whirl

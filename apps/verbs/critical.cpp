@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "libbase/error.hpp"
@@ -15,12 +16,14 @@
 
 namespace whirl {
 
+namespace {
+
 Report run_critical(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
   CriticalOptions options;
-  options.count = static_cast<int>(call.integer("modes", options.count));
-  options.order = call.number("order", "", options.order);
+  options.count = static_cast<int>(call.integer("modes"));
+  options.order = call.number("order", "");
   if (!(options.order > 0.0))
     throw ModelError({"--order " + call.text("order")}, "", "expected a number above zero");
   const std::vector<Critical> criticals = critical_speeds(assembler, options);
@@ -74,6 +77,20 @@ Report run_critical(const Invocation& call) {
     commit(call, file.get(), report);
   }
   return report;
+}
+
+}  // namespace
+
+Verb critical_verb() {
+  return {
+      .name = "critical",
+      .group = "Linear rotordynamics",
+      .summary = "critical speeds, directly",
+      .example = "whirl critical models/two_disk_mac.toml",
+      .options = {{"modes", "N", "how many critical speeds", "6"},
+                  {"order", "N", "excitation frequency over speed", "1"}},
+      .run = run_critical,
+  };
 }
 
 }  // namespace whirl

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/mesh_formats.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/scene_source.hpp"
 #include "libio/export/rotor_mesh.hpp"
 #include "libio/export/xdmf.hpp"
@@ -67,11 +69,11 @@ Written export_series(const Invocation& call, const SceneSource& source, const f
   };
   if (source.has_motion()) {
     const MotionSamples samples = source.samples(call, is_xdmf ? 64.0 : 4.0);
-    write("", source.motion(samples, call.integer("frames", is_xdmf ? 100'000 : 128)),
+    write("", source.motion(samples, call.integer_or("frames", is_xdmf ? 100'000 : 128)),
           samples.text);
   }
   if (source.has_modes()) {
-    source.each_mode(call.integer("modes", 4), mode_frames,
+    source.each_mode(call.integer("modes"), mode_frames,
                      [&](int number, const Mode& mode, const std::vector<VtkFrame>& frames) {
                        write(fmt::format("_mode{}", number), frames, told(number, mode));
                      });
@@ -108,7 +110,7 @@ Written export_mesh(const Invocation& call, const SceneSource& source, const Mes
   }
   if (source.has_modes()) {
     source.each_mode(
-        call.integer("modes", 4), 4,
+        call.integer("modes"), 4,
         [&](int number, const Mode& mode, const std::vector<VtkFrame>& quarters) {
           for (const int k : {0, 1}) {
             add(fmt::format("mode{}_{}deg", number, 90 * k),
@@ -128,10 +130,8 @@ Written export_mesh(const Invocation& call, const SceneSource& source, const Mes
                       mesh.points.size(), told_fields)};
 }
 
-}  // namespace
-
 Report run_export(const Invocation& call) {
-  const std::string name = call.text("format", "vtk");
+  const std::string name = call.text("format");
   const MeshFormat* mesh = mesh_format(name);
   if (!mesh && name != "vtk" && name != "xdmf" && name != "csv") throw unknown_format(name);
   const SceneSource source(call);
@@ -140,7 +140,7 @@ Report run_export(const Invocation& call) {
     throw ModelError({"--revolutions, --from-revolution, --times"}, "",
                      "are of motions, and this file holds none");
   }
-  const fs::path stem = without_ending(call.text("out", call.file), ending);
+  const fs::path stem = without_ending(call.text_or("out", call.file), ending);
   const Written written = mesh            ? export_mesh(call, source, *mesh, stem)
                           : name == "csv" ? export_csv(call, source, stem)
                                           : export_series(call, source, stem, name == "xdmf");
@@ -149,6 +149,30 @@ Report run_export(const Invocation& call) {
   for (const fs::path& f : written.files) list.add(f.string());
   report.record.set("files", list);
   return report;
+}
+
+}  // namespace
+
+Verb export_verb() {
+  return {
+      .name = "export",
+      .group = "Results",
+      .summary = "a result or a model to other programs",
+      .takes = "FILE",
+      .example = "whirl export run.h5 --format vtk --out run",
+      .options = {{"format", "F",
+                   "vtk: series for ParaView; xdmf: longer ones; csv: tables; vtu; with meshio "
+                   "abaqus, nastran, gmsh, exodus, med, stl, ...",
+                   "vtk"},
+                  {"out", "NAME", "where the files go, without an ending; left out: beside FILE"},
+                  from_revolution_option,
+                  {"revolutions", "N",
+                   "revolutions of a motion, given alone: the last ones; left out: 4, xdmf 64"},
+                  times_option,
+                  {"frames", "N", "frames of a motion at most; left out: 128, xdmf all"},
+                  {"modes", "N", "mode shapes", "4"}},
+      .run = run_export,
+  };
 }
 
 }  // namespace whirl

@@ -71,7 +71,7 @@ std::string text_of(const HarmonicOrbit& orbit, const HillStability& hill) {
 
 int harmonics_of(const Invocation& call, int period) {
   if (!call.has("harmonics")) return 0;
-  const long harmonics = call.integer("harmonics", 1);
+  const long harmonics = call.integer("harmonics");
   if (harmonics < period || harmonics > most_harmonics) {
     throw ModelError({"--harmonics " + call.text("harmonics")}, "",
                      fmt::format("expected {} to {}: the speed is harmonic {} of the orbit", period,

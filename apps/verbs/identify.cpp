@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
@@ -89,13 +90,11 @@ std::string mac_table(const Identification& id, double Omega) {
   return table.text();
 }
 
-}  // namespace
-
 Report run_identify(const Invocation& call) {
   const Model model = call.model();
   const auto file = call.result_file(model);
   IdentifyOptions options;
-  options.modes = static_cast<int>(call.integer("modes", options.modes));
+  options.modes = static_cast<int>(call.integer("modes"));
   options.rotations = call.has("rotations");
   options.mass_weighted = call.has("mass-weighted");
   options.stiffened = call.has("stiffened");
@@ -169,6 +168,23 @@ Report run_identify(const Invocation& call) {
   }
   commit(call, file.get(), report);
   return report;
+}
+
+}  // namespace
+
+Verb identify_verb() {
+  return {
+      .name = "identify",
+      .group = "Contact",
+      .summary = "says which complex modes make up the motion (MAC)",
+      .example = "whirl identify models/two_disk_mac.toml --out run.h5",
+      .options = integration_options(
+          {{"modes", "N", "how many modes to compare with", "8"},
+           {"rotations", "", "let tilts count too, times the rotor's length"},
+           {"mass-weighted", "", "weight the MAC with the mass matrix"},
+           {"stiffened", "", "modes of the rotor with its contacts closed for good"}}),
+      .run = run_identify,
+  };
 }
 
 }  // namespace whirl

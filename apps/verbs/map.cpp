@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <map>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "libbase/error.hpp"
@@ -207,8 +210,6 @@ std::string picture(const PointTable& table, const StudySetup& setup) {
                     letters());
 }
 
-}  // namespace
-
 Report run_map(const Invocation& call) {
   StudySetup setup(call, 2, 3);
   setup.options().watch = [](long) { return !is_interrupted(); };
@@ -252,6 +253,21 @@ Report run_map(const Invocation& call) {
                 shares(table, setup);
   add_outcome(call, outcome, table, report);
   return report;
+}
+
+}  // namespace
+
+Verb map_verb() {
+  return {
+      .name = "map",
+      .group = "Contact",
+      .summary = "a plane of two parameters, or several planes, every point classified",
+      .example =
+          "whirl map models/jeffcott_stator.toml --over operation.speed=130:160:2rad/s --over "
+          "contact.ring.stiffness=10:150:10MN/m --out map.h5",
+      .options = study_options({over_option, points_option}),
+      .run = run_map,
+  };
 }
 
 }  // namespace whirl

@@ -1,17 +1,20 @@
 #include <fmt/format.h>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl {
 
+namespace {
+
 Report run_modes(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
   const System system = assembler.at(model.speed);
-  const Modes modes = complex_modes(system, static_cast<int>(call.integer("modes", 8)));
+  const Modes modes = complex_modes(system, static_cast<int>(call.integer("modes")));
 
   Report report{.record = begin_record(call, model)};
   add_modes(report.record, modes);
@@ -26,6 +29,19 @@ Report run_modes(const Invocation& call) {
     commit(call, file.get(), report);
   }
   return report;
+}
+
+}  // namespace
+
+Verb modes_verb() {
+  return {
+      .name = "modes",
+      .group = "Linear rotordynamics",
+      .summary = "complex modes at a speed",
+      .example = "whirl modes models/two_disk_mac.toml --speed 4430rpm",
+      .options = {{"modes", "N", "how many modes", "8"}},
+      .run = run_modes,
+  };
 }
 
 }  // namespace whirl

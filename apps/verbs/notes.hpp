@@ -1,7 +1,7 @@
 #pragma once
 /// Notes of verbs: what of a model they leave out, and where they go beyond its data.
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 
 namespace whirl {
 

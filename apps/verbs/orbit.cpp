@@ -2,10 +2,13 @@
 
 #include <limits>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/branch_point.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
@@ -47,7 +50,7 @@ std::string multipliers_table(const FoundOrbit& orbit) {
 }  // namespace
 
 bool is_rotating_frame(const Invocation& call) {
-  const std::string frame = call.text("frame", "stationary");
+  const std::string frame = call.text("frame");
   if (frame == "stationary" || frame == "rotating") return frame == "rotating";
   throw ModelError({"--frame " + frame}, "", "expected stationary or rotating");
 }
@@ -62,8 +65,8 @@ double guessed_period(const Scene& scene, const Vec& start) {
 }
 
 Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene) {
-  const long discard = call.integer("discard", call.has("from") ? 0 : 500, 0);
-  const double tolerance = call.number("tolerance", "", 1e-10);
+  const long discard = call.has("from") && !call.has("discard") ? 0 : call.integer("discard", 0);
+  const double tolerance = call.number("tolerance", "");
   require_tolerance(tolerance, "--tolerance " + call.text("tolerance"));
   Trajectory transient{.system = &scene.contacts, .state = starting_state(call, model, scene)};
   if (scene.contacts.coordinates() == 0) {
@@ -148,7 +151,7 @@ Report rotating_orbit(const Invocation& call, const Model& model) {
 }  // namespace
 
 OrbitMethod orbit_method(const Invocation& call) {
-  const std::string method = call.text("method", "shooting");
+  const std::string method = call.text("method");
   if (method == "harmonic-balance") return OrbitMethod::harmonic_balance;
   if (method != "shooting") {
     throw ModelError({"--method " + method}, "", "expected shooting or harmonic-balance");
@@ -204,8 +207,6 @@ void write_orbit(ResultWriter& file, const Scene& scene, const FoundOrbit& orbit
   if (orbit.write) orbit.write(file);
 }
 
-}  // namespace
-
 Report run_orbit(const Invocation& given) {
   std::optional<BranchStart> point;
   Invocation call = given;
@@ -225,7 +226,8 @@ Report run_orbit(const Invocation& given) {
     throw ModelError({"--frame rotating"}, "",
                      "harmonic balance finds orbits in the stationary frame only");
   }
-  const int period = static_cast<int>(call.integer("period", point ? point->period : 1));
+  const int period =
+      point && !call.has("period") ? point->period : static_cast<int>(call.integer("period"));
   harmonics_of(call, period);  // before anything long
   const auto file = call.result_file(model);
   const Scene scene = make_scene(model);
@@ -254,7 +256,7 @@ Report run_orbit(const Invocation& given) {
   for (const Complex& m : orbit.multipliers) floquet.add(m);
   for (const Complex& rate : orbit.exponents) exponents.add(rate);
   Record& r = report.record;
-  r.set("frame", "stationary").set("method", call.text("method", "shooting"));
+  r.set("frame", "stationary").set("method", call.text("method"));
   r.set("period_revs", period).set("shortest_period_revs", orbit.shortest_period);
   r.set("residual", orbit.residual).set("steps", orbit.steps);
   r.set("floquet", floquet).set("exponents_1_s", exponents);
@@ -293,6 +295,34 @@ Report run_orbit(const Invocation& given) {
   }
   commit(call, file.get(), report);
   return report;
+}
+
+}  // namespace
+
+Verb orbit_verb() {
+  return {
+      .name = "orbit",
+      .group = "Contact",
+      .summary = "one periodic orbit, stable or not, with its Floquet multipliers",
+      .example = "whirl orbit models/jeffcott_stator.toml --period 1",
+      .options = {{"period", "N",
+                   "revolutions after which it repeats; with --point those of its branch", "1"},
+                  frame_option,
+                  {"point", "N",
+                   "begins at this point of the branches of --from, its value included"},
+                  orbit_method_option,
+                  harmonics_option,
+                  {"verify", "", "how far harmonic balance is from shooting"},
+                  {"starts", "N", "all orbits near so many random starts, unstable ones too"},
+                  seed_option,
+                  start_size_option,
+                  {"discard", "N",
+                   "revolutions before it, for the transient; with --from none, with --starts 10",
+                   "500"},
+                  tolerance_option,
+                  from_option},
+      .run = run_orbit,
+  };
 }
 
 }  // namespace whirl

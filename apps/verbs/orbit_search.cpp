@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/progress.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/orbits.hpp"
@@ -40,11 +41,11 @@ Report search_orbits(const Invocation& call, const Model& model) {
   for (const std::string option : {"frame", "method", "point", "from"}) {
     if (call.has(option)) throw ModelError({"--" + option}, "", "does not go with --starts");
   }
-  const int period = static_cast<int>(call.integer("period", 1));
-  const long starts = call.integer("starts", 256),
-             discard = call.integer("discard", default_discard, 0);
-  const auto seed = static_cast<std::uint64_t>(call.integer("seed", 1));
-  const double size = call.number("size", "", 0.5);
+  const int period = static_cast<int>(call.integer("period"));
+  const long starts = call.integer("starts"),
+             discard = call.has("discard") ? call.integer("discard", 0) : default_discard;
+  const auto seed = static_cast<std::uint64_t>(call.integer("seed"));
+  const double size = call.number("size", "");
   if (!(size > 0.0))
     throw ModelError({"--size " + call.text("size")}, "", "expected a number above 0");
   const auto file = call.result_file(model);

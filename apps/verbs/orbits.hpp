@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 #include "libdyn/orbits/multiplier_modes.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"

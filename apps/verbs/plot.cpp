@@ -9,9 +9,11 @@
 #include <optional>
 #include <regex>
 
+#include "apps/invocation.hpp"
 #include "apps/program.hpp"
-#include "apps/verbs/all.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
@@ -228,8 +230,6 @@ void write_picture(const std::string& svg, const fs::path& to, const std::string
   fs::remove(source, ignored);
 }
 
-}  // namespace
-
 Report run_plot(const Invocation& call) {
   require_result(call, call.words.empty() ? "" : call.words[0]);
   ResultView result(call.file);
@@ -260,9 +260,9 @@ Report run_plot(const Invocation& call) {
   const Figure& figure = chosen(figures, call.text("which"));
   const PictureSize size = size_of(call);
   const std::string format = format_of(call);
-  const fs::path out =
-      call.text("out", fmt::format("{}_{}.{}", fs::path(call.file).replace_extension("").string(),
-                                   kind.name, format));
+  const fs::path out = call.text_or(
+      "out", fmt::format("{}_{}.{}", fs::path(call.file).replace_extension("").string(), kind.name,
+                         format));
   const Picture picture = picture_of(figure, size);
   write_picture(picture.svg, out, format, size.is_given() || size.font > 0.0,
                 call.picture_replaces());
@@ -281,6 +281,37 @@ Report run_plot(const Invocation& call) {
   }
   report.record.set("left_out", left_out);
   return report;
+}
+
+}  // namespace
+
+Verb plot_verb() {
+  return {
+      .name = "plot",
+      .group = "Results",
+      .summary = "one figure of a result, ready for a paper",
+      .takes = "RESULT.h5",
+      .takes_more = "KIND",
+      .takes_more_help = "what to draw; left out: lists what the result holds",
+      .example = "whirl plot run.h5 orbit --out orbit.svg",
+      .options =
+          {{"out", "FILE", "picture, .svg, .png or .pdf; left out: .svg beside the result"},
+           {"which", "NAME",
+            "of several of a kind: the station, contact or plane; left out: the first"},
+           {"with", "OTHER.h5",
+            "branches over bifurcation, borders over map, where both are of the same values"},
+           {"size", "WxHmm", "of the printed picture, such as 85x60mm; cm, in and pt too"},
+           {"font", "PT", "letters of axes and legend in points; left out: 9, with --size 8"},
+           {"no-title", "", "without title and subtitle, for a caption below"},
+           {"format", "F", "svg, png or pdf, whatever --out ends in"},
+           from_revolution_option,
+           {"revolutions", "N",
+            "revolutions of a motion, given alone: the last ones; left out: 8, orbit 48, poincare "
+            "all"},
+           times_option,
+           frequency_option},
+      .run = run_plot,
+  };
 }
 
 }  // namespace whirl

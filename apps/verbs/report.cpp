@@ -2,8 +2,10 @@
 
 #include <filesystem>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
@@ -12,6 +14,8 @@
 
 namespace whirl {
 
+namespace {
+
 Report run_report(const Invocation& call) {
   require_result(call, "");
   std::vector<std::unique_ptr<ResultView>> results;
@@ -19,7 +23,7 @@ Report run_report(const Invocation& call) {
   for (const std::string& file : call.words) results.push_back(std::make_unique<ResultView>(file));
   for (const auto& result : results) set_frequency_unit(call, *result);
   const std::string out =
-      call.text("out", std::filesystem::path(call.file).replace_extension(".html").string());
+      call.text_or("out", std::filesystem::path(call.file).replace_extension(".html").string());
   FileReplacement{out, call.picture_replaces()};  // a wrong place is said before the work
   const ReportPage page = report_page(results, version);
   if (page.figures == 0) {
@@ -34,6 +38,22 @@ Report run_report(const Invocation& call) {
   report.text = fmt::format("  {}: {} figures, {:.1f} MB; open it in a browser\n", out,
                             page.figures, 1e-6 * static_cast<double>(page.html.size()));
   return report;
+}
+
+}  // namespace
+
+Verb report_verb() {
+  return {
+      .name = "report",
+      .group = "Results",
+      .summary = "one HTML page with every figure of a result",
+      .takes = "RESULT.h5",
+      .takes_more = "OTHER.h5",
+      .takes_more_help = "further results on the same page",
+      .example = "whirl report run.h5 --out run.html",
+      .options = {{"out", "FILE.html", "the page; left out: beside the result"}, frequency_option},
+      .run = run_report,
+  };
 }
 
 }  // namespace whirl

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
@@ -82,20 +85,18 @@ void write(ResultWriter& file, const std::vector<Place>& places) {
                {"", "1 stable, 0 unstable, -1 none found or not looked for", axes});
 }
 
-}  // namespace
-
 Report run_resonances(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
   const std::vector<double> speeds = call.speeds(model);
-  const int count = static_cast<int>(call.integer("modes", 4));
-  const int largest = static_cast<int>(call.integer("largest", 4));
+  const int count = static_cast<int>(call.integer("modes"));
+  const int largest = static_cast<int>(call.integer("largest"));
   const bool confirms = call.has("confirm");
   if (confirms && model.contacts.empty()) {
     throw ModelError({"--confirm"}, "", "expected a model with contacts to bounce in");
   }
-  const BouncingOptions search{.starts = static_cast<int>(call.integer("starts", 16)),
-                               .seed = static_cast<std::uint64_t>(call.integer("seed", 1))};
+  const BouncingOptions search{.starts = static_cast<int>(call.integer("starts")),
+                               .seed = static_cast<std::uint64_t>(call.integer("seed"))};
   const auto file = call.result_file(model);
   const Campbell diagram = campbell(assembler, speeds, count);
   const ModeFinder finder(assembler);
@@ -212,6 +213,25 @@ Report run_resonances(const Invocation& call) {
   }
   commit(call, file.get(), report);
   return report;
+}
+
+}  // namespace
+
+Verb resonances_verb() {
+  return {
+      .name = "resonances",
+      .group = "Linear rotordynamics",
+      .summary =
+          "speeds at which two modes are in p:q resonance seen from the rotor, where it may bounce",
+      .example = "whirl resonances models/two_disk_mac.toml --speeds 1000:8000:50rpm --confirm",
+      .options = {{"modes", "N", "how many modes", "4"},
+                  speeds_option,
+                  {"largest", "N", "of p and q", "4"},
+                  {"confirm", "", "look for bouncing motions near each of them"},
+                  {"starts", "N", "of them at every speed that is tried", "16"},
+                  seed_option},
+      .run = run_resonances,
+  };
 }
 
 }  // namespace whirl

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 
 namespace whirl {
 

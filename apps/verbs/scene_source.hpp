@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/modes.hpp"
 #include "libio/export/vtk_scene.hpp"

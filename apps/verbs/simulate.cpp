@@ -1,10 +1,13 @@
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl {
+
+namespace {
 
 Report run_simulate(const Invocation& call) {
   const Model model = call.model();
@@ -22,6 +25,19 @@ Report run_simulate(const Invocation& call) {
   if (file) write_run(*file, run, model);
   commit(call, file.get(), report);
   return report;
+}
+
+}  // namespace
+
+Verb simulate_verb() {
+  return {
+      .name = "simulate",
+      .group = "Contact",
+      .summary = "integrates in time, contacts and all",
+      .example = "whirl simulate models/two_disk_mac.toml --speed 4430rpm --out run.h5",
+      .options = integration_options(),
+      .run = run_simulate,
+  };
 }
 
 }  // namespace whirl

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/progress.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/options.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/result_schema.hpp"
@@ -87,19 +89,21 @@ const std::string full_vector = ": x, y, theta_x, theta_y of every node, then of
 
 }  // namespace
 
-const std::vector<OptionSpec>& integration_options() {
-  static const std::vector<OptionSpec> options{
-      {"revolutions", "N", "revolutions that are recorded (512)"},
+std::vector<OptionSpec> integration_options(std::vector<OptionSpec> own) {
+  const std::vector<OptionSpec> shared{
+      {"revolutions", "N", "revolutions that are recorded", "512"},
       discard_option,
-      {"samples", "N", "samples per revolution (64)"},
+      {"samples", "N", "samples per revolution", "64"},
       {"method", "M",
        "integrator: taylor, collocation (left out: the better of these), dop853, cvode-adams, "
        "cvode-bdf, arkode, arkode-dirk, rk4"},
       tolerance_option,
       from_option,
       {"stations", "NAME,...",
-       "what is recorded and shown: names, node numbers, all (contacts, disks, bearings)"}};
-  return options;
+       "what is recorded and shown: names, node numbers, all; left out: contacts, disks, "
+       "bearings"}};
+  own.insert(own.end(), shared.begin(), shared.end());
+  return own;
 }
 
 void require_speed(const Model& model) {
@@ -157,10 +161,10 @@ void require_method(const std::string& method, const std::vector<std::string_vie
 Run run_simulation(const Invocation& call, const Model& model) {
   require_speed(model);
   SimulationOptions options;
-  options.revolutions = call.integer("revolutions", options.revolutions);
-  options.discard = call.integer("discard", options.discard, 0);
-  options.samples = static_cast<int>(call.integer("samples", options.samples, 4));
-  options.integration.tolerance = call.number("tolerance", "", options.integration.tolerance);
+  options.revolutions = call.integer("revolutions");
+  options.discard = call.integer("discard", 0);
+  options.samples = static_cast<int>(call.integer("samples", 4));
+  options.integration.tolerance = call.number("tolerance", "");
   require_tolerance(options.integration.tolerance, "--tolerance " + call.text("tolerance"));
   const std::string method = call.text("method");
   if (!method.empty()) require_method(method, method_names(), "--method " + method);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/invocation.hpp"
 #include "apps/verb.hpp"
 #include "libdyn/motions/response.hpp"
 #include "libdyn/motions/simulate.hpp"
@@ -15,15 +16,8 @@ namespace whirl {
 
 class ResultWriter;
 
-/// Options that verbs share one by one.
-constexpr OptionSpec discard_option{"discard", "N",
-                                    "revolutions before them, for the transient (500)"};
-constexpr OptionSpec tolerance_option{"tolerance", "T",
-                                      "of a step, displacements by the clearance (1e-10)"};
-constexpr OptionSpec from_option{"from", "FILE.h5", "start where a result ended"};
-
-/// Options of simulate and identify.
-const std::vector<OptionSpec>& integration_options();
+/// Options of simulate and identify, behind those of one of them.
+std::vector<OptionSpec> integration_options(std::vector<OptionSpec> own = {});
 
 /// A finished (or failed, or stopped) run.
 struct Run {

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "libfe/bending.hpp"
@@ -45,8 +46,6 @@ void write_bending(ResultWriter& file, const BendingLine& line) {
   file.dataset("/static/shear", line.shear,
                {"N", "shear force of the right part on the left one (x, y)", axes});
 }
-
-}  // namespace
 
 Report run_static(const Invocation& call) {
   const Model model = call.model();
@@ -109,6 +108,18 @@ Report run_static(const Invocation& call) {
     commit(call, file.get(), report);
   }
   return report;
+}
+
+}  // namespace
+
+Verb static_verb() {
+  return {
+      .name = "static",
+      .group = "The model",
+      .summary = "sag under gravity and bearing loads",
+      .example = "whirl static models/two_disk_double_rub.toml",
+      .run = run_static,
+  };
 }
 
 }  // namespace whirl

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <thread>
 
+#include "apps/progress.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study_classification.hpp"
 #include "apps/verbs/study_file.hpp"
@@ -100,14 +102,14 @@ std::function<StudyRows()> timed(std::function<StudyRows()> work) {
 }  // namespace
 
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own) {
-  for (const OptionSpec& option :
-       {OptionSpec{"revolutions", "N", "revolutions that are measured (1000)"},
-        OptionSpec{"exponents", "N",
-                   "of these, over which Lyapunov exponents are averaged at most (1000)"},
-        discard_option, tolerance_option, from_option,
-        OptionSpec{"restart", "", "begin anew, whatever the file of --out holds"}}) {
-    own.push_back(option);
-  }
+  const std::vector<OptionSpec> shared{
+      {"revolutions", "N", "revolutions that are measured", "1000"},
+      {"exponents", "N", "of these, over which Lyapunov exponents are averaged at most", "1000"},
+      discard_option,
+      tolerance_option,
+      from_option,
+      restart_option};
+  own.insert(own.end(), shared.begin(), shared.end());
   return own;
 }
 
@@ -126,7 +128,7 @@ void together(const std::vector<StudyPoint*>& points,
 
 StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t most)
     : model_(call.model()) {
-  const int count = static_cast<int>(call.integer("points", 0, 2));
+  const int count = static_cast<int>(call.integer_or("points", 0, 2));
   for (const std::string& text : call.over) {
     const auto axis = parse_axis(text, count);
     if (!axis) throw ModelError({"--over " + text}, "", axis.problem);
@@ -140,13 +142,13 @@ StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t mo
                                  "such as --over operation.speed=100:200:1rad/s",
                                  axes_.size(), right));
   }
-  options_.revolutions = call.integer("revolutions", options_.revolutions);
-  options_.discard = call.integer("discard", options_.discard, 0);
-  options_.exponents = call.integer("exponents", options_.exponents);
-  options_.tolerance = call.number("tolerance", "", options_.tolerance);
+  options_.revolutions = call.integer("revolutions");
+  options_.discard = call.integer("discard", 0);
+  options_.exponents = call.integer("exponents");
+  options_.tolerance = call.number("tolerance", "");
   require_tolerance(options_.tolerance, "--tolerance " + call.text("tolerance"));
   const long processors = std::max(1u, std::thread::hardware_concurrency());
-  threads_ = static_cast<int>(call.integer("threads", processors));
+  threads_ = static_cast<int>(call.integer_or("threads", processors));
   earlier_ = earlier_start(call, model_);
   if (call.has("from")) model_.start.whirl.clear();  // it goes on as it was
   family_.emplace(model_, axes_);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/invocation.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/studies/classify.hpp"
@@ -18,7 +19,7 @@
 
 namespace whirl {
 
-/// Options of all of them.
+/// Options of all of them, behind those of one.
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);
 
 /// A motion at one point of a study.

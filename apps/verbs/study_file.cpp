@@ -59,7 +59,7 @@ void resume(const Invocation& call, const std::optional<EarlierEnd>& start,
   }
   if (start && !is_same_start(earlier, *start)) {
     refuse(fmt::format("holds this study from another start: {} has changed since",
-                       call.text("from", call.model().start.file)));
+                       call.text_or("from", call.model().start.file)));
   }
   if (earlier.string_attribute("/", "whirl_version") != version) {
     refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
@@ -89,7 +89,7 @@ void remove_leftovers(const std::filesystem::path& place) {
 
 std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& model) {
   if (!call.has("from") && model.start.from != StartFrom::file) return std::nullopt;
-  return earlier_end(call.text("from", model.start.file));
+  return earlier_end(call.text_or("from", model.start.file));
 }
 
 void write_start(ResultWriter& file, const std::optional<EarlierEnd>& start) {

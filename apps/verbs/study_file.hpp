@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "apps/verb.hpp"
+#include "apps/invocation.hpp"
 #include "apps/verbs/simulation.hpp"
 
 namespace whirl {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/study_classification.hpp"
@@ -295,11 +298,9 @@ std::string stretches(const PointTable& table, const StudySetup& setup, std::siz
   return text.text();
 }
 
-}  // namespace
-
 Report run_sweep(const Invocation& call) {
   StudySetup setup(call, 1, 1);
-  setup.options().sections = call.integer("sections", 64);
+  setup.options().sections = call.integer("sections");
   setup.options().watch = [](long) { return !is_interrupted(); };
   const bool is_fresh = call.has("fresh");
   const std::size_t values = setup.axes()[0].values.size(), ways = is_fresh ? 1 : 2;
@@ -309,7 +310,7 @@ Report run_sweep(const Invocation& call) {
   Portraits portraits{
       .stations = select_points(*first.model, first.scene->assembler, call.text("stations")),
       .sections = setup.options().sections,
-      .spectrum_revolutions = call.integer("spectra", 32, 0)};
+      .spectrum_revolutions = call.integer("spectra", 0)};
   std::vector<Column> columns = classification_columns(*first.scene, group);
   for (const Column& c : portraits.columns(*first.scene)) columns.push_back(c);
   const std::string way = group + "/direction", along = setup.axis_paths(group)[0];
@@ -380,6 +381,29 @@ Report run_sweep(const Invocation& call) {
   }
   add_outcome(call, outcome, table, report);
   return report;
+}
+
+}  // namespace
+
+Verb sweep_verb() {
+  return {
+      .name = "sweep",
+      .group = "Contact",
+      .summary = "bifurcation diagram and spectra along one parameter, up and down",
+      .example =
+          "whirl sweep models/jeffcott_stator.toml --over operation.speed=130:140:0.5rad/s --out "
+          "sweep.h5",
+      .options = study_options(
+          {over_option,
+           points_option,
+           {"fresh", "", "every value from the model's start, not from the one before"},
+           {"sections", "N", "Poincare sections kept of a motion", "64"},
+           {"spectra", "N", "revolutions of a value's spectrum, 0: none", "32"},
+           {"stations", "NAME,...",
+            "of sections and spectra: names, node numbers, all; left out: contacts, disks, "
+            "bearings"}}),
+      .run = run_sweep,
+  };
 }
 
 }  // namespace whirl

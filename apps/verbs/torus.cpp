@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/progress.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/borders.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
@@ -54,15 +57,13 @@ CirclePoint point_of(const BranchPoint& p, const Vec& scale, int period) {
   return {p.value, circle.rotation / period, growth / period, circle.tail};
 }
 
-}  // namespace
-
 Report run_torus(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
-  const int period = static_cast<int>(call.integer("period", 1));
-  const long count = call.integer("revolutions", 1000, 200);
+  const int period = static_cast<int>(call.integer("period"));
+  const long count = call.integer("revolutions", 200);
   const CircleOptions options{.period = period,
-                              .harmonics = static_cast<int>(call.integer("harmonics", 16))};
+                              .harmonics = static_cast<int>(call.integer("harmonics"))};
   std::optional<BranchParameters> parameters;
   if (!call.over.empty()) {
     parameters = branch_parameters(call, model);
@@ -106,12 +107,12 @@ Report run_torus(const Invocation& call) {
     const FlowAt flow_at = [&](double value) { return flow_of(parameters->scene(value), *scene); };
     const BranchParameter& along = parameters->along;
     install_interrupt_handler();
-    Progress progress("circles", call.integer("most", 200), call.shows_progress);
+    Progress progress("circles", call.integer("most"), call.shows_progress);
     for (const double direction : {-along.direction, along.direction}) {
       if (direction != along.direction && !along.goes_both) continue;
       ContinuationOptions how = along.options();
       how.direction = direction;
-      how.most_points = static_cast<int>(call.integer("most", 200));
+      how.most_points = static_cast<int>(call.integer("most"));
       how.smallest_step = 1e-6;
       Continuation walk(circle_equations(flow_at, flow.scale, period, circle.coordinate),
                         circle_unknowns(circle, flow.scale), how);
@@ -215,6 +216,32 @@ Report run_torus(const Invocation& call) {
   }
   commit(call, circle.is_good() ? file.get() : nullptr, report);
   return report;
+}
+
+}  // namespace
+
+Verb torus_verb() {
+  return {
+      .name = "torus",
+      .group = "Contact",
+      .summary =
+          "a quasi-periodic motion as an invariant circle, and along a parameter until it locks or "
+          "breaks",
+      .example = "whirl torus models/two_disk_mac.toml --discard 1500 --harmonics 33",
+      .options = {{"over", "PATH=A:B:STEP",
+                   "a value of the model along which the circle is followed"},
+                  branch_points_option,
+                  {"at", "VALUE",
+                   "where the first circle is looked for, between first and last; left out: first"},
+                  {"period", "N", "revolutions of the map that it is a circle of", "1"},
+                  {"harmonics", "N", "of the circle at first, doubled up to 64", "16"},
+                  {"revolutions", "N", "sections from which it is guessed", "1000"},
+                  {"most", "N", "circles at most", "200"},
+                  branch_discard_option,
+                  tolerance_option,
+                  from_option},
+      .run = run_torus,
+  };
 }
 
 }  // namespace whirl

@@ -4,9 +4,11 @@
 
 #include <cmath>
 
-#include "apps/verbs/all.hpp"
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
+#include "apps/verbs/options.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libfe/response_curve.hpp"
 #include "libio/results/hdf5.hpp"
@@ -32,7 +34,7 @@ Mat of_orbits(const UnbalanceResponse& response, const Ask& ask) {
 }
 
 Study study_of(const Invocation& call, const Model& model, const Assembler& assembler) {
-  Study study{.stations = select_points(model, assembler, call.text("stations", "all"))};
+  Study study{.stations = select_points(model, assembler, call.text("stations"))};
   std::vector<Point> points;
   for (const NamedPoint& p : study.stations) points.push_back(p.point);
   const std::vector<double> speeds = call.speeds(model);
@@ -218,8 +220,6 @@ void write(ResultWriter& file, const Study& study) {
   write_peaks(file, study.curve.peaks);
 }
 
-}  // namespace
-
 Report run_unbalance(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
@@ -236,6 +236,19 @@ Report run_unbalance(const Invocation& call) {
     commit(call, file.get(), report);
   }
   return report;
+}
+
+}  // namespace
+
+Verb unbalance_verb() {
+  return {
+      .name = "unbalance",
+      .group = "Linear rotordynamics",
+      .summary = "steady unbalance response over speeds",
+      .example = "whirl unbalance models/two_disk_mac.toml --speeds 0:8000:10rpm",
+      .options = {speeds_option, {"stations", "NAME,...", "names, node numbers or all", "all"}},
+      .run = run_unbalance,
+  };
 }
 
 }  // namespace whirl
