@@ -74,7 +74,7 @@ TEST(Architecture, EachLibraryHasOneHome) {
       {"H5", "libio/results/hdf5/"},
       {"zlib", "libio/results/hdf5/"},
       {"vtk", "libio/export/vtk/"},
-      {"CLI/", "apps/whirl.cpp"},
+      {"CLI/", "apps/command_line.cpp"},
       {"hwy/", "libdyn/taylor/"}};
   for (const Include& i : includes()) {
     if (floor_of(i.name) >= 0) continue;

@@ -1,0 +1,90 @@
+#include "apps/command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+
+#include "apps/bare_speeds.hpp"
+#include "apps/problems.hpp"
+#include "apps/status.hpp"
+#include "libio/results/own_file.hpp"
+#include "libio/text/terminal.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// Notes as they stand below a verb's text.
+std::string notes_text(const std::vector<std::string>& notes) {
+  std::string text;
+  for (const std::string& note : notes) text += fmt::format("\n  note: {}\n", note);
+  return text;
+}
+
+void write_json(const Report& report, const std::string& to, Replaces replaces) {
+  Record record = report.record, notes = Record::array();
+  for (const std::string& note : report.notes) notes.add(note);
+  record.set("notes", notes);
+  record.set(json_mark_key, json_mark);
+  const std::string text = record.json();
+  if (to == "-") {
+    std::fputs(text.c_str(), stdout);
+  } else {
+    replace_file(to, text, replaces);
+  }
+}
+
+/// What a verb found goes to the terminal, to standard error and to --json; the status.
+int print(Report report, const CommandLine& line, const std::vector<BareSpeed>& bare) {
+  if (line.json != "-" && !line.is_quiet) {
+    for (const BareSpeed& s : bare) fmt::print("{}\n", s.reading());
+    fmt::print("{}{}", bare.empty() ? "" : "\n",
+               folded(report.text + notes_text(report.notes), terminal_columns()));
+  }
+  if (!report.failure.empty()) {
+    fmt::print(stderr, "{}: failed: {}\n", line.call.file, report.failure);
+  }
+  for (const BareSpeed& s : bare) report.notes.push_back(s.warning());
+  if (!line.json.empty()) write_json(report, line.json, line.call.picture_replaces());
+  return after_printing(report.status);
+}
+
+int execute(const Verb& verb, const CommandLine& line) {
+  const Invocation& call = line.call;
+  if (call.has("threads")) call.integer("threads");  // verbs that use none refuse a wrong one too
+  call.require_free_places(line.json);
+  const std::vector<BareSpeed> bare = bare_speeds(call, line.speed.value_or(""));
+  if (!line.is_quiet) {
+    for (const BareSpeed& s : bare) fmt::print(stderr, "whirl: warning: {}\n", s.warning());
+  }
+  return print(verb.run(call), line, bare);
+}
+
+}  // namespace
+
+int run_command(const Verb& verb, const std::vector<std::string>& words,
+                const StoredModel& stored) {
+  const auto read = read_command_line(verb, words, stored);
+  if (const int* status = std::get_if<int>(&read)) return *status;
+  const CommandLine& line = std::get<CommandLine>(read);
+  const std::string& file = line.call.file;
+  try {
+    return execute(verb, line);
+  } catch (const ModelError& error) {
+    print_problems(error, line.call, line.speed ? &*line.speed : nullptr);
+    return exit_status::wrong_input;
+  } catch (const TakenPlace& error) {
+    return refused(error);
+  } catch (const FileError& error) {
+    return refused(error);
+  } catch (const NumericalError& error) {
+    fmt::print(stderr, "{}: {}\n", file, error.what());
+    return exit_status::failed;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "{}: not enough memory for this\n", file);
+    return exit_status::failed;
+  }
+}
+
+}  // namespace whirl

@@ -1,0 +1,36 @@
+#pragma once
+/// From the words of a command line to an invocation.
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
+
+namespace whirl {
+
+/// A model with what was set of it, of a result whose command is run again.
+struct StoredModel {
+  std::string text;  ///< empty: there is none
+  std::vector<std::string> sets{};
+};
+
+/// What a command line asks for.
+struct CommandLine {
+  Invocation call;
+  std::string json;                    ///< value of --json; empty: not given
+  std::optional<std::string> speed{};  ///< value of --speed, which is the last of the sets too
+  bool is_quiet = false;
+};
+
+/// Reads the words of a command, the program and the verb first, as the options of its verb say.
+///
+/// @return  the exit status instead, where there is nothing to run: help was asked for and printed,
+///          or what is wrong with the words is on standard error
+std::variant<CommandLine, int> read_command_line(const Verb& verb,
+                                                 const std::vector<std::string>& words,
+                                                 const StoredModel& stored);
+
+}  // namespace whirl
