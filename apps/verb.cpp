@@ -29,6 +29,7 @@ const Verb* verb_named(std::string_view name) {
 }
 
 std::vector<OptionSpec> options_of(const Verb& verb) {
+  if (verb.takes.empty()) return verb.options;
   std::vector<OptionSpec> all = first_options;
   all.insert(all.end(), verb.options.begin(), verb.options.end());
   for (const OptionSpec& option : last_options) {

@@ -1,7 +1,6 @@
 #pragma once
 /// What a verb of the command line is: how it is called, its options, and what runs it.
 
-#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,16 +28,16 @@ struct Verb {
   std::string_view name;
   std::string_view group;  ///< heading in the help
   std::string_view summary;
-  std::string_view takes = "MODEL";       ///< MODEL, RESULT.h5 or FILE (either)
+  std::string_view takes = "MODEL";       ///< MODEL, RESULT.h5 or FILE (either); empty: no file
   std::string_view takes_more = "";       ///< placeholder of words after the file; empty: none
   std::string_view takes_more_help = "";  ///< what they are
   std::string_view example;               ///< a command line
   std::vector<OptionSpec> options{};      ///< beside those of all verbs
-  Report (*run)(const Invocation&);
+  Report (*run)(const Invocation&) = nullptr;
+  /// Instead of run, of a verb that reads the words after it itself and prints: its exit status.
+  int (*run_words)(const std::vector<std::string>&) = nullptr;
+  std::string_view usage = "";  ///< what --help prints then
 };
-
-/// Options that name a place to write.
-constexpr std::array<std::string_view, 3> writing_options{"out", "json", "svg"};
 
 /// All verbs, in the order of the help.
 const std::vector<Verb>& verbs();
@@ -46,7 +45,7 @@ const std::vector<Verb>& verbs();
 const Verb* verb_named(std::string_view name);
 
 /// All options of a verb in the order of its help: those of all verbs around its own, which take
-/// their place where they have the same name.
+/// their place where they have the same name. A verb that takes no file has only its own.
 std::vector<OptionSpec> options_of(const Verb& verb);
 /// The one of a name; nothing: there is none.
 std::optional<OptionSpec> option_named(const Verb& verb, std::string_view name);

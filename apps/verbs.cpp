@@ -24,7 +24,10 @@
   export_verb(),     \
   animate_verb(),    \
   report_verb(),     \
-  plot_verb()
+  plot_verb(),       \
+  rerun_verb(),      \
+  completion_verb(), \
+  schema_verb()
 // clang-format on
 
 namespace whirl {

@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "apps/command.hpp"
+#include "apps/status.hpp"
+#include "apps/verb.hpp"
+#include "libio/results/call.hpp"
+#include "libio/results/hdf5.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr std::string_view rerun_usage =
+    "Usage: whirl rerun RESULT.h5 [options]\n\nRuns the command that made a result again, on the "
+    "model stored in it;\noptions are added to that command (--out NEW.h5, --set PATH=VALUE, "
+    "...).\n";
+
+/// Options of a stored command that do not count again: what was set is in the stored text
+/// already, and only the line at hand says what is written.
+const std::vector<std::string_view> not_again{"quiet", "force", "restart", "out", "json", "svg"};
+
+/// Runs the command stored in a result again, on the model stored there.
+int run_rerun(const std::vector<std::string>& words) {
+  if (words.empty()) {
+    fmt::print("{}", rerun_usage);
+    return exit_status::wrong_input;
+  }
+  const std::string& file = words[0];
+  Call call;
+  std::string text;
+  try {
+    const ResultReader result(file);
+    call = read_call(result);
+    text = result.strings("/model").at(0);
+  } catch (const FileError& error) {
+    return refused(error);
+  }
+  const Verb* const verb = verb_named(call.verb);
+  if (!verb || verb->takes != "MODEL" || call.file.empty() || call.file.starts_with('-')) {
+    fmt::print(stderr, "whirl: {} does not hold the command that made it\n", file);
+    return exit_status::wrong_input;
+  }
+  std::vector<std::string> line{"whirl", call.verb, call.file};
+  for (const std::string& option : options_without(call.options, not_again)) line.push_back(option);
+  line.insert(line.end(), words.begin() + 1, words.end());
+  return run_command(*verb, line, {text, call.sets});
+}
+
+}  // namespace
+
+Verb rerun_verb() {
+  return {
+      .name = "rerun",
+      .group = "Results",
+      .summary = "runs the command that made a result again",
+      .takes = "RESULT.h5",
+      .example = "whirl rerun run.h5",
+      .run_words = run_rerun,
+      .usage = rerun_usage,
+  };
+}
+
+}  // namespace whirl
