@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/verb.hpp"
+
 namespace whirl::test {
 
 using nlohmann::json;
@@ -173,10 +175,14 @@ class Program : public testing::Test {
   const std::filesystem::path outputs[2] = {folder.string() + ".out", folder.string() + ".err"};
 };
 
-/// Names of all verbs that take a model.
-inline const std::vector<std::string> model_verbs{
-    "check",    "static",   "modes", "campbell", "resonances", "critical", "unbalance", "simulate",
-    "identify", "classify", "orbit", "continue", "sweep",      "map",      "basins",    "bench"};
+/// Names of the verbs that take a model, but torus: small models do not move quasi-periodically.
+inline const std::vector<std::string> model_verbs = [] {
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs()) {
+    if (verb.takes == "MODEL" && verb.name != "torus") names.emplace_back(verb.name);
+  }
+  return names;
+}();
 
 /// The words of a call with options that keep its verb from measuring for long.
 inline std::vector<std::string> briefly(std::vector<std::string> words) {
