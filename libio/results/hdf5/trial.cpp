@@ -61,6 +61,14 @@ void confine(std::uintmax_t bytes) {
   ::dup2(nowhere, STDERR_FILENO);  // the C library and HDF5 tell of their ends
 }
 
+/// What a child did that did not come to its own end: a signal, or the exit of a sanitizer.
+std::string how_it_ended(int status) {
+  if (!WIFSIGNALED(status)) return fmt::format("ends with status {}", WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  if (signal == SIGXCPU || signal == SIGKILL) return "does not end";
+  return fmt::format("ends by signal {}", signal);
+}
+
 }  // namespace
 
 void try_in_child(const fs::path& path) {
@@ -82,12 +90,9 @@ void try_in_child(const fs::path& path) {
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!WIFSIGNALED(status)) return;
-  const int signal = WTERMSIG(status);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
   throw FileError(fmt::format("cannot open {}: damaged HDF5 file (reading it {})", path.string(),
-                              signal == SIGXCPU || signal == SIGKILL
-                                  ? "does not end"
-                                  : fmt::format("ends by signal {}", signal)));
+                              how_it_ended(status)));
 }
 
 }  // namespace whirl::hdf5
