@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libbase/section_geometry.hpp"
-#include "libdyn/flow/free_flight.hpp"
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/proven_orbit.hpp"
 #include "libdyn/taylor/mixed.hpp"
@@ -202,9 +200,14 @@ class Together {
     c.settles_after = c.transient + options_.revolutions + static_cast<long>(std::ceil(more));
   }
 
+  static FreeFlight& flight_of(Subject& s) {
+    if (!s.flight) s.flight = std::make_shared<FreeFlight>(*s.system);
+    return *s.flight;
+  }
+
   /// Revolutions after which no contact can happen to a motion without any; 0: never.
-  static long free_after(const Subject& s) {
-    FreeFlight flight(*s.system);
+  static long free_after(Subject& s) {
+    FreeFlight& flight = flight_of(s);
     if (!flight.decays()) return 0;
     constexpr double finer = 1.1;
     MotionState state = s.found.end;
@@ -223,7 +226,7 @@ class Together {
     for (Subject* s : open_) {
       const ContactSystem& system = *s->system;
       if (!system.films().empty()) continue;
-      FreeFlight& flight = flights_.try_emplace(s, system).first->second;
+      FreeFlight& flight = flight_of(*s);
       if (!flight.is_certain(s->found.end) || !flight.decays()) continue;
       Vec exponents = system.period() * eigenvalues(first_order_matrix(system)).real();
       std::sort(exponents.begin(), exponents.end(), std::greater<>());
@@ -289,7 +292,6 @@ class Together {
 
   const ClassifyOptions& options_;
   std::vector<Subject*> open_;
-  std::map<const Subject*, FreeFlight> flights_;
   long done_ = 0;  ///< revolutions of all motions
 };
 

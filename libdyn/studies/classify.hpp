@@ -4,10 +4,12 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "libbase/field.hpp"
+#include "libdyn/flow/free_flight.hpp"
 #include "libdyn/studies/settling.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/contact_system.hpp"
@@ -77,6 +79,7 @@ struct Classification {
 struct Subject {
   const ContactSystem* system = nullptr;
   Classification found;
+  std::shared_ptr<FreeFlight> flight{};  ///< of the system, once it was asked for
 };
 
 /// Integrates motions through their transients, together in the lanes of a batch.

@@ -10,7 +10,7 @@ namespace {
 
 constexpr Eigen::Index most_batches = 16;
 constexpr double bounded = 2.0;  ///< times what an exponent of zero comes out as
-constexpr double chance = 4.0;   ///< standard errors; see docs/validation.md for both
+constexpr double chance = 2.5;   ///< standard errors; see docs/validation.md for both
 
 /// Growth of a tangent in the revolutions from one to before another.
 double growth(const Mat& growths, Eigen::Index tangent, Eigen::Index from, Eigen::Index to) {
