@@ -1,10 +1,29 @@
-# The program, and the libraries for others: headers under include/whirl, targets whirl::base ... whirl::io,
-# found by find_package(whirl COMPONENTS ...).
+# The program with its man page, completion and models (component runtime), and the libraries for others:
+# headers under include/whirl, targets whirl::base ... whirl::io, found by find_package(whirl COMPONENTS ...).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/whirl)
-install(TARGETS whirl RUNTIME)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
+install(TARGETS whirl RUNTIME COMPONENT runtime)
+if(TARGET whirl_render)
+  install(TARGETS whirl_render RUNTIME COMPONENT runtime)
+endif()
+set(man ${CMAKE_CURRENT_BINARY_DIR}/whirl.1.gz)
+set(completion ${CMAKE_CURRENT_BINARY_DIR}/completion/whirl)
+add_custom_command(
+  OUTPUT ${man} ${completion}
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/completion
+  COMMAND bash -c "'${PROJECT_SOURCE_DIR}/tools/man-page' '$<TARGET_FILE:whirl>' | gzip -9n >'${man}'"
+  COMMAND bash -c "'$<TARGET_FILE:whirl>' completion >'${completion}'"
+  DEPENDS whirl ${PROJECT_SOURCE_DIR}/tools/man-page
+  VERBATIM)
+add_custom_target(whirl_pages ALL DEPENDS ${man} ${completion})
+install(FILES ${man} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
+install(FILES ${completion} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
+install(DIRECTORY models DESTINATION ${CMAKE_INSTALL_DATADIR}/whirl COMPONENT runtime)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT runtime)
+
 install(TARGETS whirl_options whirl_base EXPORT whirl-base)
 foreach(library fe contact dyn io)
   install(TARGETS whirl_${library} EXPORT whirl-${library})
@@ -21,3 +40,17 @@ configure_package_config_file(cmake/whirlConfig.cmake.in whirlConfig.cmake INSTA
 write_basic_package_version_file(whirlConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/whirlConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/whirlConfigVersion.cmake
         DESTINATION ${package})
+
+# cpack -G DEB in the build folder: a Debian package of the component runtime
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_ALL runtime)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_PACKAGE_CONTACT "the whirl authors <whirl@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "rotordynamics with contact")
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME whirl)
+set(CPACK_DEBIAN_RUNTIME_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+include(CPack)
