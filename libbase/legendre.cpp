@@ -16,23 +16,6 @@ Vec legendre(double s, int terms) {
   return p;
 }
 
-GaussRule gauss_rule(int points) {
-  GaussRule rule{Vec(points), Vec(points)};
-  for (int i = 0; i < points; ++i) {
-    double x = -std::cos(std::numbers::pi * (i + 0.75) / (points + 0.5)), slope = 1.0;
-    for (int newton = 0; newton < 20; ++newton) {
-      const Vec p = legendre(0.5 * (1.0 + x), points + 1);
-      slope = points * (x * p(points) - p(points - 1)) / (x * x - 1.0);
-      const double change = p(points) / slope;
-      x -= change;
-      if (std::abs(change) < 1e-16) break;
-    }
-    rule.s(i) = 0.5 * (1.0 + x);
-    rule.w(i) = 1.0 / ((1.0 - x * x) * slope * slope);
-  }
-  return rule;
-}
-
 Mat restriction(double from, double to, const GaussRule& rule) {
   const auto terms = static_cast<int>(rule.s.size());
   Mat r = Mat::Zero(terms, terms);

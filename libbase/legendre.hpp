@@ -1,19 +1,13 @@
 #pragma once
-/// Polynomials on [0, 1] in Legendre's basis P_k(2 s - 1), and nodes to sample them.
+/// Polynomials on [0, 1] in Legendre's basis P_k(2 s - 1).
 
 #include "libbase/linalg.hpp"
+#include "libbase/quadrature.hpp"
 
 namespace whirl {
 
 /// P_0 ... P_(terms-1) at 0 <= s <= 1.
 Vec legendre(double s, int terms);
-
-/// Nodes on [0, 1] and weights, exact to degree 2 points - 1.
-struct GaussRule {
-  Vec s, w;
-};
-/// @source [AbramowitzStegun1964], 25.4.29; nodes by Newton's method
-GaussRule gauss_rule(int points);
 
 /// Coefficients on [from, to] of a polynomial that is given by its coefficients on [0, 1].
 /// @param rule  with as many points as the polynomial has terms

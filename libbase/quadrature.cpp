@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace whirl {
 
@@ -16,12 +17,14 @@ Vec legendre(int n, double x) {
   return P;
 }
 
-}  // namespace
-
-Quadrature Quadrature::gauss(int n) {
-  Quadrature q{Vec(n), Vec(n), Mat(n, n)};
-  Mat P(n, n + 1);  // row i: P_0 ... P_n at point i
-  Vec t(n), wt(n);  // on [-1, 1]
+/// Points and weights on [-1, 1], and P_0 ... P_n at each point in a row.
+struct Rule {
+  Vec t, w;
+  Mat P;
+};
+Rule rule_of(int n) {
+  Rule rule{Vec(n), Vec(n), Mat(n, n + 1)};
+  auto& [t, wt, P] = rule;
   for (int i = 0; i < n; ++i) {
     double x = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
     double slope = 1.0;
@@ -37,17 +40,28 @@ Quadrature Quadrature::gauss(int n) {
     slope = n * (x * P(i, n) - P(i, n - 1)) / (x * x - 1.0);
     wt(i) = 2.0 / ((1.0 - x * x) * slope * slope);
   }
+  return rule;
+}
+
+}  // namespace
+
+GaussRule gauss_rule(int points) {
+  const Rule rule = rule_of(points);
+  return {0.5 * (rule.t.array() + 1.0), 0.5 * rule.w};
+}
+
+Quadrature Quadrature::gauss(int n) {
+  const auto [t, wt, P] = rule_of(n);
+  Mat S(n, n);
   // Lagrange polynomial j = sum_k (k + 1/2) w_j P_k(x_j) P_k, integrated term by term from -1
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
       double sum = 0.5 * (t(i) + 1.0);
       for (int k = 1; k < n; ++k) sum += 0.5 * P(j, k) * (P(i, k + 1) - P(i, k - 1));
-      q.S(i, j) = 0.5 * wt(j) * sum;
+      S(i, j) = 0.5 * wt(j) * sum;
     }
   }
-  q.x = 0.5 * (t.array() + 1.0);
-  q.w = 0.5 * wt;
-  return q;
+  return {0.5 * (t.array() + 1.0), 0.5 * wt, std::move(S)};
 }
 
 Mat Quadrature::interpolation(const Vec& at) const {

@@ -4,7 +4,15 @@
 
 namespace whirl {
 
-/// Gauss-Legendre points on [0, 1], with weights and the matrix that integrates from 0 to each.
+/// Gauss-Legendre points on [0, 1] and weights, exact to degree 2 points - 1.
+struct GaussRule {
+  Vec s;  ///< ascending
+  Vec w;  ///< sum 1
+};
+/// @source [AbramowitzStegun1964], 25.4.29; points by Newton's method
+GaussRule gauss_rule(int points);
+
+/// The same, with the matrix that integrates from 0 to each point.
 ///
 ///   integral_0^1 f      = w . f(x),           exact for polynomials up to degree 2 n - 1
 ///   integral_0^{x_i} f  = (S f(x))_i,         exact for polynomials up to degree n - 1
