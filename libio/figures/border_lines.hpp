@@ -1,7 +1,7 @@
 #pragma once
 /// Curves of bifurcations in a plane of two parameters, in their own figure and over maps.
 
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl::figures {
 

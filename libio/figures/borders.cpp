@@ -121,6 +121,8 @@ std::vector<Curve> border_curves(const BorderPoints& all, const std::vector<doub
 
 using namespace figures;
 
+namespace {
+
 std::vector<Figure> border_figures(const ResultView& result) {
   const BorderPoints all(result);
   if (all.borders.empty()) return {};
@@ -156,6 +158,18 @@ std::vector<Figure> border_figures(const ResultView& result) {
         "on both sides.");
   }
   return {f};
+}
+
+}  // namespace
+
+FigureKind borders_kind() {
+  return {
+      .name = "borders",
+      .title = "Borders",
+      .summary = "where periodic orbits change, in a plane of two parameters",
+      .needs = {"/border/second"},
+      .make = border_figures,
+  };
 }
 
 }  // namespace whirl

@@ -1,7 +1,7 @@
 #pragma once
 /// Lines and marks of branches of periodic orbits, in their own figure and over those of sweeps.
 
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl::figures {
 

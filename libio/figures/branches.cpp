@@ -74,8 +74,6 @@ void add_points(Panel& p, const ResultView& result, const BranchPoints& b,
   }
 }
 
-}  // namespace
-
 std::vector<Figure> branch_figures(const ResultView& result) {
   const BranchPoints b(result);
   if (b.size() < 2) return {};
@@ -118,6 +116,18 @@ std::vector<Figure> branch_figures(const ResultView& result) {
     figures.push_back(std::move(f));
   }
   return figures;
+}
+
+}  // namespace
+
+FigureKind branches_kind() {
+  return {
+      .name = "branches",
+      .title = "Branches",
+      .summary = "periodic orbits along a parameter, stable and unstable, with their bifurcations",
+      .needs = {"/branch/max_radius"},
+      .make = branch_figures,
+  };
 }
 
 }  // namespace whirl

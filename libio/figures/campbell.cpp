@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 
@@ -136,8 +136,6 @@ void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
   }
 }
 
-}  // namespace
-
 std::vector<Figure> campbell_figures(const ResultView& result) {
   const Branches b(result);
   Figure f{.height = 520.0};
@@ -228,6 +226,28 @@ std::vector<Figure> log_decrement_figures(const ResultView& result) {
   p.cursor = "speed";
   f.panels.push_back(p);
   return {f};
+}
+
+}  // namespace
+
+FigureKind campbell_kind() {
+  return {
+      .name = "campbell",
+      .title = "Campbell",
+      .summary = "natural frequencies over speed, with the critical speeds",
+      .needs = {"/campbell/frequency"},
+      .make = campbell_figures,
+  };
+}
+
+FigureKind log_decrement_kind() {
+  return {
+      .name = "log_decrement",
+      .title = "Log decrement",
+      .summary = "logarithmic decrements over speed, with the limit of stability",
+      .needs = {"/campbell/log_decrement"},
+      .make = log_decrement_figures,
+  };
 }
 
 }  // namespace whirl

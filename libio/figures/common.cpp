@@ -1,10 +1,11 @@
+#include "libio/figures/common.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "libio/figures/all.hpp"
 #include "libio/results/call.hpp"
 
 namespace whirl::figures {

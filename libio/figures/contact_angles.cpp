@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 
@@ -71,8 +71,6 @@ Touches touches_of(const ResultView& result, std::size_t contact, const Mat& bas
   }
   return t;
 }
-
-}  // namespace
 
 std::vector<Figure> contact_angle_figures(const ResultView& result) {
   const Mat basis = result.file.matrix("/trajectory/basis");
@@ -142,6 +140,19 @@ std::vector<Figure> contact_angle_figures(const ResultView& result) {
     figures.push_back(std::move(f));
   }
   return figures;
+}
+
+}  // namespace
+
+FigureKind contact_angles_kind() {
+  return {
+      .name = "contact_angles",
+      .title = "Contact angles",
+      .summary = "where around the stator it touches, and how hard",
+      .needs = {"/trajectory/normal_force", "/trajectory/coordinates"},
+      .needs_model = true,
+      .make = contact_angle_figures,
+  };
 }
 
 }  // namespace whirl

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "libfe/critical_map.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 
@@ -86,8 +86,6 @@ FigureTable criticals_of(const ResultView& result, const std::vector<double>& sp
   return table;
 }
 
-}  // namespace
-
 std::vector<Figure> critical_figures(const ResultView& result) {
   const auto speeds = numbers(result.file.vector("/critical/speed"));
   if (speeds.empty()) return {};
@@ -122,6 +120,19 @@ std::vector<Figure> critical_figures(const ResultView& result) {
   f.table = criticals_of(result, speeds);
   f.panels.push_back(std::move(p));
   return {f};
+}
+
+}  // namespace
+
+FigureKind critical_map_kind() {
+  return {
+      .name = "critical_map",
+      .title = "Critical speeds",
+      .summary = "critical speeds over the stiffness of the bearings",
+      .needs = {"/critical/speed"},
+      .needs_model = true,
+      .make = critical_figures,
+  };
 }
 
 }  // namespace whirl

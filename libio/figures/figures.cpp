@@ -5,11 +5,47 @@
 #include <algorithm>
 
 #include "libbase/error.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/result_schema.hpp"
 
+// clang-format off
+#define KINDS            \
+  layout_kind(),         \
+  static_kind(),         \
+  modes_kind(),          \
+  campbell_kind(),       \
+  log_decrement_kind(),  \
+  critical_map_kind(),   \
+  bode_kind(),           \
+  polar_kind(),          \
+  deflection_kind(),     \
+  orbit_kind(),          \
+  time_history_kind(),   \
+  spectrum_kind(),       \
+  waterfall_kind(),      \
+  poincare_kind(),       \
+  contact_forces_kind(), \
+  contact_angles_kind(), \
+  mac_kind(),            \
+  exponents_kind(),      \
+  bifurcation_kind(),    \
+  spectral_map_kind(),   \
+  cascade_kind(),        \
+  branches_kind(),       \
+  borders_kind(),        \
+  torus_kind(),          \
+  map_kind(),            \
+  exponent_map_kind(),   \
+  regime_map_kind(),     \
+  basins_kind(),         \
+  work_precision_kind()
+// clang-format on
+
 namespace whirl {
+
+// The list twice: as declarations of functions, each in the file of its figures, and as their calls.
+FigureKind KINDS;
 
 ResultView::ResultView(const std::filesystem::path& file_path)
     : path(file_path.string()), file(file_path) {
@@ -43,186 +79,7 @@ std::optional<DisplayUnit> frequency_unit(std::string_view name) {
 }
 
 const std::vector<FigureKind>& figure_kinds() {
-  static const std::vector<FigureKind> kinds{
-      {"layout",
-       "Layout",
-       "the rotor to scale, with disks, bearings and contacts",
-       {},
-       true,
-       layout_figures},
-      {"static",
-       "Sag and bending",
-       "sag under gravity, bearing loads, bending moment and shear force",
-       {"/static/z", "/static/deflection", "/static/moment", "/static/shear"},
-       false,
-       static_figures},
-      {"modes",
-       "Mode shapes",
-       "mode shapes along the rotor",
-       {"/modes/shape", "/points/z"},
-       false,
-       mode_figures},
-      {"campbell",
-       "Campbell",
-       "natural frequencies over speed, with the critical speeds",
-       {"/campbell/frequency"},
-       false,
-       campbell_figures},
-      {"log_decrement",
-       "Log decrement",
-       "logarithmic decrements over speed, with the limit of stability",
-       {"/campbell/log_decrement"},
-       false,
-       log_decrement_figures},
-      {"critical_map",
-       "Critical speeds",
-       "critical speeds over the stiffness of the bearings",
-       {"/critical/speed"},
-       true,
-       critical_figures},
-      {"bode",
-       "Bode",
-       "amplitude and phase of the unbalance response",
-       {"/unbalance/x"},
-       false,
-       bode_figures},
-      {"polar",
-       "Polar",
-       "the same in the plane of its complex amplitude",
-       {"/unbalance/x"},
-       false,
-       polar_figures},
-      {"deflection",
-       "Deflected shapes",
-       "deflected shape at the peaks of the response",
-       {"/unbalance/major", "/points/z"},
-       false,
-       deflection_figures},
-      {"orbit",
-       "Orbit",
-       "path of a station, seen from the ground and from the rotor",
-       {"/trajectory/x"},
-       false,
-       orbit_figures,
-       true},
-      {"time_history",
-       "Time history",
-       "displacements and contact forces in time",
-       {"/trajectory/x"},
-       false,
-       time_history_figures,
-       true},
-      {"spectrum",
-       "Spectrum",
-       "full spectrum, backward left and forward right",
-       {"/spectra/amplitude"},
-       false,
-       spectrum_figures},
-      {"waterfall",
-       "Waterfall",
-       "full spectra one after another in time, one above the other",
-       {"/trajectory/x"},
-       false,
-       waterfall_figures},
-      {"poincare",
-       "Poincaré",
-       "where a station is once a revolution",
-       {"/trajectory/x"},
-       false,
-       poincare_figures,
-       true},
-      {"contact_forces",
-       "Contact forces",
-       "normal and friction force of the contacts in time",
-       {"/trajectory/normal_force"},
-       false,
-       contact_force_figures,
-       true},
-      {"contact_angles",
-       "Contact angles",
-       "where around the stator it touches, and how hard",
-       {"/trajectory/normal_force", "/trajectory/coordinates"},
-       true,
-       contact_angle_figures},
-      {"mac",
-       "MAC",
-       "which modes make up the peaks of the response",
-       {"/mac/mac"},
-       false,
-       mac_figures},
-      {"exponents",
-       "Exponents",
-       "Lyapunov exponents of the motion",
-       {"/classify/exponent"},
-       false,
-       exponent_figures},
-      {"bifurcation",
-       "Bifurcation",
-       "bifurcation diagram, with exponents, time in touch and forces",
-       {"/sweep/poincare_x"},
-       false,
-       bifurcation_figures},
-      {"spectral_map",
-       "Spectral map",
-       "spectra along a parameter, as colors",
-       {"/sweep/spectrum"},
-       false,
-       spectral_map_figures},
-      {"cascade",
-       "Cascade",
-       "spectra along a parameter, one above the other",
-       {"/sweep/spectrum"},
-       false,
-       cascade_figures},
-      {"branches",
-       "Branches",
-       "periodic orbits along a parameter, stable and unstable, with their bifurcations",
-       {"/branch/max_radius"},
-       false,
-       branch_figures},
-      {"borders",
-       "Borders",
-       "where periodic orbits change, in a plane of two parameters",
-       {"/border/second"},
-       false,
-       border_figures},
-      {"torus",
-       "Quasi-periodic",
-       "rotation and largest exponent of a quasi-periodic motion along a parameter",
-       {"/torus/value"},
-       false,
-       torus_figures},
-      {"map",
-       "Map",
-       "kinds of motion in a plane of two parameters",
-       {"/map/motion"},
-       false,
-       map_figures},
-      {"exponent_map",
-       "Exponent map",
-       "largest Lyapunov exponent in the plane",
-       {"/map/exponent"},
-       false,
-       exponent_map_figures},
-      {"regime_map",
-       "Contact map",
-       "contact in the plane",
-       {"/map/regime"},
-       false,
-       regime_map_figures},
-      {"basins",
-       "Basins",
-       "which motion each start leads to",
-       {"/basins/attractor"},
-       false,
-       basin_figures},
-      {"work_precision",
-       "Speed against error",
-       "speed against error of the integrators",
-       {"/bench/error"},
-       false,
-       work_precision_figures},
-  };
+  static const std::vector<FigureKind> kinds{KINDS};
   return kinds;
 }
 

@@ -36,18 +36,19 @@ struct ResultView {
 /// A unit for frequency axes: "Hz", "cpm" or "rad/s"; nothing for other names.
 std::optional<DisplayUnit> frequency_unit(std::string_view name);
 
-/// A kind of figure.
+/// A kind of figure; it is described in the file that draws it.
 struct FigureKind {
   std::string_view name;
   std::string_view title;  ///< "Bode", above its card on a page
   std::string_view summary;
-  std::vector<std::string_view> needs;  ///< datasets; without all of them there is no figure
+  std::vector<std::string_view> needs{};  ///< datasets; without all of them there is no figure
   bool needs_model = false;
-  std::vector<Figure> (*make)(const ResultView&);  ///< the most telling one first; may be none
+  std::vector<Figure> (*make)(const ResultView&) =
+      nullptr;                ///< the most telling one first; may be none
   bool takes_window = false;  ///< whether ResultView::window says what is drawn
 };
 
-/// All kinds, in the order of a report. A new kind is a file in figures/ and an entry here.
+/// All kinds, in the order of a report. A new kind is a file in figures/ and a line in figures.cpp.
 const std::vector<FigureKind>& figure_kinds();
 
 /// Whether a result holds what a kind needs.

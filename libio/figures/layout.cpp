@@ -5,7 +5,7 @@
 
 #include "libdyn/system/stations.hpp"
 #include "libio/export/vtk_scene.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 #include "libio/text/format.hpp"
 
 namespace whirl {
@@ -123,8 +123,6 @@ std::vector<Figure> front_view(const ResultView& result) {
   return {f};
 }
 
-}  // namespace
-
 std::vector<Figure> layout_figures(const ResultView& result) {
   const Model& model = *result.model;
   const Assembler& assembler = *result.assembler;
@@ -231,6 +229,18 @@ std::vector<Figure> layout_figures(const ResultView& result) {
   f.height = std::clamp(140.0 + 2.0 * reach / (1.08 * length) * 750.0, 260.0, 760.0);
   f.panels.push_back(std::move(p));
   return {f};
+}
+
+}  // namespace
+
+FigureKind layout_kind() {
+  return {
+      .name = "layout",
+      .title = "Layout",
+      .summary = "the rotor to scale, with disks, bearings and contacts",
+      .needs_model = true,
+      .make = layout_figures,
+  };
 }
 
 }  // namespace whirl

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 #include "libio/results/motion_codes.hpp"
 
 namespace whirl {
@@ -135,8 +135,6 @@ double motion_number(std::optional<MotionKind> kind, double period) {
   if (number > periodic) return number + told_periods;
   return periodic + (period >= 1.0 && period <= told_periods ? period - 1.0 : told_periods);
 }
-
-}  // namespace
 
 std::vector<Figure> map_figures(const ResultView& result) {
   const Planes planes(result, "/map");
@@ -279,6 +277,48 @@ std::vector<Figure> basin_figures(const ResultView& result) {
   }
   f.panels.push_back(std::move(p));
   return {f};
+}
+
+}  // namespace
+
+FigureKind map_kind() {
+  return {
+      .name = "map",
+      .title = "Map",
+      .summary = "kinds of motion in a plane of two parameters",
+      .needs = {"/map/motion"},
+      .make = map_figures,
+  };
+}
+
+FigureKind exponent_map_kind() {
+  return {
+      .name = "exponent_map",
+      .title = "Exponent map",
+      .summary = "largest Lyapunov exponent in the plane",
+      .needs = {"/map/exponent"},
+      .make = exponent_map_figures,
+  };
+}
+
+FigureKind regime_map_kind() {
+  return {
+      .name = "regime_map",
+      .title = "Contact map",
+      .summary = "contact in the plane",
+      .needs = {"/map/regime"},
+      .make = regime_map_figures,
+  };
+}
+
+FigureKind basins_kind() {
+  return {
+      .name = "basins",
+      .title = "Basins",
+      .summary = "which motion each start leads to",
+      .needs = {"/basins/attractor"},
+      .make = basin_figures,
+  };
 }
 
 }  // namespace whirl

@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 #include "libfe/shaft_line.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
 
 namespace whirl {
@@ -165,8 +165,6 @@ FigureTable table_of_modes(const ResultView& result) {
   return t;
 }
 
-}  // namespace
-
 std::vector<Figure> mode_figures(const ResultView& result) {
   const Vec frequency = result.file.vector("/modes/frequency");
   const Vec decrement = result.file.vector("/modes/log_decrement");
@@ -258,6 +256,38 @@ std::vector<Figure> exponent_figures(const ResultView& result) {
   p.curves.push_back(c);
   f.panels.push_back(std::move(p));
   return {f};
+}
+
+}  // namespace
+
+FigureKind modes_kind() {
+  return {
+      .name = "modes",
+      .title = "Mode shapes",
+      .summary = "mode shapes along the rotor",
+      .needs = {"/modes/shape", "/points/z"},
+      .make = mode_figures,
+  };
+}
+
+FigureKind mac_kind() {
+  return {
+      .name = "mac",
+      .title = "MAC",
+      .summary = "which modes make up the peaks of the response",
+      .needs = {"/mac/mac"},
+      .make = mac_figures,
+  };
+}
+
+FigureKind exponents_kind() {
+  return {
+      .name = "exponents",
+      .title = "Exponents",
+      .summary = "Lyapunov exponents of the motion",
+      .needs = {"/classify/exponent"},
+      .make = exponent_figures,
+  };
 }
 
 }  // namespace whirl

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "libio/export/vtk_scene.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl::figures {
 

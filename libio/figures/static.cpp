@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "libbase/error.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
 
 namespace whirl {
@@ -125,8 +125,6 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
   }
 }
 
-}  // namespace
-
 std::vector<Figure> static_figures(const ResultView& result) {
   const Vec z = result.file.vector("/static/z");
   const std::array<Line, 3> lines{{{"deflection", "m", result.file.matrix("/static/deflection")},
@@ -149,6 +147,18 @@ std::vector<Figure> static_figures(const ResultView& result) {
       "Loads are forces of the rotor on its bearings, arrows those of the bearings on the "
       "rotor; y points up. A shaft that sags between bearings has a moment above zero."};
   return {f};
+}
+
+}  // namespace
+
+FigureKind static_kind() {
+  return {
+      .name = "static",
+      .title = "Sag and bending",
+      .summary = "sag under gravity, bearing loads, bending moment and shear force",
+      .needs = {"/static/z", "/static/deflection", "/static/moment", "/static/shear"},
+      .make = static_figures,
+  };
 }
 
 }  // namespace whirl

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 #include "libio/results/motion_codes.hpp"
 
 namespace whirl {
@@ -87,8 +87,6 @@ struct Spectra {
 };
 
 constexpr double shown_orders = 4.0;
-
-}  // namespace
 
 std::vector<Figure> bifurcation_figures(const ResultView& result) {
   const ShownAxis axis = shown_axis(result, "/sweep/axis_1");
@@ -268,6 +266,38 @@ std::vector<Figure> cascade_figures(const ResultView& result) {
     figures.push_back(std::move(f));
   }
   return figures;
+}
+
+}  // namespace
+
+FigureKind bifurcation_kind() {
+  return {
+      .name = "bifurcation",
+      .title = "Bifurcation",
+      .summary = "bifurcation diagram, with exponents, time in touch and forces",
+      .needs = {"/sweep/poincare_x"},
+      .make = bifurcation_figures,
+  };
+}
+
+FigureKind spectral_map_kind() {
+  return {
+      .name = "spectral_map",
+      .title = "Spectral map",
+      .summary = "spectra along a parameter, as colors",
+      .needs = {"/sweep/spectrum"},
+      .make = spectral_map_figures,
+  };
+}
+
+FigureKind cascade_kind() {
+  return {
+      .name = "cascade",
+      .title = "Cascade",
+      .summary = "spectra along a parameter, one above the other",
+      .needs = {"/sweep/spectrum"},
+      .make = cascade_figures,
+  };
 }
 
 }  // namespace whirl

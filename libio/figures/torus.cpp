@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 
@@ -31,8 +31,6 @@ std::vector<Ratio> ratios_within(double low, double high) {
   }
   return found;
 }
-
-}  // namespace
 
 std::vector<Figure> torus_figures(const ResultView& result) {
   const ShownAxis axis = shown_axis(result, "/torus/value");
@@ -75,6 +73,18 @@ std::vector<Figure> torus_figures(const ResultView& result) {
       "Below zero the circle attracts. At a ratio p/q of small integers it may lock to orbits that "
       "repeat after q revolutions.");
   return {f};
+}
+
+}  // namespace
+
+FigureKind torus_kind() {
+  return {
+      .name = "torus",
+      .title = "Quasi-periodic",
+      .summary = "rotation and largest exponent of a quasi-periodic motion along a parameter",
+      .needs = {"/torus/value"},
+      .make = torus_figures,
+  };
 }
 
 }  // namespace whirl

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 
@@ -49,8 +49,6 @@ void add_forces(const ResultView& result, const Motion& m, Eigen::Index contact,
     p.curves.push_back(std::move(t));
   }
 }
-
-}  // namespace
 
 std::vector<Figure> time_history_figures(const ResultView& result) {
   const Motion m(result);
@@ -316,6 +314,62 @@ std::vector<Figure> contact_force_figures(const ResultView& result) {
   }
   f.notes = m.notes(seen_revolutions);
   return f.panels.empty() ? std::vector<Figure>{} : std::vector<Figure>{f};
+}
+
+}  // namespace
+
+FigureKind orbit_kind() {
+  return {
+      .name = "orbit",
+      .title = "Orbit",
+      .summary = "path of a station, seen from the ground and from the rotor",
+      .needs = {"/trajectory/x"},
+      .make = orbit_figures,
+      .takes_window = true,
+  };
+}
+
+FigureKind time_history_kind() {
+  return {
+      .name = "time_history",
+      .title = "Time history",
+      .summary = "displacements and contact forces in time",
+      .needs = {"/trajectory/x"},
+      .make = time_history_figures,
+      .takes_window = true,
+  };
+}
+
+FigureKind spectrum_kind() {
+  return {
+      .name = "spectrum",
+      .title = "Spectrum",
+      .summary = "full spectrum, backward left and forward right",
+      .needs = {"/spectra/amplitude"},
+      .make = spectrum_figures,
+  };
+}
+
+FigureKind poincare_kind() {
+  return {
+      .name = "poincare",
+      .title = "Poincaré",
+      .summary = "where a station is once a revolution",
+      .needs = {"/trajectory/x"},
+      .make = poincare_figures,
+      .takes_window = true,
+  };
+}
+
+FigureKind contact_forces_kind() {
+  return {
+      .name = "contact_forces",
+      .title = "Contact forces",
+      .summary = "normal and friction force of the contacts in time",
+      .needs = {"/trajectory/normal_force"},
+      .make = contact_force_figures,
+      .takes_window = true,
+  };
 }
 
 }  // namespace whirl

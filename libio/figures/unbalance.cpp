@@ -6,7 +6,7 @@
 
 #include "libbase/constants.hpp"
 #include "libfe/amplification.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 
@@ -172,23 +172,6 @@ Figure bode(const ResultView& result, const Response& r, const CMat& a, const ch
   return f;
 }
 
-}  // namespace
-
-std::vector<Eigen::Index> figures::deflection_peaks(const Mat& magnitude) {
-  const Vec largest = magnitude.colwise().maxCoeff().transpose();
-  std::vector<Eigen::Index> peaks;
-  for (Eigen::Index k = 1; k + 1 < largest.size(); ++k) {
-    if (largest(k) > largest(k - 1) && largest(k) >= largest(k + 1)) peaks.push_back(k);
-  }
-  constexpr std::size_t most = 4;
-  std::sort(peaks.begin(), peaks.end(),
-            [&](Eigen::Index a, Eigen::Index b) { return largest(a) > largest(b); });
-  if (peaks.size() > most) peaks.resize(most);
-  if (peaks.empty()) peaks.push_back(largest.size() - 1);
-  std::sort(peaks.begin(), peaks.end());
-  return peaks;
-}
-
 std::vector<Figure> bode_figures(const ResultView& result) {
   const Response r(result);
   std::vector<Figure> figures{bode(result, r, r.x, "x")};
@@ -301,6 +284,53 @@ std::vector<Figure> deflection_figures(const ResultView& result) {
   p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::dash_dot});
   f.panels.push_back(p);
   return {f};
+}
+
+}  // namespace
+
+std::vector<Eigen::Index> figures::deflection_peaks(const Mat& magnitude) {
+  const Vec largest = magnitude.colwise().maxCoeff().transpose();
+  std::vector<Eigen::Index> peaks;
+  for (Eigen::Index k = 1; k + 1 < largest.size(); ++k) {
+    if (largest(k) > largest(k - 1) && largest(k) >= largest(k + 1)) peaks.push_back(k);
+  }
+  constexpr std::size_t most = 4;
+  std::sort(peaks.begin(), peaks.end(),
+            [&](Eigen::Index a, Eigen::Index b) { return largest(a) > largest(b); });
+  if (peaks.size() > most) peaks.resize(most);
+  if (peaks.empty()) peaks.push_back(largest.size() - 1);
+  std::sort(peaks.begin(), peaks.end());
+  return peaks;
+}
+
+FigureKind bode_kind() {
+  return {
+      .name = "bode",
+      .title = "Bode",
+      .summary = "amplitude and phase of the unbalance response",
+      .needs = {"/unbalance/x"},
+      .make = bode_figures,
+  };
+}
+
+FigureKind polar_kind() {
+  return {
+      .name = "polar",
+      .title = "Polar",
+      .summary = "the same in the plane of its complex amplitude",
+      .needs = {"/unbalance/x"},
+      .make = polar_figures,
+  };
+}
+
+FigureKind deflection_kind() {
+  return {
+      .name = "deflection",
+      .title = "Deflected shapes",
+      .summary = "deflected shape at the peaks of the response",
+      .needs = {"/unbalance/major", "/points/z"},
+      .make = deflection_figures,
+  };
 }
 
 }  // namespace whirl

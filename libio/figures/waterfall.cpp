@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "libbase/spectrum.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 
@@ -66,8 +66,6 @@ double reach_of(const ShortTimeSpectra& s) {
   }
   return reach;
 }
-
-}  // namespace
 
 std::vector<Figure> waterfall_figures(const ResultView& result) {
   const Motion m(result);
@@ -131,6 +129,18 @@ std::vector<Figure> waterfall_figures(const ResultView& result) {
     if (figures.size() == most_stations) break;
   }
   return figures;
+}
+
+}  // namespace
+
+FigureKind waterfall_kind() {
+  return {
+      .name = "waterfall",
+      .title = "Waterfall",
+      .summary = "full spectra one after another in time, one above the other",
+      .needs = {"/trajectory/x"},
+      .make = waterfall_figures,
+  };
 }
 
 }  // namespace whirl

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 
@@ -53,6 +53,8 @@ Figure work_precision_figure(const WorkPrecision& data) {
   return f;
 }
 
+namespace {
+
 std::vector<Figure> work_precision_figures(const ResultView& result) {
   WorkPrecision data;
   data.methods = result.file.strings("/bench/method");
@@ -67,6 +69,18 @@ std::vector<Figure> work_precision_figures(const ResultView& result) {
   data.subtitle = fmt::format("{}, one core, {}", figures::speed_text(result),
                               tolerance_range(data.tolerances));
   return {work_precision_figure(data)};
+}
+
+}  // namespace
+
+FigureKind work_precision_kind() {
+  return {
+      .name = "work_precision",
+      .title = "Speed against error",
+      .summary = "speed against error of the integrators",
+      .needs = {"/bench/error"},
+      .make = work_precision_figures,
+  };
 }
 
 }  // namespace whirl

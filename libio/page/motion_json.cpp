@@ -7,7 +7,7 @@
 #include "libbase/constants.hpp"
 #include "libfe/unbalance.hpp"
 #include "libio/export/vtk_scene.hpp"
-#include "libio/figures/all.hpp"
+#include "libio/figures/common.hpp"
 
 namespace whirl {
 

@@ -1,40 +1,10 @@
 #pragma once
-/// The functions behind the kinds of figures, and what they share.
+/// What kinds of figures share.
 
 #include "libbase/constants.hpp"
 #include "libio/figures/figures.hpp"
 
 namespace whirl {
-
-std::vector<Figure> layout_figures(const ResultView& result);
-std::vector<Figure> static_figures(const ResultView& result);
-std::vector<Figure> campbell_figures(const ResultView& result);
-std::vector<Figure> log_decrement_figures(const ResultView& result);
-std::vector<Figure> critical_figures(const ResultView& result);
-std::vector<Figure> mode_figures(const ResultView& result);
-std::vector<Figure> bode_figures(const ResultView& result);
-std::vector<Figure> polar_figures(const ResultView& result);
-std::vector<Figure> deflection_figures(const ResultView& result);
-std::vector<Figure> time_history_figures(const ResultView& result);
-std::vector<Figure> orbit_figures(const ResultView& result);
-std::vector<Figure> spectrum_figures(const ResultView& result);
-std::vector<Figure> waterfall_figures(const ResultView& result);
-std::vector<Figure> poincare_figures(const ResultView& result);
-std::vector<Figure> contact_force_figures(const ResultView& result);
-std::vector<Figure> contact_angle_figures(const ResultView& result);
-std::vector<Figure> mac_figures(const ResultView& result);
-std::vector<Figure> exponent_figures(const ResultView& result);
-std::vector<Figure> bifurcation_figures(const ResultView& result);
-std::vector<Figure> spectral_map_figures(const ResultView& result);
-std::vector<Figure> cascade_figures(const ResultView& result);
-std::vector<Figure> branch_figures(const ResultView& result);
-std::vector<Figure> border_figures(const ResultView& result);
-std::vector<Figure> torus_figures(const ResultView& result);
-std::vector<Figure> map_figures(const ResultView& result);
-std::vector<Figure> exponent_map_figures(const ResultView& result);
-std::vector<Figure> regime_map_figures(const ResultView& result);
-std::vector<Figure> basin_figures(const ResultView& result);
-std::vector<Figure> work_precision_figures(const ResultView& result);
 
 namespace figures {
 
