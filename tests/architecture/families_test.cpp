@@ -1,0 +1,92 @@
+// A member of a family is one file and one line of its list.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace families_test {
+
+namespace fs = std::filesystem;
+
+/// Lines of the sources of a folder that match, by their files.
+std::map<std::string, int> places_in(const char* folder, const std::string& pattern) {
+  const std::regex searched(pattern);
+  std::map<std::string, int> places;
+  const fs::path root = fs::path(WHIRL_SOURCE_DIR) / folder;
+  for (const auto& entry : fs::recursive_directory_iterator(root)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      if (std::regex_search(line, searched)) ++places[fs::relative(entry.path(), root).string()];
+    }
+  }
+  return places;
+}
+
+/// The same in the program.
+std::map<std::string, int> places_of(const std::string& pattern) {
+  return places_in("apps", pattern);
+}
+
+/// Members by the functions of a list that describe them, such as modes_verb().
+std::vector<std::string> names_in(const char* list, const std::string& family) {
+  std::vector<std::string> names;
+  std::ifstream file(fs::path(WHIRL_SOURCE_DIR) / list);
+  std::smatch match;
+  for (std::string line; std::getline(file, line);) {
+    if (std::regex_search(line, match, std::regex("\\b(\\w+)_" + family + "\\(\\)"))) {
+      names.push_back(match[1]);
+    }
+  }
+  return names;
+}
+
+TEST(Verbs, EachIsOneFileAndOneLineOfTheList) {
+  const std::vector<std::string> names = names_in("apps/verbs.cpp", "verb");
+  EXPECT_GE(names.size(), 24u);
+  for (const std::string& name : names) {
+    const std::string own = "verbs/" + name + ".cpp";
+    // its functions: one that describes it, and one that runs it
+    EXPECT_EQ(places_of("\\b" + name + "_verb\\b"),
+              (std::map<std::string, int>{{own, 1}, {"verbs.cpp", 1}}));
+    EXPECT_EQ(places_of("\\brun_" + name + "\\b"), (std::map<std::string, int>{{own, 2}}));
+    EXPECT_EQ(places_of("\\.name = \"" + name + "\""), (std::map<std::string, int>{{own, 1}}));
+  }
+}
+
+// One whose name is no common word: nothing else of the program knows its name as that of a verb.
+TEST(Verbs, UnbalanceIsNamedNowhereElse) {
+  const auto places = places_of("\"unbalance\"|unbalance_verb|run_unbalance");
+  EXPECT_EQ(places, (std::map<std::string, int>{{"verbs/unbalance.cpp", 4}, {"verbs.cpp", 1}}));
+}
+
+TEST(Figures, EachIsDescribedInOneFileAndALineOfTheList) {
+  const std::vector<std::string> names = names_in("libio/figures/figures.cpp", "kind");
+  EXPECT_GE(names.size(), 29u);
+  for (const std::string& name : names) {
+    SCOPED_TRACE(name);
+    const auto named = places_in("libio", "\\.name = \"" + name + "\"");
+    ASSERT_EQ(named.size(), 1u);
+    const std::string own = named.begin()->first;
+    EXPECT_EQ(places_in("libio", "\\b" + name + "_kind\\("),
+              (std::map<std::string, int>{{own, 1}, {"figures/figures.cpp", 1}}));
+  }
+}
+
+// A ring's contact law: a file, its include and its place in the list.
+TEST(ContactLaws, HertzIsAFileAndTwoLinesOfTheList) {
+  const auto places = places_in("libcontact", "\\bHertz<|laws/hertz");
+  std::map<std::string, int> outside = places;
+  outside.erase("laws/hertz.hpp");
+  EXPECT_EQ(outside, (std::map<std::string, int>{{"laws.hpp", 2}}));
+  for (const char* folder : {"libfe", "libdyn", "libio", "apps"}) {
+    EXPECT_TRUE(places_in(folder, "\\bHertz<|laws/hertz").empty()) << folder;
+  }
+}
+
+}  // namespace families_test
