@@ -153,14 +153,15 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
   if (static_cast<int>(modes.oscillatory.size()) > count) modes.oscillatory.resize(count);
   const Sparse D = system.D();
   const Refinement refinement(system.M, D, system.K);
+  std::vector<Mode> refined;
   for (Mode& mode : modes.oscillatory) {
     Complex lambda = mode.lambda;
     CVec q = mode.shape;
-    refinement.improve(lambda, q, reach_of(lambda, found.lambda));
+    if (!refinement.improve(lambda, q, reach_of(lambda, found.lambda))) continue;
     if (lambda != mode.lambda) mode = describe(lambda, q, system.dofs);
+    refined.push_back(std::move(mode));
   }
-  std::erase_if(modes.oscillatory,
-                [&](const Mode& m) { return !refinement.balances(m.lambda, m.shape); });
+  modes.oscillatory = std::move(refined);
   return modes;
 }
 

@@ -35,28 +35,28 @@ double Refinement::backward_error(Complex lambda, const CVec& q) const {
 }
 
 bool Refinement::balances(Complex lambda, const CVec& q) const {
-  if (backward_error(lambda, q) <= accurate) return true;
   const CVec inertia = lambda * lambda * (M_ * q), damping = lambda * (D_ * q), elastic = K_ * q;
   return (inertia + damping + elastic).norm() <
          unbalanced * (inertia.norm() + damping.norm() + elastic.norm());
 }
 
-void Refinement::improve(Complex& lambda, CVec& q, double reach) const {
+bool Refinement::improve(Complex& lambda, CVec& q, double reach) const {
   double error = backward_error(lambda, q);
   const Complex start = lambda;
   for (int i = 0; i < most_steps && error > accurate; ++i) {
     const CSparse Q =
         (lambda * lambda) * M_.cast<Complex>() + lambda * D_.cast<Complex>() + K_.cast<Complex>();
     const Eigen::SparseLU<CSparse> factor(Q);
-    if (factor.info() != Eigen::Success) return;
+    if (factor.info() != Eigen::Success) break;
     const CVec x = factor.solve(CVec(2.0 * lambda * (M_ * q) + D_ * q));
     const Complex next = lambda - q.squaredNorm() / q.dot(x);
     const double then = x.allFinite() ? backward_error(next, x) : error;
-    if (!(then < error) || !(std::abs(next - start) < reach)) return;
+    if (!(then < error) || !(std::abs(next - start) < reach)) break;
     lambda = next;
     q = x.normalized();
     error = then;
   }
+  return error <= accurate || balances(lambda, q);
 }
 
 }  // namespace whirl

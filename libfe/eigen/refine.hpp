@@ -13,17 +13,18 @@ class Refinement {
   /// longest column for the size of a matrix. [Tisseur2000]
   double backward_error(Complex lambda, const CVec& q) const;
 
-  /// Whether the parts lambda^2 M q, lambda D q and K q of an eigenpair balance at all. At an
-  /// infinite eigenvalue (parts without mass, M q = 0) that rounding made finite, nothing holds the
-  /// first: what is left of the sum is as large as the parts.
-  bool balances(Complex lambda, const CVec& q) const;
-
   /// Newton's iteration, where the backward error is above 2e-11 and as long as it falls.
   ///
   /// @param reach  how far lambda may move: less than to another eigenvalue
-  void improve(Complex& lambda, CVec& q, double reach) const;
+  /// @return       whether it is an eigenpair: at an infinite eigenvalue (parts without mass,
+  ///               M q = 0) that rounding made finite, nothing holds lambda^2 M q, and what is left
+  ///               of the sum of the parts is as large as they are
+  bool improve(Complex& lambda, CVec& q, double reach) const;
 
  private:
+  /// Whether lambda^2 M q, lambda D q and K q hold one another at all.
+  bool balances(Complex lambda, const CVec& q) const;
+
   const Sparse &M_, &D_, &K_;
   double size_M_, size_D_, size_K_;
 };
