@@ -7,13 +7,16 @@
 
 namespace whirl {
 
-Vec legendre(double s, int terms) {
-  const double x = 2.0 * s - 1.0;
+Vec legendre_at(double x, int terms) {
   Vec p(terms);
   for (int k = 0; k < terms; ++k) {
     p(k) = k == 0 ? 1.0 : k == 1 ? x : ((2 * k - 1) * x * p(k - 1) - (k - 1) * p(k - 2)) / k;
   }
   return p;
+}
+
+Vec legendre(double s, int terms) {
+  return legendre_at(2.0 * s - 1.0, terms);
 }
 
 Mat restriction(double from, double to, const GaussRule& rule) {

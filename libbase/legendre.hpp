@@ -6,7 +6,9 @@
 
 namespace whirl {
 
-/// P_0 ... P_(terms-1) at 0 <= s <= 1.
+/// P_0 ... P_(terms-1) at -1 <= x <= 1.
+Vec legendre_at(double x, int terms);
+/// The same at x = 2 s - 1, 0 <= s <= 1.
 Vec legendre(double s, int terms);
 
 /// Coefficients on [from, to] of a polynomial that is given by its coefficients on [0, 1].

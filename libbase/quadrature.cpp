@@ -4,18 +4,11 @@
 #include <numbers>
 #include <utility>
 
+#include "libbase/legendre.hpp"
+
 namespace whirl {
 
 namespace {
-
-/// Legendre polynomials P_0 ... P_n at x in [-1, 1].
-Vec legendre(int n, double x) {
-  Vec P(n + 1);
-  P(0) = 1.0;
-  if (n > 0) P(1) = x;
-  for (int k = 1; k < n; ++k) P(k + 1) = ((2 * k + 1) * x * P(k) - k * P(k - 1)) / (k + 1);
-  return P;
-}
 
 /// Points and weights on [-1, 1], and P_0 ... P_n at each point in a row.
 struct Rule {
@@ -29,14 +22,14 @@ Rule rule_of(int n) {
     double x = -std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
     double slope = 1.0;
     for (int it = 0; it < 100; ++it) {  // Newton on P_n
-      const Vec p = legendre(n, x);
+      const Vec p = legendre_at(x, n + 1);
       slope = n * (x * p(n) - p(n - 1)) / (x * x - 1.0);
       const double step = p(n) / slope;
       x -= step;
       if (std::abs(step) < 1e-16) break;
     }
     t(i) = x;
-    P.row(i) = legendre(n, x).transpose();
+    P.row(i) = legendre_at(x, n + 1).transpose();
     slope = n * (x * P(i, n) - P(i, n - 1)) / (x * x - 1.0);
     wt(i) = 2.0 / ((1.0 - x * x) * slope * slope);
   }

@@ -1,6 +1,5 @@
 #include "libdyn/methods/rk4.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "libdyn/system/diagnosis.hpp"

@@ -18,17 +18,6 @@ namespace {
 /// Least share of a displacement that a place takes by itself.
 constexpr double rigid = 1e-12;
 
-/// Motions of all freedoms in coordinates: those nearest in kinetic energy.
-struct Nearest {
-  explicit Nearest(const Scene& scene)
-      : weighted(scene.reduced.Phi.transpose() * Mat(scene.system.M)), mass(scene.reduced.M) {}
-
-  Vec coordinates(const Vec& q) const { return mass.solve(weighted * q); }
-
-  Mat weighted;  ///< Phi^T M
-  DenseLu<Mat> mass;
-};
-
 Vec at_rest_under_gravity(const Model& model, const Scene& scene) {
   if (model.structure.gravity == 0.0) return Vec::Zero(scene.contacts.coordinates());
   if (model.films.empty()) {
@@ -37,7 +26,7 @@ Vec at_rest_under_gravity(const Model& model, const Scene& scene) {
   return equilibrium(scene.contacts);
 }
 
-Vec end_of(const FullState* end, const Scene& scene, const Nearest& nearest) {
+Vec end_of(const FullState* end, const Scene& scene, const NearestCoordinates& nearest) {
   if (!end) throw ModelError({}, "start.file", "no result file was given to start from");
   const Sparse& T = scene.system.dofs.T;
   if (end->displacement.size() != T.rows()) {
@@ -49,7 +38,7 @@ Vec end_of(const FullState* end, const Scene& scene, const Nearest& nearest) {
   const Mat dense_T(T);
   const DenseLu<Mat> normal(dense_T.transpose() * dense_T);
   const auto coordinates = [&](const Vec& full) {
-    return nearest.coordinates(normal.solve(dense_T.transpose() * full));
+    return nearest.of(normal.solve(dense_T.transpose() * full));
   };
   Vec y(2 * scene.contacts.coordinates());
   y << coordinates(end->displacement), coordinates(end->velocity);
@@ -57,13 +46,13 @@ Vec end_of(const FullState* end, const Scene& scene, const Nearest& nearest) {
 }
 
 /// What a place does alone: the motion of least kinetic energy with it.
-void displace(const Displaced& d, const Scene& scene, const Nearest& nearest, Vec& y) {
+void displace(const Displaced& d, const Scene& scene, const NearestCoordinates& nearest, Vec& y) {
   const int n = scene.contacts.coordinates();
   const Point p = scene.assembler.point(d.at);
   Mat rows(2, n);
   rows.row(0) = scene.system.dofs.row(p, X).transpose() * scene.reduced.Phi;
   rows.row(1) = scene.system.dofs.row(p, Y).transpose() * scene.reduced.Phi;
-  const Mat pull = nearest.mass.solve(rows.transpose());
+  const Mat pull = nearest.mass().solve(rows.transpose());
   const DenseLu<Mat> share(rows * pull);
   if (!(share.rcond() > rigid)) {
     throw ModelError(d.at.where, "start.displaced", "this place cannot move by itself");
@@ -72,8 +61,8 @@ void displace(const Displaced& d, const Scene& scene, const Nearest& nearest, Ve
   y.tail(n) += pull * share.solve(Vec2(d.vx, d.vy));
 }
 
-void whirl_in(const std::vector<WhirlStart>& wanted, const Modes& modes, const Nearest& nearest,
-              Vec& y) {
+void whirl_in(const std::vector<WhirlStart>& wanted, const Modes& modes,
+              const NearestCoordinates& nearest, Vec& y) {
   const auto n = y.size() / 2;
   for (const WhirlStart& w : wanted) {
     if (w.mode < 1 || w.mode > static_cast<int>(modes.oscillatory.size())) {
@@ -83,8 +72,8 @@ void whirl_in(const std::vector<WhirlStart>& wanted, const Modes& modes, const N
     }
     const Mode& mode = modes.oscillatory[static_cast<std::size_t>(w.mode - 1)];
     const CVec q = std::polar(w.amplitude, w.phase) * mode.shape;
-    y.head(n) += nearest.coordinates(q.real());
-    y.tail(n) += nearest.coordinates((mode.lambda * q).real());
+    y.head(n) += nearest.of(q.real());
+    y.tail(n) += nearest.of((mode.lambda * q).real());
   }
 }
 
@@ -104,7 +93,7 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
 
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end,
                         const Modes& modes) {
-  const Nearest nearest(scene);
+  const NearestCoordinates nearest(scene);
   const int n = scene.contacts.coordinates();
   MotionState state;
   state.y = Vec::Zero(2 * n);

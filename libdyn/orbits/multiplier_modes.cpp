@@ -14,7 +14,7 @@ namespace {
 /// Reduced states of the modes, their displacements times Omega.
 std::vector<CVec> states_of_modes(const Scene& scene) {
   const Eigen::Index n = scene.contacts.coordinates();
-  const CMat coordinates = coordinates_of(scene).cast<Complex>();
+  const CMat coordinates = NearestCoordinates(scene).matrix().cast<Complex>();
   std::vector<CVec> states;
   for (const Mode& m : complex_modes(scene.system, static_cast<int>(n)).oscillatory) {
     const CVec eta = coordinates * m.shape;

@@ -46,7 +46,7 @@ std::optional<Shape> shape_of(const Scene& scene, const Modes& modes, double fre
     }
   }
   if (!nearest) return std::nullopt;
-  const CVec q = coordinates_of(scene).cast<Complex>() * nearest->shape;
+  const CVec q = NearestCoordinates(scene).matrix().cast<Complex>() * nearest->shape;
   // radius of its circle at the contact that it reaches first, in clearances
   double reach = 0.0;
   for (const ReducedContact& c : scene.contacts.contacts()) {

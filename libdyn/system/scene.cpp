@@ -5,9 +5,7 @@
 #include <array>
 #include <span>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libfe/eigen/symmetric.hpp"
 
 namespace whirl {
 
@@ -91,10 +89,8 @@ Scene with_contacts(const Scene& scene, const Model& model) {
           ContactSystem(scene.assembler, scene.reduced, model.contacts, model.films)};
 }
 
-Mat coordinates_of(const Scene& scene) {
-  const Mat weighted = scene.reduced.Phi.transpose() * Mat(scene.system.M);
-  return DenseLu<Mat>(scene.reduced.M).solve(weighted);
-}
+NearestCoordinates::NearestCoordinates(const Scene& scene)
+    : weighted_(scene.reduced.Phi.transpose() * Mat(scene.system.M)), mass_(scene.reduced.M) {}
 
 FullState full_state(const Scene& scene, const MotionState& state) {
   const Mat map = scene.displacement_map();

@@ -1,6 +1,7 @@
 #pragma once
 /// A model made ready for computing at one speed: assembled, reduced, with its contacts.
 
+#include "libbase/dense.hpp"
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/trajectory.hpp"
@@ -35,9 +36,21 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
 /// A scene with other laws of its contacts and films, at the same stations and speed.
 Scene with_contacts(const Scene& scene, const Model& model);
 
-/// What makes coordinates of a motion of all freedoms: those nearest to it in kinetic energy,
-/// eta = (Phi^T M Phi)^-1 Phi^T M q, coordinates x freedoms.
-Mat coordinates_of(const Scene& scene);
+/// Motions of all freedoms in coordinates: those nearest in kinetic energy,
+/// eta = (Phi^T M Phi)^-1 Phi^T M q.
+class NearestCoordinates {
+ public:
+  explicit NearestCoordinates(const Scene& scene);
+
+  Vec of(const Vec& q) const { return mass_.solve(weighted_ * q); }
+  /// The matrix that makes them, coordinates x freedoms.
+  Mat matrix() const { return mass_.solve(weighted_); }
+  const DenseLu<Mat>& mass() const { return mass_; }  ///< Phi^T M Phi
+
+ private:
+  Mat weighted_;  ///< Phi^T M
+  DenseLu<Mat> mass_;
+};
 
 /// Motion of all points at an instant, as stored in results.
 struct FullState {
