@@ -1,4 +1,4 @@
-// Draws a figure: the description is made by the program (libio/figure.hpp), the same as for files.
+// Draws a figure: the description is made by the program (libio/drawing/figure.hpp), the same as for files.
 
 // ---------------------------------------------------------------- numbers and colors
 
