@@ -160,7 +160,7 @@ void Borders::begin(const std::vector<TracedBranch>& branches) {
           border.branch = Continuation(equations(border), b.at.z, options(border)).branch();
         } catch (const NumericalError& error) {  // a point where two of them meet, say
           border.branch.points = {b.at};
-          border.branch.end = error.what();
+          border.branch.end = {EndKind::no_start, error.what()};
           border.branch.points[0].value = parameters_.across->first;
           Vec z(b.at.z.size() + 1);  // the second parameter is appended
           z << b.at.z, 0.0;
@@ -178,14 +178,14 @@ bool Borders::walk(const std::vector<TracedBranch>& branches,
   if (borders_.empty()) begin(branches);
   std::size_t points = 0;
   for (TracedBranch& border : borders_) {
-    if (!border.branch.end.empty()) continue;
+    if (border.branch.end) continue;
     Continuation on(equations(border), border.branch, options(border));
     while (!is_interrupted() && on.advance()) {
       border.branch = on.branch();
       added(++points);
     }
     border.branch = on.branch();
-    if (border.branch.end.empty()) return false;
+    if (!border.branch.end) return false;
   }
   return true;
 }
@@ -193,7 +193,7 @@ bool Borders::walk(const std::vector<TracedBranch>& branches,
 void Borders::write(ResultWriter& file) const {
   if (borders_.empty()) return;
   const bool is_complete = std::all_of(borders_.begin(), borders_.end(),
-                                       [](const auto& b) { return !b.branch.end.empty(); });
+                                       [](const auto& b) { return b.branch.end.has_value(); });
   write_borders(file, layout_, axes(), borders_, is_complete);
 }
 
@@ -213,7 +213,8 @@ Record Borders::record() const {
       pair.add(p.value);
       points.add(pair);
     }
-    r.set("points", points).set("end", b.branch.end);
+    r.set("points", points).set("end", b.branch.end_text());
+    r.set("end_kind", b.branch.end ? Record(name_of(b.branch.end->kind)) : Record(nullptr));
     list.add(r);
   }
   return list;
@@ -231,7 +232,7 @@ std::string Borders::text() const {
     table.row({std::string(name_of(b.kind)) + (b.contact.empty() ? "" : " of " + b.contact),
                std::to_string(b.parent), std::to_string(b.branch.points.size()),
                fmt::format("{:.6g} to {:.6g}", axes().first_value(first), axes().first_value(last)),
-               fmt::format("{:.6g} to {:.6g}", first.value, last.value), b.branch.end});
+               fmt::format("{:.6g} to {:.6g}", first.value, last.value), b.branch.end_text()});
   }
   return "\n  borders in the plane of both parameters\n\n" + table.text();
 }

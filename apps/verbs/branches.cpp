@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "libbase/constants.hpp"
 #include "libio/results/hdf5.hpp"
@@ -152,6 +153,39 @@ class Packed {
   std::size_t next_ = 0;
 };
 
+/// Why each branch ends, none while it goes on.
+void write_ends(ResultWriter& file, const std::string& of,
+                const std::vector<TracedBranch>& branches) {
+  std::vector<std::string> texts, kinds, reasons;
+  for (const TracedBranch& b : branches) {
+    const BranchEnd end = b.branch.end.value_or(BranchEnd());
+    texts.push_back(end.text);
+    kinds.emplace_back(b.branch.end ? name_of(end.kind) : "");
+    reasons.push_back(end.reason);
+  }
+  const std::vector<std::string> axes{of + "/number"};
+  file.dataset(of + "/end", texts, {"", "why it ends", axes});
+  file.dataset(of + "/end_kind", kinds, {"", "what makes it end", axes});
+  file.dataset(of + "/end_reason", reasons, {"", "what fails where no orbit is found", axes});
+}
+
+/// Those ends again. Files of earlier versions have texts alone.
+std::vector<std::optional<BranchEnd>> read_ends(const ResultReader& file, const std::string& of) {
+  const std::vector<std::string> texts = file.strings(of + "/end");
+  std::vector<std::string> kinds(texts.size()), reasons = kinds;
+  if (file.has(of + "/end_kind")) kinds = file.strings(of + "/end_kind");
+  if (file.has(of + "/end_reason")) reasons = file.strings(of + "/end_reason");
+  std::vector<std::optional<BranchEnd>> ends(texts.size());
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (texts[i].empty()) continue;
+    ends[i] = {.kind = EndKind::untold, .text = texts[i], .reason = reasons[i]};
+    for (const auto& [name, kind] : choices(EndKind{})) {
+      if (kinds[i] == name) ends[i]->kind = kind;
+    }
+  }
+  return ends;
+}
+
 /// The branches of a walk, with the ends and the names of contacts that stand beside it.
 std::vector<TracedBranch> read_walk(const ResultReader& file, const std::string& of,
                                     const BranchLayout& layout) {
@@ -160,9 +194,9 @@ std::vector<TracedBranch> read_walk(const ResultReader& file, const std::string&
   if (file.has(of + "/bifurcation_contact")) grazing = file.strings(of + "/bifurcation_contact");
   std::size_t known = 0;
   std::vector<TracedBranch> branches;
-  for (const std::string& end : file.strings(of + "/end")) {
+  for (std::optional<BranchEnd>& end : read_ends(file, of)) {
     branches.push_back(walk.take_branch());
-    branches.back().branch.end = end;
+    branches.back().branch.end = std::move(end);
     for (Bifurcation& x : branches.back().branch.bifurcations) {
       x.contact = known < grazing.size() ? grazing[known] : "";
       ++known;
@@ -204,7 +238,7 @@ void write_sections(ResultWriter& file, const std::vector<TracedBranch>& branche
 void write_branches(ResultWriter& file, const BranchLayout& layout,
                     const std::vector<TracedBranch>& branches, bool is_complete) {
   Packed walk(layout.contacts);
-  std::vector<std::string> ends, kinds, grazing;
+  std::vector<std::string> kinds, grazing;
   std::vector<int> number, period, parent, of_point, stable, of_bifurcation, after;
   std::vector<double> value, revolutions, work, residual, radius, duty, impacts, normal, tangential,
       at, change;
@@ -214,7 +248,6 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
     number.push_back(static_cast<int>(number.size()) + 1);
     period.push_back(b.branch.period);
     parent.push_back(b.parent);
-    ends.push_back(b.branch.end);
     walk.put(b);
     for (std::size_t i = 0; i < b.branch.points.size(); ++i) {
       const BranchPoint& p = b.branch.points[i];
@@ -254,7 +287,7 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
   file.dataset(path("number"), number, {"", "branch", {""}});
   file.dataset(path("period"), period, {"", "period [revolutions]", {path("number")}});
   file.dataset(path("parent"), parent, {"", "branch that it begins on; 0: none", {path("number")}});
-  file.dataset(path("end"), ends, {"", "why it ends", {path("number")}});
+  write_ends(file, group, branches);
   file.dataset(path("value"), value, {layout.unit, layout.path, {""}});
   file.attribute(group, "parameter", layout.path);
   const std::string along = path("value");
@@ -314,7 +347,7 @@ void write_borders(ResultWriter& file, const BranchLayout& layout, const BorderA
   const std::string of = "/border";
   const auto path = [&](const char* name) { return of + "/" + name; };
   Packed walk(layout.contacts);
-  std::vector<std::string> kinds, contacts, ends;
+  std::vector<std::string> kinds, contacts;
   std::vector<int> number, period, curve, stable;
   std::vector<double> first, second;
   for (const TracedBranch& b : borders) {
@@ -323,7 +356,6 @@ void write_borders(ResultWriter& file, const BranchLayout& layout, const BorderA
     kinds.emplace_back(name_of(b.kind));
     contacts.push_back(b.contact);
     period.push_back(b.branch.period);
-    ends.push_back(b.branch.end);
     for (const BranchPoint& p : b.branch.points) {
       curve.push_back(number.back());
       first.push_back(axes.first_value(p));
@@ -337,7 +369,7 @@ void write_borders(ResultWriter& file, const BranchLayout& layout, const BorderA
   file.dataset(path("kind"), kinds, {"", "kind of the bifurcation", of_curve});
   file.dataset(path("contact"), contacts, {"", "contact that grazes", of_curve});
   file.dataset(path("period"), period, {"", "period of the orbits [revolutions]", of_curve});
-  file.dataset(path("end"), ends, {"", "why it ends", of_curve});
+  write_ends(file, of, borders);
   file.dataset(path("first"), first, {layout.unit, layout.path, {""}});
   const std::vector<std::string> of_point{path("first")};
   file.dataset(path("second"), second, {axes.unit, axes.path, of_point});

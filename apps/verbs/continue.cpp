@@ -57,8 +57,9 @@ class Tracing {
   const BranchLayout& layout() const { return layout_; }
   std::vector<TracedBranch>& branches() { return branches_; }
   bool is_complete() const {
-    return !branches_.empty() && std::all_of(branches_.begin(), branches_.end(),
-                                             [](const auto& b) { return !b.branch.end.empty(); });
+    return !branches_.empty() && std::all_of(branches_.begin(), branches_.end(), [](const auto& b) {
+      return b.branch.end.has_value();
+    });
   }
 
   FlowAt flow_at() const {
@@ -96,7 +97,7 @@ class Tracing {
   /// @param added  called after each point
   bool walk(const std::function<void(std::size_t points)>& added) {
     for (std::size_t i = 0; i < branches_.size(); ++i) {
-      if (branches_[i].branch.end.empty()) {
+      if (!branches_[i].branch.end) {
         ContinuationOptions how = options_;
         how.direction = branches_[i].direction;
         Continuation on(equations(), branches_[i].branch, how);
@@ -112,9 +113,9 @@ class Tracing {
           added(++points_);
         }
         branches_[i].branch = on.branch();
-        if (on.branch().end.empty()) return false;
-        if (on.branch().is_halved()) drop_same(i);
-        if (i == 0 && on.branch().is_closed() && branches_.size() > 1) {
+        if (!on.branch().end) return false;
+        if (on.branch().ends_as(EndKind::period_halved)) drop_same(i);
+        if (i == 0 && on.branch().ends_as(EndKind::closed) && branches_.size() > 1) {
           branches_.erase(branches_.begin() + 1);
         }
         add_switched(i);
@@ -278,7 +279,7 @@ std::string branches_text(const std::vector<TracedBranch>& branches, const Branc
         k + 1, period_text(b, layout), b.points.size(), stable, b.points.front().value,
         b.points.back().value,
         branches[k].parent > 0 ? fmt::format("; begins on branch {}", branches[k].parent) : "",
-        b.end.empty() ? "not yet" : b.end);
+        b.end ? b.end->text : "not yet");
     if (b.bifurcations.empty()) continue;
     const std::string unit =
         parameters.along.axis.unit.empty() ? "" : " [" + parameters.along.axis.unit + "]";
@@ -381,7 +382,9 @@ Report run_continue(const Invocation& call) {
   for (const TracedBranch& b : branches) {
     Record r;
     r.set("period_revs", b.branch.period);
-    r.set("parent", b.parent > 0 ? Record(b.parent) : Record(nullptr)).set("end", b.branch.end);
+    r.set("parent", b.parent > 0 ? Record(b.parent) : Record(nullptr))
+        .set("end", b.branch.end_text());
+    r.set("end_kind", b.branch.end ? Record(name_of(b.branch.end->kind)) : Record(nullptr));
     list.add(r);
   }
   Record& r = report.record;

@@ -128,10 +128,10 @@ Report run_torus(const Invocation& call) {
       walks.points.insert(walks.points.end(), found.begin(), found.end());
       const auto [p, q] = nearest_ratio(direction == along.direction ? found.back().rotation
                                                                      : found.front().rotation);
-      walks.ends.push_back(walk.branch().end.empty() ? "stopped"
-                                                     : fmt::format("{} (rotation next to {}/{})",
-                                                                   walk.branch().end, p, q));
-      if (walk.branch().end.empty()) report.status = 130;
+      walks.ends.push_back(walk.branch().end ? fmt::format("{} (rotation next to {}/{})",
+                                                           walk.branch().end->text, p, q)
+                                             : "stopped");
+      if (!walk.branch().end) report.status = 130;
     }
   }
 

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "libbase/field.hpp"
@@ -62,17 +62,44 @@ struct Bifurcation {
   Complex multiplier{1.0};  ///< the critical one; of a grazing NaN
 };
 
+/// What makes a branch end.
+enum class EndKind {
+  range,          ///< the end of the parameter's range
+  closed,         ///< the first orbit again
+  period_halved,  ///< its orbits come to repeat after half their period
+  most_points,    ///< as many as asked for
+  grazing,        ///< a contact touches otherwise from there on, and no orbit is found
+  no_orbit,       ///< none is found, for another reason
+  no_start,       ///< its first point could not be found
+  untold          ///< a sentence in a file that does not say which
+};
+constexpr auto choices(EndKind) {
+  return std::array{Choice<EndKind>{"range", EndKind::range},
+                    Choice<EndKind>{"closed", EndKind::closed},
+                    Choice<EndKind>{"period-halved", EndKind::period_halved},
+                    Choice<EndKind>{"most-points", EndKind::most_points},
+                    Choice<EndKind>{"grazing", EndKind::grazing},
+                    Choice<EndKind>{"no-orbit", EndKind::no_orbit},
+                    Choice<EndKind>{"no-start", EndKind::no_start},
+                    Choice<EndKind>{"untold", EndKind::untold}};
+}
+
+/// The end of a branch.
+struct BranchEnd {
+  EndKind kind = EndKind::untold;
+  std::string text;      ///< the whole sentence
+  std::string reason{};  ///< of no_orbit: what failed there
+};
+
 struct Branch {
   int period = 1;
   std::vector<BranchPoint> points;
   std::vector<Bifurcation> bifurcations;  ///< in the order of the branch
-  std::string end;                        ///< why it ended; empty: it goes on
+  std::optional<BranchEnd> end;           ///< none: it goes on
 
-  bool is_closed() const { return end == closed; }
-  /// Whether it ends where its orbits come to repeat after half their period.
-  bool is_halved() const { return end.starts_with(halved); }
-  static constexpr std::string_view closed = "it closes: the first orbit again";
-  static constexpr std::string_view halved = "it has half the period from";
+  bool ends_as(EndKind kind) const { return end && end->kind == kind; }
+  /// Why it ends, as a sentence; empty while it goes on.
+  std::string end_text() const { return end ? end->text : ""; }
 };
 
 }  // namespace whirl

@@ -23,6 +23,8 @@ constexpr double finest = 1e-6;   ///< arc length down to which bifurcations are
 
 constexpr double at_vertex = 1e-5;  ///< of the range, where a branch is born
 
+const BranchEnd range_end{EndKind::range, "the end of the range"};
+
 using enum BifurcationKind;
 
 }  // namespace
@@ -78,7 +80,7 @@ Continuation::Continuation(BranchEquations equations, Branch branch,
   options_.check();
   const Vec& z = branch_.points.back().z;
   weigh(z.size() - 1);
-  if (branch_.end.empty()) by_parameter_ = derivative_by_parameter(z);
+  if (!branch_.end) by_parameter_ = derivative_by_parameter(z);
 }
 
 void Continuation::weigh(Eigen::Index unknowns) {
@@ -178,9 +180,9 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
 }
 
 bool Continuation::advance() {
-  if (!branch_.end.empty()) return false;
+  if (branch_.end) return false;
   if (std::ssize(branch_.points) >= options_.most_points) {
-    branch_.end = "as many points as asked for";
+    branch_.end = {EndKind::most_points, "as many points as asked for"};
     return false;
   }
   const BranchPoint last = branch_.points.back();
@@ -249,16 +251,17 @@ bool Continuation::advance() {
         return b.after + 1 == branch_.points.size() && (b.kind == fold || b.kind == pitchfork) &&
                std::abs(b.at.z(size) - trial.point.z(size)) < at_vertex;
       });
-      branch_.end = fmt::format("{} {:.10g} on", Branch::halved, trial.point.value);
+      branch_.end = {EndKind::period_halved,
+                     fmt::format("it has half the period from {:.10g} on", trial.point.value)};
     }
     by_parameter_ = std::move(by_parameter);
     branch_.points.push_back(std::move(trial.point));
-    if (is_end) branch_.end = "the end of the range";
-    if (is_closing) branch_.end = Branch::closed;
+    if (is_end) branch_.end = range_end;
+    if (is_closing) branch_.end = {EndKind::closed, "it closes: the first orbit again"};
     return true;
   }
   if (std::abs(share) > 1e-3 && (u <= 0.0 || u >= 1.0) && std::ssize(branch_.points) > 1) {
-    branch_.end = "the end of the range";
+    branch_.end = range_end;
   } else {
     end_at_failure(why);
   }

@@ -70,7 +70,8 @@ Continuation::Trial Continuation::closing(const BranchPoint& a, const BranchPoin
 
 void Continuation::end_at_failure(const std::string& why) {
   const BranchPoint& last = branch_.points.back();
-  branch_.end = fmt::format("no orbit is found beyond {:.10g}: {}", last.value, why);
+  branch_.end = {EndKind::no_orbit,
+                 fmt::format("no orbit is found beyond {:.10g}: {}", last.value, why), why};
   // the motions that the tangent predicts: do they touch otherwise, and from where on
   const auto impacts_differ = [&](double length, std::vector<ContactMeasure>& seen) {
     Vec z = last.z + length * last.tangent;
@@ -107,8 +108,10 @@ void Continuation::end_at_failure(const std::string& why) {
                     .multiplier = critical_multiplier(grazing, {})};
     const double u = last.z(last.z.size() - 1) + high * last.tangent(last.z.size() - 1);
     end.at.value = value_of(std::clamp(u, 0.0, 1.0));
-    branch_.end = fmt::format("contact {} grazes at about {:.7g}, beyond {:.10g} no orbit is found",
-                              end.contact, end.at.value, last.value);
+    branch_.end = {
+        EndKind::grazing,
+        fmt::format("contact {} grazes at about {:.7g}, beyond {:.10g} no orbit is found",
+                    end.contact, end.at.value, last.value)};
     branch_.bifurcations.push_back(std::move(end));
   }
 }

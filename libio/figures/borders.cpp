@@ -32,6 +32,17 @@ const BorderStyle& style_of(const std::string& kind) {
   return *known;
 }
 
+/// Why each border ends: what failed, else the whole sentence, as in files of earlier versions.
+std::vector<std::string> reasons_of_ends(const ResultReader& file) {
+  std::vector<std::string> ends = file.strings("/border/end");
+  if (!file.has("/border/end_reason")) return ends;
+  const std::vector<std::string> reasons = file.strings("/border/end_reason");
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (!reasons[i].empty()) ends[i] = reasons[i];
+  }
+  return ends;
+}
+
 }  // namespace
 
 BorderPoints::BorderPoints(const ResultView& result)
@@ -40,8 +51,8 @@ BorderPoints::BorderPoints(const ResultView& result)
       stable(result.file.numbers("/border/stable")) {
   const auto of = result.file.integers("/border/curve");
   const auto kind = result.file.strings("/border/kind"),
-             contact = result.file.strings("/border/contact"),
-             end = result.file.strings("/border/end");
+             contact = result.file.strings("/border/contact");
+  const std::vector<std::string> end = reasons_of_ends(result.file);
   const auto period = result.file.numbers("/border/period");
   for (std::size_t c = 0; c < kind.size(); ++c) {
     Border border{.kind = kind[c], .contact = contact[c], .period = period[c], .ends = {end[c]}};
@@ -144,11 +155,9 @@ std::vector<Figure> border_figures(const ResultView& result) {
     for (const std::size_t i : b.points) has_thin = has_thin || all.stable[i] == 0.0;
     constexpr std::size_t most_told = 6;
     if (all.borders.size() > most_told) continue;
-    std::string why;  // the last part of "no orbit is found beyond 6e7: the range ends"
+    std::string why;
     for (const std::string& end : b.ends) {
-      const auto colon = end.rfind(": ");
-      const std::string part = colon == std::string::npos ? end : end.substr(colon + 2);
-      if (!part.empty() && part != why) why += (why.empty() ? "" : "; ") + part;
+      if (!end.empty() && end != why) why += (why.empty() ? "" : "; ") + end;
     }
     if (!why.empty()) f.notes.push_back(fmt::format("{}: {}.", b.name, why));
   }

@@ -20,6 +20,7 @@ TEST_F(Branches, OfBouncingBeginAboveTheInternalResonance) {
                               "operation.speed=3000:7000:20rpm", "--at", "4430rpm"});
   ASSERT_EQ(branch["branches"].size(), 1u);
   EXPECT_EQ(branch["branches"][0]["end"], "it closes: the first orbit again");
+  EXPECT_EQ(branch["branches"][0]["end_kind"], "closed");
   std::vector<double> folds;
   for (const json& b : branch["bifurcations"]) {
     if (b["kind"] == "fold") folds.push_back(b["value"].get<double>() / rpm);

@@ -83,7 +83,7 @@ TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {
   const double x = 0.5 - std::sqrt(1.75);
   const Branch branch =
       walk_to_the_end(orbit_continuation(quadratic, Vec(Vec::Constant(1, x + 0.01)), options));
-  EXPECT_EQ(branch.end, "the end of the range");
+  EXPECT_TRUE(branch.ends_as(EndKind::range)) << branch.end_text();
   EXPECT_EQ(branch.points.front().value, -1.5);
   EXPECT_EQ(branch.points.back().value, -1.5);  // round the fold and back
   EXPECT_NEAR(branch.points.back().z(0), 0.5 + std::sqrt(1.75), 1e-11);
@@ -100,7 +100,7 @@ TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {
 
   const Branch two = switched(quadratic, Vec::Ones(1), 1, branch.bifurcations[0], options);
   EXPECT_EQ(two.period, 2);
-  EXPECT_EQ(two.end, "the end of the range");
+  EXPECT_TRUE(two.ends_as(EndKind::range)) << two.end_text();
   ASSERT_EQ(values(two, period_doubling).size(), 1u);
   EXPECT_NEAR(values(two, period_doubling)[0], -1.25, located);
 
@@ -126,7 +126,7 @@ TEST(Continuation, EndsWhereThePeriodIsHalved) {
       walk_to_the_end(orbit_continuation(logistic, Vec(Vec::Constant(1, 0.63)), options));
   ASSERT_EQ(values(one, period_doubling).size(), 2u);
   const Branch two = switched(logistic, Vec::Ones(1), 1, one.bifurcations[0], options);
-  ASSERT_TRUE(two.is_halved()) << two.end;
+  ASSERT_TRUE(two.ends_as(EndKind::period_halved)) << two.end_text();
   EXPECT_NEAR(std::abs(two.points.back().value), std::sqrt(0.2), 1e-5);
   EXPECT_NEAR(two.points.back().value, -two.points.front().value, 1e-5);
   EXPECT_TRUE(two.bifurcations.empty());
@@ -231,11 +231,11 @@ TEST(Continuation, FollowsAnImpactingOrbitRoundItsFoldToItsGrazing) {
   const std::vector<double> folds = values(branch, fold), grazings = values(branch, grazing);
   ASSERT_EQ(folds.size(), 1u);
   EXPECT_NEAR(folds[0] / p.amplitude(v_fold), 1.0, located);
-  ASSERT_EQ(grazings.size(), 1u) << branch.end;
+  ASSERT_EQ(grazings.size(), 1u) << branch.end_text();
   EXPECT_NEAR(grazings[0], p.d, near_grazing);
   EXPECT_EQ(branch.bifurcations.back().contact, "wall");
   EXPECT_EQ(branch.bifurcations.back().change, -1.0);
-  EXPECT_TRUE(branch.end.find("wall grazes") != std::string::npos) << branch.end;
+  EXPECT_TRUE(branch.ends_as(EndKind::grazing)) << branch.end_text();
   // multipliers on both sides of the fold: v solves (k^2 + g^2) v^2 + 2 d k v + d^2 - A^2 = 0
   const double a = p.k() * p.k() + p.g() * p.g(), b = p.d * p.k();
   std::size_t number = 0;

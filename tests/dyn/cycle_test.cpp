@@ -76,7 +76,7 @@ TEST(Cycle, IsFollowedAlongAParameter) {
   while (walk.advance()) {
   }
   const Branch& branch = walk.branch();
-  EXPECT_EQ(branch.end, "the end of the range");
+  EXPECT_TRUE(branch.ends_as(EndKind::range)) << branch.end_text();
   EXPECT_TRUE(branch.bifurcations.empty());
   constexpr double integrated = 1e-8;  // by 60 steps of order 8 in a period
   EXPECT_NEAR(branch.points.back().z(2), 6.6632868593231, integrated);

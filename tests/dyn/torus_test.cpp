@@ -108,7 +108,7 @@ TEST(InvariantCircle, IsFollowedAlongAParameter) {
       {.low = 0.01, .high = 0.2, .first = 0.2, .direction = -1.0, .largest_step = 0.02});
   while (walk.advance()) {
   }
-  EXPECT_EQ(walk.branch().end, "the end of the range");
+  EXPECT_TRUE(walk.branch().ends_as(EndKind::range)) << walk.branch().end_text();
   for (const BranchPoint& p : walk.branch().points) {
     const InvariantCircle c = circle_of(p.z.head(p.z.size() - 1), flow.scale, 1);
     EXPECT_NEAR(c.rotation, (angle + twist * p.value) / turn, 1e-9);
