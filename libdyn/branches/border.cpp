@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "libbase/error.hpp"
+#include "libbase/floquet.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/taylor/batch.hpp"
 

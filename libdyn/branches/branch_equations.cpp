@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libbase/error.hpp"
+#include "libbase/floquet.hpp"
 
 namespace whirl {
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "libbase/error.hpp"
+#include "libbase/newton.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 
 namespace whirl {
@@ -151,7 +152,7 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
     }
     trial.point.contacts = at.contacts;  // also of a failure, to tell why
     const double residual = at.residual.lpNorm<Eigen::Infinity>();
-    if (is_closed(residual, before)) {
+    if (has_converged(residual, before)) {
       trial.point.value = value_of(z(size));
       trial.point.z = z;
       trial.point.residual = residual;

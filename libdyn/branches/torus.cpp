@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/newton.hpp"
 #include "libbase/smooth_average.hpp"
 
 namespace whirl {
@@ -310,7 +310,7 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
       circle.failure = at.failure;
       if (at.residual.size() == 0) return circle;
       circle.residual = at.residual.lpNorm<Eigen::Infinity>();
-      if (is_closed(circle.residual, before)) {
+      if (has_converged(circle.residual, before)) {
         std::tie(circle.exponents, circle.along) =
             across(exponents_of(there.tangents, circle.rotation));
         break;

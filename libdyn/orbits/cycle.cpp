@@ -9,6 +9,8 @@
 #include "libbase/constants.hpp"
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/floquet.hpp"
+#include "libbase/newton.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/batch.hpp"
 
@@ -105,7 +107,7 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
     const Mat tangent = to_scale.asDiagonal() * at.tangent * flow.scale.asDiagonal();
     cycle.residual = gap.lpNorm<Eigen::Infinity>();
     cycle.residuals.push_back(cycle.residual);
-    if (is_closed(cycle.residual, before)) {
+    if (has_converged(cycle.residual, before)) {
       cycle.multipliers = multipliers_across(tangent);
       cycle.contacts = at.contacts;
       return cycle;
@@ -140,14 +142,6 @@ Mat cycle_jacobian(const Mat& tangent, const Vec& start, const Vec& end) {
   Mat J(tangent.rows() + 1, tangent.cols() + 1);
   J << shooting_jacobian({&tangent, 1}), end, start.transpose(), 0.0;
   return J;
-}
-
-CVec multipliers_across(const Mat& tangent) {
-  CVec all = multipliers_of({&tangent, 1});
-  const auto along = std::min_element(
-      all.begin(), all.end(), [](auto a, auto b) { return std::abs(a - 1.0) < std::abs(b - 1.0); });
-  std::rotate(along, along + 1, all.end());
-  return all.head(all.size() - 1);
 }
 
 Cycle shorten(const FreeFlow& flow, const Cycle& cycle) {

@@ -51,9 +51,6 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
 /// @param start, end  rates there
 Mat cycle_jacobian(const Mat& tangent, const Vec& start, const Vec& end);
 
-/// Multipliers of a tangent over the period, the largest first, without the one nearest to 1.
-CVec multipliers_across(const Mat& tangent);
-
 /// The same motion with the shortest period it has, a part of the given one.
 Cycle shorten(const FreeFlow& flow, const Cycle& cycle);
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/orbits/shooting.hpp"
+#include "libbase/newton.hpp"
 
 namespace whirl {
 
@@ -300,7 +300,7 @@ HarmonicOrbit solve(const HarmonicEquations& equations, Mat u, const HarmonicOpt
       keep(u, now);
       return orbit;
     }
-    if (is_closed(orbit.residual, before, options.accurate)) break;
+    if (has_converged(orbit.residual, before, options.accurate)) break;
     if (step == options.most_steps) {
       orbit.failure =
           fmt::format("no orbit: after {} steps of Newton's method the residual is {:.1e}", step,

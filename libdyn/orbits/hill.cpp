@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "libdyn/orbits/shooting.hpp"
+#include "libbase/floquet.hpp"
 
 namespace whirl {
 

@@ -5,17 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/floquet.hpp"
+#include "libbase/newton.hpp"
 
 namespace whirl {
 
 namespace {
 
-constexpr double reachable = 1e-8;  ///< what rounding and events may leave of a residual
-constexpr double worse = 2.0;       ///< growth of the residual that halves a step
+constexpr double worse = 2.0;  ///< growth of the residual that halves a step
 constexpr int most_halvings = 6;
 constexpr double same = 1e-6;  ///< of states after a shorter period
 
@@ -40,16 +39,6 @@ std::vector<ContactMeasure> shares(const std::vector<Passage>& passages, double 
 
 }  // namespace
 
-void sort_by_size(CVec& values) {
-  std::sort(values.begin(), values.end(), [](const Complex& a, const Complex& b) {
-    const double x = std::abs(a), y = std::abs(b);
-    // pairs stay together, whatever rounding makes of their sizes
-    if (std::abs(x - y) > 1e-12 * (x + y)) return x > y;
-    if (a.real() != b.real()) return a.real() > b.real();
-    return a.imag() > b.imag();
-  });
-}
-
 void ShootingOptions::check() const {
   if (period < 1 || most_steps < 1 || segments < 0 || !(accurate > 0.0)) {
     throw OptionError("shooting: period, steps and accuracy must be positive");
@@ -70,16 +59,6 @@ CVec PeriodicOrbit::exponents() const {
   return rates;
 }
 
-bool is_closed(double residual, double before, double accurate) {
-  return residual < accurate || (residual < reachable && residual > 0.5 * before);
-}
-
-std::optional<Vec> newton_step(const Mat& J, const Vec& r) {
-  const DenseLu<Mat> lu(J);
-  if (!(lu.rcond() > 1e-14)) return std::nullopt;
-  return Vec(lu.solve(r));
-}
-
 Mat shooting_jacobian(std::span<const Mat> tangents) {
   const Eigen::Index n = tangents[0].rows(), m = std::ssize(tangents);
   if (m == 1) return tangents[0] - Mat::Identity(n, n);
@@ -89,43 +68,6 @@ Mat shooting_jacobian(std::span<const Mat> tangents) {
     J.block(i * n, (i + 1) % m * n, n, n).diagonal().array() -= 1.0;
   }
   return J;
-}
-
-CVec multipliers_of(std::span<const Mat> tangents) {
-  const Eigen::Index n = tangents[0].rows(), m = std::ssize(tangents);
-  CVec found;
-  if (m == 1) {
-    found = eigenvalues(tangents[0]);
-    sort_by_size(found);
-    return found;
-  }
-  Mat cyclic = Mat::Zero(n * m, n * m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    cyclic.block((i + 1) % m * n, i * n, n, n) = tangents[static_cast<std::size_t>(i)];
-  }
-  const CVec roots = eigenvalues(cyclic);
-  std::vector<Complex> powers;
-  for (const Complex& root : roots) powers.push_back(std::pow(root, static_cast<int>(m)));
-  std::sort(powers.begin(), powers.end(),
-            [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
-  // every multiplier is there m times, from its m roots: those nearest to each other belong together
-  found.resize(n);
-  for (Complex& value : found) {
-    const Complex first = powers.front();
-    std::partial_sort(powers.begin(), powers.begin() + m, powers.end(),
-                      [&](const Complex& a, const Complex& b) {
-                        return std::norm(a - first) < std::norm(b - first);
-                      });
-    value = 0.0;
-    for (Eigen::Index k = 0; k < m; ++k) value += powers[static_cast<std::size_t>(k)];
-    value /= static_cast<double>(m);
-    if (std::abs(value.imag()) < 1e-10 * std::abs(value)) value = value.real();
-    powers.erase(powers.begin(), powers.begin() + m);
-    std::sort(powers.begin(), powers.end(),
-              [](const Complex& a, const Complex& b) { return std::abs(a) > std::abs(b); });
-  }
-  sort_by_size(found);
-  return found;
 }
 
 Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted) {
@@ -165,7 +107,7 @@ PeriodicOrbit find_orbit(const Flow& flow, std::vector<Vec> starts,
   for (int step = 0;; ++step) {
     orbit.residuals.push_back(orbit.residual);
     if (gaps.size() == 0) return orbit;
-    if (is_closed(orbit.residual, before, options.accurate)) break;
+    if (has_converged(orbit.residual, before, options.accurate)) break;
     if (step == options.most_steps) {
       orbit.failure =
           fmt::format("no orbit: after {} steps of Newton's method the residual is {:.1e}", step,

@@ -2,7 +2,6 @@
 /// Periodic orbits by shooting, on any flow map.
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -83,23 +82,5 @@ Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted = Tangents::ye
 
 /// Derivative of the gaps by the starts of the segments: A - I of a single one.
 Mat shooting_jacobian(std::span<const Mat> tangents);
-
-/// J^-1 r, a step of Newton's method; nothing where J is as good as singular.
-std::optional<Vec> newton_step(const Mat& J, const Vec& r);
-
-/// Whether an orbit is found: its residual is small, or small enough and no longer falling.
-bool is_closed(double residual, double before, double accurate = 1e-11);
-
-/// The largest first, pairs together.
-void sort_by_size(CVec& multipliers);
-
-/// Eigenvalues of the product A_m ... A_1, the largest first.
-///
-/// They are m-th powers of the eigenvalues of the cyclic matrix that has A_1 ... A_m as its blocks:
-/// the product, in which small multipliers drown beside large ones, is never made. The periodic
-/// QR method does the same to these blocks in a cleverer order.
-///
-/// @source [Kressner2005], 4.1
-CVec multipliers_of(std::span<const Mat> tangents);
 
 }  // namespace whirl

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libbase/dense.hpp"
+#include "libbase/newton.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/mixed.hpp"
 
@@ -24,7 +25,7 @@ bool improve(OrbitCandidate& c, const Trajectory& t, bool is_patient) {
   const double before = c.residual;
   c.residual = distance(system, t.state.y, c.y);
   const Mat tangent = to_scale * t.tangent * unscale;
-  if (is_closed(c.residual, before)) {
+  if (has_converged(c.residual, before)) {
     const Vec sizes = eigenvalues(tangent).cwiseAbs();
     if (!(sizes.maxCoeff() < largest_attracting)) return false;
     if (distance(system, c.y, c.of->found.end.y) > c.farthest) return false;  // another one
