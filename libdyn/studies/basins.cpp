@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "libbase/random.hpp"
 
@@ -32,6 +33,69 @@ bool is_same(const ContactSystem& system, const Ending& a, const Ending& b) {
   return !a.is_proven || is_on(system, a, b);
 }
 
+StudyMotion motion_from(std::size_t point, const StudyModels& models,
+                        const BasinsOptions& options) {
+  if (!options.is_random()) return begin_motion(models, options.grid.values_at(point));
+  StudyMotion motion = begin_motion(models, {});
+  if (point > 0 && motion.is_good()) {
+    MotionState& start = motion.subject.found.end;
+    start = random_start(motion.scene->contacts, start, options.size, options.seed, point);
+  }
+  return motion;
+}
+
+std::vector<BasinsPoint> compute(const std::vector<std::size_t>& piece, const StudyModels& models,
+                                 const BasinsOptions& options) {
+  std::vector<StudyMotion> motions;
+  std::vector<BasinsPoint> points;
+  for (const std::size_t point : piece) {
+    const StudyMotion& motion = motions.emplace_back(motion_from(point, models, options));
+    points.emplace_back();
+    if (motion.is_good()) points.back().start = full_state(*motion.scene, motion.subject.found.end);
+  }
+  classify_together(motions, options.classify);
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    points[i].motion = classified(motions[i]);
+    points[i].sections = motions[i].subject.found.sections;
+  }
+  return points;
+}
+
+Ending ending_of(const BasinsPoint& point) {
+  Ending ending{.kind = *point.motion.kind,
+                .period = point.motion.period,
+                .is_proven = point.motion.is_proven,
+                .sections = point.sections};
+  for (const ContactDoing& c : point.motion.contacts) ending.regimes.push_back(c.regime);
+  return ending;
+}
+
+/// Numbers the motions that the starts ended in.
+void find_basins(const ContactSystem& system, BasinsResult& result) {
+  std::vector<std::size_t> settled;
+  std::vector<Ending> endings;
+  result.attractor.assign(result.points.size(), failed_start);
+  for (std::size_t i = 0; i < result.points.size(); ++i) {
+    if (!result.points[i] || result.points[i]->motion.has_failed()) continue;
+    if (result.points[i]->motion.kind == MotionKind::not_settled) {
+      result.attractor[i] = unsettled_start;
+      continue;
+    }
+    settled.push_back(i);
+    endings.push_back(ending_of(*result.points[i]));
+  }
+  const std::vector<int> numbers = attractors(system, endings);
+  result.basins.clear();
+  for (std::size_t i = 0; i < settled.size(); ++i) {
+    const auto number = static_cast<std::size_t>(numbers[i]);
+    if (number == result.basins.size()) result.basins.push_back({.first = settled[i]});
+    ++result.basins[number].count;
+    result.attractor[settled[i]] = numbers[i];
+  }
+}
+
+constexpr std::size_t most_together = 64;  ///< starts, in the lanes of one batch
+
 }  // namespace
 
 std::vector<int> attractors(const ContactSystem& system, std::span<const Ending> endings) {
@@ -59,6 +123,28 @@ MotionState random_start(const ContactSystem& system, const MotionState& around,
     if (!system.left_bearing(start.y.data())) break;
   }
   return start;
+}
+
+BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
+                    const Monitor<BasinsResult>& monitor, BasinsResult earlier) {
+  BasinsOptions options = wanted;
+  options.classify = stopped_by(monitor.is_stopped, wanted.classify);
+  options.classify.sections = options.classify.longest_period;
+  BasinsResult result = std::move(earlier);
+  const auto first = models.member(options.grid.values_at(0)).scene;
+  result.system = study_system(*first);
+  result.sections = options.classify.sections;
+  result.points.resize(options.points());
+  run_points<BasinsPoint>({.most_together = most_together,
+                           .threads = options.threads,
+                           .prepare =
+                               [&](const auto& piece) {
+                                 return [&, piece] { return compute(piece, models, options); };
+                               }},
+                          result, monitor);
+  find_basins(first->contacts, result);
+  if (monitor.save) monitor.save(result);
+  return result;
 }
 
 }  // namespace whirl

@@ -5,7 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "libdyn/studies/classify.hpp"
+#include "libdyn/studies/classified_motion.hpp"
+#include "libdyn/studies/monitor.hpp"
+#include "libdyn/studies/parameter_grid.hpp"
+#include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/study_models.hpp"
 
 namespace whirl {
 
@@ -30,5 +34,50 @@ std::vector<int> attractors(const ContactSystem& system, std::span<const Ending>
 /// The same numbers give the same start on every machine.
 MotionState random_start(const ContactSystem& system, const MotionState& around, double size,
                          std::uint64_t seed, std::uint64_t number);
+
+struct BasinsOptions {
+  ParameterGrid grid;      ///< of values of the model's start; no axes: random starts
+  std::size_t starts = 1;  ///< of these: the model's own, the others random around it
+  double size = 0.5;       ///< how far they are [length scales]
+  std::uint64_t seed = 1;
+  ClassifyOptions classify{};  ///< all sections of an orbit are kept, whatever its `sections`
+  int threads = 1;
+
+  bool is_random() const { return grid.axes.empty(); }
+  std::size_t points() const { return is_random() ? starts : grid.points(); }
+};
+
+/// What became of a start.
+struct BasinsPoint {
+  ClassifiedMotion motion{};
+  FullState start{};               ///< empty if there is none
+  std::vector<double> sections{};  ///< reduced states at phase 0, the last ones; NaN beyond them
+};
+
+/// Starts that ended in the same motion.
+struct Basin {
+  std::size_t first = 0, count = 0;
+};
+
+/// In place of the number of an attractor.
+constexpr int failed_start = -1, unsettled_start = -2;
+
+struct BasinsResult {
+  StudySystem system{};
+  long sections = 0;  ///< of a start at most
+  PointRows<BasinsPoint> points{};
+  std::vector<Basin> basins{};   ///< in the order of their first starts; set at the end
+  std::vector<int> attractor{};  ///< per start the number of its basin, or why there is none
+};
+
+/// Finds the motions that many starts of one model end in.
+///
+/// @param earlier  what another call with the same models and options has found: its points stay as
+///                 they are; empty: none
+/// @return  with fewer points if the monitor stopped it
+/// @throws ModelError      as models
+/// @throws NumericalError  if the first point cannot be computed with, or nothing moves
+BasinsResult basins(const StudyModels& models, const BasinsOptions& options,
+                    const Monitor<BasinsResult>& monitor = {}, BasinsResult earlier = {});
 
 }  // namespace whirl

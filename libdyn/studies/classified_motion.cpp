@@ -1,0 +1,58 @@
+#include "libdyn/studies/classified_motion.hpp"
+
+#include <algorithm>
+
+namespace whirl {
+
+Regime ClassifiedMotion::regime() const {
+  Regime strongest = Regime::none;
+  for (const ContactDoing& c : contacts) strongest = std::max(strongest, c.regime);
+  return strongest;
+}
+
+double ClassifiedMotion::impacts_per_rev() const {
+  if (has_failed()) return std::numeric_limits<double>::quiet_NaN();
+  double sum = 0.0;
+  for (const ContactDoing& c : contacts) sum += c.impacts_per_rev;
+  return sum;
+}
+
+double ClassifiedMotion::largest_exponent() const {
+  return exponents.empty() ? std::numeric_limits<double>::quiet_NaN() : exponents[0];
+}
+
+ClassifiedMotion classified(const Classification& found) {
+  if (!found.is_good()) return {.failure = found.diagnosis};
+  ClassifiedMotion motion{.kind = found.kind,
+                          .period = found.period,
+                          .is_proven = found.is_proven,
+                          .transient = found.transient,
+                          .revolutions = found.revolutions,
+                          .resolution = found.resolution,
+                          .section_dimension = found.section_dimension,
+                          .exponents = {found.exponents.begin(), found.exponents.end()},
+                          .settles_after = found.settles_after};
+  for (const ContactMeasure& m : found.contacts) {
+    motion.contacts.push_back(
+        {.regime = m.regime(),
+         .duty = m.duty,
+         .impacts_per_rev = m.impacts / static_cast<double>(found.revolutions),
+         .sticking = m.sticking,
+         .max_normal = m.max_normal,
+         .max_tangential = m.max_tangential});
+  }
+  return motion;
+}
+
+StudySystem study_system(const Scene& scene) {
+  StudySystem system{
+      .contacts = std::vector<std::string>(static_cast<std::size_t>(scene.contacts.owners())),
+      .states = scene.contacts.size(),
+      .freedoms = scene.reduced.dofs.T.rows()};
+  for (const ReducedContact& c : scene.contacts.contacts()) {
+    system.contacts[static_cast<std::size_t>(c.owner)] = c.name;
+  }
+  return system;
+}
+
+}  // namespace whirl

@@ -1,0 +1,59 @@
+#pragma once
+/// What a study keeps of a motion: its kind, and what the contacts do.
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libdyn/studies/classify.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/scene.hpp"
+
+namespace whirl {
+
+/// What a contact does in a motion.
+struct ContactDoing {
+  Regime regime = Regime::none;
+  double duty = 0.0;             ///< share of time in touch
+  double impacts_per_rev = 0.0;  ///< times it begins to touch
+  double sticking = 0.0;         ///< share of time
+  double max_normal = 0.0;       ///< [N]
+  double max_tangential = 0.0;   ///< [N]
+};
+
+/// A motion at a point of a study, as it was classified.
+struct ClassifiedMotion {
+  std::optional<MotionKind> kind{};  ///< none: it failed, and nothing but `failure` is known
+  int period = 0;           ///< of a periodic motion [revolutions]; 0: not periodic, or longer
+  bool is_proven = false;   ///< the attracting orbit was found
+  long transient = 0;       ///< revolutions until this was known, or all of the transient
+  long revolutions = 0;     ///< that contacts were measured over
+  double resolution = 0.0;  ///< of the largest exponent [1/revolution], see Classification
+  double section_dimension = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> exponents{};  ///< Lyapunov exponents, descending [1/revolution]
+  std::vector<ContactDoing> contacts{};
+  long settles_after = 0;  ///< see Classification
+  std::string failure{};   ///< why it failed; empty if it was read from a file
+
+  bool has_failed() const { return !kind; }
+  /// The strongest of all contacts.
+  Regime regime() const;
+  /// Of all contacts together; NaN if it failed.
+  double impacts_per_rev() const;
+  /// The largest exponent; NaN if there is none.
+  double largest_exponent() const;
+};
+
+/// What there is to keep of a motion.
+ClassifiedMotion classified(const Classification& found);
+
+/// What all motions of a study have in common.
+struct StudySystem {
+  std::vector<std::string> contacts{};  ///< names
+  Eigen::Index states = 0;              ///< coordinates and velocities; as many exponents
+  Eigen::Index freedoms = 0;            ///< of all points, see FullState
+};
+StudySystem study_system(const Scene& scene);
+
+}  // namespace whirl

@@ -1,0 +1,37 @@
+#include "libdyn/studies/map.hpp"
+
+#include <utility>
+
+namespace whirl {
+
+namespace {
+
+constexpr std::size_t most_together = 256;  ///< points, in the lanes of one batch
+
+}  // namespace
+
+MapResult map(const StudyModels& models, const MapOptions& options,
+              const Monitor<MapResult>& monitor, MapResult earlier) {
+  MapResult result = std::move(earlier);
+  result.system = study_system(*models.member(options.grid.values_at(0)).scene);
+  result.points.resize(options.grid.points());
+  const ClassifyOptions classify = stopped_by(monitor.is_stopped, options.classify);
+  const auto compute = [&](const std::vector<std::size_t>& piece) {
+    std::vector<StudyMotion> motions;
+    for (const std::size_t point : piece) {
+      motions.push_back(begin_motion(models, options.grid.values_at(point)));
+    }
+    classify_together(motions, classify);
+    std::vector<ClassifiedMotion> rows;
+    for (const StudyMotion& motion : motions) rows.push_back(classified(motion));
+    return rows;
+  };
+  run_points<ClassifiedMotion>(
+      {.most_together = most_together,
+       .threads = options.threads,
+       .prepare = [&](const auto& piece) { return [&compute, piece] { return compute(piece); }; }},
+      result, monitor);
+  return result;
+}
+
+}  // namespace whirl

@@ -1,0 +1,35 @@
+#pragma once
+/// A map: every point of a plane of two parameters, or of several planes, classified.
+
+#include "libdyn/studies/classified_motion.hpp"
+#include "libdyn/studies/monitor.hpp"
+#include "libdyn/studies/parameter_grid.hpp"
+#include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/study_models.hpp"
+
+namespace whirl {
+
+struct MapOptions {
+  ParameterGrid grid{};  ///< of any number of axes
+  ClassifyOptions classify{};
+  int threads = 1;
+};
+
+struct MapResult {
+  StudySystem system{};
+  PointRows<ClassifiedMotion> points{};  ///< in the order of the grid
+};
+
+/// Classifies the motion at every point of a grid, each from the start of its model.
+///
+/// The numbers depend neither on threads nor on which points were there already.
+///
+/// @param earlier  what another call with the same models and options has found: its points stay as
+///                 they are; empty: none
+/// @return  with fewer points if the monitor stopped it
+/// @throws ModelError      as models
+/// @throws NumericalError  if the first point cannot be computed with, or nothing moves
+MapResult map(const StudyModels& models, const MapOptions& options,
+              const Monitor<MapResult>& monitor = {}, MapResult earlier = {});
+
+}  // namespace whirl

@@ -1,0 +1,47 @@
+#pragma once
+/// What long work tells, asks and keeps while it goes on.
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+
+namespace whirl {
+
+/// How a caller follows long work; any member may be empty.
+template <class Result>
+struct Monitor {
+  /// Called in the caller's thread with what this call has done, and what it has to do.
+  std::function<void(long done, long total)> progress{};
+  /// Asked often, in every thread that works; true: stop with what is there.
+  std::function<bool()> is_stopped{};
+  /// Called in the caller's thread with the result so far: now and then, at the end, and before an
+  /// exception leaves.
+  std::function<void(const Result&)> save{};
+
+  bool stops() const { return is_stopped && is_stopped(); }
+  void show(long done, long total) const {
+    if (progress) progress(done, total);
+  }
+};
+
+/// When to save again: rarely enough that saving takes no more than a twentieth of the time.
+class SaveTimer {
+ public:
+  bool is_due() const { return clock::now() >= next_; }
+
+  /// Saves by calling f, and takes note of how long it took.
+  template <class F>
+  void save(const F& f) {
+    const auto begin = clock::now();
+    f();
+    const auto end = clock::now();
+    next_ = end + std::max<clock::duration>(least, 20 * (end - begin));
+  }
+
+ private:
+  using clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds least{100};  ///< between two savings
+  clock::time_point next_ = clock::now() + least;
+};
+
+}  // namespace whirl

@@ -1,0 +1,41 @@
+#pragma once
+/// What is seen of a classified motion: sections and spectra at stations, how far they move, and where
+/// contacts touch.
+
+#include <vector>
+
+#include "libbase/linalg.hpp"
+#include "libdyn/studies/classify.hpp"
+#include "libdyn/system/scene.hpp"
+#include "libdyn/system/stations.hpp"
+
+namespace whirl {
+
+struct PortraitOptions {
+  std::vector<NamedPoint> stations{};
+  long spectrum_revolutions = 32;  ///< that spectra are taken from; 0: sections only
+};
+
+/// What is not known is NaN.
+struct Portrait {
+  Mat poincare_x, poincare_y;  ///< at phase 0, the last sections: stations x sections [m]
+  Vec max_radius;              ///< largest distance from the axis, per station [m]
+  /// Radius of the circle that turns with an order of the speed: stations x portrait_orders [m].
+  Mat spectrum;
+  Mat contact_angle;  ///< share of the time in touch: contacts x portrait_sectors
+};
+
+/// Orders of a portrait's spectra: signed frequency over speed, forward > 0.
+Vec portrait_orders(long spectrum_revolutions);
+/// Middles of the sectors around a stator, from x to y [rad].
+Vec portrait_sectors();
+
+/// Looks at a motion, from a state on it.
+///
+/// @param found      with its sections, the last ones
+/// @param sections   of the portrait; NaN beyond those that were found
+/// @param tolerance  of a step
+Portrait portrait_of(const Scene& scene, const Classification& found, long sections,
+                     double tolerance, const PortraitOptions& options);
+
+}  // namespace whirl

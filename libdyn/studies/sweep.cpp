@@ -1,0 +1,142 @@
+#include "libdyn/studies/sweep.hpp"
+
+#include <utility>
+
+#include "libdyn/taylor/batch.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr std::size_t carried_piece = 16, most_fresh = 64;  ///< values that go together
+
+/// Motions of a piece that have settled, with the states in which the next ones begin.
+struct Settled {
+  std::vector<StudyMotion> motions;
+  std::vector<FullState> ends;
+};
+
+/// One way along the values and back, each motion going on from the one before.
+class Chain {
+ public:
+  Chain(const StudyModels& models, const SweepOptions& options, const PointRows<SweepPoint>& points)
+      : models_(models), options_(options), points_(points), values_(options.values.size()) {}
+
+  /// Settles the motion at a point, and finds where the next one begins.
+  void go(std::size_t point, Settled& piece) {
+    const auto from = before(point);
+    if (from && last_ != from) end_ = points_[*from] ? points_[*from]->end : FullState{};
+    const bool goes_on = from && end_.displacement.size() > 0 && end_.displacement.allFinite();
+    StudyMotion motion =
+        begin_motion(models_, {&options_.values[value_of(point)], 1}, goes_on ? &end_ : nullptr);
+    last_ = point;
+    end_ = end_of(motion);
+    piece.motions.push_back(std::move(motion));
+    piece.ends.push_back(end_);
+  }
+
+ private:
+  /// Value of a point: up, then down.
+  std::size_t value_of(std::size_t point) const {
+    return point < values_ ? point : point - values_;
+  }
+
+  /// The point whose end a point starts from; none for the first.
+  std::optional<std::size_t> before(std::size_t point) const {
+    if (point == 0) return std::nullopt;
+    if (point < values_) return point - 1;
+    return point == 2 * values_ - 1 ? values_ - 1 : point + 1;
+  }
+
+  /// Settles a motion and says where the next one begins; nowhere if it fails.
+  FullState end_of(StudyMotion& motion) const {
+    if (!motion.failure.empty()) return {};
+    settle({&motion.subject, 1}, options_.classify);
+    const Classification& found = motion.subject.found;
+    if (!found.is_good()) return {};
+    Trajectory on{.system = motion.subject.system, .state = found.end};
+    on.revolutions = found.is_proven ? 0 : options_.classify.revolutions;
+    if (on.revolutions > 0) {
+      integrate_single(
+          on, {.tolerance = options_.classify.tolerance, .watch = options_.classify.watch});
+    }
+    return on.outcome == Outcome::reached_end ? full_state(*motion.scene, on.state) : FullState{};
+  }
+
+  const StudyModels& models_;
+  const SweepOptions& options_;
+  const PointRows<SweepPoint>& points_;
+  std::size_t values_;
+  std::optional<std::size_t> last_;
+  FullState end_;  ///< of the last motion
+};
+
+/// Tells settled motions apart and portrays them.
+std::vector<SweepPoint> finish(Settled& piece, const SweepOptions& options) {
+  together(piece.motions, [&](std::span<Subject> good) { average(good, options.classify); });
+  std::vector<SweepPoint> points;
+  for (std::size_t i = 0; i < piece.motions.size(); ++i) {
+    const StudyMotion& motion = piece.motions[i];
+    SweepPoint& point = points.emplace_back();
+    point.motion = classified(motion);
+    if (!motion.is_good()) continue;
+    point.end = piece.ends[i];
+    point.portrait = portrait_of(*motion.scene, motion.subject.found, options.classify.sections,
+                                 options.classify.tolerance, options.portrait);
+  }
+  return points;
+}
+
+/// Stretches of values, up and then down.
+std::vector<std::vector<std::size_t>> carried_pieces(std::size_t values) {
+  std::vector<std::vector<std::size_t>> pieces;
+  for (const bool is_up : {true, false}) {
+    for (std::size_t k = 0; k < values; ++k) {
+      if (k % carried_piece == 0) pieces.emplace_back();
+      pieces.back().push_back(is_up ? k : 2 * values - 1 - k);
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
+                  const Monitor<SweepResult>& monitor, SweepResult earlier) {
+  using Work = PointWork<SweepPoint>;
+  SweepOptions options = wanted;
+  options.classify = stopped_by(monitor.is_stopped, wanted.classify);
+  SweepResult result = std::move(earlier);
+  result.system = study_system(*models.member({options.values.data(), 1}).scene);
+  result.points.resize(options.ways() * options.values.size());
+
+  const auto fresh = [&](const Work::Piece& piece) {
+    Settled settled;
+    for (const std::size_t point : piece) {
+      settled.motions.push_back(begin_motion(models, {&options.values[point], 1}));
+    }
+    together(settled.motions, [&](std::span<Subject> good) { settle(good, options.classify); });
+    settled.ends.resize(piece.size());
+    return finish(settled, options);
+  };
+  if (options.start == SweepStart::fresh) {
+    run_points<SweepPoint>(
+        {.most_together = most_fresh,
+         .threads = options.threads,
+         .prepare = [&](const auto& piece) { return [&fresh, piece] { return fresh(piece); }; }},
+        result, monitor);
+    return result;
+  }
+  Chain chain(models, options, result.points);
+  Work work{.pieces = carried_pieces(options.values.size()),
+            .threads = options.threads - 1};  // one goes ahead along the chain
+  work.prepare = [&](const Work::Piece& piece) -> std::function<std::vector<SweepPoint>()> {
+    const auto settled = std::make_shared<Settled>();
+    for (const std::size_t point : piece) chain.go(point, *settled);
+    return [&options, settled] { return finish(*settled, options); };
+  };
+  run_points(work, result, monitor);
+  return result;
+}
+
+}  // namespace whirl
