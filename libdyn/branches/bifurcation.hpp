@@ -22,16 +22,18 @@ double test_function(BifurcationKind kind, const BranchPoint& point);
 /// The multiplier that a bifurcation is about.
 Complex critical_multiplier(BifurcationKind kind, const CVec& multipliers);
 
+/// Where a branch begins that another one leads to.
+struct SwitchedBranch {
+  int period;  ///< [revolutions]
+  BranchPoint start;
+};
+
 /// First point of the branch that begins at a period doubling or a pitchfork, its tangent along the
 /// critical direction; nothing for other kinds, or where the direction cannot be told.
 ///
 /// @param flow_at, scale  of the branch that it is on
 /// @param period          of that branch [revolutions]
 /// @return  to be continued within the same range of the parameter
-struct SwitchedBranch {
-  int period;
-  BranchPoint start;
-};
 std::optional<SwitchedBranch> switch_branch(const FlowAt& flow_at, const Vec& scale, int period,
                                             const Bifurcation& at);
 
