@@ -1,4 +1,4 @@
-// Modes of a rotor made in code: the two-disk rotor of [Friswell2010], example 5.9.1, on its bearings.
+// Modes of a rotor made in code: the two-disk rotor of [Friswell2010], example 5.9.1, on bearings.
 
 #include <fmt/format.h>
 

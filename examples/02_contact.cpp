@@ -4,12 +4,18 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libio/model/model_file.hpp"
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
   using namespace whirl;
+  if (argc != 2) {
+    fmt::print(stderr, "usage: {} models/two_disk_mac.toml\n", argv[0]);
+    return 2;
+  }
   const Model model = read_model(argv[1]);
   const Scene scene = make_scene(model);  // assembled, reduced to a few modes, with its contacts
   const MotionState start = start_state(model, scene, nullptr);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -13,8 +14,12 @@
 #include "libio/model/model_family.hpp"
 #include "libio/model/model_file.hpp"
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
   using namespace whirl;
+  if (argc != 2) {
+    fmt::print(stderr, "usage: {} models/jeffcott_stator.toml\n", argv[0]);
+    return 2;
+  }
   const Model model = read_model(argv[1]);
   const ModelFamily family(model, {*parse_axis("contact.ring.friction=0:0.3:0.1", 0)});
 

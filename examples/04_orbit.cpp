@@ -5,14 +5,19 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libio/model/model_file.hpp"
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
   using namespace whirl;
+  if (argc != 2) {
+    fmt::print(stderr, "usage: {} models/jeffcott_stator.toml\n", argv[0]);
+    return 2;
+  }
   const Model model =
       read_model(argv[1], {"operation.speed=136 rad/s", "contact.ring.stiffness=150 MN/m",
                            "contact.ring.friction=0.1"});

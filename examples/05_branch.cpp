@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "libdyn/branches/branch_equations.hpp"
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/motions/start.hpp"
@@ -11,8 +13,12 @@
 #include "libio/model/model_family.hpp"
 #include "libio/model/model_file.hpp"
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
   using namespace whirl;
+  if (argc != 2) {
+    fmt::print(stderr, "usage: {} models/jeffcott_stator.toml\n", argv[0]);
+    return 2;
+  }
   const Model model =
       read_model(argv[1], {"operation.speed=138.4 rad/s", "contact.ring.stiffness=64 MN/m"});
   const ModelFamily family(model, {*parse_axis("contact.ring.friction=0.1:0.15:0.002", 0)});
