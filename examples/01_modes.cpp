@@ -22,7 +22,7 @@ int main() {
   seat.K.diagonal().setConstant(1e6);    // [N/m]
   seat.C.diagonal().setConstant(100.0);  // [N.s/m]
   for (const double z : {0.0, 1.5}) {
-    rotor.bearings.push_back({.from = at(z), .coefficients = ConstantBearing{seat}});
+    rotor.bearings.push_back({.from = at(z), .coefficients = constant_bearing(seat)});
   }
 
   const double Omega = 4000.0 * std::numbers::pi / 30.0;  // [rad/s]

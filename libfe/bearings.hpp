@@ -1,6 +1,23 @@
 #pragma once
-/// The list of bearings: every member states its coefficients at a speed.
+/// The list of kinds of bearings.
+///
+/// A kind is a struct with
+///
+///   static constexpr std::string_view name;      the word in the model file
+///   static constexpr std::string_view told_by;   the key that tells this kind where the word is left
+///                                                out; empty: none does. The first kind of the list
+///                                                is meant where nothing tells another one
+///   static constexpr bool depends_on_speed;      whether the coefficients change with the spin
+///   static constexpr bool depends_on_whirl;      and with the frequency at which the journal whirls
+///   static constexpr auto fields();              keys, units, ranges, meanings
+///   BearingCoefficients at(Omega, omega);        at a spin and a whirl frequency [rad/s]
+///   std::span<const double> speeds();            ascending speeds that the kind was told [rad/s]:
+///                                                between them coefficients have no extremes, beyond
+///                                                them they stay; empty: it was told none
+///
+/// Whirl frequencies are above zero in the sense of the spin.
 
+#include <span>
 #include <variant>
 
 #include "libfe/bearings/constant.hpp"
@@ -8,17 +25,30 @@
 
 namespace whirl {
 
-using AnyBearing = std::variant<ConstantBearing,  //
-                                TableBearing>;
+using AnyBearing = std::variant<  //
+    ConstantBearing,              //
+    TableBearing>;
 
-/// Coefficients of any bearing at a speed [rad/s].
-inline BearingCoefficients coefficients(const AnyBearing& bearing, double Omega) {
-  return std::visit([&](const auto& b) { return b.at(Omega); }, bearing);
+/// Coefficients of any bearing at a spin speed and a whirl frequency [rad/s].
+inline BearingCoefficients coefficients(const AnyBearing& bearing, double Omega, double omega) {
+  return std::visit([&](const auto& b) { return b.at(Omega, omega); }, bearing);
 }
 
-/// True if the coefficients change with speed.
+/// The same where the journal whirls with the spin, as unbalance lets it. The matrices of a speed
+/// have these.
+inline BearingCoefficients coefficients(const AnyBearing& bearing, double Omega) {
+  return coefficients(bearing, Omega, Omega);
+}
+
+/// True if the coefficients of synchronous whirl change with speed.
 inline bool depends_on_speed(const AnyBearing& bearing) {
-  return std::visit([](const auto& b) { return b.depends_on_speed; }, bearing);
+  return std::visit([](const auto& b) { return b.depends_on_speed || b.depends_on_whirl; },
+                    bearing);
+}
+
+/// Speeds that a bearing was told, as its kind states them.
+inline std::span<const double> told_speeds(const AnyBearing& bearing) {
+  return std::visit([](const auto& b) { return b.speeds(); }, bearing);
 }
 
 }  // namespace whirl

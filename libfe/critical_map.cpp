@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <optional>
 
@@ -23,24 +22,18 @@ constexpr int curve_points = 200;    ///< at which curves are compared
 constexpr double crossing_tolerance = 1e-10;  ///< of log10 of a stiffness
 constexpr int most_criticals = 1000;          ///< below the top, before something is wrong
 
-using ChangeStiffness = std::function<void(BearingCoefficients&)>;
-
 bool is_flexible(const Connection& b) {
   return !b.is_rigid && !b.is_clamped;
 }
 
-void change(AnyBearing& bearing, const ChangeStiffness& how) {
-  if (auto* constant = std::get_if<ConstantBearing>(&bearing)) how(constant->value);
-  if (auto* table = std::get_if<TableBearing>(&bearing)) {
-    for (BearingCoefficients& row : table->rows) how(row);
-  }
-}
-
-/// The structure without damping.
+/// The structure without damping, its bearings as they are at rest.
 Structure undamped(Structure s) {
-  const auto strip = [](BearingCoefficients& c) { c.C = c.Ct = Mat2::Zero(); };
   for (auto* list : {&s.bearings, &s.links}) {
-    for (Connection& c : *list) change(c.coefficients, strip);
+    for (Connection& c : *list) {
+      BearingCoefficients at_rest = coefficients(c.coefficients, 0.0);
+      at_rest.C = at_rest.Ct = Mat2::Zero();
+      c.coefficients = constant_bearing(at_rest);
+    }
   }
   for (Segment& segment : s.shaft) segment.material.eta = 0.0;
   s.damping = {};
@@ -55,24 +48,27 @@ struct StiffnessRange {
 
 StiffnessRange range_of(const Structure& s, double beyond) {
   double softest = INFINITY, stiffest = 0.0, first = 0.0;
-  bool has_table = false, is_same = true;
+  bool is_variable = false, is_same = true;
   for (const Connection& b : s.bearings) {
     if (!is_flexible(b)) continue;
-    AnyBearing copy = b.coefficients;
-    change(copy, [&](const BearingCoefficients& c) {
-      for (const Eigen::Index i : {0, 1}) {
-        if (!(c.K(i, i) > 0.0)) continue;
-        softest = std::min(softest, c.K(i, i));
-        stiffest = std::max(stiffest, c.K(i, i));
+    const auto told = told_speeds(b.coefficients);
+    std::vector<double> speeds(told.begin(), told.end());
+    if (speeds.empty()) speeds = {0.0};
+    for (const double Omega : speeds) {
+      const Mat2 K = coefficients(b.coefficients, Omega).K;
+      for (const double k : {K(0, 0), K(1, 1)}) {
+        if (!(k > 0.0)) continue;
+        softest = std::min(softest, k);
+        stiffest = std::max(stiffest, k);
       }
-    });
+    }
     const double k = coefficients(b.coefficients, 0.0).K(0, 0);
     if (first == 0.0) first = k;
     is_same = is_same && std::abs(k - first) <= alike * std::abs(first);
-    has_table = has_table || depends_on_speed(b.coefficients);
+    is_variable = is_variable || depends_on_speed(b.coefficients);
   }
   if (!(stiffest > 0.0)) return {};
-  if (has_table || is_same) return {true, softest / beyond, stiffest * beyond};
+  if (is_variable || is_same) return {true, softest / beyond, stiffest * beyond};
   return {false, 1.0 / beyond, beyond};
 }
 
@@ -87,9 +83,9 @@ class Criticals {
     Structure s = structure_;
     for (Connection& b : s.bearings) {
       if (!is_flexible(b)) continue;
-      change(b.coefficients, [&](BearingCoefficients& c) {
-        c.K = is_common_ ? Mat2(Mat2::Identity() * x) : Mat2(x * c.K);
-      });
+      BearingCoefficients c = coefficients(b.coefficients, 0.0);
+      c.K = is_common_ ? Mat2(Mat2::Identity() * x) : Mat2(x * c.K);
+      b.coefficients = constant_bearing(c);
     }
     return Assembler(s).at(0.0);
   }

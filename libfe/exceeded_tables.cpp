@@ -17,9 +17,9 @@ std::vector<ExceededTable> exceeded_tables(const Structure& structure, double lo
   for (const auto& [kind, list] : lists) {
     for (std::size_t i = 0; i < list->size(); ++i) {
       const Connection& c = (*list)[i];
-      const auto* table = std::get_if<TableBearing>(&c.coefficients);
-      if (!table || c.is_clamped) continue;
-      const double first = table->speed.front(), last = table->speed.back();
+      const auto told = told_speeds(c.coefficients);
+      if (told.empty() || c.is_clamped) continue;
+      const double first = told.front(), last = told.back();
       const double margin = rounding * last;
       if (lowest >= first - margin && highest <= last + margin) continue;
       const std::string name = c.name.empty() ? fmt::format("{}", i + 1) : c.name;

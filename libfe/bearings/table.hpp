@@ -1,33 +1,30 @@
 #pragma once
 
-#include <algorithm>
-#include <vector>
+#include <span>
+#include <string_view>
+#include <tuple>
 
-#include "libfe/bearings/coefficients.hpp"
+#include "libbase/field.hpp"
+#include "libfe/bearings/coefficient_table.hpp"
 
 namespace whirl {
 
-/// A bearing given by a table over speed: linear between its rows, constant beyond its ends.
-///
-/// At least one row; speeds strictly increasing.
+/// A bearing given by a table over speed, whatever the frequency at which its journal whirls.
 struct TableBearing {
+  static constexpr std::string_view name = "table";
+  static constexpr std::string_view told_by = "table";
   static constexpr bool depends_on_speed = true;
+  static constexpr bool depends_on_whirl = false;
 
-  std::vector<double> speed;              ///< [rad/s]
-  std::vector<BearingCoefficients> rows;  ///< one per speed
+  CoefficientTable table;
 
-  BearingCoefficients at(double Omega) const {
-    const auto above = std::upper_bound(speed.begin(), speed.end(), Omega);
-    if (above == speed.begin()) return rows.front();
-    if (above == speed.end()) return rows.back();
-    const auto i = static_cast<std::size_t>(above - speed.begin());
-    const double s = (Omega - speed[i - 1]) / (speed[i] - speed[i - 1]);
-    const auto mix = [&](Mat2 BearingCoefficients::*part) -> Mat2 {
-      return (1.0 - s) * (rows[i - 1].*part) + s * (rows[i].*part);
-    };
-    return {mix(&BearingCoefficients::K), mix(&BearingCoefficients::C),
-            mix(&BearingCoefficients::Kt), mix(&BearingCoefficients::Ct)};
+  static constexpr auto fields() {
+    return std::tuple{required("table", &TableBearing::table, "", Range::any,
+                               "file with coefficients against speed (CSV), beside the model")};
   }
+
+  BearingCoefficients at(double Omega, double /*omega*/) const { return table.at(Omega); }
+  std::span<const double> speeds() const { return table.speed; }
 };
 
 }  // namespace whirl

@@ -58,9 +58,9 @@ const std::vector<Column>& known_columns() {
 
 }  // namespace
 
-TableBearing parse_bearing_table(const std::string& text, const std::string& file,
-                                 std::vector<Problem>& problems) {
-  TableBearing table;
+CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
+                                     std::vector<Problem>& problems) {
+  CoefficientTable table;
   std::istringstream lines(text);
   std::string line;
   std::vector<Column> columns;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libfe/bearings/table.hpp"
+#include "libfe/bearings/coefficient_table.hpp"
 
 namespace whirl {
 
@@ -16,7 +16,7 @@ namespace whirl {
 ///
 /// @param file      for messages
 /// @param problems  receives what is wrong, with file and line
-TableBearing parse_bearing_table(const std::string& text, const std::string& file,
-                                 std::vector<Problem>& problems);
+CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
+                                     std::vector<Problem>& problems);
 
 }  // namespace whirl

@@ -31,6 +31,7 @@ class ModelBuilder {
   /// Text of a bearing table that came from a file of its own.
   struct Table {
     std::size_t bearing = 0;  ///< from 0
+    std::string key;          ///< which named the file
     std::string text;
   };
   /// Those that build() read: a model that is stored has them in it.
@@ -64,8 +65,9 @@ class ModelBuilder {
   // model_connections.cpp
   void read_bearings();
   void read_links();
-  bool read_coefficients(TableReader& table, BearingCoefficients& to);
-  std::optional<Mat2> matrix(TableReader& table, std::string_view key, std::string_view unit);
+  bool read_kind(TableReader& table, std::size_t number, AnyBearing& to);
+  std::optional<CoefficientTable> coefficient_table(TableReader& table, std::string_view key,
+                                                    std::size_t bearing);
 
   /// Calls f(reader, number from 0) for every element of an array of tables, by name if it has one.
   template <class F>

@@ -1,47 +1,136 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <cmath>
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
+#include "libbase/family.hpp"
 #include "libio/model/bearing_table.hpp"
 #include "libio/model/model_builder.hpp"
 
 namespace whirl {
 
-std::optional<Mat2> ModelBuilder::matrix(TableReader& table, std::string_view key,
-                                         std::string_view unit) {
-  const ConfigNode* node = table.node(key);
-  if (!node) return std::nullopt;
-  if (node->kind != ConfigNode::Kind::table) {
-    const auto value = table.quantity(key, unit, Range::nonnegative);
-    if (!value) return std::nullopt;
-    return Mat2(Mat2::Identity() * *value);
-  }
-  TableReader entries(node, table.path(key), problems_, asked_);
-  Mat2 m = Mat2::Zero();
-  for (const int i : {0, 1}) {
-    for (const int j : {0, 1}) {
-      const std::string name{"xy"[i], "xy"[j]};
-      if (const auto v = entries.quantity(name, unit, Range::any, i == j)) m(i, j) = *v;
-    }
-  }
-  entries.finish();
-  return m;
+namespace {
+
+/// Whether a table has one of some keys.
+bool has_any(const TableReader& table, const std::vector<std::string>& keys) {
+  return std::any_of(keys.begin(), keys.end(),
+                     [&](const std::string& key) { return table.has(key); });
 }
 
-bool ModelBuilder::read_coefficients(TableReader& table, BearingCoefficients& to) {
-  bool any = false;
-  const std::tuple<const char*, const char*, Mat2*> parts[] = {
-      {"stiffness", "N/m", &to.K},
-      {"damping", "N.s/m", &to.C},
-      {"tilt_stiffness", "N.m/rad", &to.Kt},
-      {"tilt_damping", "N.m.s/rad", &to.Ct}};
-  for (const auto& [key, unit, part] : parts) {
-    any = any || table.has(key);
-    if (const auto m = matrix(table, key, unit)) *part = *m;
+std::vector<std::string> keys_of_kind(const AnyBearing& bearing) {
+  return std::visit([](const auto& b) { return keys_of<std::remove_cvref_t<decltype(b)>>(); },
+                    bearing);
+}
+
+/// Whether any key of a kind must be there.
+bool has_required_key(const AnyBearing& bearing) {
+  const auto any = [](const auto&... field) { return (field.is_required || ...); };
+  return std::visit([&](const auto& b) { return std::apply(any, b.fields()); }, bearing);
+}
+
+/// A kind of bearing as it is made, and the key that told it.
+struct ToldKind {
+  AnyBearing bearing;
+  std::string key;  ///< "kind", or that of a file; empty: coefficients stand there, or nothing
+};
+
+/// The kind that a table is of; none if its name is wrong, which is reported. The keys of all kinds
+/// that may be meant become known.
+std::optional<ToldKind> kind_of(TableReader& table) {
+  const auto name = table.choice("kind", member_names<AnyBearing>());
+  if (name) return ToldKind{member_named<AnyBearing>(*name), "kind"};
+  const bool is_wrong = table.has("kind");
+  ToldKind told;
+  for_each_member<AnyBearing>([&](const auto& kind) {
+    const bool is_first = AnyBearing(kind).index() == 0;
+    if (!is_wrong && !is_first && kind.told_by.empty()) return;
+    for (const std::string& key : keys_of_kind(kind)) table.node(key);
+    if (!is_first && table.has(kind.told_by)) told = {kind, std::string(kind.told_by)};
+  });
+  if (is_wrong) return std::nullopt;
+  return told;
+}
+
+/// Says what a bearing needs that has no coefficients.
+void report_no_values(TableReader& table, const ToldKind& told) {
+  std::vector<std::string> keys = keys_of_kind(told.bearing);
+  const std::string first = keys.front();
+  std::string expected = fmt::format("one of {}", fmt::join(keys, ", "));
+  keys.erase(keys.begin());
+  if (told.key.empty()) {
+    expected = "a stiffness (N/m), damping, rigid = true, clamped = true";
+    keys.insert(keys.end(), {"rigid", "clamped", "kind"});
+    for_each_member<AnyBearing>([&](const auto& kind) {
+      if (kind.told_by.empty()) return;
+      expected += fmt::format(", or a {}", kind.told_by);
+      keys.emplace_back(kind.told_by);
+    });
   }
-  return any;
+  table.missing(first, expected, keys);
+}
+
+/// Reports that a bearing is rigid and has coefficients, or neither.
+void check_kind(TableReader& table, const ToldKind& told, bool is_rigid, bool has_values) {
+  const bool is_by_file = !told.key.empty() && told.key != "kind";
+  if (is_by_file && has_any(table, keys_of_kind(AnyBearing{}))) {
+    table.problem(told.key,
+                  fmt::format("found a {} and coefficients, expected one of them", told.key));
+  }
+  if (is_rigid && !told.key.empty()) {
+    table.problem(told.key,
+                  "a rigid bearing has no coefficients of its own; leave out the " + told.key);
+  } else if (is_rigid && has_values) {
+    table.problem("rigid",
+                  "a rigid bearing has no stiffness or damping of its own; leave them out");
+  } else if (!is_rigid && !has_values && !has_required_key(told.bearing)) {
+    report_no_values(table, told);
+  }
+}
+
+}  // namespace
+
+/// The file of a name that stands at a key, or the text that stands there itself: results keep the
+/// text, so that they can be run again.
+std::optional<CoefficientTable> ModelBuilder::coefficient_table(TableReader& table,
+                                                                std::string_view key,
+                                                                std::size_t bearing) {
+  const auto name = table.string(key);
+  if (!name) return std::nullopt;
+  std::string text = *name;
+  const bool is_file = text.find('\n') == std::string::npos;
+  const std::filesystem::path path = directory_ / text;
+  if (is_file) {
+    std::ifstream file(path);
+    std::error_code ignored;
+    if (!file || std::filesystem::is_directory(path, ignored)) {
+      table.problem(key, fmt::format("cannot read the file \"{}\"", path.string()));
+      return std::nullopt;
+    }
+    std::ostringstream content;
+    content << file.rdbuf();
+    text = content.str();
+  }
+  std::vector<Problem> wrong;
+  const CoefficientTable read =
+      parse_bearing_table(text, is_file ? path.string() : table.path(key), wrong);
+  problems_.insert(problems_.end(), wrong.begin(), wrong.end());
+  tables_.push_back({bearing, std::string(key), text});
+  return read;
+}
+
+/// Reads the keys of a kind; whether any is there.
+/// @param number  of the bearing from 0
+bool ModelBuilder::read_kind(TableReader& table, std::size_t number, AnyBearing& to) {
+  const auto read_table = [&](const auto& field, CoefficientTable& member) {
+    if (auto read = coefficient_table(table, field.name, number)) member = std::move(*read);
+    if (field.is_required && !table.has(field.name)) {
+      table.missing(field.name, "a file with coefficients against speed (CSV)");
+    }
+  };
+  std::visit([&](auto& kind) { table.read(kind, read_table); }, to);
+  return has_any(table, keys_of_kind(to));
 }
 
 void ModelBuilder::read_bearings() {
@@ -53,50 +142,12 @@ void ModelBuilder::read_bearings() {
     if (const auto to = table.string("to")) {
       if (const auto s = named_station(*to, table, "to")) c.to = *s;
     }
-    BearingCoefficients value;
-    const bool has_values = read_coefficients(table, value);
-    c.coefficients = ConstantBearing{value};
+    const auto told = kind_of(table);
+    if (told) c.coefficients = told->bearing;
+    const bool has_values = told && read_kind(table, i, c.coefficients);
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
-
-    if (table.node("table")) {
-      // a file's name, or its text: results keep the text, so that they can be run again
-      if (const auto name = table.string("table")) {
-        std::string text = *name;
-        const bool is_file = text.find('\n') == std::string::npos;
-        if (is_file) {
-          std::ifstream file(directory_ / text);
-          std::error_code ignored;
-          if (!file || std::filesystem::is_directory(directory_ / text, ignored)) {
-            table.problem("table",
-                          fmt::format("cannot read the file \"{}\"", (directory_ / text).string()));
-          } else {
-            std::ostringstream content;
-            content << file.rdbuf();
-            text = content.str();
-          }
-        }
-        if (!is_file || text != *name) {
-          std::vector<Problem> wrong;
-          c.coefficients = parse_bearing_table(
-              text, is_file ? (directory_ / *name).string() : table.path("table"), wrong);
-          problems_.insert(problems_.end(), wrong.begin(), wrong.end());
-          tables_.push_back({i, text});
-        }
-      }
-      if (has_values)
-        table.problem("table", "found a table and coefficients, expected one of them");
-      if (c.is_rigid)
-        table.problem("table",
-                      "a rigid bearing has no coefficients of its own; leave out the table");
-    } else if (c.is_rigid && has_values) {
-      table.problem("rigid",
-                    "a rigid bearing has no stiffness or damping of its own; leave them out");
-    } else if (!c.is_rigid && !has_values) {
-      table.missing("stiffness",
-                    "a stiffness (N/m), damping, rigid = true, clamped = true, or a table",
-                    {"damping", "tilt_stiffness", "tilt_damping", "rigid", "clamped", "table"});
-    }
+    if (told) check_kind(table, *told, c.is_rigid, has_values);
     model_.structure.bearings.push_back(c);
   });
 }
@@ -118,8 +169,7 @@ void ModelBuilder::read_links() {
         if (const auto s = named_station(*name, table, key)) *end = *s;
       }
     }
-    BearingCoefficients value;
-    const bool has_values = read_coefficients(table, value);
+    const bool has_values = read_kind(table, i, c.coefficients);
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
     if (!has_values && !c.is_rigid) {
@@ -129,7 +179,6 @@ void ModelBuilder::read_links() {
     if (has_values && c.is_rigid) {
       table.problem("rigid", "a rigid link has no stiffness or damping of its own; leave them out");
     }
-    c.coefficients = ConstantBearing{value};
     model_.structure.links.push_back(c);
   });
 }

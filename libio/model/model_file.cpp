@@ -16,8 +16,8 @@ Model parse_model(const std::string& text, const std::string& name,
   for (const std::string& set : sets) set_value(root, set);
   ModelBuilder builder(root, directory);
   Model model = builder.build();
-  for (const auto& [bearing, table] : builder.tables()) {
-    root.find("bearing")->items[bearing].find("table")->text = table;
+  for (const auto& [bearing, key, table] : builder.tables()) {
+    root.find("bearing")->items[bearing].find(key)->text = table;
   }
   model.path = name;
   // the text as it was, comments and all, where nothing from outside (--set, tables) came into it

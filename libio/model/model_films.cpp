@@ -1,29 +1,10 @@
 #include <fmt/format.h>
 
-#include <utility>
-
+#include "libbase/family.hpp"
 #include "libio/model/model_builder.hpp"
 #include "libio/text/nearest.hpp"
 
 namespace whirl {
-
-namespace {
-
-template <std::size_t... I>
-std::vector<std::string> law_names(std::index_sequence<I...>) {
-  return {std::string(std::variant_alternative_t<I, AnyFilmLaw>::name)...};
-}
-/// The law of the given name.
-template <std::size_t... I>
-void set_law(const std::string& name, AnyFilmLaw& to, std::index_sequence<I...>) {
-  const auto try_one = [&](auto law) {
-    if (decltype(law)::name == name) to = law;
-  };
-  (try_one(std::variant_alternative_t<I, AnyFilmLaw>{}), ...);
-}
-constexpr auto laws = std::make_index_sequence<std::variant_size_v<AnyFilmLaw>>{};
-
-}  // namespace
 
 /// The key `offset`, [x, y] of a circle's centre [m].
 Vec2 ModelBuilder::center(TableReader& table) {
@@ -61,7 +42,9 @@ void ModelBuilder::read_films() {
     }
     table.read(film.bearing);
     film.offset = center(table);
-    if (const auto law = table.choice("law", law_names(laws))) set_law(*law, film.law, laws);
+    if (const auto law = table.choice("law", member_names<AnyFilmLaw>())) {
+      film.law = member_named<AnyFilmLaw>(*law);
+    }
     if (at) model_.structure.stations.push_back(*at);
     model_.films.push_back(film);
   });

@@ -68,37 +68,18 @@ inner_diameter = [0, 0]
 shear_coefficient = "cowper"
 [[disk]]
 unbalance = {}
-[[bearing]]
-stiffness = {}
-damping = {}
-tilt_stiffness = {}
-tilt_damping = {}
 [[link]]
 from = {}
 to = {}
-stiffness = {}
-damping = {}
-tilt_stiffness = {}
-tilt_damping = {}
 )";
 constexpr const char* as_values = R"(
 [[shaft]]
 outer_diameter = 1
 inner_diameter = 0
 shear_coefficient = 1
-[[bearing]]
-stiffness = 1
-damping = 1
-tilt_stiffness = 1
-tilt_damping = 1
-table = "\n"
 [[link]]
 from = ""
 to = ""
-stiffness = 1
-damping = 1
-tilt_stiffness = 1
-tilt_damping = 1
 )";
 
 /// Elements of arrays are "[]", tables of any name "*".
@@ -156,9 +137,10 @@ std::vector<std::string> names_of(const std::vector<Key::Entry>& entries) {
 struct Switch {
   const char *table, *key;
   const char* header;     ///< how the table is opened
-  const char* otherwise;  ///< value if it is left out
+  const char* otherwise;  ///< value if it is left out; empty: other keys tell it
 };
-constexpr Switch switches[] = {{"contact.[]", "law", "[[contact]]", "radial"},
+constexpr Switch switches[] = {{"bearing.[]", "kind", "[[bearing]]", ""},
+                               {"contact.[]", "law", "[[contact]]", "radial"},
                                {"start", "from", "[start]", "static"}};
 
 void add_switch(Key& root, const Switch& s) {
@@ -175,9 +157,13 @@ void add_switch(Key& root, const Switch& s) {
     known.push_back(names_of(alone.at(s.table).entries));
     conditions.push_back({s.key, value, value == s.otherwise, missing_in(asked, s.table), {}});
   }
-  // what all values need is needed anyway
+  // what all values need is needed anyway, and what the key itself would do for
+  Requirements met_by_key;
+  for (const auto& one_of : table.required) {
+    if (std::find(one_of.begin(), one_of.end(), s.key) != one_of.end()) met_by_key.insert(one_of);
+  }
   for (std::size_t i = 0; i < conditions.size(); ++i) {
-    Requirements common;
+    Requirements common = met_by_key;
     std::set_intersection(table.required.begin(), table.required.end(),
                           conditions[i].required.begin(), conditions[i].required.end(),
                           std::inserter(common, common.end()));

@@ -131,6 +131,27 @@ std::optional<std::array<double, 2>> TableReader::pair(std::string_view key, std
   return std::array{*first, *second};
 }
 
+std::optional<Mat2> TableReader::matrix(std::string_view key, std::string_view unit, Range range) {
+  const auto entries = [&](const ConfigNode* of) {
+    TableReader table(of, path(key), problems_, asked_);
+    Mat2 m = Mat2::Zero();
+    for (const int i : {0, 1}) {
+      for (const int j : {0, 1}) {
+        const std::string name{"xy"[i], "xy"[j]};
+        if (const auto v = table.quantity(name, unit, Range::any, i == j)) m(i, j) = *v;
+      }
+    }
+    if (of) table.finish();
+    return m;
+  };
+  const ConfigNode* value = node(key);
+  if (value && value->kind == ConfigNode::Kind::table) return entries(value);
+  if (asked_) entries(nullptr);  // the schema has both forms
+  const auto both = quantity(key, unit, range);
+  if (!both) return std::nullopt;
+  return Mat2(Mat2::Identity() * *both);
+}
+
 std::optional<long> TableReader::integer(std::string_view key, Range range, bool is_required) {
   const ConfigNode* value = node(key);
   note(key, {.form = AskedKey::Form::integer, .range = range});

@@ -11,6 +11,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/field.hpp"
+#include "libbase/linalg.hpp"
 #include "libio/model/asked_key.hpp"
 #include "libio/model/config.hpp"
 
@@ -35,9 +36,11 @@ class TableReader {
   Where where(std::string_view key) const;  ///< of the key's value, or of the table
 
   /// All fields of a struct. What is absent or wrong stays as it is.
-  template <class Struct>
-  void read(Struct& to) {
-    std::apply([&](const auto&... field) { (read_field(to, field), ...); }, Struct::fields());
+  /// @param other  other(field, member) reads a member of a type that is not known here
+  template <class Struct, class... Other>
+  void read(Struct& to, const Other&... other) {
+    std::apply([&](const auto&... field) { (read_field(to, field, other...), ...); },
+               Struct::fields());
   }
 
   /// A physical quantity in SI; reports wrong units, ranges, a required one that is missing.
@@ -50,6 +53,10 @@ class TableReader {
   /// @param expected  for messages: "[x, y]"
   std::optional<std::array<double, 2>> pair(std::string_view key, std::string_view unit,
                                             Range range, std::string_view expected);
+  /// A matrix of two rows: one value stands for both of its diagonal, { xx, yy, xy, yx } for each;
+  /// xy and yx are zero if left out.
+  /// @param range  of the one value; each of four may be any
+  std::optional<Mat2> matrix(std::string_view key, std::string_view unit, Range range);
   std::optional<long> integer(std::string_view key, Range range, bool is_required = false);
   /// Reports a value that is more than it may be.
   void at_most(std::string_view key, long value, long most);
@@ -82,8 +89,8 @@ class TableReader {
   void finish();
 
  private:
-  template <class Struct, class Member>
-  void read_field(Struct& to, const Field<Struct, Member>& field) {
+  template <class Struct, class Member, class... Other>
+  void read_field(Struct& to, const Field<Struct, Member>& field, const Other&... other) {
     if (asked_) note_field(field.name, field.meaning, otherwise(to, field));
     if constexpr (std::is_same_v<Member, double>) {
       if (const auto v = quantity(field.name, field.unit, field.range, field.is_required))
@@ -95,9 +102,13 @@ class TableReader {
       if (const auto v = boolean(field.name)) to.*field.member = *v;
     } else if constexpr (std::is_enum_v<Member>) {
       if (const auto v = choice<Member>(field.name)) to.*field.member = *v;
-    } else {
-      static_assert(std::is_same_v<Member, std::string>, "a field of a type that is not read");
+    } else if constexpr (std::is_same_v<Member, Mat2>) {
+      if (const auto v = matrix(field.name, field.unit, field.range)) to.*field.member = *v;
+    } else if constexpr (std::is_same_v<Member, std::string>) {
       if (const auto v = string(field.name, field.is_required)) to.*field.member = *v;
+    } else {
+      static_assert(sizeof...(Other) > 0, "a field of a type that is not read");
+      (other(field, to.*field.member), ...);
     }
   }
   /// What holds if a field is left out, as it would be written; empty: something else.
@@ -105,7 +116,9 @@ class TableReader {
   static std::string otherwise(const Struct& to, const Field<Struct, Member>& field) {
     if (!field.has_default) return "";
     const Member& value = to.*field.member;
-    if constexpr (std::is_same_v<Member, bool>) {
+    if constexpr (std::is_same_v<Member, Mat2>) {
+      return value.isZero(0.0) ? "0" : "";
+    } else if constexpr (std::is_same_v<Member, bool>) {
       return value ? "true" : "false";
     } else if constexpr (std::is_arithmetic_v<Member>) {
       ConfigNode number;
@@ -114,8 +127,10 @@ class TableReader {
       return number.as_written();
     } else if constexpr (std::is_enum_v<Member>) {
       return '"' + std::string(name_of(value)) + '"';
-    } else {
+    } else if constexpr (std::is_same_v<Member, std::string>) {
       return '"' + value + '"';
+    } else {
+      return "";
     }
   }
   std::optional<std::string> text(std::string_view key, bool is_required);

@@ -89,4 +89,23 @@ TEST(ContactLaws, HertzIsAFileAndTwoLinesOfTheList) {
   }
 }
 
+// A kind of bearing: a file, its include and its place in the list.
+TEST(Bearings, TableBearingIsAFileAndTwoLinesOfTheList) {
+  auto places = places_in("libfe", "\\bTableBearing\\b|bearings/table");
+  places.erase("bearings/table.hpp");
+  EXPECT_EQ(places, (std::map<std::string, int>{{"bearings.hpp", 2}}));
+  for (const char* folder : {"libcontact", "libdyn", "libio", "apps"}) {
+    EXPECT_TRUE(places_in(folder, "\\bTableBearing\\b|bearings/table").empty()) << folder;
+  }
+}
+
+// Nothing asks for the first kind, either: only the list knows what kinds there are.
+TEST(Bearings, NoCodeAsksForAKind) {
+  for (const char* folder : {"libfe", "libcontact", "libdyn", "libio", "apps"}) {
+    EXPECT_TRUE(
+        places_in(folder, "(get_if|get|holds_alternative)<(Constant|Table)Bearing>").empty())
+        << folder;
+  }
+}
+
 }  // namespace families_test

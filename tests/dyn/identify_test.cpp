@@ -88,7 +88,7 @@ TEST(Mac, WeightedByMassIsTheIdentityForUndampedModes) {
   Model model = TwoDiskRub{.speed = 0.0, .c = 0.0, .modes = 0}.model();
   model.has_speed = true;
   for (Connection& b : model.structure.bearings) {  // planes apart, so that modes are simple
-    b.coefficients = ConstantBearing{test::orthotropic(4e6, 3e6)};
+    b.coefficients = constant_bearing(test::orthotropic(4e6, 3e6));
   }
   const Scene scene = make_scene(model);
   const std::vector<Mode> modes = complex_modes(scene.system, 8).oscillatory;

@@ -215,8 +215,8 @@ TEST(Campbell, CrossingsNameTheirBranch) {
 TEST(Campbell, BearingsByATableAreTakenAtEverySpeed) {
   const double m = 2.0, a = 2e4, b = 60.0, e = 0.05;
   const TableBearing table{
-      .speed = {0.0, 1000.0},
-      .rows = {test::isotropic(a, 0.0), test::isotropic(a + 1000.0 * b, 1000.0 * e)}};
+      {.speed = {0.0, 1000.0},
+       .rows = {test::isotropic(a, 0.0), test::isotropic(a + 1000.0 * b, 1000.0 * e)}}};
   const Structure s{.bodies = {{.name = "block", .m = m}},
                     .bearings = {test::bearing(test::body("block"), AnyBearing(table))}};
   const std::vector<double> speeds = speeds_to(800.0, 10);
@@ -237,8 +237,8 @@ TEST(Campbell, BearingsByATableAreTakenAtEverySpeed) {
 TEST(Campbell, ABranchThatStopsOscillatingIsNotANumberFromThere) {
   const double m = 2.0, k = 800.0, critical = 2.0 * std::sqrt(k * m);
   const TableBearing table{
-      .speed = {0.0, 1000.0},
-      .rows = {test::orthotropic(k, 2.0 * k), test::orthotropic(k, 2.0 * k, 1.25 * critical)}};
+      {.speed = {0.0, 1000.0},
+       .rows = {test::orthotropic(k, 2.0 * k), test::orthotropic(k, 2.0 * k, 1.25 * critical)}}};
   const Structure s{.bodies = {{.name = "block", .m = m}},
                     .bearings = {test::bearing(test::body("block"), AnyBearing(table))}};
   const Campbell c = campbell(Assembler(s), {0.0, 400.0, 780.0, 790.0, 1000.0}, 2);

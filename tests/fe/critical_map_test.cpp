@@ -106,8 +106,8 @@ TEST(CriticalMap, FollowsEqualSpeedsAsTwoBranches) {
 // every crossing with a stiffness that rises with speed is a critical speed of that bearing.
 TEST(CriticalMap, CrossesATableWhereTheModelIsCritical) {
   const TableBearing table{
-      .speed = {0.0, 400.0, 4000.0},
-      .rows = {test::isotropic(1e6), test::isotropic(3e6), test::isotropic(2e7)}};
+      {.speed = {0.0, 400.0, 4000.0},
+       .rows = {test::isotropic(1e6), test::isotropic(3e6), test::isotropic(2e7)}}};
   Structure s = test::two_disk({});
   s.bearings = {test::bearing(at(0.0), AnyBearing(table)),
                 test::bearing(at(1.5), AnyBearing(table))};

@@ -178,8 +178,8 @@ TEST(HermitianModes, SolveThePencilAndAreOrthonormalInStiffness) {
 //   Omega = (b + sqrt(b^2 + 4 a m n^2)) / (2 m n^2)
 TEST(CriticalSpeeds, OfABearingByATableSatisfyTheStiffnessAtThemselves) {
   const double m = 2.0, a = 2e4, b = 150.0;
-  const TableBearing table{.speed = {0.0, 2000.0},
-                           .rows = {test::isotropic(a), test::isotropic(a + 2000.0 * b)}};
+  const TableBearing table{
+      {.speed = {0.0, 2000.0}, .rows = {test::isotropic(a), test::isotropic(a + 2000.0 * b)}}};
   const Structure s{.bodies = {{.name = "block", .m = m}},
                     .bearings = {test::bearing(test::body("block"), AnyBearing(table))}};
   for (const double order : {1.0, 2.0}) {
@@ -198,8 +198,8 @@ TEST(CriticalSpeeds, OfABearingByATableSatisfyTheStiffnessAtThemselves) {
 TEST(CriticalSpeeds, OfASofteningTableAreFoundForBothDirections) {
   const double m = 2.0, a = 2e5, b = 100.0;
   const TableBearing table{
-      .speed = {0.0, 1000.0},
-      .rows = {test::orthotropic(a, 3.0 * a), test::orthotropic(a - 1e3 * b, 3.0 * a - 1e3 * b)}};
+      {.speed = {0.0, 1000.0},
+       .rows = {test::orthotropic(a, 3.0 * a), test::orthotropic(a - 1e3 * b, 3.0 * a - 1e3 * b)}}};
   const Structure s{.bodies = {{.name = "block", .m = m}},
                     .bearings = {test::bearing(test::body("block"), AnyBearing(table))}};
   const auto criticals = critical_speeds(Assembler(s), {.count = 2});

@@ -401,8 +401,8 @@ TEST(Modes, AFreeMassOnAMasslessJointWithADamperHasItsClosedForm) {
 // Work that is done once changes nothing: bearings constant and by a table, dense and sparse.
 TEST(ModeFinder, FindsWhatIsFoundSpeedBySpeed) {
   const TableBearing table{
-      .speed = {0.0, 800.0},
-      .rows = {test::isotropic(1e6, 100.0), test::orthotropic(3e6, 2e6, 900.0)}};
+      {.speed = {0.0, 800.0},
+       .rows = {test::isotropic(1e6, 100.0), test::orthotropic(3e6, 2e6, 900.0)}}};
   for (const int elements : {1, 8}) {
     for (const bool by_table : {false, true}) {
       Structure s = test::two_disk(test::orthotropic(1e6, 2e6, 300.0, 400.0), elements);

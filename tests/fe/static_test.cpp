@@ -147,8 +147,8 @@ TEST(StaticEquilibrium, InternalDampingMovesTheSagSideways) {
 
 // A table gives the stiffness of the speed: y = -m g / k(Omega).
 TEST(StaticEquilibrium, TakesTheBearingsOfTheSpeed) {
-  const TableBearing table{.speed = {0.0, 100.0},
-                           .rows = {test::isotropic(1e4), test::isotropic(3e4)}};
+  const TableBearing table{
+      {.speed = {0.0, 100.0}, .rows = {test::isotropic(1e4), test::isotropic(3e4)}}};
   const Structure s{.bodies = {{.name = "block", .m = 2.0}},
                     .bearings = {test::bearing(test::body("block"), AnyBearing(table))},
                     .gravity = g};

@@ -117,8 +117,8 @@ TEST(UnbalanceResponse, OfABodyThatSpinsIsThatOfItsClosedForm) {
 // Bearings by a table: k(Omega) in the same formula.
 TEST(UnbalanceResponse, TakesTheBearingsOfTheSpeed) {
   const double m = 3.0, U = 1e-4;
-  const TableBearing table{.speed = {0.0, 100.0},
-                           .rows = {test::isotropic(1e4), test::isotropic(3e4, 40.0)}};
+  const TableBearing table{
+      {.speed = {0.0, 100.0}, .rows = {test::isotropic(1e4), test::isotropic(3e4, 40.0)}}};
   Structure s{.bodies = {{.name = "rotor", .m = m, .spins = true}},
               .bearings = {test::bearing(test::body("rotor"), AnyBearing(table))}};
   s.unbalances = {{.at = test::body("rotor"), .moment = U}};

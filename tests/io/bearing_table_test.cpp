@@ -11,9 +11,9 @@ namespace whirl::bearing_table_test {
 constexpr double rpm = std::numbers::pi / 30.0;
 
 /// A table that must be in order.
-TableBearing table(const std::string& text) {
+CoefficientTable table(const std::string& text) {
   std::vector<Problem> problems;
-  const TableBearing result = parse_bearing_table(text, "bearing.csv", problems);
+  const CoefficientTable result = parse_bearing_table(text, "bearing.csv", problems);
   for (const Problem& p : problems) ADD_FAILURE() << describe(p);
   return result;
 }
@@ -28,7 +28,7 @@ std::string problems(const std::string& text) {
 }
 
 TEST(BearingTable, ReadsEveryColumnInSi) {
-  const TableBearing t = table(
+  const CoefficientTable t = table(
       "speed,kxx,kxy,kyx,kyy,cxx,cxy,cyx,cyy,"
       "ktxx,ktxy,ktyx,ktyy,ctxx,ctxy,ctyx,ctyy\n"
       "10,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n"
@@ -42,7 +42,7 @@ TEST(BearingTable, ReadsEveryColumnInSi) {
 }
 
 TEST(BearingTable, UnitsStandInBracketsOrWithTheValue) {
-  const TableBearing t = table(
+  const CoefficientTable t = table(
       "speed [rpm], kxx [MN/m], cxx [N.s/mm], ktxx, kyy\n"
       "1000, 4, 5, 2 kN.m/rad, 7 N/mm\n");
   EXPECT_DOUBLE_EQ(t.speed[0], 1000.0 * rpm);
@@ -53,13 +53,13 @@ TEST(BearingTable, UnitsStandInBracketsOrWithTheValue) {
 }
 
 TEST(BearingTable, WhatIsAbsentIsZero) {
-  const TableBearing t = table("speed,kxx\n1,5\n");
+  const CoefficientTable t = table("speed,kxx\n1,5\n");
   EXPECT_EQ(t.rows[0].K(1, 1), 0.0);
   EXPECT_EQ(t.rows[0].C, Mat2::Zero());
 }
 
 TEST(BearingTable, CommentsBlanksQuotesAndSemicolonsAreFine) {
-  const TableBearing t = table(
+  const CoefficientTable t = table(
       "\xEF\xBB\xBF# from a seal code\r\n"
       "\r\n"
       "\"speed [rad/s]\" ; \"kxx\" ; \"kyy\"\r\n"

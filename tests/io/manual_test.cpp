@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -58,13 +59,14 @@ void expect_known(const std::string& table, const std::string& key) {
 }
 
 // Keys in the tables of a section "## `[[disk]]`", those that a family shares in one row separated
-// by commas, and the keys that a law adds, in rows that begin with its name.
+// by commas, and the keys that a law or a kind adds, in rows that begin with its name.
 TEST(Manual, NamesNoKeyThatTheReaderDoesNotKnow) {
   const std::string text = manual();
   const std::regex section(R"(\n## `(\[{1,2})(\w+)(\.NAME)?\]{1,2}`\n)");
   const std::regex row(R"(\n\| (`\w+`(?:, `\w+`)*) \|)"), key(R"(`(\w+)`)");
-  const std::regex law(R"re(\n\| `"([\w-]+)"` \|[^|]*\|([^|]*)\|)re");
-  int keys = 0, laws = 0;
+  const std::regex member(R"re(\n\| `"([\w-]+)"` \|[^|]*\|([^|]*)\|)re");
+  int keys = 0;
+  std::map<std::string, std::size_t> members;  // by the table that names them
   for (std::sregex_iterator s(text.begin(), text.end(), section), end; s != end; ++s) {
     const auto from = static_cast<std::size_t>(s->position() + s->length());
     const std::string body = text.substr(from - 1, text.find("\n## ", from) - from + 1);
@@ -77,15 +79,17 @@ TEST(Manual, NamesNoKeyThatTheReaderDoesNotKnow) {
     };
     for (std::sregex_iterator r(body.begin(), body.end(), row); r != end; ++r)
       check(header, (*r)[1]);
-    for (auto at = body.cbegin(); true; ++laws) {
+    const std::string choice = name == "bearing" ? "kind" : "law";
+    for (auto at = body.cbegin(); true; ++members[name]) {
       std::smatch found;
-      if (!std::regex_search(at, body.cend(), found, law)) break;
-      check(header + "\nlaw = \"" + std::string(found[1]) + "\"", found[2]);
+      if (!std::regex_search(at, body.cend(), found, member)) break;
+      check(header + "\n" + choice + " = \"" + std::string(found[1]) + "\"", found[2]);
       at = found[0].second;
     }
   }
   EXPECT_GT(keys, 60);
-  EXPECT_EQ(laws, static_cast<int>(std::variant_size_v<AnyContactLaw<>>));
+  EXPECT_EQ(members["contact"], std::variant_size_v<AnyContactLaw<>>);
+  EXPECT_EQ(members["bearing"], std::variant_size_v<AnyBearing>);
 }
 
 }  // namespace whirl::manual_test

@@ -17,8 +17,8 @@ using test::rotor;
 
 constexpr double rpm = std::numbers::pi / 30.0;
 
-const BearingCoefficients& constant(const Connection& c) {
-  return std::get<ConstantBearing>(c.coefficients).value;
+const ConstantBearing& constant(const Connection& c) {
+  return std::get<ConstantBearing>(c.coefficients);
 }
 
 Mat2 isotropic(double k) {
@@ -136,12 +136,29 @@ table = "bearing.csv"
 )";
   const Model model = read_model(folder / "model.toml");
   fs::remove_all(folder);
-  const auto& t = std::get<TableBearing>(model.structure.bearings.at(0).coefficients);
+  const auto& t = std::get<TableBearing>(model.structure.bearings.at(0).coefficients).table;
   EXPECT_DOUBLE_EQ(t.speed.at(1), 1000.0 * rpm);
   EXPECT_EQ(t.rows.at(1).K, (Mat2() << 3e6, 0, 0, 4e6).finished());
   // the model that goes into a result holds the table itself: the file is gone by now
   const Model again = parse_model(model.source);
-  EXPECT_EQ(std::get<TableBearing>(again.structure.bearings.at(0).coefficients).speed, t.speed);
+  EXPECT_EQ(std::get<TableBearing>(again.structure.bearings.at(0).coefficients).table.speed,
+            t.speed);
+}
+
+// The word says what the keys say without it; and a model of every kind is read.
+TEST(ModelConnections, BearingsByTheirKind) {
+  const auto kinds = [](const std::string& text) {
+    const Connection b = rotor("[[bearing]]\nnode = 1\n" + text).structure.bearings.at(0);
+    return std::visit([](const auto& kind) { return kind.name; }, b.coefficients);
+  };
+  const std::string table = R"(table = """
+speed,kxx
+1,5
+""")";
+  EXPECT_EQ(kinds("damping = 1"), "constant");
+  EXPECT_EQ(kinds("kind = \"constant\"\ndamping = 1"), "constant");
+  EXPECT_EQ(kinds(table), "table");
+  EXPECT_EQ(kinds("kind = \"table\"\n" + table), "table");
 }
 
 TEST(ModelConnections, LinksInEveryFormOfStation) {

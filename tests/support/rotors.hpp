@@ -95,7 +95,7 @@ inline Connection connect(Station from, Station to, const AnyBearing& coefficien
   return {.from = std::move(from), .to = std::move(to), .coefficients = coefficients};
 }
 inline Connection connect(Station from, Station to, const BearingCoefficients& coefficients) {
-  return connect(std::move(from), std::move(to), AnyBearing(ConstantBearing{coefficients}));
+  return connect(std::move(from), std::move(to), constant_bearing(coefficients));
 }
 /// A connection to the ground.
 template <class Coefficients>
