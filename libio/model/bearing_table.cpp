@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <sstream>
 
 #include "libio/text/nearest.hpp"
@@ -56,6 +57,75 @@ const std::vector<Column>& known_columns() {
   return columns;
 }
 
+/// Reports a problem of a line: the column's name, and what is wrong.
+using Report = std::function<void(std::string, std::string)>;
+
+/// The columns that the first line names.
+std::vector<Column> named_columns(const std::vector<std::string>& parts, const Report& report) {
+  std::vector<std::string> names;
+  for (const Column& c : known_columns()) names.push_back(c.name);
+  std::vector<Column> columns;
+  for (const std::string& part : parts) {
+    const auto bracket = part.find('[');
+    const std::string name = trimmed(std::string_view(part).substr(0, bracket));
+    const auto known = std::find(names.begin(), names.end(), name);
+    Column column;
+    if (known == names.end()) {
+      const auto near = nearest(name, names);
+      report(name, near ? fmt::format("unknown column, did you mean \"{}\"?", *near)
+                        : fmt::format("unknown column, known are {}", fmt::join(names, ", ")));
+    } else {
+      column = known_columns()[static_cast<std::size_t>(known - names.begin())];
+    }
+    if (bracket != std::string::npos) {
+      column.unit =
+          trimmed(std::string_view(part).substr(bracket + 1, part.find(']') - bracket - 1));
+    }
+    if (known != names.end() && !column.unit.empty()) {
+      const auto one = parse_as("1 " + column.unit, column.si_unit);
+      if (!one) {
+        report(name, fmt::format("the unit [{}] does not fit: {}", column.unit, one.problem));
+      }
+    }
+    const bool is_double = std::any_of(columns.begin(), columns.end(), [&](const Column& c) {
+      return !c.name.empty() && c.name == column.name;
+    });
+    if (is_double) report(name, "this column is there already");
+    columns.push_back(column);
+  }
+  if (columns.front().name != "speed") report("", "the first column must be speed");
+  return columns;
+}
+
+/// Adds the row of a line.
+void add_row(CoefficientTable& table, const std::vector<Column>& columns,
+             const std::vector<std::string>& parts, const Report& report) {
+  if (parts.size() != columns.size()) {
+    report("", fmt::format("found {} columns, expected {} as in the first line", parts.size(),
+                           columns.size()));
+    return;
+  }
+  BearingCoefficients row;
+  double speed = 0.0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Column& column = columns[i];
+    const auto value =
+        parse_as(parts[i] + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
+    if (!value) {
+      report(column.name, value.problem);
+    } else if (!column.matrix) {
+      speed = *value;
+    } else {
+      (row.*column.matrix)(column.row, column.column) = *value;
+    }
+  }
+  if (!table.speed.empty() && speed <= table.speed.back()) {
+    report("speed", "speeds must ascend from line to line");
+  }
+  table.speed.push_back(speed);
+  table.rows.push_back(row);
+}
+
 }  // namespace
 
 CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
@@ -66,69 +136,16 @@ CoefficientTable parse_bearing_table(const std::string& text, const std::string&
   std::vector<Column> columns;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
-    const auto report = [&](std::string key, std::string message) {
+    const Report report = [&](std::string key, std::string message) {
       problems.push_back({{file, number, 1}, std::move(key), std::move(message)});
     };
     if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
-    const std::vector<std::string> parts = cells(line);
-    if (columns.empty()) {
-      std::vector<std::string> names;
-      for (const Column& c : known_columns()) names.push_back(c.name);
-      for (const std::string& part : parts) {
-        const auto bracket = part.find('[');
-        const std::string name = trimmed(std::string_view(part).substr(0, bracket));
-        const auto known = std::find(names.begin(), names.end(), name);
-        Column column;
-        if (known == names.end()) {
-          const auto near = nearest(name, names);
-          report(name, near ? fmt::format("unknown column, did you mean \"{}\"?", *near)
-                            : fmt::format("unknown column, known are {}", fmt::join(names, ", ")));
-        } else {
-          column = known_columns()[static_cast<std::size_t>(known - names.begin())];
-        }
-        if (bracket != std::string::npos) {
-          column.unit =
-              trimmed(std::string_view(part).substr(bracket + 1, part.find(']') - bracket - 1));
-        }
-        if (known != names.end() && !column.unit.empty()) {
-          const auto one = parse_as("1 " + column.unit, column.si_unit);
-          if (!one)
-            report(name, fmt::format("the unit [{}] does not fit: {}", column.unit, one.problem));
-        }
-        const bool is_double = std::any_of(columns.begin(), columns.end(), [&](const Column& c) {
-          return !c.name.empty() && c.name == column.name;
-        });
-        if (is_double) report(name, "this column is there already");
-        columns.push_back(column);
-      }
-      if (columns.front().name != "speed") report("", "the first column must be speed");
-      if (!problems.empty()) return table;
+    if (!columns.empty()) {
+      add_row(table, columns, cells(line), report);
       continue;
     }
-    if (parts.size() != columns.size()) {
-      report("", fmt::format("found {} columns, expected {} as in the first line", parts.size(),
-                             columns.size()));
-      continue;
-    }
-    BearingCoefficients row;
-    double speed = 0.0;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const Column& column = columns[i];
-      const auto value =
-          parse_as(parts[i] + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
-      if (!value) {
-        report(column.name, value.problem);
-      } else if (!column.matrix) {
-        speed = *value;
-      } else {
-        (row.*column.matrix)(column.row, column.column) = *value;
-      }
-    }
-    if (!table.speed.empty() && speed <= table.speed.back()) {
-      report("speed", "speeds must ascend from line to line");
-    }
-    table.speed.push_back(speed);
-    table.rows.push_back(row);
+    columns = named_columns(cells(line), report);
+    if (!problems.empty()) return table;
   }
   if (table.rows.empty() && problems.empty()) {
     problems.push_back(

@@ -12,6 +12,21 @@
 
 namespace whirl {
 
+namespace {
+
+/// Whether anything has a mass.
+bool has_any_mass(const Structure& s) {
+  const auto any = [](const auto& parts, auto mass) {
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const auto& part) { return mass(part) > 0.0; });
+  };
+  return any(s.shaft, [](const Segment& segment) { return segment.material.rho; }) ||
+         any(s.disks, [](const Disk& disk) { return disk.m; }) ||
+         any(s.bodies, [](const Body& body) { return body.m; });
+}
+
+}  // namespace
+
 ModelBuilder::ModelBuilder(const ConfigNode& root, std::filesystem::path directory,
                            std::vector<AskedKey>* asked)
     : root_(root), directory_(std::move(directory)), asked_(asked) {}
@@ -156,6 +171,26 @@ void ModelBuilder::read_settings() {
     table.read(model_.reduction);
     table.finish();
   }
+  read_start();
+}
+
+/// Calls f(reader) for every element of an array in a table.
+template <class F>
+void ModelBuilder::each_item(TableReader& table, const char* key, const char* expected, F f) {
+  const ConfigNode* list = table.node(key);
+  if (!list) return;
+  if (list->kind != ConfigNode::Kind::array) {
+    table.problem(key, fmt::format("found {}, expected {}", list->as_written(), expected));
+  }
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    TableReader item(&list->items[i], fmt::format("{}.{}", table.path(key), i + 1), problems_,
+                     asked_);
+    f(item);
+    item.finish();
+  }
+}
+
+void ModelBuilder::read_start() {
   TableReader table(root_.find("start"), "start", problems_, asked_);
   if (const auto from = table.choice<StartFrom>("from")) model_.start.from = *from;
   if (const auto file = table.string("file"); file && !file->empty()) {
@@ -166,49 +201,30 @@ void ModelBuilder::read_settings() {
   if (model_.start.from == StartFrom::file && model_.start.file.empty()) {
     table.missing("file", "the name of a result file to start from");
   }
-  if (const ConfigNode* whirl = table.node("whirl")) {
-    if (whirl->kind != ConfigNode::Kind::array) {
-      table.problem("whirl",
-                    fmt::format("found {}, expected [ {{ mode = 1, amplitude = \"2 mm\" }} ]",
-                                whirl->as_written()));
+  each_item(table, "whirl", "[ { mode = 1, amplitude = \"2 mm\" } ]", [&](TableReader& item) {
+    WhirlStart w;
+    if (const auto mode = item.integer("mode", Range::positive, true))
+      w.mode = static_cast<int>(*mode);
+    w.where = item.where("mode");
+    if (const auto a = item.quantity("amplitude", "m", Range::nonnegative, true)) w.amplitude = *a;
+    if (const auto p = item.quantity("phase", "rad", Range::any)) w.phase = *p;
+    model_.start.whirl.push_back(w);
+  });
+  each_item(table, "displaced", "[ { body = \"rotor\", x = \"1 mm\" } ]", [&](TableReader& item) {
+    Displaced d;
+    if (const auto at = station(item)) d.at = *at;
+    for (const auto& [key, unit, to] : {std::tuple{"x", "m", &d.x},
+                                        {"y", "m", &d.y},
+                                        {"vx", "m/s", &d.vx},
+                                        {"vy", "m/s", &d.vy}}) {
+      if (const auto value = item.quantity(key, unit, Range::any)) *to = *value;
     }
-    for (std::size_t i = 0; i < whirl->items.size(); ++i) {
-      TableReader item(&whirl->items[i], fmt::format("start.whirl.{}", i + 1), problems_, asked_);
-      WhirlStart w;
-      if (const auto mode = item.integer("mode", Range::positive, true))
-        w.mode = static_cast<int>(*mode);
-      w.where = item.where("mode");
-      if (const auto a = item.quantity("amplitude", "m", Range::nonnegative, true))
-        w.amplitude = *a;
-      if (const auto p = item.quantity("phase", "rad", Range::any)) w.phase = *p;
-      item.finish();
-      model_.start.whirl.push_back(w);
-    }
-  }
-  if (const ConfigNode* displaced = table.node("displaced")) {
-    if (displaced->kind != ConfigNode::Kind::array) {
-      table.problem("displaced", fmt::format("found {}, expected [ {{ body = \"rotor\", x = \"1 "
-                                             "mm\" }} ]",
-                                             displaced->as_written()));
-    }
-    for (std::size_t i = 0; i < displaced->items.size(); ++i) {
-      TableReader item(&displaced->items[i], fmt::format("start.displaced.{}", i + 1), problems_,
-                       asked_);
-      Displaced d;
-      if (const auto at = station(item)) d.at = *at;
-      for (const auto& [key, unit, to] : {std::tuple{"x", "m", &d.x},
-                                          {"y", "m", &d.y},
-                                          {"vx", "m/s", &d.vx},
-                                          {"vy", "m/s", &d.vy}}) {
-        if (const auto value = item.quantity(key, unit, Range::any)) *to = *value;
-      }
-      item.finish();
-      model_.start.displaced.push_back(d);
-    }
-  }
+    model_.start.displaced.push_back(d);
+  });
   table.finish();
 }
 
+/// Places, masses and radii, which only the mesh knows.
 void ModelBuilder::check_places() {
   const Structure& s = model_.structure;
   if (root_.find("shaft") && s.shaft.empty()) return;  // it is no array of tables; that is said
@@ -219,20 +235,32 @@ void ModelBuilder::check_places() {
     return segment.length > 0.0 && segment.left.outer > 0.0 && segment.right.outer > 0.0;
   });
   if (!has_shape) return;
-  const auto collect = [&](const ModelError& error) {
-    problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
-  };
   Mesh mesh;
   try {
     mesh = make_mesh(s);
   } catch (const ModelError& error) {
-    return collect(error);
+    problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+    return;
   }
+  check_stations(mesh);
+  if (!problems_.empty()) return;
+  if (!has_any_mass(s)) {
+    problems_.push_back({root_.where, "",
+                         "nothing in this model has a mass: give a material its density, "
+                         "or add a disk or a body that has one"});
+    return;
+  }
+  set_radii(mesh);
+  check_movable();
+}
+
+void ModelBuilder::check_stations(const Mesh& mesh) {
+  const Structure& s = model_.structure;
   for (const Station* station : all_stations(s)) {
     try {
       resolve(*station, s, mesh);
     } catch (const ModelError& error) {
-      collect(error);
+      problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
     }
   }
   for (const DoubleStation& d : double_stations_) {
@@ -248,19 +276,11 @@ void ModelBuilder::check_places() {
                        1e3 * mesh.z[static_cast<std::size_t>(d.node - 1)])});
     }
   }
-  if (!problems_.empty()) return;
-  const auto has_mass = [](const auto& parts, auto mass) {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const auto& part) { return mass(part) > 0.0; });
-  };
-  if (!has_mass(s.shaft, [](const Segment& segment) { return segment.material.rho; }) &&
-      !has_mass(s.disks, [](const Disk& disk) { return disk.m; }) &&
-      !has_mass(s.bodies, [](const Body& body) { return body.m; })) {
-    problems_.push_back({root_.where, "",
-                         "nothing in this model has a mass: give a material its density, "
-                         "or add a disk or a body that has one"});
-    return;
-  }
+}
+
+/// Gives contacts without a radius that of the shaft at their station.
+void ModelBuilder::set_radii(const Mesh& mesh) {
+  const Structure& s = model_.structure;
   for (const MissingRadius& m : missing_radii_) {
     Contact& contact = model_.contacts[m.contact];
     const Point point = resolve(contact.at, s, mesh);
@@ -274,6 +294,10 @@ void ModelBuilder::check_places() {
     contact.friction.radius =
         0.5 * shaft_diameter(s, mesh.z[static_cast<std::size_t>(point.index)]);
   }
+}
+
+void ModelBuilder::check_movable() {
+  const Structure& s = model_.structure;
   try {
     const System movable = Assembler{s}.uncondensed(0.0);
     if (movable.M.norm() == 0.0) {

@@ -13,6 +13,8 @@
 
 namespace whirl {
 
+struct Mesh;
+
 /// Builds a model from the tree of a file, collecting all problems.
 class ModelBuilder {
  public:
@@ -42,7 +44,13 @@ class ModelBuilder {
   void throw_problems();
   void read_top();
   void read_settings();
+  void read_start();
+  template <class F>
+  void each_item(TableReader& table, const char* key, const char* expected, F f);
   void check_places();
+  void check_stations(const Mesh& mesh);
+  void set_radii(const Mesh& mesh);
+  void check_movable();
   std::optional<Station> station(TableReader& table);
   std::optional<Station> named_station(const std::string& name, TableReader& table,
                                        std::string_view key, bool may_be_ground = true);
