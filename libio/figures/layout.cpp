@@ -123,110 +123,147 @@ std::vector<Figure> front_view(const ResultView& result) {
   return {f};
 }
 
-std::vector<Figure> layout_figures(const ResultView& result) {
-  const Model& model = *result.model;
-  const Assembler& assembler = *result.assembler;
-  const Structure& s = model.structure;
-  const double length = mm * s.length();
-  if (!(length > 0.0)) return front_view(result);
-  const Mesh& mesh = assembler.mesh();
-  Figure f{.subtitle = "Layout, to scale", .width = 860.0};
-  Panel p;
-  p.has_equal_scales = true;
-  p.x.title = "z [mm]";
-  p.y.title = "radius [mm]";
-  double z = 0.0, top = 0.0;
-  for (std::size_t i = 0; i < s.shaft.size(); ++i) {
-    const Segment& segment = s.shaft[i];
+/// A rotor seen from the side, while its parts are added to the panel [mm].
+struct SideView {
+  const Model& model;
+  const Assembler& assembler;
+  double length = 0.0;  ///< of the shaft
+  Panel panel{};
+  std::vector<Name> names{};
+  double top = 0.0;  ///< largest radius so far
+
+  double symbol() const { return 0.022 * length; }  ///< size of a bearing's triangle
+  /// Along the shaft; below zero if a station is not on it.
+  double position(const Station& station) const {
+    const Point point = assembler.point(station);
+    const auto& z = assembler.mesh().z;
+    return point.kind == Point::Kind::node ? mm * z[static_cast<std::size_t>(point.index)] : -1.0;
+  }
+  double shaft_radius(double at) const {
+    return 0.5 * mm * shaft_diameter(model.structure, at / mm);
+  }
+  /// A part whose name stands beyond its outermost radius.
+  void add_name(double at, double radius, const std::string& name, Paint paint, bool is_below) {
+    names.push_back({at, radius, name, paint, is_below});
+    top = std::max(top, radius);
+  }
+};
+
+void add_shaft(SideView& v) {
+  const auto& shaft = v.model.structure.shaft;
+  double z = 0.0;
+  for (std::size_t i = 0; i < shaft.size(); ++i) {
+    const Segment& segment = shaft[i];
     const auto shown = [](const Section& c) { return Section{mm * c.outer, mm * c.inner}; };
     const double to = z + mm * segment.length;
-    add_body(p, "shaft", Paint::shaft, z, to, shown(segment.left), shown(segment.right),
+    add_body(v.panel, "shaft", Paint::shaft, z, to, shown(segment.left), shown(segment.right),
              fmt::format("section {}: {:g} to {:g} mm, diameter {:g}{} mm", i + 1, z, to,
                          mm * segment.left.outer,
                          segment.right.outer == segment.left.outer
                              ? ""
                              : fmt::format(" to {:g}", mm * segment.right.outer)));
-    top = std::max({top, 0.5 * mm * segment.left.outer, 0.5 * mm * segment.right.outer});
+    v.top = std::max({v.top, 0.5 * mm * segment.left.outer, 0.5 * mm * segment.right.outer});
     z = to;
   }
-  std::vector<Name> names;
-  const auto position = [&](const Station& station) {
-    const Point point = assembler.point(station);
-    return point.kind == Point::Kind::node ? mm * mesh.z[static_cast<std::size_t>(point.index)]
-                                           : -1.0;
-  };
-  const VtkScene scene = vtk_scene(model, assembler);  // sizes of disks without one
+}
+
+void add_disks(SideView& v) {
+  const Structure& s = v.model.structure;
+  const VtkScene scene = vtk_scene(v.model, v.assembler);  // sizes of disks without one
   for (std::size_t i = 0; i < s.disks.size(); ++i) {
     const Disk& d = s.disks[i];
-    const double at = position(d.at), half = 0.5 * mm * scene.disks[i].width;
+    const double at = v.position(d.at), half = 0.5 * mm * scene.disks[i].width;
     const double outer = 2.0 * mm * scene.disks[i].outer_radius;
     const double inner = mm * shaft_diameter(s, at / mm);
-    add_body(p, "disk", Paint::disk, at - half, at + half, {outer, inner}, {outer, inner},
+    add_body(v.panel, "disk", Paint::disk, at - half, at + half, {outer, inner}, {outer, inner},
              fmt::format("{}: {:.4g} kg, Ip {:.4g}, Id {:.4g} kg.m²{}", d.name, d.m, d.Ip, d.Id,
                          d.outer_diameter > 0.0 ? "" : ", its size unknown"));
-    names.push_back({at, 0.5 * outer, d.name, Paint::disk});
-    top = std::max(top, 0.5 * outer);
+    v.add_name(at, 0.5 * outer, d.name, Paint::disk, false);
   }
-  const double symbol = 0.022 * length;
-  for (const Connection& b : s.bearings) {
-    const double at = position(b.from);
+}
+
+void add_bearings(SideView& v) {
+  const double symbol = v.symbol();
+  for (const Connection& b : v.model.structure.bearings) {
+    const double at = v.position(b.from);
     if (at < 0.0) continue;
-    const double radius = 0.5 * mm * shaft_diameter(s, at / mm);
+    const double radius = v.shaft_radius(at);
     for (const double side : {1.0, -1.0}) {
-      p.curves.push_back(
+      v.panel.curves.push_back(
           area("bearing", Paint::bearing, {at, at + 0.6 * symbol, at - 0.6 * symbol, at},
                {side * radius, side * (radius + symbol), side * (radius + symbol), side * radius},
                fmt::format("bearing {}: {}", b.name, stiffness_text(b))));
     }
-    names.push_back({at, radius + symbol, b.name, Paint::bearing, true});
-    top = std::max(top, radius + symbol);
+    v.add_name(at, radius + symbol, b.name, Paint::bearing, true);
   }
-  for (const Contact& c : model.contacts) {
-    const double at = position(c.at);
+}
+
+void add_contacts(SideView& v) {
+  const double symbol = v.symbol();
+  for (const Contact& c : v.model.contacts) {
+    const double at = v.position(c.at);
     if (at < 0.0) continue;
-    const double radius =
-        mm * (c.friction.radius > 0.0 ? c.friction.radius : 0.5 * shaft_diameter(s, at / mm));
-    const double low = radius + std::max(mm * c.clearance, 0.004 * length),
+    const double radius = c.friction.radius > 0.0 ? mm * c.friction.radius : v.shaft_radius(at);
+    const double low = radius + std::max(mm * c.clearance, 0.004 * v.length),
                  high = low + 0.5 * symbol;
     for (const double side : {1.0, -1.0}) {
-      p.curves.push_back(
+      v.panel.curves.push_back(
           area("contact", Paint::stator,
                {at - 0.8 * symbol, at + 0.8 * symbol, at + 0.8 * symbol, at - 0.8 * symbol,
                 at - 0.8 * symbol},
                {side * low, side * low, side * high, side * high, side * low},
                fmt::format("contact {}: clearance {}", c.name, format_length(c.clearance))));
     }
-    names.push_back({at, high, c.name, Paint::stator, true});
-    top = std::max(top, high);
+    v.add_name(at, high, c.name, Paint::stator, true);
   }
+}
+
+/// The axis of the shaft, and the nodes on it.
+void add_nodes(SideView& v) {
+  const auto& z = v.assembler.mesh().z;
   Curve nodes{.name = "node", .paint = Paint::ink, .has_line = false};
   nodes.has_marker = true;
   nodes.size = 3.2;
-  std::vector<std::string> what(mesh.z.size());
-  for (const NamedPoint& n : named_points(model, assembler)) {
+  std::vector<std::string> what(z.size());
+  for (const NamedPoint& n : named_points(v.model, v.assembler)) {
     if (n.node() > 0) what[static_cast<std::size_t>(n.node() - 1)] = n.name;
   }
-  for (std::size_t i = 0; i < mesh.z.size(); ++i) {
-    nodes.x.push_back(mm * mesh.z[i]);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    nodes.x.push_back(mm * z[i]);
     nodes.y.push_back(0.0);
     nodes.hover.push_back(fmt::format("node {}{}{}", i + 1, what[i].empty() ? "" : ": ", what[i]));
   }
   Curve axis{.paint = Paint::gray};
   axis.width = 0.8;
   axis.dash = Dash::dash_dot;
-  axis.x = {-0.03 * length, 1.03 * length};
+  axis.x = {-0.03 * v.length, 1.03 * v.length};
   axis.y = {0.0, 0.0};
-  p.curves.push_back(axis);
-  p.curves.push_back(nodes);
-  const double pitch = 0.034 * length;
-  add_names(p, names, length, top, pitch);
-  double reach = top;
+  v.panel.curves.push_back(axis);
+  v.panel.curves.push_back(nodes);
+}
+
+std::vector<Figure> layout_figures(const ResultView& result) {
+  SideView v{*result.model, *result.assembler, mm * result.model->structure.length()};
+  if (!(v.length > 0.0)) return front_view(result);
+  add_shaft(v);
+  add_disks(v);
+  add_bearings(v);
+  add_contacts(v);
+  add_nodes(v);
+  const double pitch = 0.034 * v.length;
+  Panel& p = v.panel;
+  add_names(p, v.names, v.length, v.top, pitch);
+  double reach = v.top;
   for (const Label& l : p.labels) reach = std::max(reach, std::abs(l.y) + 0.5 * pitch);
-  p.x.first = -0.04 * length;
-  p.x.last = 1.04 * length;
+  p.has_equal_scales = true;
+  p.x.title = "z [mm]";
+  p.y.title = "radius [mm]";
+  p.x.first = -0.04 * v.length;
+  p.x.last = 1.04 * v.length;
   p.y.first = -reach;
   p.y.last = reach;
-  f.height = std::clamp(140.0 + 2.0 * reach / (1.08 * length) * 750.0, 260.0, 760.0);
+  Figure f{.subtitle = "Layout, to scale", .width = 860.0};
+  f.height = std::clamp(140.0 + 2.0 * reach / (1.08 * v.length) * 750.0, 260.0, 760.0);
   f.panels.push_back(std::move(p));
   return {f};
 }

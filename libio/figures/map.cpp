@@ -200,52 +200,54 @@ std::vector<Figure> regime_map_figures(const ResultView& result) {
   return figures;
 }
 
-std::vector<Figure> basin_figures(const ResultView& result) {
-  constexpr double others = 2.0;  // categories before the motions: not settled (-2), failed (-1)
-  auto attractor = result.file.numbers("/basins/attractor");  // from 0; -1: failed
-  for (double& a : attractor) a += others;
+constexpr double not_motions = 2.0;  ///< categories before the motions: not settled, failed
+
+/// Motions that starts lead to, each described by the first start that led there.
+/// @param attractor  numbers of categories
+std::vector<Category> basin_categories(const ResultView& result,
+                                       const std::vector<double>& attractor) {
   const auto motion = result.file.numbers("/basins/motion"),
              period = result.file.numbers("/basins/period");
   const MotionCodes codes(result.file, "/basins/motion");
   double count = 0.0;
-  for (const double a : attractor) count = std::max(count, a - others + 1.0);
-  // a motion is described by the first start that led there
+  for (const double a : attractor) count = std::max(count, a - not_motions + 1.0);
   std::vector<Category> all{{"not settled", Paint::not_settled}, {"failed", Paint::failed}};
   for (int number = 1; number <= static_cast<int>(count); ++number) {
     const auto first = static_cast<std::size_t>(
-        std::find(attractor.begin(), attractor.end(), number - 1.0 + others) - attractor.begin());
+        std::find(attractor.begin(), attractor.end(), number - 1.0 + not_motions) -
+        attractor.begin());
     if (first == attractor.size()) continue;
     const auto kind =
         static_cast<std::size_t>(motion_number(codes.kind(motion[first]), period[first]));
     all.push_back({fmt::format("{}: {}", number, motions()[kind].name),
                    series_paint(static_cast<std::size_t>(number - 1))});
   }
-  const auto place = [&](std::size_t i) { return std::max(0.0, attractor[i]); };
-  if (result.file.has("/basins/axis_2")) {
-    const Planes planes(result, "/basins");
-    std::vector<Figure> figures;
-    for (std::size_t plane = 0; plane < planes.count(); ++plane) {
-      Cells cells = planes.cells(plane, place);
-      keep_used(cells, all);
-      figures.push_back(figure_of(result, planes, plane, std::move(cells), "Basins of attraction"));
-    }
-    return figures;
-  }
-  // random starts: where the point with the widest starts begins
-  const auto start = result.file.numbers("/basins/start_displacement");
-  const auto width =
-      static_cast<std::size_t>(result.file.shape("/basins/start_displacement").back());
+  return all;
+}
+
+/// The column of x [m] of the place where starts are spread the most; y is in the next one.
+std::size_t widest_place(const std::vector<double>& start, std::size_t width) {
   std::size_t widest = 0;
   double spread = -1.0;
   for (std::size_t k = 0; k + 1 < width; k += 2) {
     double low = INFINITY, high = -INFINITY;
-    for (std::size_t i = 0; i < attractor.size(); ++i) {
-      low = std::min(low, start[i * width + k]);
-      high = std::max(high, start[i * width + k]);
+    for (std::size_t i = k; i < start.size(); i += width) {
+      low = std::min(low, start[i]);
+      high = std::max(high, start[i]);
     }
     const bool is_place = width % 4 != 0 || k % 4 == 0;  // not a tilt
     if (is_place && high - low > spread) spread = high - low, widest = k;
   }
+  return widest;
+}
+
+/// Random starts, by the motion that they lead to.
+Figure starts_figure(const ResultView& result, const std::vector<double>& attractor,
+                     const std::vector<Category>& all) {
+  const auto start = result.file.numbers("/basins/start_displacement");
+  const auto width =
+      static_cast<std::size_t>(result.file.shape("/basins/start_displacement").back());
+  const std::size_t widest = widest_place(start, width);
   Figure f{.width = 640.0, .height = 600.0};
   f.subtitle = fmt::format("{} random starts and the motions that they lead to", attractor.size());
   Panel p;
@@ -264,7 +266,7 @@ std::vector<Figure> basin_figures(const ResultView& result) {
     c.marker = static_cast<Marker>(a % markers);
     c.size = 6.0;
     for (std::size_t i = 0; i < attractor.size(); ++i) {
-      if (place(i) != static_cast<double>(a)) continue;
+      if (std::max(0.0, attractor[i]) != static_cast<double>(a)) continue;
       c.x.push_back(unit.factor * start[i * width + widest]);
       c.y.push_back(unit.factor * start[i * width + widest + 1]);
       c.hover.push_back(fmt::format("start {}, {}", i + 1, all[a].name));
@@ -276,7 +278,22 @@ std::vector<Figure> basin_figures(const ResultView& result) {
     p.curves.push_back(std::move(c));
   }
   f.panels.push_back(std::move(p));
-  return {f};
+  return f;
+}
+
+std::vector<Figure> basin_figures(const ResultView& result) {
+  auto attractor = result.file.numbers("/basins/attractor");  // from 0; -2: not settled, -1: failed
+  for (double& a : attractor) a += not_motions;
+  const std::vector<Category> all = basin_categories(result, attractor);
+  if (!result.file.has("/basins/axis_2")) return {starts_figure(result, attractor, all)};
+  const Planes planes(result, "/basins");
+  std::vector<Figure> figures;
+  for (std::size_t plane = 0; plane < planes.count(); ++plane) {
+    Cells cells = planes.cells(plane, [&](std::size_t i) { return std::max(0.0, attractor[i]); });
+    keep_used(cells, all);
+    figures.push_back(figure_of(result, planes, plane, std::move(cells), "Basins of attraction"));
+  }
+  return figures;
 }
 
 }  // namespace

@@ -88,82 +88,118 @@ struct Spectra {
 
 constexpr double shown_orders = 4.0;
 
-std::vector<Figure> bifurcation_figures(const ResultView& result) {
-  const ShownAxis axis = shown_axis(result, "/sweep/axis_1");
-  const auto ways = result.file.strings("/sweep/direction");
-  const auto stations = result.file.strings("/sweep/station");
-  const Table x(result, "/sweep/poincare_x", 2), y(result, "/sweep/poincare_y", 2);
-  const Table exponent(result, "/sweep/exponent", 2), motion(result, "/sweep/motion", 2),
-      period(result, "/sweep/period", 2);
-  const MotionCodes codes(result.file, "/sweep/motion");
-  const bool has_contacts = result.file.has("/sweep/duty");
-  const std::size_t values = axis.values.size(), sections = x.width / stations.size();
-  const bool has_measures = result.file.has("/sweep/max_radius");
-  std::vector<Figure> figures;
-  for (const std::size_t s : stations_by_interest(result, stations)) {
-    Figure f{.variant = stations[s], .height = has_contacts ? 820.0 : 560.0};
-    f.subtitle = fmt::format("{}: bifurcation diagram along {}", stations[s], axis.path);
+/// What the panels of a bifurcation diagram are made of.
+struct SweepView {
+  explicit SweepView(const ResultView& r)
+      : result(r),
+        axis(shown_axis(r, "/sweep/axis_1")),
+        ways(r.file.strings("/sweep/direction")),
+        stations(r.file.strings("/sweep/station")),
+        x(r, "/sweep/poincare_x", 2),
+        sections(x.width / stations.size()) {}
+
+  const ResultView& result;
+  ShownAxis axis;
+  std::vector<std::string> ways, stations;
+  Table x;               ///< once a revolution [m]
+  std::size_t sections;  ///< of a station
+
+  /// Unit of the displacements of a station.
+  DisplayUnit unit(std::size_t station) const {
     double largest = 0.0;
-    for (std::size_t i = 0; i < ways.size() * values; ++i) {
+    for (std::size_t i = 0; i < ways.size() * axis.values.size(); ++i) {
       for (std::size_t j = 0; j < sections; ++j) {
-        if (const double v = x.at(i, s * sections + j); std::isfinite(v))
-          largest = std::max(largest, std::abs(v));
+        const double v = x.at(i, station * sections + j);
+        if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
       }
     }
-    const DisplayUnit unit = unit_for(largest, "m");
-    Panel p = panel_along(axis, with_unit("x once a revolution", unit));
-    p.share = 2.4;
-    for (std::size_t w = 0; w < ways.size(); ++w) {
-      Curve c{.name = way_of(ways[w]).name, .paint = way_of(ways[w]).paint, .has_line = false};
-      c.has_marker = true;
-      c.size = w == 0 ? 2.7 : 1.7;  // what is below can be seen around what hides it
-      for (std::size_t i = 0; i < values; ++i) {
-        const std::size_t point = w * values + i;
-        const auto kind = codes.kind(motion.at(point));
-        const std::string name(kind ? name_of(*kind) : "failed");
-        const std::string text = period.at(point) > 0.0
-                                     ? fmt::format("{}, period {:.0f}", name, period.at(point))
-                                     : name;
-        for (std::size_t j = 0; j < sections; ++j) {
-          const double v = x.at(point, s * sections + j);
-          if (!std::isfinite(v)) continue;
-          c.x.push_back(axis.values[i]);
-          c.y.push_back(unit.factor * v);
-          if (values * sections <= 20000) c.hover.push_back(text);
-        }
+    return unit_for(largest, "m");
+  }
+};
+
+/// Displacements once a revolution.
+Panel section_panel(const SweepView& v, std::size_t station, const DisplayUnit& unit) {
+  const Table motion(v.result, "/sweep/motion", 2), period(v.result, "/sweep/period", 2);
+  const MotionCodes codes(v.result.file, "/sweep/motion");
+  const std::size_t values = v.axis.values.size();
+  Panel p = panel_along(v.axis, with_unit("x once a revolution", unit));
+  p.share = 2.4;
+  for (std::size_t w = 0; w < v.ways.size(); ++w) {
+    Curve c{.name = way_of(v.ways[w]).name, .paint = way_of(v.ways[w]).paint, .has_line = false};
+    c.has_marker = true;
+    c.size = w == 0 ? 2.7 : 1.7;  // what is below can be seen around what hides it
+    for (std::size_t i = 0; i < values; ++i) {
+      const std::size_t point = w * values + i;
+      const auto kind = codes.kind(motion.at(point));
+      const std::string name(kind ? name_of(*kind) : "failed");
+      const std::string text =
+          period.at(point) > 0.0 ? fmt::format("{}, period {:.0f}", name, period.at(point)) : name;
+      for (std::size_t j = 0; j < v.sections; ++j) {
+        const double x = v.x.at(point, station * v.sections + j);
+        if (!std::isfinite(x)) continue;
+        c.x.push_back(v.axis.values[i]);
+        c.y.push_back(unit.factor * x);
+        if (values * v.sections <= 20000) c.hover.push_back(text);
       }
-      p.curves.push_back(std::move(c));
     }
-    f.panels.push_back(std::move(p));
-    Panel e = panel_along(axis, "exponent [1/rev]");
-    add_lines(e, axis, ways, [&](std::size_t i) { return exponent.at(i); });
-    // multipliers of strongly attracting orbits are far below: what is near zero tells motions apart
-    double low = 0.0;
-    for (const Curve& c : e.curves) {
-      for (const double v : c.y) low = std::isfinite(v) ? std::min(low, v) : low;
-    }
-    if (low < -1.5) e.y.first = -1.5;
-    e.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::ink, Dash::solid});
-    f.panels.push_back(std::move(e));
+    p.curves.push_back(std::move(c));
+  }
+  return p;
+}
+
+Panel exponent_panel(const SweepView& v) {
+  const Table exponent(v.result, "/sweep/exponent", 2);
+  Panel e = panel_along(v.axis, "exponent [1/rev]");
+  add_lines(e, v.axis, v.ways, [&](std::size_t i) { return exponent.at(i); });
+  // multipliers of strongly attracting orbits are far below: what is near zero tells motions apart
+  double low = 0.0;
+  for (const Curve& c : e.curves) {
+    for (const double y : c.y) low = std::isfinite(y) ? std::min(low, y) : low;
+  }
+  if (low < -1.5) e.y.first = -1.5;
+  e.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::ink, Dash::solid});
+  return e;
+}
+
+Panel duty_panel(const SweepView& v) {
+  const Table duty(v.result, "/sweep/duty", 2);
+  Panel d = panel_along(v.axis, "share in touch");
+  d.y.first = 0.0;
+  add_lines(d, v.axis, v.ways, [&](std::size_t i) { return duty.most(i); });
+  return d;
+}
+
+Panel force_panel(const SweepView& v) {
+  const Table force(v.result, "/sweep/max_normal", 2);
+  const DisplayUnit newton = unit_for(largest_of(force.values), "N");
+  Panel n = panel_along(v.axis, with_unit("largest force", newton));
+  n.y.first = 0.0;
+  add_lines(n, v.axis, v.ways, [&](std::size_t i) { return newton.factor * force.most(i); });
+  return n;
+}
+
+Panel radius_panel(const SweepView& v, std::size_t station, const DisplayUnit& unit) {
+  const Table radius(v.result, "/sweep/max_radius", 2);
+  Panel r = panel_along(v.axis, with_unit("largest radius", unit));
+  r.y.first = 0.0;
+  add_lines(r, v.axis, v.ways, [&](std::size_t i) { return unit.factor * radius.at(i, station); });
+  return r;
+}
+
+std::vector<Figure> bifurcation_figures(const ResultView& result) {
+  const SweepView v(result);
+  const bool has_contacts = result.file.has("/sweep/duty");
+  std::vector<Figure> figures;
+  for (const std::size_t s : stations_by_interest(result, v.stations)) {
+    Figure f{.variant = v.stations[s], .height = has_contacts ? 820.0 : 560.0};
+    f.subtitle = fmt::format("{}: bifurcation diagram along {}", v.stations[s], v.axis.path);
+    const DisplayUnit unit = v.unit(s);
+    f.panels = {section_panel(v, s, unit), exponent_panel(v)};
     if (has_contacts) {
-      const Table duty(result, "/sweep/duty", 2), force(result, "/sweep/max_normal", 2);
-      Panel d = panel_along(axis, "share in touch");
-      d.y.first = 0.0;
-      add_lines(d, axis, ways, [&](std::size_t i) { return duty.most(i); });
-      double most = 0.0;
-      for (const double v : force.values) most = std::isfinite(v) ? std::max(most, v) : most;
-      const DisplayUnit newton = unit_for(most, "N");
-      Panel n = panel_along(axis, with_unit("largest force", newton));
-      n.y.first = 0.0;
-      add_lines(n, axis, ways, [&](std::size_t i) { return newton.factor * force.most(i); });
-      f.panels.push_back(std::move(d));
-      f.panels.push_back(std::move(n));
-    } else if (has_measures) {
-      const Table radius(result, "/sweep/max_radius", 2);
-      Panel r = panel_along(axis, with_unit("largest radius", unit));
-      r.y.first = 0.0;
-      add_lines(r, axis, ways, [&](std::size_t i) { return unit.factor * radius.at(i, s); });
-      f.panels.push_back(std::move(r));
+      f.panels.push_back(duty_panel(v));
+      f.panels.push_back(force_panel(v));
+    } else if (result.file.has("/sweep/max_radius")) {
+      f.panels.push_back(radius_panel(v, s, unit));
     }
     figures.push_back(std::move(f));
   }

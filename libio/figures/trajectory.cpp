@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "libio/figures/common.hpp"
 
@@ -89,6 +90,59 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
   return figures;
 }
 
+/// A path, in the frame that stands or in the one that turns with the rotor, and how it ends.
+std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown, const Vec& x,
+                                const Vec& y, double factor, bool is_rotating) {
+  Curve c{.name = "orbit", .paint = is_rotating ? series_paint(2) : Paint::forward};
+  c.width = 1.0;
+  c.along_title = "time";
+  Curve dots{.name = "once a revolution", .paint = Paint::alarm, .has_line = false};
+  dots.has_marker = true;
+  dots.size = 4.5;
+  dots.along_title = "time";
+  for (Eigen::Index j = shown.first; j <= shown.last; ++j) {
+    const Complex q =
+        Complex(x(j), y(j)) * (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
+    c.x.push_back(factor * q.real());
+    c.y.push_back(factor * q.imag());
+    c.along.push_back(m.time(j));
+    if (!m.ends_revolution(j)) continue;
+    dots.x.push_back(c.x.back());
+    dots.y.push_back(c.y.back());
+    dots.along.push_back(m.time(j));
+    dots.hover.push_back(revolution_text(m, j));
+  }
+  Curve end{.name = "end", .paint = Paint::ink, .has_line = false};
+  end.has_marker = true;
+  end.size = 7.0;
+  end.x = {c.x.back()};
+  end.y = {c.y.back()};
+  // how it ends: the way it turns
+  const auto back = static_cast<std::ptrdiff_t>(
+      std::min<std::size_t>(c.x.size() - 1, static_cast<std::size_t>(m.per_revolution / 12 + 1)));
+  Curve tail{.name = "last twelfth of a revolution", .paint = Paint::ink};
+  tail.width = 2.4;
+  tail.x.assign(c.x.end() - back, c.x.end());
+  tail.y.assign(c.y.end() - back, c.y.end());
+  std::vector<Curve> curves{std::move(c)};
+  if (m.spins) curves.push_back(std::move(dots));
+  curves.push_back(std::move(tail));
+  curves.push_back(std::move(end));
+  return curves;
+}
+
+/// The clearance circle of a contact, where it stands still in a frame and is not far outside.
+/// @param size  of the orbit [m]
+std::optional<Curve> clearance_circle(const Contact& contact, double size, double factor,
+                                      bool is_rotating) {
+  const bool is_fixed = contact.against.kind == Station::Kind::ground;
+  const bool is_centered = contact.offset.norm() == 0.0;
+  if (!(contact.clearance > 0.0 && contact.clearance < 20.0 * size)) return std::nullopt;
+  if (is_rotating && !(is_fixed && is_centered)) return std::nullopt;
+  return circle(is_fixed ? "clearance" : "clearance, stator at rest", factor * contact.clearance,
+                factor * contact.offset(0), factor * contact.offset(1));
+}
+
 std::vector<Figure> orbit_figures(const ResultView& result) {
   const Motion m(result);
   const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
@@ -110,54 +164,16 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
       p.has_equal_scales = true;
       p.x.title = with_unit(is_rotating ? "ξ" : "x", unit);
       p.y.title = with_unit(is_rotating ? "η" : "y", unit);
-      Curve c{.name = "orbit", .paint = is_rotating ? series_paint(2) : Paint::forward};
-      c.width = 1.0;
-      c.along_title = "time";
-      Curve dots{.name = "once a revolution", .paint = Paint::alarm, .has_line = false};
-      dots.has_marker = true;
-      dots.size = 4.5;
-      for (Eigen::Index j = shown.first; j <= shown.last; ++j) {
-        const Complex q =
-            Complex(x(k, j), y(k, j)) * (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
-        c.x.push_back(unit.factor * q.real());
-        c.y.push_back(unit.factor * q.imag());
-        c.along.push_back(m.time(j));
-        if (!m.ends_revolution(j)) continue;
-        dots.x.push_back(c.x.back());
-        dots.y.push_back(c.y.back());
-        dots.along.push_back(m.time(j));
-        dots.hover.push_back(revolution_text(m, j));
-      }
-      dots.along_title = "time";
-      // how it ends: the way it turns
-      const std::size_t n = c.x.size(),
-                        back = std::min<std::size_t>(
-                            n - 1, static_cast<std::size_t>(m.per_revolution / 12 + 1));
       if (contact >= 0) {
         const Contact& at = result.model->contacts[static_cast<std::size_t>(contact)];
-        const bool is_fixed = at.against.kind == Station::Kind::ground;
-        if (at.clearance > 0.0 && at.clearance < 20.0 * size && (is_fixed || !is_rotating)) {
-          const bool is_centered = at.offset.norm() == 0.0;
-          if (!is_rotating || is_centered) {
-            p.curves.push_back(circle(is_fixed ? "clearance" : "clearance, stator at rest",
-                                      unit.factor * at.clearance, unit.factor * at.offset(0),
-                                      unit.factor * at.offset(1)));
-          }
+        if (auto around = clearance_circle(at, size, unit.factor, is_rotating)) {
+          p.curves.push_back(std::move(*around));
         }
       }
-      Curve end{.name = "end", .paint = Paint::ink, .has_line = false};
-      end.has_marker = true;
-      end.size = 7.0;
-      end.x = {c.x.back()};
-      end.y = {c.y.back()};
-      Curve tail{.name = "last twelfth of a revolution", .paint = Paint::ink};
-      tail.width = 2.4;
-      tail.x.assign(c.x.end() - static_cast<std::ptrdiff_t>(back), c.x.end());
-      tail.y.assign(c.y.end() - static_cast<std::ptrdiff_t>(back), c.y.end());
-      p.curves.push_back(std::move(c));
-      if (m.spins) p.curves.push_back(std::move(dots));
-      p.curves.push_back(std::move(tail));
-      p.curves.push_back(std::move(end));
+      for (Curve& c : orbit_curves(m, shown, x.row(k).transpose(), y.row(k).transpose(),
+                                   unit.factor, is_rotating)) {
+        p.curves.push_back(std::move(c));
+      }
       f.panels.push_back(std::move(p));
     }
     if (f.panels.size() == 1) f.width = 540.0, f.columns = 1;
