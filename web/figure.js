@@ -47,6 +47,15 @@ function shown(value, digits = 5) {
 const superscript = (text) =>
   text.replace(/[-−0-9]/g, (c) => ({ "-": "⁻", "−": "⁻" })[c] || "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]);
 
+/** A number along an axis with a minus sign, as "{:g}" writes it. */
+function tickLabel(value, digits) {
+  const [number, exponent] = Math.abs(value).toExponential(digits - 1).split("e"), power = Number(exponent);
+  const text = power < -4 || power >= digits
+    ? `${Number(number)}e${power < 0 ? "-" : "+"}${String(Math.abs(power)).padStart(2, "0")}`
+    : String(Number(Math.abs(value).toPrecision(digits)));
+  return (value < 0 ? "−" : "") + text;
+}
+
 // ---------------------------------------------------------------- axes
 
 /** A range along one direction. */
@@ -62,19 +71,22 @@ class Axis {
     return this.log ? this.first * (this.last / this.first) ** place
                     : this.first + place * (this.last - this.first);
   }
+  /** As libio/drawing/axis.cpp makes them; a zoomed axis has others than the file. */
   ticks(most) {
-    return this.log && this.last / this.first >= 20 ? this.powers(most) : this.rounds(most);
+    if (!this.log) return this.rounds(most);
+    const powers = this.powers(most);
+    return powers.filter((t) => t.label).length < 2 ? this.rounds(most) : powers;
   }
   rounds(most) {
     const wide = (this.last - this.first) / most, power = 10 ** Math.floor(Math.log10(wide));
-    const step = [1, 2, 5, 10].find((d) => d * power >= wide * (1 - 1e-9)) * power;
-    const ticks = [];
+    return this.every([1, 2, 5, 10].find((d) => d * power >= wide * (1 - 1e-9)) * power);
+  }
+  every(step) {
+    const largest = Math.max(Math.abs(this.first), Math.abs(this.last)), ticks = [];
+    const needed = 1 + Math.floor(Math.log10(largest)) - Math.floor(Math.log10(step) + 1e-9);
+    const digits = Math.min(17, Math.max(6, needed));
     for (let i = Math.ceil(this.first / step - 1e-9); i <= this.last / step + 1e-9; ++i) {
-      const digits = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
-      const value = i * step;
-      const label = Math.abs(value) >= 1e6 || (step < 1e-5 && value !== 0)
-        ? value.toExponential(2) : value.toFixed(Math.min(digits, 12));
-      ticks.push({ value, label: label.replace("-", "−") });
+      ticks.push({ value: i * step, label: tickLabel(i * step, digits) });
     }
     return ticks;
   }
@@ -176,9 +188,7 @@ class SvgContext {
 // ---------------------------------------------------------------- figures
 
 const FONT = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
-const DASHES = { solid: [], dashed: [6, 4], dotted: [1.5, 3.5], dash_dot: [8, 3, 2, 3] };
-const LEFT = 80, UNDER = 50;
-const LEFT_SMALL = 58, SMALL_PLOT = 470;  // room left of narrow panels
+const LEFT_SMALL = 58, SMALL_PLOT = 470;  // room left of narrow panels of figures that want to be wider
 const NARROW_PANEL = 300;  // panels beside each other are no narrower
 
 function drawMarker(ctx, shape, x, y, size) {
@@ -273,35 +283,38 @@ class Drawing {
   roomRight(ctx, p) {
     let room = 22;
     ctx.font = `bold 13px ${FONT}`;
-    for (const c of p.curves) if (c.end_name) room = Math.max(room, 40 + ctx.measureText(c.end_name).width);
+    for (const c of p.curves) if (c.end_name) room = Math.max(room, page.style.name + 12 + ctx.measureText(c.end_name).width);
     ctx.font = `12px ${FONT}`;
     for (const r of p.rules) if (r.kind !== "vertical" && r.name) room = Math.max(room, 12 + ctx.measureText(r.name).width);
-    if (p.cells && !p.cells.categories) room = Math.max(room, 84);
+    if (p.cells && !p.cells.categories) room = Math.max(room, page.style.bar_room);
     return room;
   }
 
   layout(ctx, width, height, top = 4) {
+    const { above, between, title, under } = page.style;
+    this.width = width;
     const columns = (this.columns = this.columnsAt(width)), count = this.panels.length, rows = Math.ceil(count / columns);
     const hasNames = this.panels.some((p) => p.cells?.y_names);  // longer than numbers
-    const left = (this.left = width / columns < SMALL_PLOT && !hasNames ? LEFT_SMALL : LEFT);
+    const isSmall = width / columns < SMALL_PLOT && width < this.figure.width;
+    const left = (this.left = isSmall && !hasNames ? LEFT_SMALL : page.style.left);
     const right = Math.max(...this.panels.map((p) => this.roomRight(ctx, p)));
     let shares = 0, rooms = 0;
     for (let r = 0; r < rows; ++r) {
       const p = this.panels[r * columns];
       shares += p.share;
-      rooms += (p.title ? 24 : 8) + (this.sharesBelow(r * columns) ? 10 : UNDER);
+      rooms += (p.title ? title : above) + (this.sharesBelow(r * columns) ? between : under);
     }
     let y = top;
     for (let r = 0; r < rows; ++r) {
       const first = this.panels[r * columns], h = ((height - top - rooms) * first.share) / shares;
-      y += first.title ? 24 : 8;
+      y += first.title ? title : above;
       for (let c = 0; c < columns && r * columns + c < count; ++c) {
         const p = this.panels[r * columns + c];
         p.box = { x: (width * c) / columns + left, y, w: width / columns - left - right, h };
         p.lowest = !this.sharesBelow(r * columns + c);
         this.place(p);
       }
-      y += h + (this.sharesBelow(r * columns) ? 10 : UNDER);
+      y += h + (this.sharesBelow(r * columns) ? between : under);
     }
   }
 
@@ -380,19 +393,18 @@ class Drawing {
       ctx.font = `bold 13px ${FONT}`;
       ctx.textAlign = "center";
       ctx.fillStyle = ink;
-      ctx.fillText(this.fittingTitle(ctx, p.title, w + 24), x + w / 2, y - 8);
+      ctx.fillText(this.fittingTitle(ctx, p.title, w + 24), x + w / 2, y - 9);
     }
     if (p.frame === false) return;
     const named = (middles, names, length, room) => {
       const pitch = length / names.length, every = Math.ceil(room / pitch);
       return names.map((label, i) => ({ value: middles[i], label })).filter((_, i) => i % every === 0);
     };
-    let along = p.ax.ticks(Math.max(2, Math.floor(w / 62))), up = p.ay.ticks(Math.max(2, Math.floor(h / 40)));
+    const { per_label_x, per_label_y, tick_label, axis_title } = page.style;
+    let along = p.ax.ticks(Math.max(2, Math.floor(w / per_label_x))), up = p.ay.ticks(Math.max(2, Math.floor(h / per_label_y)));
     const every = (axis, step) => {
       while ((axis.last - axis.first) / step > 8) step *= 2;
-      const ticks = [];
-      for (let i = Math.ceil(axis.first / step); i * step <= axis.last; ++i) ticks.push({ value: i * step, label: shown(i * step) });
-      return ticks;
+      return axis.every(step);
     };
     if (p.x.step && p.ax.last - p.ax.first > 2 * p.x.step) along = every(p.ax, p.x.step);
     if (p.y.step && p.ay.last - p.ay.first > 2 * p.y.step) up = every(p.ay, p.y.step);
@@ -416,8 +428,8 @@ class Drawing {
         if (isX) { ctx.moveTo(at, y + h); ctx.lineTo(at, y + h + long); } else { ctx.moveTo(x - long, at); ctx.lineTo(x, at); }
         ctx.stroke();
         ctx.textAlign = isX ? "center" : "right";
-        if (isX && p.lowest) ctx.fillText(t.label, at, y + h + 20);
-        if (!isX) ctx.fillText(t.label, x - 9, at + 4);
+        if (isX && p.lowest) ctx.fillText(t.label, at, y + h + tick_label);
+        if (!isX) ctx.fillText(t.label, x - 10, at + 4.5);
       }
     }
     ctx.strokeStyle = ink;
@@ -429,9 +441,9 @@ class Drawing {
     ctx.font = `13px ${FONT}`;
     ctx.textAlign = "center";
     ctx.fillStyle = ink;
-    if (p.lowest) ctx.fillText(p.x.title, x + w / 2, y + h + 40);
+    if (p.lowest) ctx.fillText(p.x.title, x + w / 2, y + h + axis_title);
     ctx.save();
-    ctx.translate(x - this.left + 18, y + h / 2);
+    ctx.translate(x - this.left + 19, y + h / 2);
     ctx.rotate(-Math.PI / 2);
     ctx.fillText(p.y.title, 0, 0);
     ctx.restore();
@@ -487,18 +499,19 @@ class Drawing {
   }
 
   drawColorBar(ctx, p) {
-    const { x, y, w, h } = p.box, left = x + w + 14, cells = p.cells;
+    const { bar, bar_width: thick, bar_room } = page.style;
+    const { x, y, w, h } = p.box, left = x + w + bar, cells = p.cells;
     for (let i = 0; i < 64; ++i) {
       ctx.fillStyle = `rgb(${mapColor(cells.map, (i + 0.5) / 64)})`;
-      ctx.fillRect(left, y + h * (1 - (i + 1) / 64), 14, h / 64 + 0.5);
+      ctx.fillRect(left, y + h * (1 - (i + 1) / 64), thick, h / 64 + 0.5);
     }
     const scale = new Axis(false, cells.first, cells.last);
     ctx.font = `11px ${FONT}`;
     ctx.textAlign = "left";
     ctx.fillStyle = ctx.strokeStyle = this.color("ink");
-    for (const t of scale.ticks(5)) ctx.fillText(t.label, left + 20, y + h * (1 - scale.place(t.value)) + 4);
+    for (const t of scale.ticks(Math.min(5, Math.max(2, Math.floor(h / 24))))) ctx.fillText(t.label, left + thick + 7, y + h * (1 - scale.place(t.value)) + 4);
     ctx.save();
-    ctx.translate(left + 66, y + h / 2);
+    ctx.translate(x + w + bar_room - 8, y + h / 2);
     ctx.rotate(-Math.PI / 2);
     ctx.textAlign = "center";
     ctx.font = `12px ${FONT}`;
@@ -515,14 +528,17 @@ class Drawing {
       ctx.clip();
       ctx.strokeStyle = this.color(r.paint);
       ctx.lineWidth = 1.1;
-      ctx.setLineDash(DASHES[r.dash]);
+      ctx.setLineDash(page.style.dashes[r.dash]);
       ctx.beginPath();
+      ctx.font = `12px ${FONT}`;
       let end = null, align = "left";
       if (r.kind === "vertical") {
         const at = this.px(p, r.at);
         ctx.moveTo(at, y);
         ctx.lineTo(at, y + h);
-        if (at >= x - 1 && at <= x + w + 1) end = [at + 5, y + h - 8];
+        const fits = at + 5 + ctx.measureText(r.name).width < this.width;
+        if (!fits) align = "right";
+        if (at >= x - 1 && at <= x + w + 1) end = [fits ? at + 5 : at - 5, y + h - 8];
       } else if (r.kind === "horizontal") {
         const at = this.py(p, r.at);
         ctx.moveTo(x, at);
@@ -538,7 +554,7 @@ class Drawing {
       ctx.stroke();
       ctx.restore();
       if (!end || !r.name) continue;
-      ctx.font = `12px ${FONT}`;
+      ctx.font = `12px ${FONT}`;  // it was restored with the clip
       ctx.textAlign = align;
       this.halo(ctx, r.name, ...end, this.color(r.paint, true));
     }
@@ -581,7 +597,7 @@ class Drawing {
         ctx.strokeStyle = color;
         ctx.lineWidth = c.line;
         ctx.lineJoin = "round";
-        ctx.setLineDash(DASHES[c.dash]);
+        ctx.setLineDash(page.style.dashes[c.dash]);
         ctx.stroke();
         ctx.setLineDash([]);
       }
@@ -651,18 +667,18 @@ class Drawing {
     ends.sort((a, b) => a.end[1] - b.end[1]);
     const places = spread(ends.map((e) => e.end[1]), 17, y, y + h);
     ends.forEach(({ c, end }, i) => {
-      const X = x + w + 30, Y = places[i];
+      const X = x + w + page.style.name, Y = places[i];
       ctx.strokeStyle = this.color(c.paint);
       ctx.lineWidth = 0.8;
       ctx.setLineDash([1, 3]);
       ctx.beginPath();
       ctx.moveTo(...end);
-      ctx.lineTo(X - 22, Y);
+      ctx.lineTo(X - page.style.leader, Y);
       ctx.lineTo(X - 5, Y);
       ctx.stroke();
       ctx.font = `bold 13px ${FONT}`;
       ctx.textAlign = "left";
-      this.halo(ctx, c.end_name, X, Y + 4.5, this.color(c.paint, true));
+      this.halo(ctx, c.end_name, X, Y + 0.35 * 13, this.color(c.paint, true));
     });
   }
 
@@ -697,7 +713,7 @@ class Drawing {
     ctx.strokeStyle = ctx.fillStyle = this.color(c.paint);
     if (c.line !== undefined) {
       ctx.lineWidth = Math.max(1.3, c.line);
-      ctx.setLineDash(DASHES[c.dash]);
+      ctx.setLineDash(page.style.dashes[c.dash]);
       ctx.beginPath();
       ctx.moveTo(x, y);
       ctx.lineTo(x + 30, y);
@@ -732,11 +748,11 @@ class Drawing {
     ctx.textAlign = "left";
     ctx.fillStyle = this.color("ink");
     ctx.font = `bold 15px ${FONT}`;
-    ctx.fillText(this.figure.title, LEFT, 24);
+    ctx.fillText(this.figure.title, page.style.left, 28);
     ctx.fillStyle = this.color("gray", true);
     ctx.font = `12px ${FONT}`;
-    ctx.fillText(this.figure.subtitle, LEFT, 42);
-    this.draw(ctx, width, height, 50);
+    ctx.fillText(this.figure.subtitle, page.style.left, 46);
+    this.draw(ctx, width, height, 52);
     this.drawLegend(ctx, width, height + 12);
   }
 

@@ -31,17 +31,26 @@ double round_down(double value) {
 }
 
 /// A number with a minus sign, which is longer than a hyphen.
-std::string label(double value) {
-  const std::string text = fmt::format("{:g}", std::abs(value));
+std::string label(double value, int digits = 6) {
+  const std::string text = fmt::format("{:.{}g}", std::abs(value), digits);
   return value < 0.0 ? "−" + text : text;
+}
+
+/// Digits that tell a step from the next one.
+int digits_of(const Axis& axis, double step) {
+  const double largest = std::max(std::abs(axis.first), std::abs(axis.last));
+  const double digits =
+      1.0 + std::floor(std::log10(largest)) - std::floor(std::log10(step) + slack);
+  return static_cast<int>(std::clamp(digits, 6.0, 17.0));
 }
 
 std::vector<Tick> linear_ticks(const Axis& axis, int most) {
   const double step = round_up((axis.last - axis.first) / most);
+  const int digits = digits_of(axis, step);
   std::vector<Tick> ticks;
   const double from = std::ceil(axis.first / step - slack), to = axis.last / step + slack;
   for (double i = from; i <= to; ++i) {
-    ticks.push_back({i * step, label(i * step)});
+    ticks.push_back({i * step, label(i * step, digits)});
   }
   return ticks;
 }
@@ -75,7 +84,11 @@ double Axis::place(double value) const {
 }
 
 std::vector<Tick> Axis::ticks(int most) const {
-  return scale == Scale::linear ? linear_ticks(*this, most) : logarithmic_ticks(*this, most);
+  if (scale == Scale::linear) return linear_ticks(*this, most);
+  std::vector<Tick> powers = logarithmic_ticks(*this, most);
+  const auto labelled =
+      std::count_if(powers.begin(), powers.end(), [](const Tick& t) { return !t.label.empty(); });
+  return labelled < 2 ? linear_ticks(*this, most) : powers;
 }
 
 bool can_be_drawn(const Axis& axis) {

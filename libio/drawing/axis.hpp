@@ -20,7 +20,8 @@ struct Axis {
 
   /// Place of a number: 0 at first, 1 at last.
   double place(double value) const;
-  /// Ticks within the range: round numbers, or powers of ten with small ticks at 2 to 9 times them.
+  /// Ticks within the range: round numbers, or powers of ten with small ticks at 2 to 9 times them
+  /// where there are two of them.
   /// @param most  labelled ones
   std::vector<Tick> ticks(int most) const;
 };

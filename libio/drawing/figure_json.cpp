@@ -3,6 +3,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <sstream>
+
+#include "libio/drawing/panel_layout.hpp"
+#include "libio/drawing/panel_svg.hpp"
 
 namespace whirl {
 
@@ -172,6 +176,23 @@ Record color_record() {
     maps.set(map == ColorMap::sequential ? "sequential" : "diverging", stops);
   }
   return Record().set("paints", paints).set("maps", maps);
+}
+
+Record style_record() {
+  const figure_style::Rooms& rooms = figure_style::wide;
+  Record r, dashes;
+  r.set("left", rooms.left).set("under", rooms.under).set("above", rooms.above);
+  r.set("between", rooms.between).set("title", rooms.title).set("tick_label", rooms.tick_label);
+  r.set("axis_title", rooms.axis_title).set("name", rooms.name).set("leader", rooms.leader);
+  r.set("bar", rooms.bar).set("bar_width", rooms.bar_width).set("bar_room", rooms.bar_room);
+  r.set("per_label_x", rooms.per_label_x).set("per_label_y", rooms.per_label_y);
+  for (const Dash dash : {Dash::solid, Dash::dashed, Dash::dotted, Dash::dash_dot}) {
+    Record lengths = Record::array();
+    std::istringstream text(figure_style::dashes_of(dash));
+    for (double length = 0.0; text >> length;) lengths.add(length);
+    dashes.set(name_of(dash), lengths);
+  }
+  return r.set("dashes", dashes);
 }
 
 }  // namespace whirl

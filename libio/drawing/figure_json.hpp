@@ -34,4 +34,7 @@ Record record_of(const Figure& figure, ArrayStore& arrays);
 /// Colors by name, on light and on dark pages, and the stops of the color maps.
 Record color_record();
 
+/// Distances around panels and dashes of lines, as files have them: Rooms and dashes_of.
+Record style_record();
+
 }  // namespace whirl

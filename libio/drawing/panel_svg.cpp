@@ -286,7 +286,9 @@ void draw_end_names(Svg& svg, const PanelFrame& f) {
     for (std::size_t i = 0; i < c.x.size() && !c.end_name.empty(); ++i) {
       if (!has_place(*f.panel, c.x[i], c.y[i])) continue;
       const Pixel p = f.at(c.x[i], c.y[i]);
-      if (p.x > end.place.x && p.y >= f.corner.y - 1.0 && p.y <= f.floor() + 1.0) end.place = p;
+      const bool is_seen =
+          p.x <= f.right() + 1.0 && p.y >= f.corner.y - 1.0 && p.y <= f.floor() + 1.0;
+      if (is_seen && p.x > end.place.x) end.place = p;
     }
     if (end.place.x < 0.0) continue;
     if (c.has_line && leaves(f, c, end.place)) {  // up or down: the name is where it leaves
@@ -334,6 +336,7 @@ void draw_panel(Svg& svg, const PanelFrame& f) {
     if (!has_place(p, l.x, l.y)) continue;
     const Pixel at = f.at(l.x, l.y);
     if (at.x < f.corner.x - 1.0 || at.x > f.right() + 1.0) continue;
+    if (at.y < f.corner.y - 9.0 || at.y > f.floor() + 9.0) continue;
     texts.add({at.x + l.dx, at.y + l.dy}, l.text,
               {11.5, text_color_of(l.paint), l.anchor, 0.0, false, true});
   }

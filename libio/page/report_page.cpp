@@ -278,7 +278,7 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
     for (const auto& result : results) ordered.push_back(result.get());
   }
   Record list = Record::array(), data;
-  data.set("version", version).set("colors", color_record());
+  data.set("version", version).set("colors", color_record()).set("style", style_record());
   if (is_machine) {
     const ResultView& first = *ordered.front();
     Record drawings = Record::array();
