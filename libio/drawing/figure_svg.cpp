@@ -39,7 +39,7 @@ std::vector<Entry> legend_of(const Figure& figure) {
 double draw_legend(Svg& svg, const Figure& figure, double y, const Rooms& rooms) {
   const auto entries = legend_of(figure);
   if (entries.empty()) return y;
-  const bool is_tight = &rooms != &wide;
+  const bool is_tight = rooms.is_tight;
   svg.begin_group("legend");
   double x = rooms.margin;
   y += rooms.row;
@@ -129,7 +129,7 @@ std::vector<std::string> wrapped(const std::string& text, double width) {
 
 /// Draws title and subtitle; the height below them.
 double draw_titles(Svg& svg, const Figure& figure, const Rooms& rooms) {
-  const bool is_tight = &rooms != &wide;
+  const bool is_tight = rooms.is_tight;
   const double margin = rooms.margin;
   double y = is_tight ? 0.0 : 8.0;
   if (!figure.title.empty()) {

@@ -22,7 +22,7 @@ void widen(Axis& axis, double factor) {
 
 /// Room right of a panel, for names at the ends of lines, or for a scale of colors.
 double room_right(const Panel& p, const Rooms& rooms) {
-  const bool is_tight = &rooms != &wide;
+  const bool is_tight = rooms.is_tight;
   double longest = 0.0;
   for (const Curve& c : p.curves) {
     if (c.end_name.empty()) continue;
@@ -84,7 +84,7 @@ RowHeights row_heights(const Grid& grid, double height, const Rooms& rooms) {
     for (std::size_t r = 0; r < grid.rows; ++r) {
       const Panel& first = grid.figure.panels[r * grid.columns];
       result.heights[r] = std::max(1.0, (height - used) * first.share / shares);
-      if (&rooms == &wide) continue;
+      if (!rooms.is_tight) continue;
       for (std::size_t c = 0; c < grid.columns && r * grid.columns + c < grid.count; ++c) {
         if (is_longer(grid.figure.panels[r * grid.columns + c].y.title, result.heights[r])) {
           result.has_title_above[r] = true;
@@ -132,7 +132,7 @@ std::vector<Tick> ticks_every(const Axis& axis, double step, double most) {
 }  // namespace
 
 bool is_tight(const PanelFrame& f) {
-  return f.rooms != &wide;
+  return f.rooms->is_tight;
 }
 
 std::string fitting_title(const std::string& title, double width) {
@@ -156,7 +156,7 @@ std::vector<PanelFrame> frames_of(const Figure& figure, double top, const Rooms&
   double right = 0.0, left = rooms.left;
   for (const Panel& p : figure.panels) right = std::max(right, room_right(p, rooms));
   const double pitch = figure.width / static_cast<double>(grid.columns);
-  for (int pass = 0; pass < (&rooms == &wide ? 1 : 2); ++pass) {  // room left follows numbers
+  for (int pass = 0; pass < (rooms.is_tight ? 2 : 1); ++pass) {  // room left follows numbers
     double y = top;
     for (std::size_t r = 0; r < grid.rows; ++r) {
       y += room_above(grid, r, rows.has_title_above[r], rooms);
@@ -186,7 +186,7 @@ std::vector<PanelFrame> frames_of(const Figure& figure, double top, const Rooms&
   const auto is_named_alike = [&](const PanelFrame& f) {
     return f.panel->x.title == figure.panels.back().x.title;
   };
-  if (&rooms != &wide && grid.columns > 1 &&
+  if (rooms.is_tight && grid.columns > 1 &&
       text_width(figure.panels.back().x.title, letters) > pitch &&
       std::all_of(frames.begin(), frames.end(), is_named_alike)) {
     for (PanelFrame& f : frames) {

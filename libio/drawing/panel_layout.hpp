@@ -16,6 +16,7 @@ namespace figure_style {
 constexpr double letters = 13.0, small_letters = 12.0, title_letters = 15.0;
 /// Distances [pixels].
 struct Rooms {
+  bool is_tight;                    ///< of a picture of a given size
   double left;                      ///< room for tick labels and titles of axes
   double margin;                    ///< left of titles, legend, table and notes
   double row;                       ///< of legend, notes, table
@@ -29,11 +30,11 @@ struct Rooms {
   double bar, bar_width, bar_room;  ///< of a scale of colors
   double per_label_x, per_label_y;  ///< of a tick
 };
-constexpr Rooms wide{82.0, 82.0, 19.0, 30.0, 54.0, 21.0, 42.0, 8.0, 10.0,
-                     26.0, 30.0, 22.0, 14.0, 14.0, 84.0, 62.0, 40.0};
+constexpr Rooms wide{false, 82.0, 82.0, 19.0, 30.0, 54.0, 21.0, 42.0, 8.0,
+                     10.0,  26.0, 30.0, 22.0, 14.0, 14.0, 84.0, 62.0, 40.0};
 /// Of a picture of a given size: what is left goes to the panels.
-constexpr Rooms tight{46.0, 8.0,  15.0, 18.0, 38.0, 16.0, 32.0, 7.0, 8.0,
-                      19.0, 16.0, 12.0, 8.0,  10.0, 64.0, 50.0, 25.0};
+constexpr Rooms tight{true, 46.0, 8.0,  15.0, 18.0, 38.0, 16.0, 32.0, 7.0,
+                      8.0,  19.0, 16.0, 12.0, 8.0,  10.0, 64.0, 50.0, 25.0};
 
 }  // namespace figure_style
 
