@@ -1,13 +1,10 @@
 #include "apps/verbs/borders.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "apps/progress.hpp"
-#include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
@@ -15,41 +12,6 @@
 namespace whirl {
 
 namespace {
-
-/// A parameter from its --over and its part of --at, which may be empty.
-BranchParameter parameter_of(const std::string& over, const std::string& at, int points) {
-  const auto axis = parse_axis(over, points);
-  if (!axis) throw ModelError({"--over " + over}, "", axis.problem);
-  BranchParameter p{.axis = *axis};
-  const auto& values = axis->values;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  p.low = *low;
-  p.high = *high;
-  p.first = values.front();
-  if (!(p.low < p.high)) {
-    throw ModelError({"--over " + over}, "", "expected two values that differ");
-  }
-  p.direction = values.back() >= values.front() ? 1.0 : -1.0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    p.largest_step = std::max(p.largest_step, std::abs(values[i] - values[i - 1]));
-  }
-  if (at.empty()) return p;
-  const std::string line = p.axis.path + "=" + at;
-  const auto same = parse_axis(line + p.axis.shown_unit, 0);
-  const auto own = parse_axis(line, 0);  // with a unit of its own
-  const auto& found = own && !own->unit.empty() ? own : same;
-  if (!found || found->values.size() != 1 || found->unit != p.axis.unit) {
-    throw ModelError({"--at " + at}, "", "expected a value such as those of --over");
-  }
-  p.first = found->values[0];
-  if (p.first < p.low || p.first > p.high) {
-    throw ModelError({"--at " + at}, "", "expected a value within --over");
-  }
-  p.goes_both = p.first > p.low && p.first < p.high;
-  if (p.first == p.high) p.direction = -1.0;
-  if (p.first == p.low) p.direction = 1.0;
-  return p;
-}
 
 constexpr double finest = 1e-5;  ///< arc length, to which a border comes near its end
 
@@ -61,54 +23,6 @@ bool is_followed(const Bifurcation& b) {
 
 }  // namespace
 
-std::shared_ptr<const Scene> BranchParameters::scene(double first, double second) const {
-  try {
-    return family->scene(values(first, second));
-  } catch (const ModelError& error) {  // no model there: the branch ends
-    throw NumericalError(error.what());
-  }
-}
-
-BranchParameters branch_parameters(const Invocation& call, const Model& model) {
-  if (call.over.empty() || call.over.size() > 2) {
-    throw ModelError(
-        {"--over"}, "",
-        fmt::format("found {} of them, expected one, or two for borders: --over "
-                    "PATH=first:last:step, such as --over contact.ring.friction=0:0.15:0.002",
-                    call.over.size()));
-  }
-  std::string at = call.text("at"), second_at;
-  if (const auto comma = at.find(','); comma != std::string::npos) {
-    second_at = at.substr(comma + 1);
-    at.resize(comma);
-    if (call.over.size() == 1) {
-      throw ModelError({"--at " + call.text("at")}, "", "expected one value for one --over");
-    }
-  }
-  const int points = static_cast<int>(call.integer("points", 2));
-  BranchParameters p{.along = parameter_of(call.over[0], at, points)};
-  std::vector<ParameterAxis> axes{p.along.axis};
-  if (call.over.size() == 2) {
-    p.across = parameter_of(call.over[1], second_at, points);
-    axes.push_back(p.across->axis);
-  }
-  p.family = std::make_shared<const ModelFamily>(model, std::move(axes));
-  for (const double first : {p.along.low, p.along.high, p.along.first}) {
-    require_speed(p.model(first));
-    if (!p.across) continue;
-    for (const double second : {p.across->low, p.across->high})
-      require_speed(p.model(first, second));
-  }
-  return p;
-}
-
-void write_fixed(ResultWriter& file, const BranchParameters& parameters) {
-  if (!parameters.across) return;
-  const BranchParameter& fixed = *parameters.across;
-  file.attribute("/branch", "fixed",
-                 fmt::format("{}", fmt::join(fixed.axis.assignments_of(fixed.first), "\n")));
-}
-
 Borders::Borders(const BranchParameters& parameters, std::shared_ptr<const Scene> first,
                  const BranchLayout& layout, int most_points)
     : parameters_(parameters),
@@ -119,8 +33,8 @@ Borders::Borders(const BranchParameters& parameters, std::shared_ptr<const Scene
 BorderAxes Borders::axes() const {
   return {.path = parameters_.across->axis.path,
           .unit = parameters_.across->axis.unit,
-          .low = parameters_.along.low,
-          .high = parameters_.along.high};
+          .low = parameters_.along.range.low,
+          .high = parameters_.along.range.high};
 }
 
 BranchEquations Borders::equations(const TracedBranch& border) const {
@@ -133,13 +47,12 @@ BranchEquations Borders::equations(const TracedBranch& border) const {
         for (const Vec& y : starts) own.push_back(change.to(y));
         return nearest_graze(*scene, contact, own);
       }};
-  return border_equations(border.kind, plane, layout_.scale, parameters_.along.low,
-                          parameters_.along.high);
+  return border_equations(border.kind, plane, layout_.scale, parameters_.along.range.low,
+                          parameters_.along.range.high);
 }
 
 ContinuationOptions Borders::options(const TracedBranch& border) const {
-  ContinuationOptions how = parameters_.across->options();
-  how.direction = border.direction;
+  ContinuationOptions how = parameters_.across->range.options(border.direction);
   how.period = border.branch.period;
   how.most_points = most_points_;
   how.smallest_step = finest;
@@ -151,9 +64,7 @@ void Borders::begin(const std::vector<TracedBranch>& branches) {
     for (const Bifurcation& b : branches[k].branch.bifurcations) {
       if (!is_followed(b)) continue;
       TracedBranch border{.parent = static_cast<int>(k) + 1, .kind = b.kind, .contact = b.contact};
-      for (const double direction :
-           {-parameters_.across->direction, parameters_.across->direction}) {
-        if (direction != parameters_.across->direction && !parameters_.across->goes_both) continue;
+      for (const double direction : parameters_.across->range.directions()) {
         border.direction = direction;
         border.branch = {.period = branches[k].branch.period};
         try {
@@ -161,7 +72,7 @@ void Borders::begin(const std::vector<TracedBranch>& branches) {
         } catch (const NumericalError& error) {  // a point where two of them meet, say
           border.branch.points = {b.at};
           border.branch.end = {EndKind::no_start, error.what()};
-          border.branch.points[0].value = parameters_.across->first;
+          border.branch.points[0].value = parameters_.across->range.first;
           Vec z(b.at.z.size() + 1);  // the second parameter is appended
           z << b.at.z, 0.0;
           border.branch.points[0].z = z;

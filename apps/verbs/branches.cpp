@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "libbase/constants.hpp"
+#include "libio/results/branch_ends.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/record.hpp"
 
@@ -153,36 +154,9 @@ class Packed {
   std::size_t next_ = 0;
 };
 
-/// Why each branch ends, none while it goes on.
-void write_ends(ResultWriter& file, const std::string& of,
-                const std::vector<TracedBranch>& branches) {
-  std::vector<std::string> texts, kinds, reasons;
-  for (const TracedBranch& b : branches) {
-    const BranchEnd end = b.branch.end.value_or(BranchEnd());
-    texts.push_back(end.text);
-    kinds.emplace_back(b.branch.end ? name_of(end.kind) : "");
-    reasons.push_back(end.reason);
-  }
-  const std::vector<std::string> axes{of + "/number"};
-  file.dataset(of + "/end", texts, {"", "why it ends", axes});
-  file.dataset(of + "/end_kind", kinds, {"", "what makes it end", axes});
-  file.dataset(of + "/end_reason", reasons, {"", "what fails where no orbit is found", axes});
-}
-
-/// Those ends again. Files of earlier versions have texts alone.
-std::vector<std::optional<BranchEnd>> read_ends(const ResultReader& file, const std::string& of) {
-  const std::vector<std::string> texts = file.strings(of + "/end");
-  std::vector<std::string> kinds(texts.size()), reasons = kinds;
-  if (file.has(of + "/end_kind")) kinds = file.strings(of + "/end_kind");
-  if (file.has(of + "/end_reason")) reasons = file.strings(of + "/end_reason");
-  std::vector<std::optional<BranchEnd>> ends(texts.size());
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    if (texts[i].empty()) continue;
-    ends[i] = {.kind = EndKind::untold, .text = texts[i], .reason = reasons[i]};
-    for (const auto& [name, kind] : choices(EndKind{})) {
-      if (kinds[i] == name) ends[i]->kind = kind;
-    }
-  }
+std::vector<std::optional<BranchEnd>> ends_of(const std::vector<TracedBranch>& branches) {
+  std::vector<std::optional<BranchEnd>> ends;
+  for (const TracedBranch& b : branches) ends.push_back(b.branch.end);
   return ends;
 }
 
@@ -287,7 +261,7 @@ void write_branches(ResultWriter& file, const BranchLayout& layout,
   file.dataset(path("number"), number, {"", "branch", {""}});
   file.dataset(path("period"), period, {"", "period [revolutions]", {path("number")}});
   file.dataset(path("parent"), parent, {"", "branch that it begins on; 0: none", {path("number")}});
-  write_ends(file, group, branches);
+  write_ends(file, group, group + "/number", ends_of(branches));
   file.dataset(path("value"), value, {layout.unit, layout.path, {""}});
   file.attribute(group, "parameter", layout.path);
   const std::string along = path("value");
@@ -369,7 +343,7 @@ void write_borders(ResultWriter& file, const BranchLayout& layout, const BorderA
   file.dataset(path("kind"), kinds, {"", "kind of the bifurcation", of_curve});
   file.dataset(path("contact"), contacts, {"", "contact that grazes", of_curve});
   file.dataset(path("period"), period, {"", "period of the orbits [revolutions]", of_curve});
-  write_ends(file, of, borders);
+  write_ends(file, of, of + "/number", ends_of(borders));
   file.dataset(path("first"), first, {layout.unit, layout.path, {""}});
   const std::vector<std::string> of_point{path("first")};
   file.dataset(path("second"), second, {axes.unit, axes.path, of_point});

@@ -166,11 +166,14 @@ MotionWindow window_of(const Invocation& call) {
   return window;
 }
 
+void write_notes(ResultWriter& file, const Report& report) {
+  if (report.notes.empty()) return;
+  file.attribute("/", "notes", fmt::format("{}", fmt::join(report.notes, "\n")));
+}
+
 void commit(const Invocation& call, ResultWriter* file, Report& report) {
   if (!file) return;
-  if (!report.notes.empty()) {
-    file->attribute("/", "notes", fmt::format("{}", fmt::join(report.notes, "\n")));
-  }
+  write_notes(*file, report);
   file->commit();
   report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
 }

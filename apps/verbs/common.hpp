@@ -46,6 +46,9 @@ void set_frequency_unit(const Invocation& call, ResultView& result);
 /// The stretch of a motion that --from-revolution, --revolutions or --times ask for.
 MotionWindow window_of(const Invocation& call);
 
+/// Writes the report's notes into a result file, where there are any.
+void write_notes(ResultWriter& file, const Report& report);
+
 /// Writes the report's notes into a result file, if there is one, commits it, and says so.
 void commit(const Invocation& call, ResultWriter* file, Report& report);
 

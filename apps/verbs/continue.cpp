@@ -79,8 +79,7 @@ class Tracing {
     if (method_ == OrbitMethod::harmonic_balance) unknowns = series_of(start, harmonics);
     const double period =
         layout_.is_rotating ? guessed_period(*first_, start) / first_->contacts.period() : 0.0;
-    for (const double direction : {-parameters_.along.direction, parameters_.along.direction}) {
-      if (direction != parameters_.along.direction && !parameters_.along.goes_both) continue;
+    for (const double direction : parameters_.along.range.directions()) {
       ContinuationOptions how = options_;
       how.direction = direction;
       const Continuation walk = unknowns ? Continuation(equations(), *unknowns, how)
@@ -307,7 +306,7 @@ Report run_continue(const Invocation& call) {
   if (is_rotating && parameters.across) {
     throw ModelError({"--frame rotating"}, "", "expected one --over beside it");
   }
-  ContinuationOptions options = parameters.along.options();
+  ContinuationOptions options = parameters.along.range.options(parameters.along.range.direction);
   options.period = static_cast<int>(call.integer("period"));
   options.most_points = static_cast<int>(call.integer("most"));
   const int generations = static_cast<int>(call.integer("switch", 0));
@@ -321,7 +320,7 @@ Report run_continue(const Invocation& call) {
   }
   const int harmonics = harmonics_of(call, options.period);
 
-  const Model at_first = parameters.model(parameters.along.first);
+  const Model at_first = parameters.model(parameters.along.range.first);
   const auto first = std::make_shared<const Scene>(make_scene(at_first));
   Tracing tracing(parameters, first,
                   select_points(at_first, first->assembler, call.text("stations")), options,

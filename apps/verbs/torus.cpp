@@ -1,220 +1,147 @@
-#include "libdyn/branches/torus.hpp"
-
 #include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "apps/invocation.hpp"
 #include "apps/progress.hpp"
 #include "apps/verb.hpp"
-#include "apps/verbs/borders.hpp"
+#include "apps/verbs/branch_parameters.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
+#include "apps/verbs/study_file.hpp"
+#include "apps/verbs/torus_text.hpp"
 #include "libbase/error.hpp"
-#include "libio/results/hdf5.hpp"
-#include "libio/text/table.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libio/results/torus_results.hpp"
 
 namespace whirl {
 
 namespace {
 
-constexpr int largest_denominator = 12;  ///< of a locking that is named
+/// What a call asks for.
+struct TorusCall {
+  std::optional<BranchParameters> parameters{};
+  TorusOptions options{};
+  Model at_first{};  ///< the model at the first value
+  std::shared_ptr<const Scene> scene{};
 
-/// A circle at a value of the parameter.
-struct CirclePoint {
-  double value = 0.0;
-  double rotation = 0.0;  ///< per revolution
-  double growth = 0.0;    ///< largest exponent across it, per revolution
-  double tail = 0.0;
+  ParameterAxis axis() const { return parameters ? parameters->along.axis : ParameterAxis{}; }
 };
 
-/// The ratio of small integers next to a rotation, to name what it locks to.
-std::pair<int, int> nearest_ratio(double rotation) {
-  std::pair<int, int> best{0, 1};
-  for (int q = 1; q <= largest_denominator; ++q) {
-    const int p = static_cast<int>(std::lround(rotation * q));
-    if (std::abs(rotation - double(p) / q) <
-        std::abs(rotation - double(best.first) / best.second) - 1e-12) {
-      best = {p, q};
-    }
+TorusCall torus_call(const Invocation& call, const Model& model) {
+  TorusCall asked;
+  asked.options = {.circle = {.period = static_cast<int>(call.integer("period")),
+                              .harmonics = static_cast<int>(call.integer("harmonics"))},
+                   .sections = call.integer("revolutions", 200),
+                   .most_points = static_cast<int>(call.integer("most"))};
+  if (!call.over.empty()) {
+    asked.parameters = branch_parameters(call, model);
+    if (asked.parameters->across) throw ModelError({"--over"}, "", "found 2 of them, expected one");
+    asked.options.along = asked.parameters->along.range;
   }
-  return best;
+  asked.at_first = asked.parameters ? asked.parameters->model(asked.options.along->first) : model;
+  asked.scene = std::make_shared<const Scene>(make_scene(asked.at_first));
+  return asked;
 }
 
-/// Both ways along the parameter, in ascending order of the walk.
-struct Walks {
-  std::vector<CirclePoint> points;
-  std::vector<std::string> ends;
-};
+/// The circle where it is looked for; nothing: stopped before.
+std::optional<TorusBranch> first_circle(const Invocation& call, const TorusCall& asked) {
+  const Trajectory transient = after_transient(call, asked.at_first, *asked.scene);
+  const int status = status_of(transient.outcome);
+  if (status == 130) return std::nullopt;
+  if (status == 3) throw NumericalError(transient.diagnosis);
+  return find_torus(*asked.scene, transient.state, asked.options);
+}
 
-CirclePoint point_of(const BranchPoint& p, const Vec& scale, int period) {
-  const InvariantCircle circle = circle_of(p.z.head(p.z.size() - 1), scale, period);
-  const double growth = p.multipliers.size() > 0 ? std::log(p.multipliers(0).real()) : NAN;
-  return {p.value, circle.rotation / period, growth / period, circle.tail};
+TorusBranch followed(const Invocation& call, const TorusCall& asked, const TorusBranch& begun,
+                     const std::function<void(const TorusBranch&)>& save) {
+  install_interrupt_handler();
+  Progress progress("circles", asked.options.most_points, call.shows_progress);
+  const FlowAt flow_at = [&](double value) {
+    return flow_of(asked.parameters->scene(value), *asked.scene);
+  };
+  return follow_torus(flow_at, asked.scene->contacts.state_scale(), begun, asked.options,
+                      {.progress = [&](long done, long) { progress.update(done); },
+                       .is_stopped = is_interrupted,
+                       .save = save});
+}
+
+/// What was found, as JSON and for people.
+void say(Report& report, const Invocation& call, const Model& model, const TorusCall& asked,
+         const TorusBranch& torus, std::size_t resumed) {
+  const bool is_good = torus.circle.is_good();
+  const double speed = asked.scene->contacts.Omega();
+  Record& r = report.record;
+  add_circle(r, torus.circle, speed);
+  if (!report.failure.empty()) r.set("failure", report.failure);
+  report.text = "Quasi-periodic motion" + (model.title.empty() ? "" : ": " + model.title) + "\n\n";
+  if (is_good) report.text += circle_text(torus.circle, speed);
+  if (!torus.walks.empty()) {
+    add_walks(r, torus, asked.axis());
+    r.set("resumed", static_cast<long>(resumed));
+    report.text += walks_text(torus, asked.axis());
+    if (resumed > 0) report.text += fmt::format("\n  {} circles were there already\n", resumed);
+    if (report.status == 130 && call.has("out")) {
+      report.text += "\n  stopped; the same line goes on from there\n";
+    }
+  }
+  if (is_good && call.has("out")) {
+    report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+  }
 }
 
 Report run_torus(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
-  const int period = static_cast<int>(call.integer("period"));
-  const long count = call.integer("revolutions", 200);
-  const CircleOptions options{.period = period,
-                              .harmonics = static_cast<int>(call.integer("harmonics"))};
-  std::optional<BranchParameters> parameters;
-  if (!call.over.empty()) {
-    parameters = branch_parameters(call, model);
-    if (parameters->across) throw ModelError({"--over"}, "", "found 2 of them, expected one");
-  }
-  const Model at_first = parameters ? parameters->model(parameters->along.first) : model;
-  const auto file = call.result_file(model);
-  const auto scene = std::make_shared<const Scene>(make_scene(at_first));
-  Trajectory motion = after_transient(call, at_first, *scene);
-  Report report{.record = begin_record(call, model), .status = status_of(motion.outcome)};
+  const TorusCall asked = torus_call(call, model);
+  Report report{.record = begin_record(call, model)};
   note_tables(call, model, report);
-  if (report.status == 130) {
-    report.failure = "stopped in the transient";
-    return report;
+  const std::optional<EarlierEnd> start = earlier_start(call, model);
+  TorusBranch torus;
+  const TorusBranch* known = &torus;
+  StudyFile file(
+      call, start,
+      [&] {
+        auto made = call.result_file(model);
+        write_start(*made, start);
+        write_notes(*made, report);
+        return made;
+      },
+      [&](ResultWriter& to) {
+        MotionState on_it;
+        on_it.y = known->circle.points.col(0);
+        write_end(to, asked.at_first, *asked.scene, on_it);
+        write_torus(to, *asked.scene, asked.axis(), *known);
+      },
+      [&](const ResultReader& earlier) {
+        torus = read_torus(earlier, asked.scene->contacts.size());
+      });
+  const std::size_t resumed = torus.points().size();
+  const bool is_begun = torus.circle.points.size() > 0;
+  if (!is_begun) {
+    const auto found = first_circle(call, asked);
+    if (!found) {
+      report.failure = "stopped in the transient";
+      report.status = 130;
+      return report;
+    }
+    torus = *found;
   }
-  if (report.status == 3) throw NumericalError(motion.diagnosis);
-  motion.revolutions = count * period;
-  integrate_single(motion, {.tolerance = 1e-11, .sections = true});
-  if (motion.outcome != Outcome::reached_end) throw NumericalError(motion.diagnosis);
-  const Eigen::Index n = scene->contacts.size();
-  const Eigen::Map<const Mat> all(motion.sections.data(), n, std::ssize(motion.sections) / n);
-  Mat sections(n, count);
-  for (Eigen::Index i = 0; i < count; ++i) sections.col(i) = all.col((i + 1) * period - 1);
-
-  const Flow flow = flow_of(scene->contacts);
-  const auto guess = guessed_circle(sections, flow.scale, period, options.harmonics);
-  if (!guess) {
-    throw NumericalError("the motion has settled on a periodic orbit: there is no circle");
-  }
-  const InvariantCircle circle = find_circle(flow, *guess, options);
-  if (!circle.is_good()) {
-    const auto [p, q] = nearest_ratio(guess->rotation);
-    report.failure =
-        fmt::format("{}; the motion turns by {:.9f} of the circle, {}/{} and {:+.1e}",
-                    circle.failure, guess->rotation, p, q, guess->rotation - double(p) / q);
+  if (torus.circle.is_good()) {
+    if (!is_begun) file.save();
+    torus = followed(call, asked, torus, [&](const TorusBranch& so_far) {
+      known = &so_far;
+      file.save();
+    });
+    known = &torus;
+    if (!torus.is_complete) report.status = 130;
+  } else {
+    report.failure = failure_text(torus);
     report.status = 3;
   }
 
-  Walks walks;
-  if (circle.is_good() && parameters) {
-    const FlowAt flow_at = [&](double value) { return flow_of(parameters->scene(value), *scene); };
-    const BranchParameter& along = parameters->along;
-    install_interrupt_handler();
-    Progress progress("circles", call.integer("most"), call.shows_progress);
-    for (const double direction : {-along.direction, along.direction}) {
-      if (direction != along.direction && !along.goes_both) continue;
-      ContinuationOptions how = along.options();
-      how.direction = direction;
-      how.most_points = static_cast<int>(call.integer("most"));
-      how.smallest_step = 1e-6;
-      Continuation walk(circle_equations(flow_at, flow.scale, period, circle.coordinate),
-                        circle_unknowns(circle, flow.scale), how);
-      while (!is_interrupted() && walk.advance()) {
-        progress.update(std::ssize(walk.branch().points));
-      }
-      std::vector<CirclePoint> found;
-      for (const BranchPoint& p : walk.branch().points) {
-        found.push_back(point_of(p, flow.scale, period));
-      }
-      if (direction != along.direction) std::reverse(found.begin(), found.end());
-      if (!walks.points.empty()) found.erase(found.begin());
-      walks.points.insert(walks.points.end(), found.begin(), found.end());
-      const auto [p, q] = nearest_ratio(direction == along.direction ? found.back().rotation
-                                                                     : found.front().rotation);
-      walks.ends.push_back(walk.branch().end ? fmt::format("{} (rotation next to {}/{})",
-                                                           walk.branch().end->text, p, q)
-                                             : "stopped");
-      if (!walk.branch().end) report.status = 130;
-    }
-  }
-
-  const double speed = scene->contacts.Omega() / rpm;
-  Record& r = report.record;
-  Record exponents = Record::array();
-  for (const double e : circle.exponents) exponents.add(e / period);
-  r.set("period_revs", period).set("rotation_per_rev", circle.rotation / period);
-  r.set("frequency_rpm", circle.rotation / period * speed);
-  r.set("exponents_per_rev", exponents).set("along_per_rev", circle.along / period);
-  r.set("stable", circle.is_good() ? Record(circle.is_stable()) : Record(nullptr));
-  r.set("harmonics", static_cast<long>((circle.points.cols() - 1) / 2));
-  r.set("residual", circle.residual).set("tail", circle.tail);
-  if (!report.failure.empty()) r.set("failure", report.failure);
-  report.text = "Quasi-periodic motion" + (model.title.empty() ? "" : ": " + model.title) + "\n\n";
-  if (circle.is_good()) {
-    report.text += fmt::format(
-        "  {} circle of {} harmonics, residual {:.1e} length scales, highest harmonics {:.0e} of "
-        "the "
-        "largest\n  it turns by {:.9f} in a revolution: lines {:.4f} rpm and multiples beside "
-        "those of the speed\n  largest exponent across it {:+.6f} per revolution, along it "
-        "{:+.0e}\n",
-        circle.is_stable() ? "stable" : "unstable", (circle.points.cols() - 1) / 2, circle.residual,
-        circle.tail, circle.rotation / period, circle.rotation / period * speed,
-        circle.exponents(0) / period, circle.along / period);
-  }
-  if (!walks.points.empty()) {
-    const ParameterAxis& axis = parameters->along.axis;
-    Table table({axis.path + (axis.unit.empty() ? "" : " [" + axis.unit + "]"), "rotation",
-                 "exponent per rev", "tail"});
-    Record points = Record::array(), ends = Record::array();
-    const std::size_t stride = std::max<std::size_t>(1, (walks.points.size() + 24) / 25);
-    for (std::size_t i = 0; i < walks.points.size(); ++i) {
-      const CirclePoint& s = walks.points[i];
-      Record point;
-      point.set("value", s.value).set("rotation_per_rev", s.rotation);
-      point.set("largest_exponent_per_rev", s.growth).set("tail", s.tail);
-      points.add(point);
-      if (i % stride != 0 && i + 1 != walks.points.size()) continue;
-      table.row({fmt::format("{:.8g}", s.value), fmt::format("{:.8f}", s.rotation),
-                 fmt::format("{:+.6f}", s.growth), fmt::format("{:.0e}", s.tail)});
-    }
-    report.text += "\n" + table.text();
-    for (const std::string& end : walks.ends) {
-      ends.add(end);
-      report.text += "  it ends: " + end + "\n";
-    }
-    r.set("parameter", axis.path).set("unit", axis.unit).set("points", points).set("ends", ends);
-  }
-  if (file && circle.is_good()) {
-    MotionState on_it;
-    on_it.y = circle.points.col(0);
-    write_end(*file, at_first, *scene, on_it);
-    const Mat map = scene->displacement_map();
-    const Mat displacement = map * circle.points.topRows(n / 2);
-    std::vector<double> angle;
-    for (Eigen::Index j = 0; j < circle.points.cols(); ++j) {
-      angle.push_back(2.0 * std::numbers::pi * double(j) / double(circle.points.cols()));
-    }
-    file->dataset("/torus/angle", angle, {"rad", "angle around the circle", {""}});
-    file->dataset("/torus/displacement", Mat(displacement.transpose()),
-                  {"m, rad", "displacement of all points at phase 0", {"/torus/angle", ""}});
-    file->attribute("/torus", "rotation", circle.rotation / period);
-    file->attribute("/torus", "period_revolutions", period);
-    file->attribute("/torus", "stable", circle.is_stable() ? 1 : 0);
-    if (!walks.points.empty()) {
-      std::vector<double> value, rotation, growth, tail;
-      for (const CirclePoint& s : walks.points) {
-        value.push_back(s.value);
-        rotation.push_back(s.rotation);
-        growth.push_back(s.growth);
-        tail.push_back(s.tail);
-      }
-      const ParameterAxis& axis = parameters->along.axis;
-      file->dataset("/torus/value", value, {axis.unit, axis.path, {""}});
-      const std::vector<std::string> axes{"/torus/value"};
-      file->dataset("/torus/rotation", rotation, {"", "turns of the circle per revolution", axes});
-      file->dataset("/torus/largest_exponent", growth,
-                    {"", "largest exponent across the circle, per revolution", axes});
-      file->dataset("/torus/tail", tail, {"", "highest harmonics by the largest", axes});
-    }
-  }
-  commit(call, circle.is_good() ? file.get() : nullptr, report);
+  say(report, call, model, asked, torus, resumed);
   return report;
 }
 
@@ -239,7 +166,8 @@ Verb torus_verb() {
                   {"most", "N", "circles at most", "200"},
                   branch_discard_option,
                   tolerance_option,
-                  from_option},
+                  from_option,
+                  restart_option},
       .run = run_torus,
   };
 }

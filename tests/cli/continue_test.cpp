@@ -122,6 +122,39 @@ TEST_F(ContinueStudy, ContinueFollowsSeries) {
   kill_and_compare(series, "/branch", 2, 3);
 }
 
+const std::vector<std::string> circles{"torus",       WHIRL_SOURCE_DIR "/models/two_disk_mac.toml",
+                                       "--over",      "operation.speed=4430:4600:10rpm",
+                                       "--discard",   "1500",
+                                       "--harmonics", "33",
+                                       "--most",      "5"};
+
+// The circle of the 3:1 motion of the two-disk rotor, seen from outside.
+TEST_F(ContinueStudy, TorusGoesOnAfterKills) {
+  kill_and_compare(circles, "/torus", 2, 7);
+}
+
+// Stopped it says so, and its file is whole; the same line goes on, another one is refused.
+TEST_F(ContinueStudy, TorusGoesOnAfterStops) {
+  std::vector<std::string> words = circles;
+  words.insert(words.end(), {"--out", "torus.h5"});
+  const Outcome stopped = interrupted(words);
+  ASSERT_EQ(stopped.status, 130) << stopped.err;
+  EXPECT_TRUE(has(stopped.out, "stopped; the same line goes on from there")) << stopped.out;
+  EXPECT_EQ(ResultReader(folder / "torus.h5").number_attribute("/torus", "complete"), 0.0);
+  const json rest = result(words);
+  EXPECT_GT(rest["resumed"], 0);
+  EXPECT_LT(rest["resumed"], 5);
+  EXPECT_EQ(rest["points"].size(), 5u);
+  const json again = result(words);
+  EXPECT_EQ(again["resumed"], 5);
+  EXPECT_EQ(again["points"], rest["points"]);
+  EXPECT_EQ(again["exponents_per_rev"], rest["exponents_per_rev"]);
+  words[9] = "6";
+  EXPECT_TRUE(has(whirl(words).err, "holds another study"));
+  words.emplace_back("--restart");
+  EXPECT_EQ(result(words)["resumed"], 0);
+}
+
 TEST_F(ContinueStudy, ContinueSaysWhatIsWrong) {
   const auto error = [&](const std::vector<std::string>& words) {
     std::vector<std::string> all{"continue", stator};

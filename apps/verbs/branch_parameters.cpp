@@ -1,0 +1,111 @@
+#include "apps/verbs/branch_parameters.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/verbs/simulation.hpp"
+#include "libbase/error.hpp"
+#include "libio/results/hdf5.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// Where branches begin, from the part of --at of a parameter.
+/// @throws ModelError  if that is not within the range
+double first_value(const BranchParameter& p, const std::string& at) {
+  const std::string line = p.axis.path + "=" + at;
+  const auto same = parse_axis(line + p.axis.shown_unit, 0);
+  const auto own = parse_axis(line, 0);  // with a unit of its own
+  const auto& found = own && !own->unit.empty() ? own : same;
+  if (!found || found->values.size() != 1 || found->unit != p.axis.unit) {
+    throw ModelError({"--at " + at}, "", "expected a value such as those of --over");
+  }
+  const double first = found->values[0];
+  if (first < p.range.low || first > p.range.high) {
+    throw ModelError({"--at " + at}, "", "expected a value within --over");
+  }
+  return first;
+}
+
+/// A parameter from its --over and its part of --at, which may be empty.
+BranchParameter parameter_of(const std::string& over, const std::string& at, int points) {
+  const auto axis = parse_axis(over, points);
+  if (!axis) throw ModelError({"--over " + over}, "", axis.problem);
+  BranchParameter p{.axis = *axis, .range = {}};
+  ParameterRange& range = p.range;
+  const auto& values = axis->values;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  range.low = *low;
+  range.high = *high;
+  range.first = values.front();
+  if (!(range.low < range.high)) {
+    throw ModelError({"--over " + over}, "", "expected two values that differ");
+  }
+  range.direction = values.back() >= values.front() ? 1.0 : -1.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    range.largest_step = std::max(range.largest_step, std::abs(values[i] - values[i - 1]));
+  }
+  if (at.empty()) return p;
+  range.first = first_value(p, at);
+  range.goes_both = range.first > range.low && range.first < range.high;
+  if (range.first == range.high) range.direction = -1.0;
+  if (range.first == range.low) range.direction = 1.0;
+  return p;
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> BranchParameters::scene(double first, double second) const {
+  try {
+    return family->scene(values(first, second));
+  } catch (const ModelError& error) {  // no model there: the branch ends
+    throw NumericalError(error.what());
+  }
+}
+
+BranchParameters branch_parameters(const Invocation& call, const Model& model) {
+  if (call.over.empty() || call.over.size() > 2) {
+    throw ModelError(
+        {"--over"}, "",
+        fmt::format("found {} of them, expected one, or two for borders: --over "
+                    "PATH=first:last:step, such as --over contact.ring.friction=0:0.15:0.002",
+                    call.over.size()));
+  }
+  std::string at = call.text("at"), second_at;
+  if (const auto comma = at.find(','); comma != std::string::npos) {
+    second_at = at.substr(comma + 1);
+    at.resize(comma);
+    if (call.over.size() == 1) {
+      throw ModelError({"--at " + call.text("at")}, "", "expected one value for one --over");
+    }
+  }
+  const int points = static_cast<int>(call.integer("points", 2));
+  BranchParameters p{.along = parameter_of(call.over[0], at, points)};
+  std::vector<ParameterAxis> axes{p.along.axis};
+  if (call.over.size() == 2) {
+    p.across = parameter_of(call.over[1], second_at, points);
+    axes.push_back(p.across->axis);
+  }
+  p.family = std::make_shared<const ModelFamily>(model, std::move(axes));
+  const ParameterRange& along = p.along.range;
+  for (const double first : {along.low, along.high, along.first}) {
+    require_speed(p.model(first));
+    if (!p.across) continue;
+    for (const double second : {p.across->range.low, p.across->range.high})
+      require_speed(p.model(first, second));
+  }
+  return p;
+}
+
+void write_fixed(ResultWriter& file, const BranchParameters& parameters) {
+  if (!parameters.across) return;
+  const BranchParameter& fixed = *parameters.across;
+  file.attribute("/branch", "fixed",
+                 fmt::format("{}", fmt::join(fixed.axis.assignments_of(fixed.range.first), "\n")));
+}
+
+}  // namespace whirl

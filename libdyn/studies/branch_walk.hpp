@@ -1,0 +1,50 @@
+#pragma once
+/// What studies along branches share: walks that can be stopped, and results that are saved.
+
+#include <functional>
+
+#include "libdyn/branches/continuation.hpp"
+#include "libdyn/studies/monitor.hpp"
+
+namespace whirl {
+
+/// Adds to a branch what a walk has found since: no more than that is copied.
+void add_news(Branch& known, const Branch& walked);
+
+/// Walks until a branch ends.
+///
+/// @param branch  gets what the walk finds, point by point: it is always one to go on from
+/// @param added   called after each point
+/// @return  false: stopped before its end
+template <class Result>
+bool walk_to_end(Continuation& walk, Branch& branch, const Monitor<Result>& monitor,
+                 const std::function<void()>& added) {
+  while (!monitor.stops() && walk.advance()) {
+    add_news(branch, walk.branch());
+    added();
+  }
+  add_news(branch, walk.branch());
+  return branch.end.has_value();
+}
+
+/// Calls f, which is to call its argument after every point that it adds to the result; saves now
+/// and then, at the end, and before an exception leaves.
+template <class Result>
+void save_as_it_grows(const Result& result, const Monitor<Result>& monitor,
+                      const std::function<void(const std::function<void()>& save_if_due)>& f) {
+  SaveTimer timer;
+  const auto save = [&] {
+    if (monitor.save) monitor.save(result);
+  };
+  try {
+    f([&] {
+      if (timer.is_due()) timer.save(save);
+    });
+  } catch (...) {
+    save();
+    throw;
+  }
+  save();
+}
+
+}  // namespace whirl

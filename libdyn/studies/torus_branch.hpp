@@ -1,0 +1,60 @@
+#pragma once
+/// A quasi-periodic motion as an invariant circle, and that circle along a parameter.
+
+#include <optional>
+#include <vector>
+
+#include "libdyn/branches/torus.hpp"
+#include "libdyn/studies/monitor.hpp"
+#include "libdyn/studies/parameter_range.hpp"
+
+namespace whirl {
+
+struct TorusOptions {
+  CircleOptions circle{};
+  long sections = 1000;                   ///< of the motion, from which the circle is guessed
+  std::optional<ParameterRange> along{};  ///< nothing: a single circle
+  int most_points = 200;                  ///< circles of a walk
+};
+
+/// A circle at a value of the parameter.
+struct CirclePoint {
+  double value = 0.0;     ///< of the parameter
+  double rotation = 0.0;  ///< turns per revolution
+  double growth = 0.0;    ///< largest exponent across it, per revolution; NaN: there is none
+  double tail = 0.0;      ///< highest harmonics by the largest
+};
+
+/// One way along the parameter.
+struct CircleWalk {
+  /// What it goes on from. Between its first point and its last one the unknowns do not count, and
+  /// are not there if it was read from a file.
+  Branch branch;
+  std::vector<CirclePoint> points;  ///< one for each of the branch
+};
+
+struct TorusBranch {
+  InvariantCircle circle;         ///< at the first value
+  double motion_rotation = 0.0;   ///< by which the motion turned, turns per period of the map
+  std::vector<CircleWalk> walks;  ///< those of ParameterRange::directions that were begun
+  bool is_complete = false;       ///< nothing is left to be walked
+
+  /// All circles from one end of both walks to the other; the first value counts once.
+  std::vector<CirclePoint> points() const;
+};
+
+/// The circle that a motion moves on; it says itself whether it is one.
+///
+/// @param start  of the motion, without its transient, at phase 0
+/// @throws NumericalError  if the motion fails or settles on a periodic orbit
+TorusBranch find_torus(const Scene& scene, const MotionState& start, const TorusOptions& options);
+
+/// Walks along the parameter until the circle locks or breaks, or the range ends.
+///
+/// @param torus  its circle is one; what it has walked already is gone on with, bit by bit
+/// @param scale  of the states
+/// @param monitor  told the circles of a walk
+TorusBranch follow_torus(const FlowAt& flow_at, const Vec& scale, TorusBranch torus,
+                         const TorusOptions& options, const Monitor<TorusBranch>& monitor);
+
+}  // namespace whirl
