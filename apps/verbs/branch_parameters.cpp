@@ -16,7 +16,7 @@ namespace {
 
 /// Where branches begin, from the part of --at of a parameter.
 /// @throws ModelError  if that is not within the range
-double first_value(const BranchParameter& p, const std::string& at) {
+double value_at(const BranchParameter& p, const std::string& at) {
   const std::string line = p.axis.path + "=" + at;
   const auto same = parse_axis(line + p.axis.shown_unit, 0);
   const auto own = parse_axis(line, 0);  // with a unit of its own
@@ -50,7 +50,7 @@ BranchParameter parameter_of(const std::string& over, const std::string& at, int
     range.largest_step = std::max(range.largest_step, std::abs(values[i] - values[i - 1]));
   }
   if (at.empty()) return p;
-  range.first = first_value(p, at);
+  range.first = value_at(p, at);
   range.goes_both = range.first > range.low && range.first < range.high;
   if (range.first == range.high) range.direction = -1.0;
   if (range.first == range.low) range.direction = 1.0;

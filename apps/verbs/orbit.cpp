@@ -22,8 +22,6 @@ namespace whirl {
 
 namespace {
 
-constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
-
 std::string multipliers_table(const FoundOrbit& orbit) {
   std::vector<std::string> head{"multiplier", "real",           "imaginary",
                                 "size",       "exponent [1/s]", "frequency [rpm]"};
@@ -49,19 +47,12 @@ std::string multipliers_table(const FoundOrbit& orbit) {
 
 }  // namespace
 
-bool is_rotating_frame(const Invocation& call) {
+OrbitFrame orbit_frame(const Invocation& call) {
   const std::string frame = call.text("frame");
-  if (frame == "stationary" || frame == "rotating") return frame == "rotating";
+  for (const auto& [name, value] : choices(OrbitFrame{})) {
+    if (name == frame) return value;
+  }
   throw ModelError({"--frame " + frame}, "", "expected stationary or rotating");
-}
-
-double guessed_period(const Scene& scene, const Vec& start) {
-  const auto guess = recurrence(scene, start, most_recurrence);
-  if (guess) return *guess;
-  throw NumericalError(
-      fmt::format("the motion does not come back within {} revolutions as seen from the rotor, or "
-                  "stands still there",
-                  most_recurrence));
 }
 
 Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene) {
@@ -218,7 +209,7 @@ Report run_orbit(const Invocation& given) {
   require_speed(model);
   const OrbitMethod method = orbit_method(call);
   if (call.has("starts")) return search_orbits(call, model);
-  if (is_rotating_frame(call)) {
+  if (orbit_frame(call) == OrbitFrame::rotating) {
     if (point) {
       throw ModelError({"--point"}, "", "expected an orbit of the stationary frame");
     }

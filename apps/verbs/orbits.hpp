@@ -8,26 +8,21 @@
 
 #include "apps/invocation.hpp"
 #include "libdyn/orbits/multiplier_modes.hpp"
+#include "libdyn/studies/found_orbit.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl {
 
-/// Whether orbits are to be closed as seen from the rotor: --frame.
+/// Where orbits are to be closed, as seen from there: --frame.
 /// @throws ModelError  for other frames than the stationary and the rotating one
-bool is_rotating_frame(const Invocation& call);
-
-/// Time after which a motion from a start comes back as seen from the rotor [s].
-/// @throws NumericalError  if it does not
-double guessed_period(const Scene& scene, const Vec& start);
+OrbitFrame orbit_frame(const Invocation& call);
 
 /// The motion after --discard revolutions from the model's start, or from --from (there left out: 0),
 /// at phase 0; its outcome says whether it got there.
 Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene);
 
-/// How orbits are found.
-enum class OrbitMethod { shooting, harmonic_balance };
 /// That of --method; --harmonics and --verify, if given, must go with it.
 /// @throws ModelError  for an unknown one, or for options of the other
 OrbitMethod orbit_method(const Invocation& call);

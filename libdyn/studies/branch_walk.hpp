@@ -13,13 +13,16 @@ void add_news(Branch& known, const Branch& walked);
 
 /// Walks until a branch ends.
 ///
-/// @param branch  gets what the walk finds, point by point: it is always one to go on from
-/// @param added   called after each point
+/// @param branch   gets what the walk finds, point by point: it is always one to go on from
+/// @param measure  called with each point before the branch gets it
+/// @param added    called after that
 /// @return  false: stopped before its end
 template <class Result>
 bool walk_to_end(Continuation& walk, Branch& branch, const Monitor<Result>& monitor,
+                 const std::function<void(const BranchPoint& point)>& measure,
                  const std::function<void()>& added) {
   while (!monitor.stops() && walk.advance()) {
+    measure(walk.branch().points.back());
     add_news(branch, walk.branch());
     added();
   }

@@ -80,11 +80,13 @@ void follow(const BranchEquations& equations, const Vec& scale, TorusBranch& tor
     CircleWalk& walk = torus.walks[i];
     if (walk.branch.end) continue;
     Continuation on(equations, walk.branch, how);
-    const bool has_ended = walk_to_end(on, walk.branch, monitor, [&] {
-      walk.points.push_back(point_of(walk.branch.points.back(), scale, period));
-      monitor.show(std::ssize(walk.points), options.most_points);
-      save_if_due();
-    });
+    const bool has_ended = walk_to_end(
+        on, walk.branch, monitor,
+        [&](const BranchPoint& p) { walk.points.push_back(point_of(p, scale, period)); },
+        [&] {
+          monitor.show(std::ssize(walk.points), options.most_points);
+          save_if_due();
+        });
     if (!has_ended) return;
   }
   torus.is_complete = true;

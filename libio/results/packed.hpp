@@ -12,6 +12,9 @@
 
 namespace whirl {
 
+class ResultReader;
+class ResultWriter;
+
 /// Takes structs apart into doubles. A function template that names the members of a struct once
 /// serves Packer and Unpacker:
 ///
@@ -40,6 +43,9 @@ class Packer {
   void size(const List& list) {
     (*this)(list.size());
   }
+  /// A list that has the size of another one: nothing.
+  template <class List>
+  void resize(const List&, std::size_t) {}
 
   const std::vector<double>& numbers() const { return numbers_; }
 
@@ -87,6 +93,11 @@ class Unpacker {
     list.resize(take_count(static_cast<double>(numbers_.size() - next_)));
   }
 
+  template <class List>
+  void resize(List& list, std::size_t size) {
+    list.resize(size);
+  }
+
   /// @throws FileError  if something is left
   void finish() const {
     if (next_ == numbers_.size()) return;
@@ -121,5 +132,10 @@ class Unpacker {
   std::vector<double> numbers_;
   std::size_t next_ = 0;
 };
+
+/// Dataset `walk` of a group: what a study goes on from.
+void write_walk(ResultWriter& file, const std::string& group, const Packer& walk);
+/// @throws FileError  if its arrangement is that of another version
+Unpacker read_walk(const ResultReader& file, const std::string& group);
 
 }  // namespace whirl

@@ -13,7 +13,7 @@ namespace whirl {
 
 namespace {
 
-const std::string group = "/torus";
+const std::string torus_group = "/torus";
 
 void pack_circle(auto& in, auto& torus) {
   auto& circle = torus.circle;
@@ -40,15 +40,16 @@ void write_walks(ResultWriter& file, const ParameterAxis& axis, const TorusBranc
     growth.push_back(p.growth);
     tail.push_back(p.tail);
   }
-  file.dataset(group + "/value", value, {axis.unit, axis.path, {""}});
-  const std::vector<std::string> axes{group + "/value"};
-  file.dataset(group + "/rotation", rotation, {"", "turns of the circle per revolution", axes});
-  file.dataset(group + "/largest_exponent", growth,
+  file.dataset(torus_group + "/value", value, {axis.unit, axis.path, {""}});
+  const std::vector<std::string> axes{torus_group + "/value"};
+  file.dataset(torus_group + "/rotation", rotation,
+               {"", "turns of the circle per revolution", axes});
+  file.dataset(torus_group + "/largest_exponent", growth,
                {"", "largest exponent across the circle, per revolution", axes});
-  file.dataset(group + "/tail", tail, {"", "highest harmonics by the largest", axes});
+  file.dataset(torus_group + "/tail", tail, {"", "highest harmonics by the largest", axes});
   std::vector<std::optional<BranchEnd>> ends;
   for (const CircleWalk& walk : torus.walks) ends.push_back(walk.branch.end);
-  write_ends(file, group, "", ends);
+  write_ends(file, torus_group, "", ends);
 }
 
 }  // namespace
@@ -63,25 +64,25 @@ void write_torus(ResultWriter& file, const Scene& scene, const ParameterAxis& ax
   for (Eigen::Index j = 0; j < count; ++j) {
     angle.push_back(turn * static_cast<double>(j) / static_cast<double>(count));
   }
-  file.dataset(group + "/angle", angle, {"rad", "angle around the circle", {""}});
-  file.dataset(group + "/displacement", Mat(displacement.transpose()),
-               {"m, rad", "displacement of all points at phase 0", {group + "/angle", ""}});
-  file.attribute(group, "rotation", circle.rotation / circle.period);
-  file.attribute(group, "period_revolutions", circle.period);
-  file.attribute(group, "stable", circle.is_stable() ? 1 : 0);
+  file.dataset(torus_group + "/angle", angle, {"rad", "angle around the circle", {""}});
+  file.dataset(torus_group + "/displacement", Mat(displacement.transpose()),
+               {"m, rad", "displacement of all points at phase 0", {torus_group + "/angle", ""}});
+  file.attribute(torus_group, "rotation", circle.rotation / circle.period);
+  file.attribute(torus_group, "period_revolutions", circle.period);
+  file.attribute(torus_group, "stable", circle.is_stable() ? 1 : 0);
   if (!torus.walks.empty()) write_walks(file, axis, torus);
   Packer walk;
   pack_circle(walk, torus);
   walk.size(torus.walks);
   for (const CircleWalk& w : torus.walks) pack_walk(walk, w, w.branch);
-  file.dataset(group + "/walk", walk.numbers(), {"", "what the walk goes on from", {""}});
-  file.attribute(group, "complete", torus.is_complete ? 1 : 0);
+  write_walk(file, torus_group, walk);
+  file.attribute(torus_group, "complete", torus.is_complete ? 1 : 0);
 }
 
 TorusBranch read_torus(const ResultReader& file, Eigen::Index states) {
   TorusBranch torus;
-  if (!file.has(group + "/walk")) return torus;  // of an early version
-  Unpacker walk(group + "/walk", file.numbers(group + "/walk"));
+  if (!file.has(torus_group + "/walk")) return torus;  // of an early version
+  Unpacker walk = read_walk(file, torus_group);
   pack_circle(walk, torus);
   const Eigen::Index unknowns = torus.circle.points.size() + 2;  // the rotation and the parameter
   if (torus.circle.points.rows() != states || torus.circle.points.cols() < 3 ||
@@ -105,11 +106,11 @@ TorusBranch read_torus(const ResultReader& file, Eigen::Index states) {
   }
   walk.finish();
   if (!torus.walks.empty()) {
-    const std::vector<std::optional<BranchEnd>> ends = read_ends(file, group);
+    const std::vector<std::optional<BranchEnd>> ends = read_ends(file, torus_group);
     if (ends.size() != torus.walks.size()) walk.fail(fmt::format("{} ends", ends.size()));
     for (std::size_t i = 0; i < ends.size(); ++i) torus.walks[i].branch.end = ends[i];
   }
-  torus.is_complete = file.number_attribute(group, "complete") == 1.0;
+  torus.is_complete = file.number_attribute(torus_group, "complete") == 1.0;
   return torus;
 }
 

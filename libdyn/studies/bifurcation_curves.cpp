@@ -1,0 +1,121 @@
+#include "libdyn/studies/bifurcation_curves.hpp"
+
+#include <algorithm>
+
+#include "libbase/error.hpp"
+#include "libdyn/branches/border.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/studies/branch_walk.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double finest = 1e-5;     ///< arc length, to which a curve comes near its end
+constexpr double on_branch = 1e-8;  ///< residual of a grazing that is on its branch
+
+bool is_followed(const Bifurcation& b) {
+  if (b.kind == BifurcationKind::pitchfork) return false;
+  // a grazing that ends a branch is not on it
+  return b.kind != BifurcationKind::grazing || b.at.residual < on_branch;
+}
+
+BranchEquations equations_of(const BifurcationCurve& curve, const PlaneScenes& scenes,
+                             const Vec& scale, const ParameterRange& along) {
+  const FlowPlane plane{
+      [&scenes](double a, double b) { return flow_of(scenes.at(a, b), *scenes.first); },
+      [&scenes, contact = curve.contact](double a, double b, std::span<const Vec> starts) {
+        const auto scene = scenes.at(a, b);
+        const BasisChange change(*scene, *scenes.first);
+        std::vector<Vec> own;
+        for (const Vec& y : starts) own.push_back(change.to(y));
+        return nearest_graze(*scene, contact, own);
+      }};
+  return border_equations(curve.kind, plane, scale, along.low, along.high);
+}
+
+ContinuationOptions walk_options(const BifurcationCurve& curve,
+                                 const BifurcationCurveOptions& options) {
+  ContinuationOptions how = options.across.options(curve.direction);
+  how.period = curve.branch.period;
+  how.most_points = options.most_points;
+  how.smallest_step = finest;
+  return how;
+}
+
+/// The first point of a curve, at the bifurcation that it goes through.
+Branch begun_at(const Bifurcation& bifurcation, const BifurcationCurve& curve,
+                const PlaneScenes& scenes, const Vec& scale,
+                const BifurcationCurveOptions& options) {
+  try {
+    return Continuation(equations_of(curve, scenes, scale, options.along), bifurcation.at.z,
+                        walk_options(curve, options))
+        .branch();
+  } catch (const NumericalError& error) {  // a point where two of them meet, say
+    Branch none{.period = curve.branch.period,
+                .points = {bifurcation.at},
+                .end = BranchEnd{EndKind::no_start, error.what()}};
+    none.points[0].value = options.across.first;
+    Vec z(bifurcation.at.z.size() + 1);  // the second parameter is appended
+    z << bifurcation.at.z, 0.0;
+    none.points[0].z = z;
+    return none;
+  }
+}
+
+std::vector<BifurcationCurve> begun_curves(const BranchTree& tree, const PlaneScenes& scenes,
+                                           const BifurcationCurveOptions& options) {
+  std::vector<BifurcationCurve> curves;
+  for (std::size_t k = 0; k < tree.branches.size(); ++k) {
+    const Branch& branch = tree.branches[k].branch;
+    for (const Bifurcation& b : branch.bifurcations) {
+      if (!is_followed(b)) continue;
+      for (const double direction : options.across.directions()) {
+        BifurcationCurve curve{.kind = b.kind,
+                               .contact = b.contact,
+                               .branch_number = static_cast<int>(k) + 1,
+                               .direction = direction,
+                               .branch = {.period = branch.period}};
+        curve.branch = begun_at(b, curve, scenes, tree.layout.scale, options);
+        curves.push_back(std::move(curve));
+      }
+    }
+  }
+  return curves;
+}
+
+}  // namespace
+
+bool BifurcationCurves::is_complete() const {
+  return std::all_of(curves.begin(), curves.end(),
+                     [](const auto& c) { return c.branch.end.has_value(); });
+}
+
+double first_value(const ParameterRange& along, const BranchPoint& point) {
+  return along.low + point.z(point.z.size() - 2) * (along.high - along.low);
+}
+
+BifurcationCurves follow_bifurcations(const PlaneScenes& scenes, const BranchTree& tree,
+                                      BifurcationCurves curves,
+                                      const BifurcationCurveOptions& options,
+                                      const Monitor<BifurcationCurves>& monitor) {
+  if (curves.curves.empty()) curves.curves = begun_curves(tree, scenes, options);
+  long added = 0;
+  save_as_it_grows(curves, monitor, [&](const std::function<void()>& save_if_due) {
+    for (BifurcationCurve& curve : curves.curves) {
+      if (curve.branch.end) continue;
+      Continuation walk(equations_of(curve, scenes, tree.layout.scale, options.along), curve.branch,
+                        walk_options(curve, options));
+      const bool has_ended = walk_to_end(
+          walk, curve.branch, monitor, [](const BranchPoint&) {},
+          [&] {
+            monitor.show(++added, options.most_points);
+            save_if_due();
+          });
+      if (!has_ended) return;
+    }
+  });
+  return curves;
+}
+
+}  // namespace whirl

@@ -1,0 +1,57 @@
+#pragma once
+/// Curves of the bifurcations of branches in the plane of two parameters.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libdyn/branches/branch.hpp"
+#include "libdyn/studies/branch_tree.hpp"
+#include "libdyn/studies/monitor.hpp"
+#include "libdyn/studies/parameter_range.hpp"
+
+namespace whirl {
+
+struct BifurcationCurveOptions {
+  ParameterRange along{};   ///< the parameter of the branches
+  ParameterRange across{};  ///< the second one; branches are at its first value
+  int most_points = 2000;   ///< of a curve
+};
+
+/// The scenes of a plane of two parameters; states are told in the basis of the first one.
+struct PlaneScenes {
+  std::shared_ptr<const Scene> first;
+  /// May throw NumericalError where there is none.
+  std::function<std::shared_ptr<const Scene>(double along, double across)> at;
+};
+
+/// A curve that goes through a bifurcation of a branch, one way along the second parameter.
+struct BifurcationCurve {
+  BifurcationKind kind{};
+  std::string contact;     ///< of a grazing: which
+  int branch_number = 0;   ///< of the branch that it goes through, from 1
+  double direction = 1.0;  ///< of the second parameter
+  Branch branch{};         ///< along the second parameter; the first one is the unknown before it
+};
+
+struct BifurcationCurves {
+  std::vector<BifurcationCurve> curves{};
+
+  /// Nothing is left to be walked of those that are begun.
+  bool is_complete() const;
+};
+
+/// Value of the first parameter at a point of a curve.
+double first_value(const ParameterRange& along, const BranchPoint& point);
+
+/// Follows every fold, period doubling, Neimark-Sacker point and grazing of complete branches.
+///
+/// @param tree    whose bifurcations they are
+/// @param curves  what there is of them already, which is gone on with, bit by bit; may be none
+BifurcationCurves follow_bifurcations(const PlaneScenes& scenes, const BranchTree& tree,
+                                      BifurcationCurves curves,
+                                      const BifurcationCurveOptions& options,
+                                      const Monitor<BifurcationCurves>& monitor);
+
+}  // namespace whirl

@@ -1,0 +1,127 @@
+// Branches and curves in result files: the same again, and damage told with its place.
+
+#include "libio/results/branch_results.hpp"
+
+#include "libio/results/curve_results.hpp"
+#include "tests/io/result_folder.hpp"
+
+namespace whirl::branch_results_test {
+
+using test::problem_of;
+
+class BranchResults : public test::InResultFolder {};
+
+BranchPoint point(double value, Eigen::Index unknowns) {
+  BranchPoint p{.value = value};
+  p.z = Vec::LinSpaced(unknowns, -0.5, value);
+  p.tangent = Vec::Unit(unknowns, 0);
+  p.multipliers = CVec{{Complex(0.5, 0.25), Complex(0.5, -0.25)}};
+  p.contacts = {{.name = "ring", .duty = 0.25, .impacts = 7.0 * value}};
+  return p;
+}
+
+/// Two branches, the second one of twice the period and not at its end.
+BranchTree example() {
+  BranchTree tree{.layout = {.states = 2, .scale = Vec::Ones(2), .contacts = {"ring"}}};
+  OrbitMeasure measure{.radii = {1e-3}, .work = 2.0};
+  measure.sections = Mat{{0.1, 0.2}, {0.3, 0.4}};
+  TracedBranch first{.branch = {.period = 1, .points = {point(0.1, 3), point(0.2, 3)}}};
+  first.branch.bifurcations = {
+      {.kind = BifurcationKind::grazing, .at = point(0.15, 3), .contact = "ring", .change = 1.0}};
+  first.branch.end = BranchEnd{EndKind::range, "the end of the range"};
+  first.measures = {measure, measure};
+  first.starts = {Vec::Ones(2), Vec::Zero(2)};
+  TracedBranch second{.branch = {.period = 2, .points = {point(0.15, 5)}},
+                      .parent = 1,
+                      .generation = 1,
+                      .direction = -1.0,
+                      .measures = {measure},
+                      .starts = {Vec::Ones(2)}};
+  tree.branches = {first, second};
+  return tree;
+}
+
+const BranchNames names{.path = "contact.ring.friction", .unit = "", .stations = {"rotor"}};
+
+TEST_F(BranchResults, AreTheSameAgain) {
+  const BranchTree tree = example();
+  ResultWriter out(path, Replaces::anything);
+  write_branches(out, tree, names);
+  out.commit();
+  const ResultReader in(path);
+  EXPECT_EQ(in.number_attribute("/branch", "complete"), 0.0);
+  EXPECT_EQ(in.shape("/branch/poincare_x"), (std::vector<Eigen::Index>{3, 1, 2}));
+  const BranchTree again = read_branches(in, {.layout = tree.layout});
+  ASSERT_EQ(again.branches.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const TracedBranch &x = again.branches[k], &y = tree.branches[k];
+    EXPECT_EQ(x.branch.period, y.branch.period);
+    EXPECT_EQ(x.parent, y.parent);
+    EXPECT_EQ(x.generation, y.generation);
+    EXPECT_EQ(x.direction, y.direction);
+    EXPECT_EQ(x.branch.end_text(), y.branch.end_text());
+    ASSERT_EQ(x.branch.points.size(), y.branch.points.size());
+    for (std::size_t i = 0; i < x.branch.points.size(); ++i) {
+      EXPECT_EQ(x.branch.points[i].z, y.branch.points[i].z);
+      EXPECT_EQ(x.branch.points[i].multipliers, y.branch.points[i].multipliers);
+      EXPECT_EQ(x.branch.points[i].contacts[0].name, "ring");
+      EXPECT_EQ(x.measures[i].sections, y.measures[i].sections);
+      EXPECT_EQ(x.starts[i], y.starts[i]);
+    }
+  }
+  EXPECT_TRUE(again.branches[0].branch.ends_as(EndKind::range));
+  EXPECT_FALSE(again.branches[1].branch.end);
+  const Bifurcation& b = again.branches[0].branch.bifurcations.at(0);
+  EXPECT_EQ(b.kind, BifurcationKind::grazing);
+  EXPECT_EQ(b.contact, "ring");
+}
+
+TEST_F(BranchResults, CurvesAreTheSameAgain) {
+  BifurcationCurves curves;
+  curves.curves = {{.kind = BifurcationKind::fold,
+                    .branch_number = 3,
+                    .direction = -1.0,
+                    .branch = {.period = 1, .points = {point(5.0, 4)}}}};
+  const CurveAxes axes{{.path = "a"}, {.low = 0.0, .high = 2.0}, {.path = "b"}};
+  ResultWriter out(path, Replaces::anything);
+  write_curves(out, curves, axes);
+  out.commit();
+  const ResultReader in(path);
+  EXPECT_EQ(in.numbers("/border/first")[0], 2.0 * point(5.0, 4).z(2));
+  EXPECT_EQ(in.numbers("/border/second")[0], 5.0);
+  const BifurcationCurves again = read_curves(in, example().layout);
+  ASSERT_EQ(again.curves.size(), 1u);
+  EXPECT_EQ(again.curves[0].kind, BifurcationKind::fold);
+  EXPECT_EQ(again.curves[0].branch_number, 3);
+  EXPECT_EQ(again.curves[0].direction, -1.0);
+  EXPECT_EQ(again.curves[0].branch.points[0].z, curves.curves[0].branch.points[0].z);
+}
+
+// A walk of other sizes than the model has, or of a later version, is refused.
+TEST_F(BranchResults, TellWhatDoesNotFit) {
+  const auto problem = [&](const BranchTree& written, const BranchLayout& asked) {
+    ResultWriter out(path, Replaces::anything);
+    write_branches(out, written, names);
+    out.commit();
+    return problem_of([&] { read_branches(ResultReader(path), {.layout = asked}); });
+  };
+  const BranchTree tree = example();
+  EXPECT_EQ(problem(tree, tree.layout), "none");
+  BranchLayout other = tree.layout;
+  other.states = 4;
+  EXPECT_EQ(
+      problem(tree, other),
+      "/branch/walk: a point has 3 unknowns, expected 5: it is damaged, or of another version "
+      "or study");
+  other = tree.layout;
+  other.contacts = {};
+  EXPECT_NE(problem(tree, other).find("a point has 1 contacts, expected 0"), std::string::npos);
+  BranchTree damaged = tree;
+  damaged.branches[0].branch.bifurcations[0].after = 7;
+  EXPECT_NE(problem(damaged, tree.layout).find("a bifurcation is of no kind"), std::string::npos);
+  damaged = tree;
+  damaged.branches[1].branch.points[0].tangent = Vec();
+  EXPECT_NE(problem(damaged, tree.layout).find("0 numbers of its tangent"), std::string::npos);
+}
+
+}  // namespace whirl::branch_results_test
