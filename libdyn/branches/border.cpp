@@ -7,6 +7,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/floquet.hpp"
+#include "libbase/roots.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/taylor/batch.hpp"
 
@@ -18,6 +19,7 @@ constexpr double aside = 2e-7;   ///< of the scales, for differences of test fun
 constexpr double hardly = 1e-8;  ///< likewise beside a grazing, where they are smooth on one side
 constexpr double none = 1e3;     ///< of a graze where there is no extremum
 constexpr int scanned = 8;       ///< parts of a step in which an extremum is looked for
+constexpr double sharpest = 1e-15;  ///< of a step, to which it is found
 
 using enum BifurcationKind;
 
@@ -53,6 +55,164 @@ std::optional<double> test_value(BifurcationKind kind, const CVec& mu) {
   return m.real() + (kind == period_doubling ? 1.0 : -1.0);
 }
 
+/// What the equations of a border are made of. Their unknowns x are states [scales], then u.
+struct Border {
+  BifurcationKind kind;
+  FlowPlane flows;
+  Vec scale;
+  double low, high;  ///< first parameter where u is 0 and 1
+
+  double difference() const { return kind == grazing ? hardly : aside; }
+  double first(const Vec& x) const { return low + x(x.size() - 1) * (high - low); }
+  std::vector<Vec> states(const Vec& x) const {
+    std::vector<Vec> states;
+    for (Eigen::Index i = 0; i + scale.size() < x.size(); i += scale.size()) {
+      states.emplace_back(scale.cwiseProduct(x.segment(i, scale.size())));
+    }
+    return states;
+  }
+  double graze(const Vec& x, double second) const {
+    return flows.graze(first(x), second, states(x));
+  }
+};
+
+/// Gaps and g at a place; empty where one of them fails.
+struct Place {
+  PeriodicOrbit orbit;
+  Vec residual;
+  std::string failure;
+};
+Place place_at(const Border& border, const Vec& x, double second) {
+  Place p;
+  p.orbit.states = border.states(x);
+  p.orbit.period = static_cast<int>(p.orbit.states.size());
+  Flow flow = border.flows.at(border.first(x), second);
+  flow.scale = border.scale;
+  const Vec gaps = shoot(flow, p.orbit);
+  p.failure = p.orbit.failure;
+  if (gaps.size() == 0) return p;
+  const std::optional<double> g = border.kind == grazing
+                                      ? border.graze(x, second)
+                                      : test_value(border.kind, multipliers_of(p.orbit.tangents));
+  if (!g) {
+    p.failure = border.kind == neimark_sacker ? "the critical pair becomes real: a strong resonance"
+                                              : "the critical multiplier meets another one";
+    return p;
+  }
+  p.residual.resize(gaps.size() + 1);
+  p.residual << gaps, *g;
+  return p;
+}
+
+/// dg / dx of a grazing by the states, each difference towards the motion that does not touch.
+Vec graze_slopes(const Border& border, const Vec& x, double second, double g) {
+  const double h = border.difference();
+  Vec slopes(x.size() - 1);
+  for (Eigen::Index k = 0; k < slopes.size(); ++k) {
+    Vec moved = x;
+    moved(k) = x(k) + h;
+    const double above = border.graze(moved, second);
+    moved(k) = x(k) - h;
+    const double below = border.graze(moved, second);
+    slopes(k) = above < below ? (above - g) / h : (g - below) / h;
+  }
+  return slopes;
+}
+
+/// dg / dx of a critical multiplier by the states, each of which moves one segment only; nothing where
+/// a moved one has no g.
+std::optional<Vec> multiplier_slopes(const Border& border, const Vec& x, double second,
+                                     const Place& here) {
+  const Vec& scale = border.scale;
+  const Eigen::Index size = x.size() - 1, n = scale.size();
+  const double h = border.difference(), g = here.residual(size);
+  std::vector<Vec> starts;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    starts.push_back(here.orbit.states[static_cast<std::size_t>(k / n)]);
+    starts.back()(k % n) += h * scale(k % n);
+  }
+  const auto passages = border.flows.at(border.first(x), second).go(starts, 1, Tangents::yes);
+  Vec slopes(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const Passage& p = passages[static_cast<std::size_t>(k)];
+    if (!p.failure.empty()) return std::nullopt;
+    std::vector<Mat> tangents = here.orbit.tangents;
+    tangents[static_cast<std::size_t>(k / n)] =
+        scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal();
+    const auto moved = test_value(border.kind, multipliers_of(tangents));
+    if (!moved) return std::nullopt;
+    slopes(k) = (*moved - g) / h;
+  }
+  return slopes;
+}
+
+/// The multipliers that are not critical.
+CVec other_multipliers(BifurcationKind kind, const std::vector<Mat>& tangents) {
+  const CVec all = multipliers_of(tangents);
+  if (kind == grazing) return all;
+  const auto critical = critical_places(kind, all);
+  std::vector<Complex> others;
+  for (Eigen::Index i = 0; i < all.size(); ++i) {
+    if (!critical || (i != critical->first && i != critical->second)) others.push_back(all(i));
+  }
+  return Eigen::Map<const CVec>(others.data(), std::ssize(others));
+}
+
+BranchEquations::Value evaluate(const Border& border, const Vec& x, double second,
+                                Tangents wanted) {
+  const Eigen::Index size = x.size() - 1;
+  const double h = border.difference();
+  if (x(size) < 0.0 || x(size) > 1.0) return {.failure = "the range of the first parameter ends"};
+  Place here = place_at(border, x, second);
+  BranchEquations::Value at{
+      .residual = here.residual, .contacts = here.orbit.contacts, .failure = here.failure};
+  if (border.kind == grazing) {  // whether it touches is rounding here
+    for (ContactMeasure& c : at.contacts) c.impacts = 0.0;
+  }
+  if (wanted == Tangents::no || at.residual.size() == 0) return at;
+  at.jacobian = Mat::Zero(size + 1, size + 1);
+  at.jacobian.topLeftCorner(size, size) = shooting_jacobian(here.orbit.tangents);
+  Vec moved = x;
+  moved(size) = x(size) + h;
+  const Place beside = place_at(border, moved, second);
+  moved(size) = x(size) - h;
+  const Place before = place_at(border, moved, second);
+  if (beside.residual.size() == 0 || before.residual.size() == 0) {
+    return {.failure = beside.failure + before.failure};
+  }
+  at.jacobian.col(size) = (beside.residual - before.residual) / (2.0 * h);
+  const std::optional<Vec> slopes = border.kind == grazing
+                                        ? graze_slopes(border, x, second, here.residual(size))
+                                        : multiplier_slopes(border, x, second, here);
+  if (!slopes) return {.failure = "beside it there is no such point"};
+  at.jacobian.row(size).head(size) = slopes->transpose();
+  at.multipliers = [kind = border.kind, tangents = std::move(here.orbit.tangents)] {
+    return other_multipliers(kind, tangents);
+  };
+  return at;
+}
+
+/// Depth over clearance at the extremum of a step that is nearest to touching.
+double nearest_graze(const ContactSystem& system, const ReducedContact& c, const Step& step) {
+  Vec y(system.size());
+  const auto at = [&](double s) {
+    step.at(s, y.data());
+    return kinematics(c, step.phase + s * step.turn, y.data(), system.coordinates());
+  };
+  const auto rate_at = [&](double s) { return at(s).rate; };
+  double nearest = none, before = rate_at(0.0);
+  for (int k = 1; k <= scanned; ++k) {
+    const double low = double(k - 1) / scanned, high = double(k) / scanned, after = rate_at(high);
+    if ((after > 0.0) != (before > 0.0)) {
+      const double s = bracketed_root(rate_at, low, before, high, after, sharpest);
+      const double depth = at(s).depth / c.clearance;
+      if (std::abs(depth) < std::abs(nearest)) nearest = depth;
+    }
+    before = after;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 BranchEquations border_equations(BifurcationKind kind, FlowPlane flows, Vec scale, double low,
@@ -60,141 +220,24 @@ BranchEquations border_equations(BifurcationKind kind, FlowPlane flows, Vec scal
   if (kind == pitchfork) {
     throw NumericalError("a pitchfork lives by a symmetry and has no border in a plane");
   }
-  const double h = kind == grazing ? hardly : aside;
-  const auto states_of = [scale](const Vec& x) {
-    std::vector<Vec> states;
-    for (Eigen::Index i = 0; i + scale.size() <= x.size(); i += scale.size()) {
-      states.emplace_back(scale.cwiseProduct(x.segment(i, scale.size())));
-    }
-    return states;
-  };
-  /// Gaps and g at a place; empty where one of them fails.
-  struct Place {
-    PeriodicOrbit orbit;
-    Vec residual;
-    std::string failure;
-  };
-  const auto place = [=](const Vec& x, double first, double second) {
-    Place p;
-    p.orbit.states = states_of(x);
-    p.orbit.period = static_cast<int>(p.orbit.states.size());
-    Flow flow = flows.at(first, second);
-    flow.scale = scale;
-    const Vec gaps = shoot(flow, p.orbit);
-    p.failure = p.orbit.failure;
-    if (gaps.size() == 0) return p;
-    const std::optional<double> g = kind == grazing
-                                        ? flows.graze(first, second, p.orbit.states)
-                                        : test_value(kind, multipliers_of(p.orbit.tangents));
-    if (!g) {
-      p.failure = kind == neimark_sacker ? "the critical pair becomes real: a strong resonance"
-                                         : "the critical multiplier meets another one";
-      return p;
-    }
-    p.residual.resize(gaps.size() + 1);
-    p.residual << gaps, *g;
-    return p;
-  };
-  return {[=](const Vec& x, double second, Tangents wanted) {
-            const Eigen::Index size = x.size() - 1, n = scale.size();
-            const auto first = [&](double u) { return low + u * (high - low); };
-            if (x(size) < 0.0 || x(size) > 1.0) {
-              return BranchEquations::Value{.failure = "the range of the first parameter ends"};
-            }
-            Place here = place(x.head(size), first(x(size)), second);
-            BranchEquations::Value at{.residual = here.residual,
-                                      .contacts = here.orbit.contacts,
-                                      .failure = here.failure};
-            if (kind == grazing) {  // whether it touches is rounding here
-              for (ContactMeasure& c : at.contacts) c.impacts = 0.0;
-            }
-            if (wanted == Tangents::no || at.residual.size() == 0) return at;
-            at.jacobian = Mat::Zero(size + 1, size + 1);
-            at.jacobian.topLeftCorner(size, size) = shooting_jacobian(here.orbit.tangents);
-            const Place beside = place(x.head(size), first(x(size) + h), second);
-            const Place before = place(x.head(size), first(x(size) - h), second);
-            if (beside.residual.size() == 0 || before.residual.size() == 0) {
-              return BranchEquations::Value{.failure = beside.failure + before.failure};
-            }
-            at.jacobian.col(size) = (beside.residual - before.residual) / (2.0 * h);
-            // g by the states: each moves one segment only
-            const double g = at.residual(size);
-            if (kind == grazing) {
-              for (Eigen::Index k = 0; k < size; ++k) {
-                Vec moved = x.head(size);
-                moved(k) += h;
-                const double above = flows.graze(first(x(size)), second, states_of(moved));
-                moved(k) = x(k) - h;
-                const double below = flows.graze(first(x(size)), second, states_of(moved));
-                // towards the motion that does not touch
-                at.jacobian(size, k) = above < below ? (above - g) / h : (g - below) / h;
-              }
-            } else {
-              std::vector<Vec> starts;
-              for (Eigen::Index k = 0; k < size; ++k) {
-                starts.push_back(here.orbit.states[static_cast<std::size_t>(k / n)]);
-                starts.back()(k % n) += h * scale(k % n);
-              }
-              const auto passages = flows.at(first(x(size)), second).go(starts, 1, Tangents::yes);
-              for (Eigen::Index k = 0; k < size; ++k) {
-                const Passage& p = passages[static_cast<std::size_t>(k)];
-                std::vector<Mat> tangents = here.orbit.tangents;
-                if (p.failure.empty()) {
-                  tangents[static_cast<std::size_t>(k / n)] =
-                      scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal();
-                }
-                const auto moved = test_value(kind, multipliers_of(tangents));
-                if (!p.failure.empty() || !moved) {
-                  return BranchEquations::Value{.failure = "beside it there is no such point"};
-                }
-                at.jacobian(size, k) = (*moved - g) / h;
-              }
-            }
-            at.multipliers = [kind, tangents = std::move(here.orbit.tangents)]() -> CVec {
-              const CVec all = multipliers_of(tangents);
-              if (kind == grazing) return all;
-              const auto critical = critical_places(kind, all);
-              std::vector<Complex> others;
-              for (Eigen::Index i = 0; i < all.size(); ++i) {
-                if (!critical || (i != critical->first && i != critical->second)) {
-                  others.push_back(all(i));
-                }
-              }
-              return Eigen::Map<const CVec>(others.data(), std::ssize(others));
-            };
-            return at;
+  const Border border{kind, std::move(flows), std::move(scale), low, high};
+  return {[border](const Vec& x, double second, Tangents wanted) {
+            return evaluate(border, x, second, wanted);
           },
-          h};
+          border.difference()};
 }
 
 double nearest_graze(const Scene& scene, const std::string& contact, std::span<const Vec> starts) {
   const ContactSystem& system = scene.contacts;
   double nearest = none;
-  Vec y(system.size());
   for (const Vec& start : starts) {
     Trajectory t{.system = &system, .revolutions = 1};
     t.state.y = start;
     integrate_single(t, {.tolerance = flow_tolerance}, [&](const Step& step) {
       for (const ReducedContact& c : system.contacts()) {
         if (!contact.empty() && c.name != contact) continue;
-        const auto at = [&](double s) {
-          step.at(s, y.data());
-          return kinematics(c, step.phase + s * step.turn, y.data(), system.coordinates());
-        };
-        double before = at(0.0).rate;
-        for (int k = 1; k <= scanned; ++k) {
-          const double rate = at(double(k) / scanned).rate;
-          if ((rate > 0.0) != (before > 0.0)) {
-            double low = double(k - 1) / scanned, high = double(k) / scanned;
-            for (int i = 0; i < 50; ++i) {
-              const double middle = 0.5 * (low + high);
-              ((at(middle).rate > 0.0) == (before > 0.0) ? low : high) = middle;
-            }
-            const double depth = at(0.5 * (low + high)).depth / c.clearance;
-            if (std::abs(depth) < std::abs(nearest)) nearest = depth;
-          }
-          before = rate;
-        }
+        const double depth = nearest_graze(system, c, step);
+        if (std::abs(depth) < std::abs(nearest)) nearest = depth;
       }
       return true;
     });
