@@ -21,8 +21,8 @@ constexpr double bend = 0.2;      ///< angle that steps aim at [rad]
 constexpr double longest = 0.1;   ///< arc length of a step
 constexpr double shrink = 0.4;    ///< of a step that fails
 constexpr double finest = 1e-6;   ///< arc length down to which bifurcations are told apart
-
-constexpr double at_vertex = 1e-5;  ///< of the range, where a branch is born
+/// Parameter's share of a tangent that leads to an end of the range, rather than along it.
+constexpr double along_range = 1e-3;
 
 const BranchEnd range_end{EndKind::range, "the end of the range"};
 
@@ -67,12 +67,12 @@ Continuation::Continuation(BranchEquations equations, const Vec& x,
   trial.point.value = options_.first;
   Vec along = Vec::Zero(size + 1);
   along(size) = options_.direction;
-  if (!add_tangent(trial, along, by_parameter_)) {
+  if (!add_tangent(trial, along)) {
     throw NumericalError("the branch has no tangent at the first value: begin at another");
   }
   trial.point.step = limited(longest, trial.point.tangent);
   branch_.period = options_.period;
-  branch_.points.push_back(std::move(trial.point));
+  accept(std::move(trial));
 }
 
 Continuation::Continuation(BranchEquations equations, Branch branch,
@@ -121,11 +121,11 @@ Vec Continuation::derivative_by_parameter(const Vec& z) const {
   return (-3.0 * g[0] + 4.0 * g[1] - g[2]) / (2.0 * shifts[1][1]);
 }
 
-bool Continuation::add_tangent(Trial& trial, const Vec& along, Vec& by_parameter) const {
+bool Continuation::add_tangent(Trial& trial, const Vec& along) const {
   const Eigen::Index size = trial.point.z.size() - 1;
-  by_parameter = derivative_by_parameter(trial.point.z);
+  trial.by_parameter = derivative_by_parameter(trial.point.z);
   Mat M(size + 1, size + 1);
-  M << trial.jacobian, by_parameter, along.cwiseProduct(weights_).transpose();
+  M << trial.jacobian, trial.by_parameter, along.cwiseProduct(weights_).transpose();
   Vec unit = Vec::Zero(size + 1);
   unit(size) = 1.0;
   const auto tangent = newton_step(M, unit);
@@ -180,88 +180,85 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
   }
 }
 
+Continuation::Plane Continuation::range_end_ahead() const {
+  const BranchPoint& last = branch_.points.back();
+  const Eigen::Index size = last.z.size() - 1;
+  const double share = last.tangent(size), end = share > 0.0 ? 1.0 : 0.0;
+  Plane plane{Vec::Unit(size + 1, size), last.z + (end - last.z(size)) / share * last.tangent};
+  plane.at(size) = end;
+  return plane;
+}
+
+Continuation::Trial Continuation::reach(double step) const {
+  const BranchPoint& last = branch_.points.back();
+  const Eigen::Index size = last.z.size() - 1;
+  const bool is_first = last.multipliers.size() == 0;
+  Plane plane{last.tangent, last.z + step * last.tangent};
+  bool is_end = plane.at(size) >= 1.0 || plane.at(size) <= 0.0;
+  if (is_end) plane = range_end_ahead();
+  // where branches meet, what leads to either of them is in the derivative near by
+  Trial trial = correct(plane, is_first ? derivative_by_parameter(plane.at) : by_parameter_);
+  if (trial.is_outside && !is_end && std::abs(last.tangent(size)) > along_range) {
+    is_end = true;
+    trial = correct(range_end_ahead(), by_parameter_);
+  }
+  if (trial.failure.empty() && !add_tangent(trial, last.tangent)) {
+    trial.failure = "the branch has no tangent";
+  }
+  if (!trial.failure.empty()) return trial;
+  const Vec moved = trial.point.z - last.z;
+  const double cosine = dot(trial.point.tangent, last.tangent),
+               length = std::sqrt(dot(moved, moved));
+  if (!is_first && (cosine < flattest || length > 2.0 * step)) {
+    trial.failure = "the branch bends too sharply";
+  }
+  if (is_end) trial.end = range_end;
+  trial.point.step = next_step(trial, step);
+  return trial;
+}
+
+double Continuation::next_step(const Trial& trial, double step) const {
+  const double cosine = dot(trial.point.tangent, branch_.points.back().tangent);
+  const double angle = std::acos(std::min(1.0, std::abs(cosine)));
+  double growth = trial.corrections <= 2 ? 1.6 : trial.corrections <= 4 ? 1.2 : 0.6;
+  if (angle > 0.0) growth = std::min(growth, bend / angle);
+  return limited(std::max(0.3, growth) * step, trial.point.tangent);
+}
+
+void Continuation::accept(Trial trial) {
+  if (trial.end && trial.end->kind == EndKind::period_halved) forget_vertex(trial.point);
+  branch_.end = std::move(trial.end);
+  by_parameter_ = std::move(trial.by_parameter);
+  branch_.points.push_back(std::move(trial.point));
+}
+
 bool Continuation::advance() {
   if (branch_.end) return false;
   if (std::ssize(branch_.points) >= options_.most_points) {
     branch_.end = {EndKind::most_points, "as many points as asked for"};
     return false;
   }
-  const BranchPoint last = branch_.points.back();
-  const Eigen::Index size = last.z.size() - 1;
-  const double u = last.z(size), share = last.tangent(size);
+  const BranchPoint& last = branch_.points.back();
   const bool is_first = last.multipliers.size() == 0;
+  const std::size_t known = branch_.bifurcations.size();
   std::string why;
   for (double step = std::max(last.step, options_.smallest_step); step >= options_.smallest_step;
        step *= shrink) {
-    Plane plane{last.tangent, last.z + step * last.tangent};
-    const auto to_the_end = [&] {  // onto the end of the range, where the branch is done
-      const double end = share > 0.0 ? 1.0 : 0.0;
-      plane.at = last.z + (end - u) / share * last.tangent;
-      plane.at(size) = end;
-      plane.normal = Vec::Unit(size + 1, size);
-    };
-    bool is_end = plane.at(size) >= 1.0 || plane.at(size) <= 0.0;
-    if (is_end) to_the_end();
-    // where branches meet, what leads to either of them is in the derivative near by
-    Trial trial = correct(plane, is_first ? derivative_by_parameter(plane.at) : by_parameter_);
-    if (trial.is_outside && !is_end && std::abs(share) > 1e-3) {
-      is_end = true;
-      to_the_end();
-      trial = correct(plane, by_parameter_);
-    }
-    Vec by_parameter;
-    if (trial.failure.empty() && !add_tangent(trial, last.tangent, by_parameter)) {
-      trial.failure = "the branch has no tangent";
-    }
-    if (!trial.failure.empty()) {
-      why = trial.failure;
-      continue;
-    }
-    const double cosine = dot(trial.point.tangent, last.tangent);
-    const Vec moved = trial.point.z - last.z;
-    const double length = std::sqrt(dot(moved, moved));
-    if (!is_first && (cosine < flattest || length > 2.0 * step)) {
-      why = "the branch bends too sharply";
-      continue;
-    }
-    bool is_closing = false;
-    if (Trial first = closing(last, trial.point);
-        first.failure.empty() && add_tangent(first, last.tangent, by_parameter)) {
-      trial = std::move(first);
-      is_closing = true;
-    }
-    bool is_halving = false;
-    if (const auto place = halving(last, trial.point)) {
-      if (Trial vertex = between(last, trial.point, *place); vertex.failure.empty()) {
-        trial = std::move(vertex);
-        is_halving = true;
+    Trial trial = reach(step);
+    if (trial.failure.empty()) {
+      trial = stop_on_the_way(std::move(trial));
+      if (is_first || find_bifurcations(last, trial.point) || step <= finest) {
+        accept(std::move(trial));
+        return true;
       }
+      branch_.bifurcations.resize(known);
+      trial.failure = "bifurcations are too close to each other";
     }
-    const double angle = std::acos(std::min(1.0, std::abs(cosine)));
-    double growth = trial.corrections <= 2 ? 1.6 : trial.corrections <= 4 ? 1.2 : 0.6;
-    if (angle > 0.0) growth = std::min(growth, bend / angle);
-    trial.point.step = limited(std::max(0.3, growth) * step, trial.point.tangent);
-    const std::size_t known = branch_.bifurcations.size();
-    if (!is_first && !find_bifurcations(last, trial.point) && step > finest) {
-      branch_.bifurcations.resize(known);  // too much happens on the way
-      why = "bifurcations are too close to each other";
-      continue;
-    }
-    if (is_halving) {  // a vertex of the branch, but none of the orbits
-      std::erase_if(branch_.bifurcations, [&](const Bifurcation& b) {
-        return b.after + 1 == branch_.points.size() && (b.kind == fold || b.kind == pitchfork) &&
-               std::abs(b.at.z(size) - trial.point.z(size)) < at_vertex;
-      });
-      branch_.end = {EndKind::period_halved,
-                     fmt::format("it has half the period from {:.10g} on", trial.point.value)};
-    }
-    by_parameter_ = std::move(by_parameter);
-    branch_.points.push_back(std::move(trial.point));
-    if (is_end) branch_.end = range_end;
-    if (is_closing) branch_.end = {EndKind::closed, "it closes: the first orbit again"};
-    return true;
+    why = trial.failure;
   }
-  if (std::abs(share) > 1e-3 && (u <= 0.0 || u >= 1.0) && std::ssize(branch_.points) > 1) {
+  const double u = last.z(last.z.size() - 1);
+  if (std::abs(last.tangent(last.z.size() - 1)) > along_range && (u <= 0.0 || u >= 1.0) &&
+      std::ssize(branch_.points) > 1) {
     branch_.end = range_end;
   } else {
     end_at_failure(why);

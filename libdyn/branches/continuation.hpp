@@ -51,12 +51,15 @@ class Continuation {
   const Branch& branch() const { return branch_; }
 
  private:
+  /// A point that may become the next one.
   struct Trial {
     BranchPoint point;
     int corrections = 0;
     bool is_outside = false;  ///< of the range
     std::string failure;
-    Mat jacobian;  ///< by the unknowns
+    Mat jacobian;                  ///< by the unknowns
+    Vec by_parameter;              ///< derivative of the residual
+    std::optional<BranchEnd> end;  ///< of the branch, which this point is
   };
   /// What holds z in the corrector: <normal, z - at> = 0.
   struct Plane {
@@ -70,8 +73,18 @@ class Continuation {
   Vec derivative_by_parameter(const Vec& z) const;
   Trial correct(const Plane& plane, Vec by_parameter) const;
   /// Tangent at a point of the branch, and the derivative by the parameter.
-  bool add_tangent(Trial& trial, const Vec& along, Vec& by_parameter) const;
-  /// The first point, if the branch comes to it again on the way from a to b.
+  bool add_tangent(Trial& trial, const Vec& along) const;
+  /// What the tangent predicts at an arc length from the last point, corrected, with its own tangent.
+  Trial reach(double step) const;
+  /// Onto the end of the range that the last tangent leads to.
+  Plane range_end_ahead() const;
+  double next_step(const Trial& trial, double step) const;
+  /// The trial, or a point on the way to it at which the branch is done.
+  Trial stop_on_the_way(Trial trial) const;
+  void accept(Trial trial);
+  /// Takes off the bifurcations where a branch is born: they are none of its orbits.
+  void forget_vertex(const BranchPoint& vertex);
+  /// The first point, with its tangent, if the branch comes to it again on the way from a to b.
   Trial closing(const BranchPoint& a, const BranchPoint& b) const;
   /// Arc length from a at which orbits come to repeat after half their period, if they do before b.
   std::optional<double> halving(const BranchPoint& a, const BranchPoint& b) const;
@@ -79,6 +92,7 @@ class Continuation {
   bool find_bifurcations(const BranchPoint& a, const BranchPoint& b);
   /// The point between two at an arc length from the first.
   Trial between(const BranchPoint& a, const BranchPoint& b, double length) const;
+  /// False: it could not be located.
   bool locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b);
   bool locate_grazings(const BranchPoint& a, const BranchPoint& b);
   /// Says why a branch ends where no step succeeds; a grazing ahead is looked for.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libbase/constants.hpp"
+#include "libbase/roots.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/branches/continuation.hpp"
 
@@ -12,12 +14,13 @@ namespace whirl {
 
 namespace {
 
-constexpr double probed = 1e-2;  ///< arc length ahead of an end, for a grazing that causes it
-constexpr double zero = 1e-3;    ///< of a test function, where it is located
-constexpr int most_refinements = 60;
+constexpr double probed = 1e-2;      ///< arc length ahead of an end, for a grazing that causes it
+constexpr double zero = 1e-3;        ///< of a test function, where it is located
+constexpr double sharper = 1e-3;     ///< than asked for: a steep one must be as small there
 constexpr int most_grazings = 8;     ///< between two points
 constexpr double recognized = 1e-6;  ///< relative, of the numbers of an orbit that is met again
 constexpr double halved = 1e-6;      ///< share of the difference of both halves that is none
+constexpr double at_vertex = 1e-5;   ///< of the range, where a branch is born
 
 using enum BifurcationKind;
 
@@ -65,7 +68,34 @@ Continuation::Trial Continuation::closing(const BranchPoint& a, const BranchPoin
   at.at(size) = first.z(size);
   trial = correct(at, by_parameter_);
   if (trial.failure.empty() && !is_same(trial.point, first)) trial.failure = "another orbit";
+  if (trial.failure.empty() && !add_tangent(trial, a.tangent)) trial.failure = "no tangent";
   return trial;
+}
+
+Continuation::Trial Continuation::stop_on_the_way(Trial trial) const {
+  const BranchPoint& last = branch_.points.back();
+  const double step = trial.point.step;
+  if (Trial first = closing(last, trial.point); first.failure.empty()) {
+    trial = std::move(first);
+    trial.end = {EndKind::closed, "it closes: the first orbit again"};
+  }
+  if (const auto place = halving(last, trial.point)) {
+    if (Trial vertex = between(last, trial.point, *place); vertex.failure.empty()) {
+      trial = std::move(vertex);
+      trial.end = {EndKind::period_halved,
+                   fmt::format("it has half the period from {:.10g} on", trial.point.value)};
+    }
+  }
+  trial.point.step = step;
+  return trial;
+}
+
+void Continuation::forget_vertex(const BranchPoint& vertex) {
+  const Eigen::Index size = vertex.z.size() - 1;
+  std::erase_if(branch_.bifurcations, [&](const Bifurcation& b) {
+    return b.after + 1 == branch_.points.size() && (b.kind == fold || b.kind == pitchfork) &&
+           std::abs(b.at.z(size) - vertex.z(size)) < at_vertex;
+  });
 }
 
 void Continuation::end_at_failure(const std::string& why) {
@@ -122,9 +152,8 @@ Continuation::Trial Continuation::between(const BranchPoint& a, const BranchPoin
   Plane plane{chord / std::sqrt(dot(chord, chord)), a.z};
   plane.at += length * plane.normal;
   Trial trial = correct(plane, by_parameter_);
-  Vec ignored;
   // where two branches meet there is no single tangent
-  if (trial.failure.empty() && !add_tangent(trial, plane.normal, ignored)) {
+  if (trial.failure.empty() && !add_tangent(trial, plane.normal)) {
     trial.point.tangent = plane.normal;
   }
   return trial;
@@ -160,35 +189,23 @@ bool Continuation::find_bifurcations(const BranchPoint& a, const BranchPoint& b)
 }
 
 bool Continuation::locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b) {
-  // false position with halved weights, within brackets all the time
   const Vec chord = b.z - a.z;
-  double low = 0.0, high = std::sqrt(dot(chord, chord)), length = high;
-  double f_low = test_function(kind, a), f_high = test_function(kind, b);
-  int side = 0;
-  BranchPoint best = std::abs(f_low) < std::abs(f_high) ? a : b;
-  double before = best.z(best.z.size() - 1) + 1.0;
-  for (int i = 0; i < most_refinements; ++i) {
-    const bool bisects = i % 8 == 7 || !std::isfinite(f_low) || !std::isfinite(f_high);
-    length = bisects ? 0.5 * (low + high) : (low * f_high - high * f_low) / (f_high - f_low);
-    const Trial trial = between(a, b, length);
-    if (!trial.failure.empty()) break;
-    best = trial.point;
-    const double f = test_function(kind, best), u = best.z(best.z.size() - 1);
-    const bool is_still = std::abs(u - before) < options_.located;
-    if ((is_still && (std::abs(f) < 1e-6 || high - low < 1e-12)) || std::abs(f) < 1e-12) break;
-    before = u;
-    if ((f > 0.0) == (f_high > 0.0)) {
-      high = length, f_high = f;
-      if (side == 1) f_low *= 0.5;
-      side = 1;
-    } else {
-      low = length, f_low = f;
-      if (side == -1) f_high *= 0.5;
-      side = -1;
+  const double f_a = test_function(kind, a), f_b = test_function(kind, b);
+  BranchPoint best = std::abs(f_a) < std::abs(f_b) ? a : b;
+  double least = std::min(std::abs(f_a), std::abs(f_b));
+  const auto f = [&](double length) {
+    Trial trial = between(a, b, length);
+    if (!trial.failure.empty()) return nan;
+    const double value = test_function(kind, trial.point);
+    if (std::abs(value) < least) {
+      least = std::abs(value);
+      best = std::move(trial.point);
     }
-  }
+    return value;
+  };
+  bracketed_root(f, 0.0, f_a, std::sqrt(dot(chord, chord)), f_b, sharper * options_.located);
+  if (!(least < zero)) return false;
   const Complex mu = critical_multiplier(kind, best.multipliers);
-  if (!(std::abs(test_function(kind, best)) < zero)) return false;
   if (kind == neimark_sacker && std::abs(mu.imag()) < 1e-8)
     return true;  // a real pair, 1/mu and mu
   branch_.bifurcations.push_back(
