@@ -53,6 +53,114 @@ void check_segments(const Structure& structure) {
   if (!problems.empty()) throw ModelError(problems);
 }
 
+/// Positions of nodes that the segments make, where elements are given.
+std::vector<double> given_nodes(const Structure& structure) {
+  std::vector<double> nodes{0.0};
+  for (const Segment& segment : structure.shaft) {
+    const double from = nodes.back();
+    const int n = std::max(1, segment.elements);
+    for (int i = 1; i <= n; ++i) nodes.push_back(from + segment.length * i / n);
+  }
+  return nodes;
+}
+
+/// The problem of a position beyond the ends of the shaft.
+Problem off_the_shaft(const Station& station, const Structure& structure) {
+  const std::string found = fmt::format("{:g} mm is off the shaft", 1e3 * station.z);
+  const std::string right =
+      structure.shaft.empty()
+          ? "the model has no shaft: name a body instead"
+          : fmt::format("the shaft reaches from 0 to {:g} mm", 1e3 * structure.length());
+  return {station.where, station.key, found + "; " + right};
+}
+
+/// Positions that need a node, beside those that have one already; in ascending order.
+/// @throws ModelError  for stations off the shaft, or nearly but not quite at one place
+std::vector<double> wanted_positions(const Structure& structure) {
+  const double length = structure.length();
+  std::vector<Problem> problems;
+  std::vector<double> wanted, taken = given_nodes(structure);
+  for (const Station* station : all_stations(structure)) {
+    if (station->kind != Station::Kind::position) continue;
+    const double z = station->z;
+    if (z < -same_place * length || z > (1.0 + same_place) * length) {
+      problems.push_back(off_the_shaft(*station, structure));
+      continue;
+    }
+    const auto close = std::find_if(taken.begin(), taken.end(), [&](double other) {
+      return std::abs(other - z) < too_close * length;
+    });
+    if (close == taken.end()) {
+      wanted.push_back(z);
+      taken.push_back(z);
+    } else if (std::abs(*close - z) > same_place * length) {
+      problems.push_back({station->where, station->key,
+                          fmt::format("{:.9g} mm and {:.9g} mm are the same place with different "
+                                      "numbers; write one of them in both",
+                                      1e3 * z, 1e3 * *close)});
+    }
+  }
+  if (!problems.empty()) throw ModelError(problems);
+  std::sort(wanted.begin(), wanted.end());
+  return wanted;
+}
+
+/// Nodes of the mesh that the segments describe, and behind them those of the positions that are
+/// wanted inside a segment whose elements are given.
+std::vector<double> node_positions(const Structure& structure, const std::vector<double>& wanted) {
+  const double length = structure.length();
+  std::vector<bool> is_used(wanted.size(), false);
+  const auto inside = [&](double from, double to) {
+    std::vector<double> cuts;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (wanted[i] > from + same_place * length && wanted[i] < to - same_place * length) {
+        cuts.push_back(wanted[i]);
+        is_used[i] = true;
+      }
+    }
+    return cuts;
+  };
+  std::vector<double> z{0.0};
+  double start = 0.0;
+  for (const Segment& segment : structure.shaft) {
+    const double end = start + segment.length;
+    std::vector<double> borders;
+    if (segment.elements == 0) borders = inside(start, end);
+    borders.push_back(end);
+    double piece_start = start;
+    for (const double piece_end : borders) {
+      const double piece = piece_end - piece_start;
+      const int n = segment.elements > 0 ? segment.elements : elements_for(segment, piece, length);
+      for (int i = 1; i < n; ++i) z.push_back(piece_start + piece * i / n);
+      z.push_back(piece_end);
+      piece_start = piece_end;
+    }
+    start = end;
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!is_used[i]) z.push_back(wanted[i]);
+  }
+  return z;
+}
+
+/// Adds the elements between neighbors to a mesh with nodes.
+void add_elements(Mesh& mesh, const Structure& structure) {
+  std::size_t segment = 0;
+  double start = 0.0;
+  for (std::size_t i = 0; i + 1 < mesh.left_to_right.size(); ++i) {
+    const int left = mesh.left_to_right[i], right = mesh.left_to_right[i + 1];
+    const double middle = 0.5 * (mesh.z[left] + mesh.z[right]);
+    while (segment + 1 < structure.shaft.size() &&
+           middle > start + structure.shaft[segment].length) {
+      start += structure.shaft[segment].length;
+      ++segment;
+    }
+    const double L = structure.shaft[segment].length;
+    mesh.elements.push_back({left, right, static_cast<int>(segment), (mesh.z[left] - start) / L,
+                             (mesh.z[right] - start) / L});
+  }
+}
+
 }  // namespace
 
 std::vector<const Station*> all_stations(const Structure& structure) {
@@ -85,104 +193,15 @@ double shaft_diameter(const Structure& structure, double z) {
 
 Mesh make_mesh(const Structure& structure) {
   check_segments(structure);
-  const double length = structure.length();
-  std::vector<Problem> problems;
-
-  // positions that need a node, beside those that have one already
-  std::vector<double> wanted;
-  std::vector<double> taken{0.0};
-  for (const Segment& segment : structure.shaft) {
-    const double from = taken.back();
-    const int n = std::max(1, segment.elements);
-    for (int i = 1; i <= n; ++i) taken.push_back(from + segment.length * i / n);
-  }
-  std::vector<const Station*> positions;
-  for (const Station* station : all_stations(structure)) {
-    if (station->kind == Station::Kind::position) positions.push_back(station);
-  }
-  for (const Station* station : positions) {
-    const double z = station->z;
-    if (z < -same_place * length || z > (1.0 + same_place) * length) {
-      const std::string found = fmt::format("{:g} mm is off the shaft", 1e3 * z);
-      const std::string right =
-          structure.shaft.empty()
-              ? "the model has no shaft: name a body instead"
-              : fmt::format("the shaft reaches from 0 to {:g} mm", 1e3 * length);
-      problems.push_back({station->where, station->key, found + "; " + right});
-      continue;
-    }
-    const auto close = std::find_if(taken.begin(), taken.end(), [&](double other) {
-      return std::abs(other - z) < too_close * length;
-    });
-    if (close == taken.end()) {
-      wanted.push_back(z);
-      taken.push_back(z);
-    } else if (std::abs(*close - z) > same_place * length) {
-      problems.push_back({station->where, station->key,
-                          fmt::format("{:.9g} mm and {:.9g} mm are the same place with different "
-                                      "numbers; write one of them in both",
-                                      1e3 * z, 1e3 * *close)});
-    }
-  }
-  if (!problems.empty()) throw ModelError(problems);
-  std::sort(wanted.begin(), wanted.end());
-
-  // the mesh that the segments describe
+  const std::vector<double> wanted = wanted_positions(structure);
   Mesh mesh;
   if (structure.shaft.empty()) return mesh;
-  std::vector<bool> is_used(wanted.size(), false);
-  const auto inside = [&](double from, double to) {
-    std::vector<double> cuts;
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      if (wanted[i] > from + same_place * length && wanted[i] < to - same_place * length) {
-        cuts.push_back(wanted[i]);
-        is_used[i] = true;
-      }
-    }
-    return cuts;
-  };
-  mesh.z.push_back(0.0);
-  double start = 0.0;
-  for (const Segment& segment : structure.shaft) {
-    const double end = start + segment.length;
-    std::vector<double> borders;
-    if (segment.elements == 0) borders = inside(start, end);
-    borders.push_back(end);
-    double piece_start = start;
-    for (const double piece_end : borders) {
-      const double piece = piece_end - piece_start;
-      const int n = segment.elements > 0 ? segment.elements : elements_for(segment, piece, length);
-      for (int i = 1; i < n; ++i) mesh.z.push_back(piece_start + piece * i / n);
-      mesh.z.push_back(piece_end);
-      piece_start = piece_end;
-    }
-    start = end;
-  }
-
-  // stations between its nodes
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    if (!is_used[i]) mesh.z.push_back(wanted[i]);
-  }
+  mesh.z = node_positions(structure, wanted);
   mesh.left_to_right.resize(mesh.z.size());
   std::iota(mesh.left_to_right.begin(), mesh.left_to_right.end(), 0);
   std::sort(mesh.left_to_right.begin(), mesh.left_to_right.end(),
             [&](int a, int b) { return mesh.z[a] < mesh.z[b]; });
-
-  // elements between neighbors
-  std::size_t segment = 0;
-  start = 0.0;
-  for (std::size_t i = 0; i + 1 < mesh.left_to_right.size(); ++i) {
-    const int left = mesh.left_to_right[i], right = mesh.left_to_right[i + 1];
-    const double middle = 0.5 * (mesh.z[left] + mesh.z[right]);
-    while (segment + 1 < structure.shaft.size() &&
-           middle > start + structure.shaft[segment].length) {
-      start += structure.shaft[segment].length;
-      ++segment;
-    }
-    const double L = structure.shaft[segment].length;
-    mesh.elements.push_back({left, right, static_cast<int>(segment), (mesh.z[left] - start) / L,
-                             (mesh.z[right] - start) / L});
-  }
+  add_elements(mesh, structure);
   return mesh;
 }
 

@@ -61,60 +61,80 @@ void add_number(vtkPolyData* data, const std::string& name, double value) {
   data->GetFieldData()->AddArray(array);
 }
 
-vtkNew<vtkPolyData> data_of(const Series& series, const VtkFrame& frame) {
-  const VtkScene& scene = series.scene;
-  vtkNew<vtkPolyData> data;
-  vtkNew<vtkPoints> points;
-  const auto displacement = named_array<vtkFloatArray>("displacement [m]", 3);
-  const auto rotation = named_array<vtkFloatArray>("rotation [rad]", 3);
-  const auto rest = named_array<vtkFloatArray>("undeformed position [m]", 3);
-  const auto force = named_array<vtkFloatArray>("contact force [N]", 3);
-  const auto add = [&](const Placement& p, const Vector3d& drawn, const Vector3d& f) {
-    points->InsertNextPoint(drawn.data());
+/// Points of a frame, with what stands at them.
+struct Points {
+  vtkNew<vtkPoints> drawn;
+  vtkNew<vtkFloatArray> displacement = named_array<vtkFloatArray>("displacement [m]", 3);
+  vtkNew<vtkFloatArray> rotation = named_array<vtkFloatArray>("rotation [rad]", 3);
+  vtkNew<vtkFloatArray> rest = named_array<vtkFloatArray>("undeformed position [m]", 3);
+  vtkNew<vtkFloatArray> force = named_array<vtkFloatArray>("contact force [N]", 3);
+
+  void add(const Placement& p, const Vector3d& at, const Vector3d& f) {
+    drawn->InsertNextPoint(at.data());
     displacement->InsertNextTuple(p.displacement.data());
     rotation->InsertNextTuple(p.rotation.data());
     rest->InsertNextTuple(p.rest.data());
     force->InsertNextTuple(f.data());
-  };
-  const double scale = series.deflection_scale;
-  for (const Vertex& vertex : series.surfaces.vertices) {
-    const Placement p = place(vertex, scene, frame.motion);
-    add(p, p.rest + scale * p.displacement + (scale - 1.0) * vertex.gap, Vector3d::Zero());
   }
+};
 
-  // VTK numbers lines before polygons, in the cells' data too
-  const auto part = named_array<vtkIntArray>("part"), member = named_array<vtkIntArray>("member"),
-             touch = named_array<vtkIntArray>("in touch");
+/// Lines and polygons of a frame, with what they belong to. VTK numbers lines before polygons, in
+/// the cells' data too.
+struct Cells {
   vtkNew<vtkCellArray> lines, polygons;
+  vtkNew<vtkIntArray> part = named_array<vtkIntArray>("part");
+  vtkNew<vtkIntArray> member = named_array<vtkIntArray>("member");
+  vtkNew<vtkIntArray> touch = named_array<vtkIntArray>("in touch");
+
+  void describe(int of_part, int of_member, bool is_touching) {
+    part->InsertNextValue(of_part);
+    member->InsertNextValue(of_member);
+    touch->InsertNextValue(is_touching);
+  }
+};
+
+/// Adds a line for the force of every contact.
+void add_forces(const Series& series, const VtkFrame& frame, Points& points, Cells& cells) {
+  const VtkScene& scene = series.scene;
   for (std::size_t k = 0; k < scene.contacts.size(); ++k) {
     const VtkForce& f = frame.forces[k];
     const int point = scene.contacts[k].point;
     const Vector3d vector(f.force.x(), f.force.y(), 0.0);
     const Placement p = place({point, point, 0.0, f.arm}, scene, frame.motion);
-    const Vector3d foot = p.rest + scale * p.displacement;
-    const vtkIdType first = points->GetNumberOfPoints();
-    add(p, foot, vector);
-    add(p, foot + series.force_scale * vector, vector);
-    lines->InsertNextCell({first, first + 1});
-    part->InsertNextValue(contact_force);
-    member->InsertNextValue(static_cast<int>(k) + 1);
-    touch->InsertNextValue(f.is_touching);
+    const Vector3d foot = p.rest + series.deflection_scale * p.displacement;
+    const vtkIdType first = points.drawn->GetNumberOfPoints();
+    points.add(p, foot, vector);
+    points.add(p, foot + series.force_scale * vector, vector);
+    cells.lines->InsertNextCell({first, first + 1});
+    cells.describe(contact_force, static_cast<int>(k) + 1, f.is_touching);
   }
+}
+
+vtkNew<vtkPolyData> data_of(const Series& series, const VtkFrame& frame) {
+  const VtkScene& scene = series.scene;
+  const double scale = series.deflection_scale;
+  Points points;
+  for (const Vertex& vertex : series.surfaces.vertices) {
+    const Placement p = place(vertex, scene, frame.motion);
+    points.add(p, p.rest + scale * p.displacement + (scale - 1.0) * vertex.gap, Vector3d::Zero());
+  }
+  Cells cells;
+  add_forces(series, frame, points, cells);
   for (const Cell& cell : series.surfaces.cells) {
-    polygons->InsertNextCell(static_cast<int>(cell.vertices.size()));
-    for (const int vertex : cell.vertices) polygons->InsertCellPoint(vertex);
-    part->InsertNextValue(cell.part);
-    member->InsertNextValue(cell.member);
-    touch->InsertNextValue(0);
+    cells.polygons->InsertNextCell(static_cast<int>(cell.vertices.size()));
+    for (const int vertex : cell.vertices) cells.polygons->InsertCellPoint(vertex);
+    cells.describe(cell.part, cell.member, false);
   }
 
-  data->SetPoints(points);
-  data->SetLines(lines);
-  data->SetPolys(polygons);
-  for (vtkDataArray* array : {displacement.Get(), rotation.Get(), rest.Get(), force.Get()}) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points.drawn);
+  data->SetLines(cells.lines);
+  data->SetPolys(cells.polygons);
+  for (vtkDataArray* array :
+       {points.displacement.Get(), points.rotation.Get(), points.rest.Get(), points.force.Get()}) {
     data->GetPointData()->AddArray(array);
   }
-  for (vtkDataArray* array : {part.Get(), member.Get(), touch.Get()}) {
+  for (vtkDataArray* array : {cells.part.Get(), cells.member.Get(), cells.touch.Get()}) {
     data->GetCellData()->AddArray(array);
   }
   add_number(data, "time [s]", frame.time);

@@ -65,6 +65,130 @@ void look_at(vtkRenderer* renderer, const double bounds[6]) {
   renderer->ResetCameraClippingRange(bounds);
 }
 
+/// A series as it stands before the camera: one frame of it at a time.
+class Stage {
+ public:
+  Stage(int width, int height) {
+    renderer_->SetBackground(1.0, 1.0, 1.0);
+    window_->SetOffScreenRendering(1);
+    window_->SetMultiSamples(4);
+    window_->SetSize(width, height);
+    window_->AddRenderer(renderer_);
+
+    normals_->SetInputConnection(reader_->GetOutputPort());
+    normals_->SetFeatureAngle(40.0);
+    color_parts(colors_);
+    mapper_->SetInputConnection(normals_->GetOutputPort());
+    mapper_->SetScalarModeToUseCellFieldData();
+    mapper_->SelectColorArray("part");
+    mapper_->SetLookupTable(colors_);
+    actor_->SetMapper(mapper_);
+    actor_->GetProperty()->SetLineWidth(4.0F);
+    actor_->GetProperty()->SetAmbient(0.3);
+    actor_->GetProperty()->SetDiffuse(0.8);
+    actor_->GetProperty()->SetSpecular(0.2);
+    actor_->GetProperty()->SetSpecularPower(30.0);
+    renderer_->AddActor(actor_);
+
+    title_->GetTextProperty()->SetFontSize(std::max(12, height / 28));
+    title_->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
+    title_->SetPosition(12.0, 10.0);
+    renderer_->AddActor2D(title_);
+  }
+
+  /// Aims the camera so that all frames fit in.
+  void aim(const std::vector<fs::path>& frames) {
+    double bounds[6] = {1e30, -1e30, 1e30, -1e30, 1e30, -1e30};
+    for (const fs::path& frame : frames) {
+      double own[6];
+      read(frame)->GetBounds(own);
+      for (int i = 0; i < 6; i += 2) {
+        bounds[i] = std::min(bounds[i], own[i]);
+        bounds[i + 1] = std::max(bounds[i + 1], own[i + 1]);
+      }
+    }
+    window_->Render();  // only then the renderer knows the shape of the picture
+    look_at(renderer_, bounds);
+    double largest = 1e-6;  // half a picture's width or height is 1
+    for (const fs::path& frame : frames) {
+      vtkPolyData* data = read(frame);
+      for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        const double* p = data->GetPoint(i);
+        renderer_->SetWorldPoint(p[0], p[1], p[2], 1.0);
+        renderer_->WorldToView();
+        const double* view = renderer_->GetViewPoint();
+        largest = std::max({largest, std::abs(view[0]), std::abs(view[1])});
+      }
+    }
+    constexpr double share = 0.85;  // leaves room for the title
+    renderer_->GetActiveCamera()->Zoom(share / largest);
+  }
+
+  /// A picture of a frame, with the time below it.
+  vtkNew<vtkWindowToImageFilter> picture(const fs::path& frame, const char* title) {
+    double time = 0.0;
+    if (auto* array = read(frame)->GetFieldData()->GetArray("time [s]")) {
+      time = array->GetTuple1(0);
+    }
+    char text[512];
+    std::snprintf(text, sizeof text, "%s    t = %.5g s", title, time);
+    title_->SetInput(text);
+    window_->Render();
+    vtkNew<vtkWindowToImageFilter> image;
+    image->SetInput(window_);
+    image->ReadFrontBufferOff();
+    image->Update();
+    return image;
+  }
+
+ private:
+  vtkPolyData* read(const fs::path& frame) {
+    reader_->SetFileName(frame.c_str());
+    reader_->Update();
+    return reader_->GetOutput();
+  }
+
+  vtkNew<vtkRenderer> renderer_;
+  vtkNew<vtkRenderWindow> window_;
+  vtkNew<vtkXMLPolyDataReader> reader_;
+  vtkNew<vtkPolyDataNormals> normals_;
+  vtkNew<vtkColorTransferFunction> colors_;
+  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+  vtkNew<vtkTextActor> title_;
+};
+
+void write_movie(Stage& stage, const std::vector<fs::path>& frames, const char* title,
+                 const fs::path& out, int frames_per_second) {
+  vtkNew<vtkOggTheoraWriter> movie;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto image = stage.picture(frames[i], title);
+    movie->SetInputConnection(image->GetOutputPort());
+    if (i == 0) {
+      movie->SetFileName(out.c_str());
+      movie->SetRate(frames_per_second);
+      movie->SetQuality(2);
+      movie->Start();
+    }
+    movie->Write();
+  }
+  movie->End();
+}
+
+void write_pictures(Stage& stage, const std::vector<fs::path>& frames, const char* title,
+                    const fs::path& out) {
+  vtkNew<vtkPNGWriter> picture;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto image = stage.picture(frames[i], title);
+    char number[16];
+    std::snprintf(number, sizeof number, "_%04zu", i + 1);
+    const fs::path place = fs::path(out).replace_filename(out.stem().string() + number + ".png");
+    picture->SetFileName(place.c_str());
+    picture->SetInputConnection(image->GetOutputPort());
+    picture->Write();
+  }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -79,106 +203,12 @@ int main(int count, char** words) {
   const fs::path out = words[2];
   const auto frames = frames_of(words[1]);
   if (frames.empty()) return 2;
-
-  vtkNew<vtkRenderer> renderer;
-  renderer->SetBackground(1.0, 1.0, 1.0);
-  vtkNew<vtkRenderWindow> window;
-  window->SetOffScreenRendering(1);
-  window->SetMultiSamples(4);
-  window->SetSize(std::atoi(words[3]), std::atoi(words[4]));
-  window->AddRenderer(renderer);
-
-  vtkNew<vtkXMLPolyDataReader> reader;
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputConnection(reader->GetOutputPort());
-  normals->SetFeatureAngle(40.0);
-  vtkNew<vtkColorTransferFunction> colors;
-  color_parts(colors);
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(normals->GetOutputPort());
-  mapper->SetScalarModeToUseCellFieldData();
-  mapper->SelectColorArray("part");
-  mapper->SetLookupTable(colors);
-  vtkNew<vtkActor> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetLineWidth(4.0F);
-  actor->GetProperty()->SetAmbient(0.3);
-  actor->GetProperty()->SetDiffuse(0.8);
-  actor->GetProperty()->SetSpecular(0.2);
-  actor->GetProperty()->SetSpecularPower(30.0);
-  renderer->AddActor(actor);
-
-  vtkNew<vtkTextActor> title;
-  title->GetTextProperty()->SetFontSize(std::max(12, std::atoi(words[4]) / 28));
-  title->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
-  title->SetPosition(12.0, 10.0);
-  renderer->AddActor2D(title);
-
-  // a camera that all frames fit in
-  double bounds[6] = {1e30, -1e30, 1e30, -1e30, 1e30, -1e30};
-  for (const fs::path& frame : frames) {
-    reader->SetFileName(frame.c_str());
-    reader->Update();
-    double own[6];
-    reader->GetOutput()->GetBounds(own);
-    for (int i = 0; i < 6; i += 2) {
-      bounds[i] = std::min(bounds[i], own[i]);
-      bounds[i + 1] = std::max(bounds[i + 1], own[i + 1]);
-    }
+  Stage stage(std::atoi(words[3]), std::atoi(words[4]));
+  stage.aim(frames);
+  if (out.extension() == ".ogv") {
+    write_movie(stage, frames, words[6], out, std::atoi(words[5]));
+  } else {
+    write_pictures(stage, frames, words[6], out);
   }
-  window->Render();  // only then the renderer knows the shape of the picture
-  look_at(renderer, bounds);
-  double largest = 1e-6;  // half a picture's width or height is 1
-  for (const fs::path& frame : frames) {
-    reader->SetFileName(frame.c_str());
-    reader->Update();
-    for (vtkIdType i = 0; i < reader->GetOutput()->GetNumberOfPoints(); ++i) {
-      const double* p = reader->GetOutput()->GetPoint(i);
-      renderer->SetWorldPoint(p[0], p[1], p[2], 1.0);
-      renderer->WorldToView();
-      const double* view = renderer->GetViewPoint();
-      largest = std::max({largest, std::abs(view[0]), std::abs(view[1])});
-    }
-  }
-  constexpr double share = 0.85;  // leaves room for the title
-  renderer->GetActiveCamera()->Zoom(share / largest);
-
-  const bool is_movie = out.extension() == ".ogv";
-  vtkNew<vtkOggTheoraWriter> movie;
-  vtkNew<vtkPNGWriter> picture;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    reader->SetFileName(frames[i].c_str());
-    reader->Update();
-    double time = 0.0;
-    if (auto* array = reader->GetOutput()->GetFieldData()->GetArray("time [s]")) {
-      time = array->GetTuple1(0);
-    }
-    char text[512];
-    std::snprintf(text, sizeof text, "%s    t = %.5g s", words[6], time);
-    title->SetInput(text);
-    window->Render();
-    vtkNew<vtkWindowToImageFilter> image;
-    image->SetInput(window);
-    image->ReadFrontBufferOff();
-    image->Update();
-    if (is_movie) {
-      movie->SetInputConnection(image->GetOutputPort());
-      if (i == 0) {
-        movie->SetFileName(out.c_str());
-        movie->SetRate(std::atoi(words[5]));
-        movie->SetQuality(2);
-        movie->Start();
-      }
-      movie->Write();
-    } else {
-      char number[16];
-      std::snprintf(number, sizeof number, "_%04zu", i + 1);
-      const fs::path place = fs::path(out).replace_filename(out.stem().string() + number + ".png");
-      picture->SetFileName(place.c_str());
-      picture->SetInputConnection(image->GetOutputPort());
-      picture->Write();
-    }
-  }
-  if (is_movie) movie->End();
   return 0;
 }
