@@ -3,6 +3,6 @@
 namespace whirl {
 
 /// Version of the program, from the build.
-inline constexpr const char* version = WHIRL_VERSION;
+extern const char* const version;
 
 }  // namespace whirl

@@ -1,0 +1,7 @@
+#include "apps/version.hpp"
+
+namespace whirl {
+
+const char* const version = WHIRL_VERSION;
+
+}  // namespace whirl
