@@ -1,6 +1,7 @@
 #pragma once
 /// Bending of the shaft under its static loads: deflection, moment and shear force along it.
 
+#include "libbase/column.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl {
@@ -17,6 +18,38 @@ struct BendingLine {
   Mat deflection;  ///< positions x 2: x, y [m]
   Mat moment;      ///< positions x 2: of the planes x-z, y-z [N.m]
   Mat shear;       ///< positions x 2: along x, y [N]
+
+  static constexpr std::string_view group = "/static";
+  static constexpr auto columns() {
+    using enum Written;
+    constexpr auto in_plane = [](auto member, int plane) {
+      return [member, plane](const BendingLine& line) { return Vec((line.*member).col(plane)); };
+    };
+    constexpr auto deflection = &BendingLine::deflection, moment = &BendingLine::moment,
+                   shear = &BendingLine::shear;
+    return std::tuple{
+        column("z", &BendingLine::z, "m", "position along the shaft, both ends of every beam")
+            .axis("along+")
+            .within(valid::finite),
+        column("deflection", deflection, "m", "static deflection (x, y)")
+            .along("along 2")
+            .within(valid::finite)
+            .only(in_file),
+        column("moment", moment, "N.m", "bending moment (of the planes x-z, y-z)")
+            .along("along 2")
+            .within(valid::finite)
+            .only(in_file),
+        column("shear", shear, "N", "shear force of the right part on the left one (x, y)")
+            .along("along 2")
+            .within(valid::finite)
+            .only(in_file),
+        column("x", in_plane(deflection, 0), "m", "deflection").only(in_json),
+        column("y", in_plane(deflection, 1), "m", "deflection").only(in_json),
+        column("moment_x", in_plane(moment, 0), "N.m", "of the plane x-z").only(in_json),
+        column("moment_y", in_plane(moment, 1), "N.m", "of the plane y-z").only(in_json),
+        column("shear_x", in_plane(shear, 0), "N", "along x").only(in_json),
+        column("shear_y", in_plane(shear, 1), "N", "along y").only(in_json)};
+  }
 };
 
 /// The bending line of a static equilibrium.

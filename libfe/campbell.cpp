@@ -174,6 +174,12 @@ double mac(const CVec& a, const CVec& b, const Sparse& W) {
   return aa > 0.0 && bb > 0.0 ? ab / (aa * bb) : 0.0;
 }
 
+std::vector<double> Campbell::criticals() const {
+  std::vector<double> found;
+  for (const Crossing& crossing : crossings) found.push_back(crossing.speed);
+  return found;
+}
+
 Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds, int branches,
                   double order) {
   Campbell result{.speeds = speeds};

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl {
@@ -13,18 +14,40 @@ struct CampbellBranch {
   Whirl whirl = Whirl::planar;    ///< the sense it has at most speeds other than zero
   std::vector<double> frequency;  ///< damped, per speed [rad/s]; NaN where it does not oscillate
   std::vector<double> log_decrement;  ///< per speed; NaN likewise
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("whirl", &CampbellBranch::whirl, "", "sense of whirl"),
+        column("frequency", &CampbellBranch::frequency, "rad/s",
+               "damped natural frequency, NaN where it does not oscillate")
+            .along("speeds"),
+        column("log_decrement", &CampbellBranch::log_decrement, "", "logarithmic decrement")
+            .along("speeds")};
+  }
 };
 
 /// A speed at which a branch meets an excitation line.
 struct Crossing {
   double speed = 0.0;  ///< [rad/s]
   int branch = 0;      ///< from 0
+
+  static constexpr auto columns() {
+    return std::tuple{column("speed", &Crossing::speed, "rad/s", "critical speed"),
+                      column("branch", &Crossing::branch, "", "branch that is critical")
+                          .from_one()
+                          .within(valid::numbers_of("branches"))};
+  }
 };
 
 /// A speed whose modes cannot be computed.
 struct CampbellGap {
   double speed = 0.0;  ///< [rad/s]
   std::string why;
+
+  static constexpr auto columns() {
+    return std::tuple{column("speed", &CampbellGap::speed, "rad/s", "speed that is left out"),
+                      column("why", &CampbellGap::why, "", "why")};
+  }
 };
 
 struct Campbell {
@@ -32,6 +55,23 @@ struct Campbell {
   std::vector<CampbellBranch> branches;
   std::vector<Crossing> crossings;  ///< with frequency = order * Omega, ascending speed
   std::vector<CampbellGap> gaps;    ///< speeds at which every branch is NaN; most have none
+
+  /// Speeds of the crossings [rad/s].
+  std::vector<double> criticals() const;
+
+  static constexpr std::string_view group = "/campbell";
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("speed", &Campbell::speeds, "rad/s", "rotor speed")
+            .axis("speeds+")
+            .within(valid::finite)
+            .as("speeds_rpm"),
+        rows(&Campbell::branches, "branches").numbered("branch", "branch"),
+        column("criticals", &Campbell::criticals, "rad/s", "critical speeds").only(in_json),
+        rows(&Campbell::crossings, "crossings").prefixed("critical_").maybe().only(in_file),
+        rows(&Campbell::gaps, "gaps").maybe().only(in_json)};
+  }
 };
 
 /// Modes of a structure over speeds, followed through crossings.

@@ -1,5 +1,7 @@
 #include "libfe/critical.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -31,8 +33,12 @@ std::vector<Critical> undamped_criticals(const System& system, const CriticalOpt
     // no real speed: a disk that stiffens faster than it spins, or freedoms without inertia
     if (modes.nu(i) <= rounding * modes.nu(0)) break;
     const CVec q = modes.q.col(i);
-    criticals.push_back({1.0 / (options.order * std::sqrt(modes.nu(i))), nan,
-                         whirl_of(orbits(system.dofs, q)), q, ""});
+    Critical critical{.speed = 1.0 / (options.order * std::sqrt(modes.nu(i))),
+                      .damped_speed = nan,
+                      .whirl = whirl_of(orbits(system.dofs, q)),
+                      .shape = q};
+    critical.order = options.order;
+    criticals.push_back(std::move(critical));
   }
   return criticals;
 }
@@ -134,6 +140,10 @@ void find_damped(const ModeFinder& finder, const CriticalOptions& options, Criti
 }
 
 }  // namespace
+
+std::string Critical::excitation() const {
+  return fmt::format("{:g}x", order);
+}
 
 std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options) {
   require_supports(assembler, 0.0, "critical speeds need");

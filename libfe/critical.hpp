@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl {
@@ -23,6 +24,42 @@ struct Critical {
   CVec shape;        ///< coordinates of the system
   std::string note;  ///< why there is no damped speed; empty if there is one
   double damping_ratio = std::numeric_limits<double>::quiet_NaN();  ///< at the damped speed
+  double order = 1.0;                                               ///< of the excitation
+
+  bool is_heavily_damped() const { return damping_ratio > heavy_damping; }
+  /// "1x".
+  std::string excitation() const;
+
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("speed", &Critical::speed, "rad/s", "undamped critical speed"),
+        column("damped_speed", &Critical::damped_speed, "rad/s",
+               "damped critical speed, NaN if there is none"),
+        column("damping_ratio", &Critical::damping_ratio, "",
+               "damping ratio at the damped critical speed")
+            .maybe(),
+        column("whirl", &Critical::whirl, "", "sense of whirl"),
+        column("excitation", &Critical::excitation, "", "order of the excitation").only(in_json),
+        column("heavily_damped", &Critical::is_heavily_damped, "", "damping ratio above 0.5")
+            .only(in_json),
+        column("note", &Critical::note, "", "why there is no damped speed").only(in_json).maybe()};
+  }
+};
+
+/// Critical speeds of one order, as a result.
+struct CriticalSpeeds {
+  std::vector<Critical> criticals;
+  double order = 1.0;
+
+  static constexpr std::string_view group = "/critical";
+  static constexpr auto columns() {
+    constexpr double most_order = 1e6;
+    return std::tuple{rows(&CriticalSpeeds::criticals, "criticals"),
+                      column("order", &CriticalSpeeds::order, "", "excitation frequency over speed")
+                          .within(valid::from_to(valid::positive.least, most_order))
+                          .only(Written::in_file)};
+  }
 };
 
 /// Critical speeds directly from the pencil with omega = order * Omega.

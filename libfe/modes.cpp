@@ -267,6 +267,20 @@ double Mode::log_decrement() const {
   return 2.0 * std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta);
 }
 
+ModesAtPoints::ModesAtPoints(Modes modes, const DofMap& dofs)
+    : Modes(std::move(modes)),
+      shape(dofs.full_size, static_cast<Eigen::Index>(oscillatory.size())) {
+  for (Eigen::Index i = 0; i < shape.cols(); ++i) {
+    shape.col(i) = dofs.T * oscillatory[static_cast<std::size_t>(i)].shape;
+  }
+}
+
+std::vector<double> ModesAtPoints::real_roots() const {
+  std::vector<double> roots;
+  for (const Complex& root : overdamped) roots.push_back(root.real());
+  return roots;
+}
+
 std::vector<Orbit> orbits(const DofMap& dofs, const CVec& shape) {
   const CVec full = dofs.T * shape;
   std::vector<Orbit> result;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libbase/field.hpp"
 #include "libfe/assemble.hpp"
 
@@ -49,6 +50,19 @@ struct Mode {
   double damping_ratio() const { return -lambda.real() / std::abs(lambda); }
   /// 2 pi zeta / sqrt(1 - zeta^2); positive: stable.
   double log_decrement() const;
+  bool is_heavily_damped() const { return damping_ratio() > heavy_damping; }
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("frequency", &Mode::frequency, "rad/s", "damped natural frequency"),
+        column("damping_ratio", &Mode::damping_ratio, "", "damping ratio"),
+        column("log_decrement", &Mode::log_decrement, "", "logarithmic decrement"),
+        column("heavily_damped", &Mode::is_heavily_damped, "", "damping ratio above 0.5")
+            .only(Written::in_json),
+        column("whirl", &Mode::whirl, "", "sense of whirl"),
+        column("eigenvalue", &Mode::lambda, "rad/s", "eigenvalue").as("eigenvalue"),
+        column("kappa", &Mode::kappa, "", "signed axis ratio where the mode moves most")};
+  }
 };
 
 struct Modes {
@@ -70,6 +84,35 @@ struct Modes {
 /// @param count  oscillatory modes wanted; fewer come back if there are fewer
 /// @throws NumericalError  if an eigensolver fails
 Modes complex_modes(const System& system, int count);
+
+/// Modes with their shapes at all points, as a result.
+struct ModesAtPoints : Modes {
+  ModesAtPoints() = default;
+  ModesAtPoints(Modes modes, const DofMap& dofs);
+
+  CMat shape;  ///< a column per oscillatory mode: full vectors, see DofMap
+
+  /// Real parts of the overdamped ones [1/s].
+  std::vector<double> real_roots() const;
+
+  static constexpr std::string_view group = "/modes";
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        rows(&ModesAtPoints::oscillatory, "modes").numbered("number", "mode"),
+        column("shape", &ModesAtPoints::shape, "m, rad",
+               "complex shape: x, y, theta_x, theta_y of every node, then of every body")
+            .along("full modes")
+            .only(in_file),
+        column("real_roots", &ModesAtPoints::real_roots, "1/s", "real parts of overdamped ones")
+            .as("real_roots")
+            .only(in_json),
+        column("overdamped", &ModesAtPoints::overdamped, "rad/s", "overdamped eigenvalues")
+            .as("overdamped")
+            .only(in_json),
+        rows(&ModesAtPoints::rigid_body, "rigid_body").numbered("number", "mode").only(in_json)};
+  }
+};
 
 /// The same for many speeds of one structure: work that does not depend on speed is done once.
 class ModeFinder {

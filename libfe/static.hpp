@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl {
@@ -11,11 +12,35 @@ namespace whirl {
 struct BearingLoad {
   std::string name;
   Vec2 force = Vec2::Zero();  ///< of the rotor on the bearing, (x, y) [N]
+
+  double fx() const { return force(0); }
+  double fy() const { return force(1); }
+
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("bearing", &BearingLoad::name, "", "bearing").axis().as("name"),
+        column("bearing_load", &BearingLoad::force, "N", "force of the rotor on the bearing (x, y)")
+            .along("2")
+            .only(in_file),
+        column("fx", &BearingLoad::fx, "N", "force of the rotor on the bearing").only(in_json),
+        column("fy", &BearingLoad::fy, "N", "force of the rotor on the bearing").only(in_json)};
+  }
 };
 
 struct StaticEquilibrium {
   Vec displacement;  ///< full vector, see DofMap [m, rad]
   std::vector<BearingLoad> bearings;
+
+  static constexpr std::string_view group = "/static";
+  static constexpr auto columns() {
+    return std::tuple{
+        column("displacement", &StaticEquilibrium::displacement, "m, rad",
+               "static displacement: x, y, theta_x, theta_y of every node, then of every body")
+            .along("full")
+            .only(Written::in_file),
+        rows(&StaticEquilibrium::bearings, "bearings").maybe()};
+  }
 };
 
 /// Equilibrium under gravity at a speed [rad/s]: (K + Omega H) q = -g M e_y.

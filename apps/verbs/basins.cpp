@@ -119,7 +119,7 @@ Report run_basins(const Invocation& call) {
   const StudyPoint first = starts.point(0);
   if (!first.scene) throw NumericalError(first.failure);
 
-  std::vector<Column> columns = classification_columns(*first.scene, group);
+  std::vector<PointColumn> columns = classification_columns(*first.scene, group);
   const Eigen::Index full = first.scene->reduced.dofs.T.rows();
   columns.push_back({"start_displacement", "m, rad", "displacement at the start", false, {full}});
   columns.push_back({"start_velocity", "m/s, rad/s", "velocity at the start", false, {full}});

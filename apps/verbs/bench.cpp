@@ -11,10 +11,10 @@
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/motions/work_precision.hpp"
+#include "libdyn/studies/work_precision_study.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/work_precision.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/units.hpp"
@@ -23,15 +23,8 @@ namespace whirl {
 
 namespace {
 
-constexpr double settling = 1e-10;        ///< tolerance of the transient
 constexpr double sensitive = 100.0;       ///< growth of deviations that is worth a line
 constexpr double poor_reference = 1e-10;  ///< its own error
-
-struct BenchOptions {
-  std::vector<std::string> methods;
-  std::vector<double> tolerances;
-  long revolutions = 0, discard = 0;
-};
 
 std::vector<std::string> parts_of(const std::string& list) {
   std::vector<std::string> parts;
@@ -43,8 +36,8 @@ std::vector<std::string> parts_of(const std::string& list) {
   return parts;
 }
 
-BenchOptions options_of(const Invocation& call) {
-  BenchOptions options;
+WorkPrecisionOptions options_of(const Invocation& call) {
+  WorkPrecisionOptions options;
   options.revolutions = call.integer("revolutions");
   options.discard = call.integer("discard", 0);
   const auto names = candidate_names();
@@ -60,89 +53,38 @@ BenchOptions options_of(const Invocation& call) {
   return options;
 }
 
-struct Bench {
-  BenchOptions options;
-  ReferenceMotion reference;
-  std::vector<TimedRun> runs;  ///< tolerance by tolerance of method by method
-  bool was_stopped = false;
-};
-
-Bench run_all(const Invocation& call, const Model& model) {
-  Bench bench{.options = options_of(call)};
-  BenchOptions& options = bench.options;
+WorkPrecisionStudy study_of(const Invocation& call, const Model& model) {
+  WorkPrecisionOptions options = options_of(call);
   const Scene scene = make_scene(model);
-  const ContactSystem& system = scene.contacts;
-  MotionState start = starting_state(call, model, scene);
+  const MotionState start = starting_state(call, model, scene);
   if (start.phase > 0.0) options.discard = std::max(1L, options.discard);
-
-  if (!call.has("methods") && !suits_collocation(system)) {
+  if (!call.has("methods") && !suits_collocation(scene.contacts)) {
     std::erase(options.methods, Collocation::name);
   }
   const auto count = static_cast<long>(options.methods.size() * options.tolerances.size());
   Progress progress("measuring", count + 1, call.shows_progress);
-  // Ctrl-C stops the transient, and between runs, which an observer would slow down
-  const Integration transient =
-      integrate(AnyMethod{}, system, start, options.discard, {.tolerance = settling},
-                [](const Step&) { return !is_interrupted(); });
-  bench.was_stopped = transient.outcome == Outcome::stopped_by_observer;
-  if (bench.was_stopped) return bench;
-  if (transient.outcome != Outcome::reached_end) {
-    throw NumericalError("the transient failed: " + transient.diagnosis);
-  }
-  bench.reference = reference_motion(system, start, options.revolutions);
-  for (const std::string& method : options.methods) {
-    const Candidate measured = candidate(system, method);
-    for (const double tolerance : options.tolerances) {
-      progress.update(1 + static_cast<long>(bench.runs.size()));
-      bench.was_stopped = is_interrupted();
-      if (bench.was_stopped) return bench;
-      bench.runs.push_back(measure(measured, tolerance, system, start, bench.reference));
-    }
-  }
-  return bench;
+  return work_precision_study(
+      scene.contacts, start, options,
+      {.progress = [&](long done, long) { progress.update(done); }, .is_stopped = is_interrupted});
 }
 
-double per_revolution(const Bench& bench, long count) {
-  return static_cast<double>(count) / static_cast<double>(bench.options.revolutions);
-}
-
-void add(Record& record, const Bench& bench) {
-  record.set("revolutions", bench.options.revolutions).set("discard", bench.options.discard);
-  Record reference;
-  reference.set("made_by", bench.reference.made_by).set("error", bench.reference.error);
-  reference.set("growth", bench.reference.growth);
-  record.set("reference", reference);
-  Record runs = Record::array();
-  for (const TimedRun& run : bench.runs) {
-    const Cost& cost = run.integration.cost;
-    Record r;
-    r.set("method", run.method).set("tolerance", run.tolerance).set("error", run.error);
-    r.set("ns_per_revolution", run.has_failed() ? Record(nullptr) : Record(1e9 * run.time));
-    r.set("steps", cost.steps).set("evaluations", cost.evaluations).set("events", cost.events);
-    if (run.has_failed()) r.set("failure", run.integration.diagnosis);
-    runs.add(r);
-  }
-  record.set("runs", runs);
-}
-
-std::string text_of(const Bench& bench, const Model& model) {
+std::string text_of(const WorkPrecisionStudy& bench, const Model& model) {
   const ReferenceMotion& reference = bench.reference;
   if (bench.runs.empty()) return "  stopped before the first run\n";
+  const auto revolutions = static_cast<double>(bench.options.revolutions);
   Table table({"method", "tolerance", "error", "ns/revolution", "steps/rev", "evaluations/rev"});
   std::string failures;
   for (const TimedRun& run : bench.runs) {
-    const Cost& cost = run.integration.cost;
     const std::string tolerance = tolerance_text(run.tolerance);
     if (run.has_failed()) {
       table.row({run.method, tolerance, "-", "-", "-", "-"});
-      failures +=
-          fmt::format("  {} at {} failed: {}\n", run.method, tolerance, run.integration.diagnosis);
+      failures += fmt::format("  {} at {} failed: {}\n", run.method, tolerance, run.failure());
       continue;
     }
     table.row({run.method, tolerance, fmt::format("{:.1e}", run.error),
                fmt::format("{:.0f}", 1e9 * run.time),
-               fmt::format("{:.1f}", per_revolution(bench, cost.steps)),
-               fmt::format("{:.1f}", per_revolution(bench, cost.evaluations))});
+               fmt::format("{:.1f}", static_cast<double>(run.steps()) / revolutions),
+               fmt::format("{:.1f}", static_cast<double>(run.evaluations()) / revolutions)});
   }
   std::string text = table.text() + (failures.empty() ? "" : "\n" + failures);
   text += fmt::format(
@@ -171,43 +113,12 @@ std::string text_of(const Bench& bench, const Model& model) {
         "nothing\n",
         reference.error);
   }
-  if (bench.was_stopped) text += "  stopped before the end\n";
+  if (!bench.is_whole) text += "  stopped before the end\n";
   return text;
 }
 
-/// Numbers over methods and tolerances.
-void write(ResultWriter& file, const Bench& bench, const Model& model) {
-  const BenchOptions& options = bench.options;
-  const auto columns = static_cast<Eigen::Index>(options.tolerances.size());
-  const auto rows = static_cast<Eigen::Index>(options.methods.size());
-  const Mat nothing = Mat::Constant(rows, columns, std::numeric_limits<double>::quiet_NaN());
-  Mat error = nothing, time = nothing, steps = nothing, evaluations = nothing;
-  for (std::size_t i = 0; i < bench.runs.size(); ++i) {
-    const TimedRun& run = bench.runs[i];
-    if (run.has_failed()) continue;
-    const auto row = static_cast<Eigen::Index>(i) / columns;
-    const auto column = static_cast<Eigen::Index>(i) % columns;
-    error(row, column) = run.error;
-    time(row, column) = run.time;
-    steps(row, column) = per_revolution(bench, run.integration.cost.steps);
-    evaluations(row, column) = per_revolution(bench, run.integration.cost.evaluations);
-  }
-  file.attribute("/", "speed", model.speed);
-  file.dataset("/bench/method", options.methods, {"", "method", {""}});
-  file.dataset("/bench/tolerance", options.tolerances, {"", "tolerance of a step", {""}});
-  const std::vector<std::string> axes{"/bench/method", "/bench/tolerance"};
-  file.dataset("/bench/error", error, {"", "largest error at the end", axes});
-  file.dataset("/bench/time", time, {"s", "processor time per revolution", axes});
-  file.dataset("/bench/steps", steps, {"", "steps per revolution", axes});
-  file.dataset("/bench/evaluations", evaluations, {"", "evaluations per revolution", axes});
-  file.attribute("/bench", "revolutions", static_cast<double>(options.revolutions));
-  file.attribute("/bench", "reference", bench.reference.made_by);
-  file.attribute("/bench", "reference_error", bench.reference.error);
-  file.attribute("/bench", "growth", bench.reference.growth);
-}
-
-Figure figure_of(const Bench& bench, const Model& model) {
-  const BenchOptions& options = bench.options;
+Figure figure_of(const WorkPrecisionStudy& bench, const Model& model) {
+  const WorkPrecisionOptions& options = bench.options;
   WorkPrecision data{.title = model.title.empty() ? "Speed against error" : model.title,
                      .methods = options.methods,
                      .tolerances = options.tolerances};
@@ -232,17 +143,20 @@ Report run_bench(const Invocation& call) {
   require_speed(model);
   const auto file = call.result_file(model);
   install_interrupt_handler();
-  const Bench bench = run_all(call, model);
+  const WorkPrecisionStudy bench = study_of(call, model);
 
-  Report report{.record = begin_record(call, model), .status = bench.was_stopped ? 130 : 0};
-  add(report.record, bench);
+  Report report{.record = begin_record(call, model), .status = bench.is_whole ? 0 : 130};
+  report.record.merge(record_of(bench));
   report.text = "Speed against error" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
                 text_of(bench, model);
   if (call.has("svg")) {
     replace_file(call.given.at("svg"), svg_of(figure_of(bench, model)), call.picture_replaces());
     report.text += fmt::format("\n  picture: {}\n", call.given.at("svg"));
   }
-  if (file) write(*file, bench, model);
+  if (file) {
+    file->attribute("/", "speed", model.speed);
+    write_result(*file, bench);
+  }
   commit(call, file.get(), report);
   return report;
 }

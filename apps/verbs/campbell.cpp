@@ -12,41 +12,10 @@
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"
 #include "libfe/modes.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {
-
-void write_campbell(ResultWriter& file, const Campbell& diagram) {
-  const auto nb = static_cast<Eigen::Index>(diagram.branches.size());
-  const auto ns = static_cast<Eigen::Index>(diagram.speeds.size());
-  Mat frequency(nb, ns), decrement(nb, ns);
-  std::vector<std::string> whirl;
-  std::vector<int> numbers, crossing_branch;
-  std::vector<double> crossing_speed;
-  for (Eigen::Index b = 0; b < nb; ++b) {
-    const CampbellBranch& branch = diagram.branches[static_cast<std::size_t>(b)];
-    frequency.row(b) = Eigen::Map<const Eigen::RowVectorXd>(branch.frequency.data(), ns);
-    decrement.row(b) = Eigen::Map<const Eigen::RowVectorXd>(branch.log_decrement.data(), ns);
-    whirl.emplace_back(name_of(branch.whirl));
-    numbers.push_back(static_cast<int>(b) + 1);
-  }
-  for (const Crossing& c : diagram.crossings) {
-    crossing_speed.push_back(c.speed);
-    crossing_branch.push_back(c.branch + 1);
-  }
-  file.dataset("/campbell/speed", diagram.speeds, {"rad/s", "rotor speed", {""}});
-  file.dataset("/campbell/branch", numbers, {"", "branch", {""}});
-  const std::vector<std::string> axes{"/campbell/branch", "/campbell/speed"};
-  file.dataset("/campbell/frequency", frequency, {"rad/s", "damped natural frequency", axes});
-  file.dataset("/campbell/log_decrement", decrement, {"", "logarithmic decrement", axes});
-  file.dataset("/campbell/whirl", whirl, {"", "sense of whirl", {"/campbell/branch"}});
-  if (!crossing_speed.empty()) {
-    file.dataset("/campbell/critical_speed", crossing_speed, {"rad/s", "critical speed", {""}});
-    file.dataset("/campbell/critical_branch", crossing_branch,
-                 {"", "branch that is critical", {""}});
-  }
-}
 
 namespace {
 
@@ -112,30 +81,7 @@ Report run_campbell(const Invocation& call) {
   const Campbell diagram = campbell(assembler, speeds, count);
 
   Report report{.record = begin_record(call, model)};
-  const auto in_rpm = [](std::vector<double> values) {
-    for (double& v : values) v /= rpm;
-    return values;
-  };
-  Record branches = Record::array(), criticals = Record::array();
-  int number = 0;
-  for (const CampbellBranch& b : diagram.branches) {
-    Record branch;
-    branch.set("number", ++number).set("whirl", name_of(b.whirl));
-    branch.set("frequency_rpm", in_rpm(b.frequency)).set("log_decrement", b.log_decrement);
-    branches.add(branch);
-  }
-  for (const Crossing& c : diagram.crossings) criticals.add(c.speed / rpm);
-  report.record.set("speeds_rpm", in_rpm(speeds))
-      .set("branches", branches)
-      .set("criticals_rpm", criticals);
-  Record gaps = Record::array();
-  for (const CampbellGap& gap : diagram.gaps) {
-    Record r;
-    r.set("speed_rpm", gap.speed / rpm).set("why", gap.why);
-    gaps.add(r);
-  }
-  if (!diagram.gaps.empty()) report.record.set("gaps", gaps);
-
+  report.record.merge(record_of(diagram));
   report.text = campbell_text(diagram);
   if (diagram.crossings.empty()) {
     report.text += "\n  No branch meets the line frequency = speed in this range.\n";
@@ -152,7 +98,7 @@ Report run_campbell(const Invocation& call) {
   note_left_out(model, report);
   note_tables(model, speeds.front(), speeds.back(), report);
   if (const auto file = call.result_file(model)) {
-    write_campbell(*file, diagram);
+    write_result(*file, diagram);
     commit(call, file.get(), report);
   }
   return report;

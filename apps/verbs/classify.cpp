@@ -1,5 +1,3 @@
-#include "libdyn/studies/classify.hpp"
-
 #include <fmt/format.h>
 
 #include "apps/invocation.hpp"
@@ -9,7 +7,8 @@
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libdyn/studies/classification_result.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {
@@ -103,17 +102,8 @@ Report run_classify(const Invocation& call) {
   note_tables(call, model, report);
   const bool is_known = report.status == 0;
   Record& r = report.record;
-  r.set("motion", is_known ? Record(name_of(c.kind)) : Record(nullptr));
-  r.set("period_revs", is_known && c.period > 0 ? Record(c.period) : Record(nullptr));
-  r.set("lyapunov_per_rev", std::vector<double>(c.exponents.begin(), c.exponents.end()));
-  r.set("zero_per_rev", c.zero)
-      .set("resolution_per_rev", c.resolution)
-      .set("is_proven", c.is_proven);
-  r.set("section_dimension", c.section_dimension);
-  r.set("settles_after_revs",
-        is_known && c.settles_after > 0 ? Record(c.settles_after) : Record(nullptr));
-  r.set("residual", c.is_proven ? Record(c.residual) : Record(nullptr));
-  r.set("impacts", c.impacts()).set("revs", c.revolutions);
+  const ClassificationResult result{c, scene.contacts.period()};
+  r.merge(record_of(result));
   add_contacts(r, c.contacts, c.revolutions);
   add_reduction(r, scene);
   if (!c.diagnosis.empty()) r.set("failure", c.diagnosis);
@@ -129,12 +119,7 @@ Report run_classify(const Invocation& call) {
   }
   if (file) {
     write_end(*file, model, scene, c.end);
-    if (is_known) {
-      file->dataset("/classify/exponent", Vec(c.exponents / scene.contacts.period()),
-                    {"1/s", "Lyapunov exponents, descending", {""}});
-      file->attribute("/classify", "motion", std::string(name_of(c.kind)));
-      file->attribute("/classify", "period_revolutions", c.period);
-    }
+    if (is_known) write_result(*file, result);
   }
   commit(call, file.get(), report);
   return report;

@@ -7,7 +7,7 @@
 #include "libbase/error.hpp"
 #include "libfe/modes.hpp"
 #include "libio/figures/figures.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/value_range.hpp"
 
@@ -17,33 +17,6 @@ Record begin_record(const Invocation& call, const Model& model) {
   Record record;
   record.set("model", call.file).set("version", version).set("speed_rpm", model.speed / rpm);
   return record;
-}
-
-void add_modes(Record& record, const Modes& modes) {
-  const auto entry = [](const Mode& mode, int number) {
-    Record r;
-    r.set("number", number)
-        .set("frequency_rpm", mode.frequency() / rpm)
-        .set("damping_ratio", mode.damping_ratio())
-        .set("log_decrement", mode.log_decrement())
-        .set("heavily_damped", mode.damping_ratio() > heavy_damping)
-        .set("whirl", name_of(mode.whirl))
-        .set("eigenvalue", mode.lambda)
-        .set("kappa", mode.kappa);
-    return r;
-  };
-  Record list = Record::array(), rigid = Record::array(), roots = Record::array();
-  int number = 0;
-  for (const Mode& mode : modes.oscillatory) list.add(entry(mode, ++number));
-  number = 0;
-  for (const Mode& mode : modes.rigid_body) rigid.add(entry(mode, ++number));
-  for (const Complex& root : modes.overdamped) roots.add(root.real());
-  Record overdamped = Record::array();
-  for (const Complex& root : modes.overdamped) overdamped.add(root);
-  record.set("modes", list)
-      .set("real_roots", roots)
-      .set("overdamped", overdamped)
-      .set("rigid_body", rigid);
 }
 
 std::string fixed(double value, int digits) {
@@ -78,62 +51,8 @@ std::string modes_table(const Modes& modes) {
   return text;
 }
 
-void write_modes(ResultWriter& file, const Modes& modes, const DofMap& dofs) {
-  const auto n = static_cast<Eigen::Index>(modes.oscillatory.size());
-  CVec lambda(n);
-  Vec frequency(n), damping(n), decrement(n), kappa(n);
-  CMat shapes(dofs.full_size, n);
-  std::vector<std::string> whirl;
-  std::vector<int> number;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Mode& m = modes.oscillatory[static_cast<std::size_t>(i)];
-    lambda(i) = m.lambda;
-    frequency(i) = m.frequency();
-    damping(i) = m.damping_ratio();
-    decrement(i) = m.log_decrement();
-    kappa(i) = m.kappa;
-    shapes.col(i) = dofs.T * m.shape;
-    whirl.emplace_back(name_of(m.whirl));
-    number.push_back(static_cast<int>(i) + 1);
-  }
-  file.dataset("/modes/number", number, {"", "mode", {""}});
-  const std::vector<std::string> per_mode{"/modes/number"};
-  file.dataset("/modes/eigenvalue", lambda, {"rad/s", "eigenvalue", per_mode});
-  file.dataset("/modes/frequency", frequency, {"rad/s", "damped natural frequency", per_mode});
-  file.dataset("/modes/damping_ratio", damping, {"", "damping ratio", per_mode});
-  file.dataset("/modes/log_decrement", decrement, {"", "logarithmic decrement", per_mode});
-  file.dataset("/modes/kappa", kappa,
-               {"", "signed axis ratio where the mode moves most", per_mode});
-  file.dataset("/modes/whirl", whirl, {"", "sense of whirl", per_mode});
-  file.dataset("/modes/shape", shapes,
-               {"m, rad",
-                "complex shape: x, y, theta_x, theta_y of every node, then of every body",
-                {"", "/modes/number"}});
-}
-
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler) {
-  std::vector<std::string> names;
-  Vec z(assembler.mesh().nodes());
-  for (int i = 0; i < assembler.mesh().nodes(); ++i) {
-    z(i) = assembler.mesh().z[static_cast<std::size_t>(i)];
-    names.emplace_back();
-  }
-  for (const NamedPoint& p : named_points(model, assembler)) {
-    if (p.point.kind == Point::Kind::node) names[static_cast<std::size_t>(p.point.index)] = p.name;
-  }
-  if (z.size() > 0) {
-    file.dataset("/points/z", z, {"m", "position of the nodes along the shaft", {""}});
-    file.dataset("/points/node_name", names, {"", "what is at the nodes", {""}});
-  }
-  std::vector<std::string> bodies;
-  for (const Body& body : model.structure.bodies) bodies.push_back(body.name);
-  if (!bodies.empty()) file.dataset("/points/body_name", bodies, {"", "bodies", {""}});
-}
-
-std::string point_label(const NamedPoint& point) {
-  if (point.node() == 0) return point.name;
-  return point.name.empty() ? fmt::format("{}", point.node())
-                            : fmt::format("{} {}", point.node(), point.name);
+  write_result(file, point_names(model, assembler));
 }
 
 void set_frequency_unit(const Invocation& call, ResultView& result) {

@@ -7,7 +7,6 @@
 #include "apps/invocation.hpp"
 #include "libbase/constants.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/campbell.hpp"
 #include "libfe/modes.hpp"
 #include "libio/results/motion_window.hpp"
 
@@ -19,17 +18,8 @@ struct ResultView;
 /// Record with the entries that all verbs have: model, version, speed_rpm.
 Record begin_record(const Invocation& call, const Model& model);
 
-/// `modes`, `real_roots`, `rigid_body` entries.
-void add_modes(Record& record, const Modes& modes);
-
 /// Table of modes for people.
 std::string modes_table(const Modes& modes);
-
-/// Group /modes of a result file: eigenvalues, shapes at all points.
-void write_modes(ResultWriter& file, const Modes& modes, const DofMap& dofs);
-
-/// Group /campbell of a result file.
-void write_campbell(ResultWriter& file, const Campbell& diagram);
 
 /// Group /points of a result file: nodes and bodies with their positions and names.
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);
@@ -37,8 +27,9 @@ void write_points(ResultWriter& file, const Model& model, const Assembler& assem
 /// A number with so many digits behind the point, zero without a sign.
 std::string fixed(double value, int digits);
 
-/// "7 seal", "stator".
-std::string point_label(const NamedPoint& point);
+inline std::string point_label(const NamedPoint& point) {
+  return point.label();
+}
 
 /// Shows frequencies in the unit of --frequency, if it is given.
 void set_frequency_unit(const Invocation& call, ResultView& result);

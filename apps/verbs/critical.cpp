@@ -11,69 +11,60 @@
 #include "apps/verbs/notes.hpp"
 #include "libbase/error.hpp"
 #include "libfe/modes.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {
 
 namespace {
 
-Report run_critical(const Invocation& call) {
-  const Model model = call.model();
-  const Assembler assembler(model.structure);
+std::string criticals_text(const std::vector<Critical>& criticals) {
+  Table table(
+      {"number", "speed [rpm]", "[Hz]", "damped [rpm]", "damping ratio", "whirl", "excitation"});
+  int number = 0;
+  bool has_heavy = false;
+  for (const Critical& c : criticals) {
+    const bool is_met = std::isfinite(c.damped_speed);
+    has_heavy = has_heavy || c.is_heavily_damped();
+    table.row({fmt::format("{}{}", ++number, c.is_heavily_damped() ? heavy_mark : ""),
+               fmt::format("{:.2f}", c.speed / rpm), fmt::format("{:.3f}", c.speed / rpm / 60.0),
+               is_met ? fmt::format("{:.2f}", c.damped_speed / rpm) : "-",
+               is_met ? fixed(c.damping_ratio, 5) : "-", std::string(name_of(c.whirl)),
+               c.excitation()});
+  }
+  return "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" +
+         table.text() + (has_heavy ? heavy_legend : "");
+}
+
+CriticalOptions options_of(const Invocation& call) {
   CriticalOptions options;
   options.count = static_cast<int>(call.integer("modes"));
   options.order = call.number("order", "");
   if (!(options.order > 0.0))
     throw ModelError({"--order " + call.text("order")}, "", "expected a number above zero");
-  const std::vector<Critical> criticals = critical_speeds(assembler, options);
+  return options;
+}
+
+Report run_critical(const Invocation& call) {
+  const Model model = call.model();
+  const CriticalOptions options = options_of(call);
+  const CriticalSpeeds found{critical_speeds(Assembler(model.structure), options), options.order};
 
   Report report{.record = begin_record(call, model)};
-  const std::string excitation = fmt::format("{:g}x", options.order);
-  Record list = Record::array();
-  Table table(
-      {"number", "speed [rpm]", "[Hz]", "damped [rpm]", "damping ratio", "whirl", "excitation"});
-  double lowest = model.speed, highest = model.speed;
-  bool has_heavy = false;
-  for (std::size_t i = 0; i < criticals.size(); ++i) {
-    const Critical& c = criticals[i];
-    const bool is_heavy = c.damping_ratio > heavy_damping, is_met = std::isfinite(c.damped_speed);
-    has_heavy = has_heavy || is_heavy;
-    lowest = i == 0 ? c.speed : std::min(lowest, c.speed);
-    highest = i == 0 ? c.speed : std::max(highest, c.speed);
-    Record r;
-    r.set("speed_rpm", c.speed / rpm).set("whirl", name_of(c.whirl)).set("excitation", excitation);
-    r.set("damped_speed_rpm", c.damped_speed / rpm);
-    r.set("damping_ratio", c.damping_ratio).set("heavily_damped", is_heavy);
-    if (!c.note.empty()) r.set("note", c.note);
-    list.add(r);
-    table.row({fmt::format("{}{}", i + 1, is_heavy ? heavy_mark : ""),
-               fmt::format("{:.2f}", c.speed / rpm), fmt::format("{:.3f}", c.speed / rpm / 60.0),
-               is_met ? fmt::format("{:.2f}", c.damped_speed / rpm) : "-",
-               is_met ? fixed(c.damping_ratio, 5) : "-", std::string(name_of(c.whirl)),
-               excitation});
-  }
-  report.record.set("criticals", list);
-  report.text =
-      "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" +
-      table.text() + (has_heavy ? heavy_legend : "");
+  report.record.merge(record_of(found));
+  report.text = criticals_text(found.criticals);
   note_left_out(model, report);
+  double lowest = model.speed, highest = model.speed;
+  if (!found.criticals.empty()) {
+    const auto [low, high] =
+        std::minmax_element(found.criticals.begin(), found.criticals.end(),
+                            [](const Critical& a, const Critical& b) { return a.speed < b.speed; });
+    lowest = low->speed;
+    highest = high->speed;
+  }
   note_tables(model, lowest, highest, report);
   if (const auto file = call.result_file(model)) {
-    std::vector<double> speed, damped, damping;
-    std::vector<std::string> whirl;
-    for (const Critical& c : criticals) {
-      speed.push_back(c.speed);
-      damped.push_back(c.damped_speed);
-      damping.push_back(c.damping_ratio);
-      whirl.emplace_back(name_of(c.whirl));
-    }
-    file->dataset("/critical/speed", speed, {"rad/s", "undamped critical speed", {""}});
-    file->dataset("/critical/damped_speed", damped, {"rad/s", "damped critical speed", {""}});
-    file->dataset("/critical/damping_ratio", damping,
-                  {"", "damping ratio at the damped critical speed", {""}});
-    file->dataset("/critical/whirl", whirl, {"", "sense of whirl", {""}});
-    file->attribute("/critical", "order", options.order);
+    write_result(*file, found);
     commit(call, file.get(), report);
   }
   return report;

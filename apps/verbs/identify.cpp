@@ -7,7 +7,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 
@@ -15,43 +15,10 @@ namespace whirl {
 
 namespace {
 
-Record record_of(const Combination& combination) {
-  Record terms = Record::array();
-  for (const Combination::Term& t : combination.terms) {
-    terms.add(Record().set("times", t.times).set("frequency_rpm", t.frequency / rpm));
-  }
-  return terms;
-}
-
-Record record_of(const IdentifiedPeak& peak, double Omega) {
-  Record r;
-  r.set("frequency_rpm", peak.frequency / rpm)
-      .set("amplitude_m", peak.amplitude)
-      .set("mac", peak.mac);
-  r.set("mode", peak.mac.empty() ? Record(nullptr) : Record(peak.mode + 1))
-      .set("shift", peak.shift);
-  r.set("frequency_rotating_rpm", (peak.frequency - Omega) / rpm);
-  r.set("combination", peak.combination ? record_of(*peak.combination) : Record(nullptr));
-  return r;
-}
-
 /// A frequency [rad/s] in rpm with its sign; next to nothing is +0.0.
 std::string signed_rpm(double frequency) {
   const std::string text = fmt::format("{:+.1f}", frequency / rpm);
   return text == "-0.0" ? "+0.0" : text;
-}
-
-/// "2 x 2377.2 - 4430.0", in rpm.
-std::string combination_text(const Combination& combination) {
-  std::string text;
-  for (const Combination::Term& t : combination.terms) {
-    const bool is_minus = t.times < 0;
-    text += text.empty() ? (is_minus ? "-" : "") : is_minus ? " - " : " + ";
-    if (std::abs(t.times) > 1) text += fmt::format("{} x ", std::abs(t.times));
-    text += t.frequency < 0.0 ? fmt::format("({:.1f})", t.frequency / rpm)
-                              : fmt::format("{:.1f}", t.frequency / rpm);
-  }
-  return text;
 }
 
 /// What a peak is beside the mode of its shape: forced, a combination, or that mode, shifted.
@@ -60,7 +27,7 @@ std::string shift_text(const IdentifiedPeak& p, const Identification& id, double
   if (is_forced(p.frequency, Omega, id.bin)) return "forced (1X)";
   const std::string shift = fmt::format("{:+.1f} %", 100.0 * p.shift);
   if (!p.combination) return shift;
-  const std::string made_of = combination_text(*p.combination);
+  const std::string made_of = p.combination->text();
   return std::abs(p.shift) > far ? made_of : shift + ", " + made_of;
 }
 
@@ -114,22 +81,9 @@ Report run_identify(const Invocation& call) {
         .set("resonance", nullptr);
   } else {
     const Identification id = identify(model, run.scene, run.simulation.recording, options);
-    Record peaks = Record::array();
-    for (const IdentifiedPeak& p : id.peaks) peaks.add(record_of(p, model.speed));
-    report.record.set("peaks", peaks);
-    Modes modes;
-    modes.oscillatory = id.modes;
-    add_modes(report.record, modes);
-    if (id.resonance) {
-      Record r;
-      r.set("ratio", Record(Record::Array{id.resonance->p, id.resonance->q}))
-          .set("error", id.resonance->error);
-      r.set("frequencies_rpm",
-            std::vector<double>{id.resonance->high / rpm, id.resonance->low / rpm});
-      report.record.set("resonance", r);
-    } else {
-      report.record.set("resonance", nullptr);
-    }
+    report.record.merge(record_of(id));
+    const ModesAtPoints modes({.oscillatory = id.modes}, run.scene.system.dofs);
+    report.record.merge(record_of(modes));
     report.text += fmt::format(
         "\nMAC of deflection shapes (rows) against complex modes at {:.6g} rpm{} (columns: number, "
         "whirl, rpm)\n\n{}",
@@ -142,28 +96,8 @@ Report run_identify(const Invocation& call) {
                       id.resonance->q, 100.0 * id.resonance->error);
     }
     if (file) {
-      write_modes(*file, modes, run.scene.system.dofs);
-      const auto np = static_cast<Eigen::Index>(id.peaks.size()),
-                 nm = static_cast<Eigen::Index>(id.modes.size());
-      Mat mac(np, nm);
-      Vec frequency(np), amplitude(np);
-      std::vector<std::string> combination;
-      for (Eigen::Index i = 0; i < np; ++i) {
-        const IdentifiedPeak& p = id.peaks[static_cast<std::size_t>(i)];
-        frequency(i) = p.frequency;
-        amplitude(i) = p.amplitude;
-        combination.push_back(p.combination ? combination_text(*p.combination) : "");
-        mac.row(i) = Eigen::Map<const Eigen::RowVectorXd>(p.mac.data(), nm);
-      }
-      if (np > 0) {
-        file->dataset("/mac/frequency", frequency, {"rad/s", "signed frequency of the peak", {""}});
-        file->dataset("/mac/amplitude", amplitude,
-                      {"m", "largest radius at the peak", {"/mac/frequency"}});
-        file->dataset("/mac/combination", combination,
-                      {"", "stronger peaks that make up the frequency [rpm]", {"/mac/frequency"}});
-        file->dataset("/mac/mac", mac,
-                      {"", "modal assurance criterion", {"/mac/frequency", "/modes/number"}});
-      }
+      write_result(*file, modes);
+      write_result(*file, id);
     }
   }
   commit(call, file.get(), report);

@@ -4,7 +4,7 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/columns.hpp"
 
 namespace whirl {
 
@@ -14,10 +14,11 @@ Report run_modes(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
   const System system = assembler.at(model.speed);
-  const Modes modes = complex_modes(system, static_cast<int>(call.integer("modes")));
+  const ModesAtPoints modes(complex_modes(system, static_cast<int>(call.integer("modes"))),
+                            system.dofs);
 
   Report report{.record = begin_record(call, model)};
-  add_modes(report.record, modes);
+  report.record.merge(record_of(modes));
   report.text =
       fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, modes_table(modes));
   note_left_out(model, report);
@@ -25,7 +26,7 @@ Report run_modes(const Invocation& call) {
   if (const auto file = call.result_file(model)) {
     file->attribute("/", "speed", model.speed);
     write_points(*file, model, assembler);
-    write_modes(*file, modes, system.dofs);
+    write_result(*file, modes);
     commit(call, file.get(), report);
   }
   return report;

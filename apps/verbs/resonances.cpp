@@ -1,8 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <optional>
 
 #include "apps/invocation.hpp"
 #include "apps/progress.hpp"
@@ -13,204 +12,131 @@
 #include "apps/verbs/simulation.hpp"
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/motions/identify.hpp"
-#include "libdyn/studies/bouncing.hpp"
-#include "libfe/resonance.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libdyn/studies/resonance_study.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {
 
 namespace {
 
-/// Orbit of a mode in each contact, by the largest of the rotor.
-std::vector<double> sizes_at_contacts(const Model& model, const Assembler& assembler,
-                                      const System& system, const Mode& mode) {
-  std::vector<double> sizes;
-  for (const Contact& c : model.contacts) {
-    const Eigen::Vector2cd d = closing_rows(c, assembler, system.dofs).cast<Complex>() * mode.shape;
-    sizes.push_back(Orbit(d(0), d(1)).major());
-  }
-  return sizes;
-}
-
-/// A resonance, and what the model makes of it.
-struct Place {
-  InternalResonance resonance;
-  std::vector<double> fast_size, slow_size;  ///< at the contacts
-  std::optional<Bouncing> bouncing;
-};
-
 std::string branch_name(const Campbell& diagram, int branch) {
   return fmt::format("{} {}", branch + 1,
                      name_of(diagram.branches[static_cast<std::size_t>(branch)].whirl));
 }
 
-std::string sizes_text(const std::vector<double>& sizes) {
-  std::string text;
-  for (const double s : sizes) text += fmt::format("{}{:.2f}", text.empty() ? "" : " ", s);
-  return text;
+/// Sizes of the orbits of both modes in the contacts: "0.10 0.32 | 0.95 0.04".
+std::string sizes_text(const std::vector<ContactOrbits>& contacts) {
+  std::string fast, slow;
+  for (const ContactOrbits& c : contacts) {
+    fast += fmt::format("{}{:.2f}", fast.empty() ? "" : " ", c.fast);
+    slow += fmt::format("{}{:.2f}", slow.empty() ? "" : " ", c.slow);
+  }
+  return fast + " | " + slow;
 }
 
-void write(ResultWriter& file, const std::vector<Place>& places) {
-  std::vector<double> speed, frequency, bouncing_speed, period;
-  std::vector<int> p, q, fast, slow, stable;
-  for (const Place& place : places) {
-    const InternalResonance& r = place.resonance;
-    speed.push_back(r.speed);
-    frequency.push_back(r.frequency);
-    p.push_back(r.p);
-    q.push_back(r.q);
-    fast.push_back(r.fast + 1);
-    slow.push_back(r.slow + 1);
-    const auto& b = place.bouncing;
-    bouncing_speed.push_back(b ? b->speed : nan);
-    period.push_back(b ? b->turns : nan);
-    stable.push_back(!b ? -1 : b->cycle.is_stable() ? 1 : 0);
+std::string bouncing_text(const std::optional<Bouncing>& b) {
+  if (!b) return "none found";
+  return fmt::format("{} at {:.1f} rpm, {:.4f} revolutions",
+                     b->cycle.is_stable() ? "stable" : "unstable", b->speed / rpm, b->turns);
+}
+
+Record bouncing_record(const std::optional<Bouncing>& b) {
+  if (!b) return nullptr;
+  Record record;
+  record.set("speed_rpm", b->speed / rpm).set("period_revs", b->turns);
+  return record.set("stable", b->cycle.is_stable());
+}
+
+std::string places_text(const ResonanceStudy& study, bool confirms) {
+  if (study.places.empty()) return "  none between these speeds\n";
+  const std::vector<ContactOrbits>& contacts = study.places.front().contacts;
+  std::vector<std::string> head{"speed [rpm]", "ratio", "faster mode", "slower mode",
+                                "seen from the rotor [rpm]"};
+  if (!contacts.empty()) head.emplace_back("at the contacts");
+  if (confirms) head.emplace_back("bouncing");
+  Table table(head);
+  for (const ResonancePlace& r : study.places) {
+    std::vector<std::string> row{
+        fmt::format("{:.1f}", r.speed / rpm), fmt::format("{}:{}", r.p, r.q),
+        branch_name(study.diagram, r.fast), branch_name(study.diagram, r.slow),
+        fmt::format("{:.1f}, {:.1f}", r.p * r.frequency / rpm, r.q * r.frequency / rpm)};
+    if (!contacts.empty()) row.push_back(sizes_text(r.contacts));
+    if (confirms) row.push_back(bouncing_text(r.bouncing));
+    table.row(row);
   }
-  if (places.empty()) return;
-  const std::vector<std::string> axes{"/resonances/speed"};
-  file.dataset("/resonances/speed", speed, {"rad/s", "speed of the resonance", {""}});
-  file.dataset("/resonances/p", p, {"", "of the ratio p:q, of the faster mode", axes});
-  file.dataset("/resonances/q", q, {"", "of the ratio p:q, of the slower mode", axes});
-  file.dataset("/resonances/fast", fast, {"", "branch of the faster mode", axes});
-  file.dataset("/resonances/slow", slow, {"", "branch of the slower mode", axes});
-  file.dataset("/resonances/frequency", frequency,
-               {"rad/s", "of both modes over p and q, seen from the rotor", axes});
-  file.dataset("/resonances/bouncing_speed", bouncing_speed,
-               {"rad/s", "where a bouncing motion was found", axes});
-  file.dataset("/resonances/bouncing_period", period,
-               {"", "its period seen from the rotor [revolutions]", axes});
-  file.dataset("/resonances/bouncing_stable", stable,
-               {"", "1 stable, 0 unstable, -1 none found or not looked for", axes});
+  std::string names;
+  for (const ContactOrbits& c : contacts) names += (names.empty() ? "" : ", ") + c.name;
+  if (names.empty()) return table.text();
+  return table.text() +
+         fmt::format(
+             "\n  at the contacts ({}): orbits of both modes by their largest on the rotor\n",
+             names);
+}
+
+ResonanceOptions options_of(const Invocation& call, const Model& model) {
+  ResonanceOptions options{
+      .speeds = call.speeds(model),
+      .modes = static_cast<int>(call.integer("modes")),
+      .largest = static_cast<int>(call.integer("largest")),
+      .confirms = call.has("confirm"),
+      .search = {.starts = static_cast<int>(call.integer("starts")),
+                 .seed = static_cast<std::uint64_t>(call.integer("seed"))},
+  };
+  if (options.confirms && model.contacts.empty()) {
+    throw ModelError({"--confirm"}, "", "expected a model with contacts to bounce in");
+  }
+  return options;
+}
+
+/// The result file; a motion that bounces is its end, so that others begin there.
+void write(ResultWriter& file, const Model& model, const Assembler& assembler,
+           const ResonanceStudy& study) {
+  const auto first = std::find_if(study.places.begin(), study.places.end(),
+                                  [](const auto& place) { return place.bouncing.has_value(); });
+  if (first != study.places.end()) {
+    MotionState on_it;
+    on_it.y = first->bouncing->cycle.state;
+    write_end(file, model, *scene_at_speed(model, first->bouncing->speed), on_it);
+  } else {
+    write_points(file, model, assembler);
+  }
+  write_result(file, study.diagram);
+  write_result(file, study);
 }
 
 Report run_resonances(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
-  const std::vector<double> speeds = call.speeds(model);
-  const int count = static_cast<int>(call.integer("modes"));
-  const int largest = static_cast<int>(call.integer("largest"));
-  const bool confirms = call.has("confirm");
-  if (confirms && model.contacts.empty()) {
-    throw ModelError({"--confirm"}, "", "expected a model with contacts to bounce in");
-  }
-  const BouncingOptions search{.starts = static_cast<int>(call.integer("starts")),
-                               .seed = static_cast<std::uint64_t>(call.integer("seed"))};
+  const ResonanceOptions options = options_of(call, model);
   const auto file = call.result_file(model);
-  const Campbell diagram = campbell(assembler, speeds, count);
-  const ModeFinder finder(assembler);
+  if (options.confirms) install_interrupt_handler();
+  std::optional<Progress> progress;
+  const ResonanceStudy study = resonance_study(
+      model, assembler, options,
+      {.progress =
+           [&](long done, long total) {
+             if (!progress) {
+               progress.emplace("looking for bouncing motions", total, call.shows_progress);
+             }
+             progress->update(done);
+           },
+       .is_stopped = is_interrupted});
 
-  std::vector<Place> places;
-  for (const InternalResonance& r : internal_resonances(diagram, largest)) {
-    Place place{.resonance = r};
-    const Modes modes = finder.at(r.speed, count + 2);
-    const System system = finder.system(r.speed);
-    const auto sizes = [&](int branch, double seen) {
-      const Whirl whirl = diagram.branches[static_cast<std::size_t>(branch)].whirl;
-      const Mode* nearest = nullptr;
-      double distance = std::numeric_limits<double>::infinity();
-      for (const Mode& m : modes.oscillatory) {
-        const double sense = whirl == Whirl::backward ? -1.0 : 1.0;
-        const double off = std::abs(std::abs(r.speed - sense * m.frequency()) - seen);
-        if (m.whirl == whirl && off < distance) {
-          nearest = &m;
-          distance = off;
-        }
-      }
-      return nearest ? sizes_at_contacts(model, assembler, system, *nearest)
-                     : std::vector<double>(model.contacts.size(), nan);
-    };
-    place.fast_size = sizes(r.fast, r.p * r.frequency);
-    place.slow_size = sizes(r.slow, r.q * r.frequency);
-    places.push_back(std::move(place));
-  }
-  const auto scene_at = [&](double speed) {
-    Model at = model;
-    at.speed = speed;
-    at.has_speed = true;
-    return std::make_shared<const Scene>(make_scene(at, ReductionEstimate::no));
-  };
-  int status = 0;
-  if (confirms) {
-    install_interrupt_handler();
-    Progress progress("looking for bouncing motions", std::ssize(places), call.shows_progress);
-    for (std::size_t i = 0; i < places.size() && status == 0; ++i) {
-      places[i].bouncing = find_bouncing(scene_at, diagram, places[i].resonance, search);
-      progress.update(static_cast<long>(i) + 1);
-      if (is_interrupted()) status = 130;
-    }
-  }
-
-  Report report{.record = begin_record(call, model), .status = status};
+  Report report{.record = begin_record(call, model), .status = study.is_whole ? 0 : 130};
   Record list = Record::array();
-  std::vector<std::string> head{"speed [rpm]", "ratio", "faster mode", "slower mode",
-                                "seen from the rotor [rpm]"};
-  if (!model.contacts.empty()) head.push_back("at the contacts");
-  if (confirms) head.push_back("bouncing");
-  Table table(head);
-  for (const Place& place : places) {
-    const InternalResonance& r = place.resonance;
-    Record entry, contacts = Record::array();
-    entry.set("speed_rpm", r.speed / rpm).set("p", r.p).set("q", r.q);
-    entry.set("fast", r.fast + 1).set("slow", r.slow + 1);
-    entry.set("frequency_rpm", r.frequency / rpm);
-    for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-      Record at;
-      at.set("name", model.contacts[c].name);
-      at.set("fast", place.fast_size[c]).set("slow", place.slow_size[c]);
-      contacts.add(at);
-    }
-    entry.set("contacts", contacts);
-    std::vector<std::string> row{
-        fmt::format("{:.1f}", r.speed / rpm), fmt::format("{}:{}", r.p, r.q),
-        branch_name(diagram, r.fast), branch_name(diagram, r.slow),
-        fmt::format("{:.1f}, {:.1f}", r.p * r.frequency / rpm, r.q * r.frequency / rpm)};
-    if (!model.contacts.empty()) {
-      row.push_back(sizes_text(place.fast_size) + " | " + sizes_text(place.slow_size));
-    }
-    if (confirms) {
-      Record bouncing(nullptr);
-      std::string text = "none found";
-      if (const auto& b = place.bouncing) {
-        bouncing = Record();
-        bouncing.set("speed_rpm", b->speed / rpm).set("period_revs", b->turns);
-        bouncing.set("stable", b->cycle.is_stable());
-        text = fmt::format("{} at {:.1f} rpm, {:.4f} revolutions",
-                           b->cycle.is_stable() ? "stable" : "unstable", b->speed / rpm, b->turns);
-      }
-      entry.set("bouncing", bouncing);
-      row.push_back(text);
-    }
-    table.row(row);
+  for (const ResonancePlace& place : study.places) {
+    Record entry = record_of(place);
+    if (options.confirms) entry.set("bouncing", bouncing_record(place.bouncing));
     list.add(entry);
   }
   report.record.set("resonances", list);
   report.text = "Internal resonances seen from the rotor" +
                 (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
-                (places.empty() ? "  none between these speeds\n" : table.text());
-  if (!places.empty() && !model.contacts.empty()) {
-    std::string names;
-    for (const Contact& c : model.contacts) names += (names.empty() ? "" : ", ") + c.name;
-    report.text += fmt::format(
-        "\n  at the contacts ({}): orbits of both modes by their largest on the rotor\n", names);
-  }
-  if (status == 130) report.text += "\n  stopped\n";
-  if (!confirms) note_left_out(model, report);
-  note_tables(model, speeds.front(), speeds.back(), report);
-  const auto first = std::find_if(places.begin(), places.end(),
-                                  [](const Place& place) { return place.bouncing.has_value(); });
-  if (file) {
-    if (first != places.end()) {
-      MotionState on_it;
-      on_it.y = first->bouncing->cycle.state;
-      write_end(*file, model, *scene_at(first->bouncing->speed), on_it);
-    } else {
-      write_points(*file, model, assembler);
-    }
-    write_campbell(*file, diagram);
-    write(*file, places);
-  }
+                places_text(study, options.confirms) + (study.is_whole ? "" : "\n  stopped\n");
+  if (!options.confirms) note_left_out(model, report);
+  note_tables(model, options.speeds.front(), options.speeds.back(), report);
+  if (file) write(*file, model, assembler, study);
   commit(call, file.get(), report);
   return report;
 }

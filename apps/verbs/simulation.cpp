@@ -10,7 +10,7 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/result_schema.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
@@ -18,17 +18,6 @@
 namespace whirl {
 
 namespace {
-
-/// Motion of a station in a recording, samples x (x, y).
-Mat motion(const Run& run, const Point& point) {
-  const Mat map = run.scene.displacement_map();
-  const DofMap& dofs = run.scene.reduced.dofs;
-  Mat xy(run.simulation.recording.eta.cols(), 2);
-  for (const int c : {X, Y}) {
-    xy.col(c) = (map.row(dofs.full_index(point, c)) * run.simulation.recording.eta).transpose();
-  }
-  return xy;
-}
 
 /// A motion that grew beyond all bounds has no spectrum.
 bool is_finite(const Peak& peak) {
@@ -40,8 +29,8 @@ std::string force_text(double force) {
 }
 
 /// Bytes that a sample takes when most are in use: displacements and forces, the spectra of the
-/// coordinates and what their transform takes, and of a result file the stations' motions and
-/// spectra with a copy of one. Measured within 15 % for 4 and 8 coordinates, 2 to 13 stations.
+/// coordinates and what their transform takes, and of a result file the trajectory or spectra with a
+/// copy of one dataset. Measured within 15 % for 4 and 8 coordinates, 2 to 13 stations.
 double bytes_of_sample(int coordinates, std::size_t contacts, std::size_t written_stations) {
   constexpr double of_coordinate = 8.0 + 16.0, of_contact = 16.0, of_transform = 64.0;
   constexpr double of_station = 27.0;
@@ -83,9 +72,6 @@ std::string peaks_text(const std::vector<Peak>& peaks) {
   }
   return text.empty() ? "-" : text;
 }
-
-/// The order of freedoms in a result file.
-const std::string full_vector = ": x, y, theta_x, theta_y of every node, then of every body";
 
 }  // namespace
 
@@ -215,16 +201,7 @@ int status_of(Outcome outcome) {
 }
 
 void add_contacts(Record& record, const std::vector<ContactMeasure>& contacts, long revolutions) {
-  Record list = Record::array();
-  for (const ContactMeasure& c : contacts) {
-    Record r;
-    r.set("name", c.name).set("regime", name_of(c.regime())).set("duty", c.duty);
-    r.set("impacts_per_rev", c.impacts / static_cast<double>(std::max(1L, revolutions)));
-    r.set("max_normal_n", c.max_normal).set("max_tangential_n", c.max_tangential);
-    r.set("sticking", c.sticking).set("mean_slip_m_s", c.mean_slip);
-    list.add(r);
-  }
-  record.set("contacts", list);
+  record.merge(record_of(contact_shares(contacts, revolutions)));
 }
 
 std::string contacts_table(const std::vector<ContactMeasure>& contacts, long revolutions) {
@@ -240,11 +217,7 @@ std::string contacts_table(const std::vector<ContactMeasure>& contacts, long rev
 }
 
 void add_reduction(Record& record, const Scene& scene) {
-  Record reduction;
-  const ReductionError& e = scene.error;
-  reduction.set("size", scene.reduced.size()).set("freedoms", scene.system.size());
-  reduction.set("eigenvalue_error", e.eigenvalue()).set("receptance_error", e.receptance);
-  record.set("reduction", reduction);
+  record.set("reduction", record_of(reduction_facts(scene)));
 }
 
 void add_run(Record& record, const Run& run) {
@@ -264,7 +237,7 @@ void add_stations(Record& record, const Run& run) {
   if (run.has_motion()) {
     const ResponseSpectra& spectra = *run.spectra;
     for (const NamedPoint& p : run.stations) {
-      const Mat xy = motion(run, p.point);
+      const Mat xy = motion_of(run, p.point);
       const PointPeaks peaks = point_peaks(spectra, p.point, run.scene.system.Omega);
       Record r;
       r.set("node", p.node() > 0 ? Record(p.node()) : Record(nullptr)).set("name", p.name);
@@ -327,7 +300,7 @@ std::string run_text(const Run& run, const Model& model) {
   const ResponseSpectra& spectra = *run.spectra;
   for (const NamedPoint& p : run.stations) {
     const PointPeaks peaks = point_peaks(spectra, p.point, run.scene.system.Omega);
-    table.row({point_label(p), format_length(motion(run, p.point).rowwise().norm().maxCoeff()),
+    table.row({point_label(p), format_length(motion_of(run, p.point).rowwise().norm().maxCoeff()),
                peaks_text(peaks.stationary), peaks_text(peaks.rotating)});
   }
   return text + "\n" + table.text();
@@ -337,103 +310,17 @@ void write_end(ResultWriter& file, const Model& model, const Scene& scene,
                const MotionState& state) {
   file.attribute("/", "speed", model.speed);
   write_points(file, model, scene.assembler);
-  const FullState end = full_state(scene, state);
-  file.dataset("/trajectory/end_displacement", end.displacement,
-               {"m, rad", "displacement at the end" + full_vector, {""}});
-  file.dataset("/trajectory/end_velocity", end.velocity,
-               {"m/s, rad/s", "velocity at the end" + full_vector, {""}});
-  file.attribute("/trajectory", "end_phase", state.phase);
+  write_result(file, motion_end(scene, state));
 }
 
 void write_run(ResultWriter& file, const Run& run, const Model& model) {
-  const Recording& r = run.simulation.recording;
   write_end(file, model, run.scene, run.simulation.end);
-  file.attribute("/trajectory", "samples_per_revolution", r.samples);
-  file.attribute("/trajectory", "revolutions", static_cast<double>(r.revolutions));
-  file.attribute("/trajectory", "period", r.period);
-  const Cost& cost = run.simulation.integration.cost;
-  file.attribute("/trajectory", "steps", static_cast<double>(cost.steps));
-  file.attribute("/trajectory", "evaluations", static_cast<double>(cost.evaluations));
-  file.attribute("/trajectory", "events", static_cast<double>(cost.events));
-  if (!run.simulation.integration.diagnosis.empty()) {
-    file.attribute("/trajectory", "failure", run.simulation.integration.diagnosis);
-  }
+  write_result(file, run_facts(run.simulation));
   if (!run.has_motion()) return;
-
-  const auto n = r.eta.cols();
-  Vec time(n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    time(j) =
-        r.period * (static_cast<double>(r.first_revolution) + static_cast<double>(j) / r.samples);
-  }
-  std::vector<std::string> names;
-  Mat x(static_cast<Eigen::Index>(run.stations.size()), n), y(x.rows(), n);
-  for (std::size_t i = 0; i < run.stations.size(); ++i) {
-    names.push_back(point_label(run.stations[i]));
-    const Mat xy = motion(run, run.stations[i].point);
-    x.row(static_cast<Eigen::Index>(i)) = xy.col(0).transpose();
-    y.row(static_cast<Eigen::Index>(i)) = xy.col(1).transpose();
-  }
-  file.dataset("/trajectory/time", time, {"s", "time since the start", {""}});
-  if (!names.empty()) {
-    file.dataset("/trajectory/station", names, {"", "station", {""}});
-    const std::vector<std::string> axes{"/trajectory/station", "/trajectory/time"};
-    file.dataset("/trajectory/x", x, {"m", "displacement x", axes});
-    file.dataset("/trajectory/y", y, {"m", "displacement y", axes});
-  }
-  file.dataset(
-      "/trajectory/coordinates", r.eta,
-      {"", "reduced coordinates: displacement = basis * coordinates", {"", "/trajectory/time"}});
-  file.dataset("/trajectory/basis", run.scene.displacement_map(),
-               {"m, rad", "displacement of the reduced coordinates" + full_vector, {"", ""}});
-
-  if (!r.contacts.empty()) {
-    std::vector<std::string> contacts, regimes;
-    std::vector<double> duty, impacts, normal, tangential, sticking, slip;
-    for (const ContactMeasure& c : r.contacts) {
-      contacts.push_back(c.name);
-      regimes.emplace_back(name_of(c.regime()));
-      duty.push_back(c.duty);
-      impacts.push_back(c.impacts / static_cast<double>(r.revolutions));
-      normal.push_back(c.max_normal);
-      tangential.push_back(c.max_tangential);
-      sticking.push_back(c.sticking);
-      slip.push_back(c.mean_slip);
-    }
-    file.dataset("/contacts/name", contacts, {"", "contact", {""}});
-    const std::vector<std::string> per{"/contacts/name"};
-    file.dataset("/contacts/regime", regimes, {"", "regime", per});
-    file.dataset("/contacts/duty", duty, {"", "share of time in touch", per});
-    file.dataset("/contacts/impacts_per_rev", impacts, {"", "impacts per revolution", per});
-    file.dataset("/contacts/max_normal", normal, {"N", "largest normal force", per});
-    file.dataset("/contacts/max_tangential", tangential, {"N", "largest friction force", per});
-    file.dataset("/contacts/sticking", sticking, {"", "share of time sticking", per});
-    file.dataset("/contacts/mean_slip", slip, {"m/s", "mean slip velocity in touch", per});
-    const std::vector<std::string> axes{"/contacts/name", "/trajectory/time"};
-    file.dataset("/trajectory/normal_force", r.normal, {"N", "normal force", axes});
-    file.dataset("/trajectory/friction_force", r.friction,
-                 {"N", "friction force along the tangent", axes});
-  }
-
-  // spectra in ascending frequency, backward to the left
-  const ResponseSpectra& spectra = *run.spectra;
-  const auto bins = spectra.size(), half = bins / 2;
-  Vec frequency(bins);
-  Mat amplitude(x.rows(), bins);
-  for (Eigen::Index k = 0; k < bins; ++k)
-    frequency(k) = static_cast<double>(k - half) * spectra.bin();
-  for (std::size_t i = 0; i < run.stations.size(); ++i) {
-    const Spectrum s = spectra.at(run.stations[i].point);
-    for (Eigen::Index k = 0; k < bins; ++k) {
-      amplitude(static_cast<Eigen::Index>(i), k) = std::abs(s.at(k - half));
-    }
-  }
-  if (names.empty()) return;
-  file.dataset("/spectra/frequency", frequency, {"rad/s", "signed frequency, forward > 0", {""}});
-  file.dataset("/spectra/amplitude", amplitude,
-               {"m",
-                "radius of the circle at a signed frequency (Hann window)",
-                {"/trajectory/station", "/spectra/frequency"}});
+  const Recording& r = run.simulation.recording;
+  write_result(file, contact_shares(r.contacts, r.revolutions));
+  write_result(file, trajectory_of(run));
+  if (!run.stations.empty()) write_result(file, spectra_of(run));
 }
 
 }  // namespace whirl

@@ -7,10 +7,7 @@
 
 #include "apps/invocation.hpp"
 #include "apps/verb.hpp"
-#include "libdyn/motions/response.hpp"
-#include "libdyn/motions/simulate.hpp"
-#include "libdyn/system/contact_measures.hpp"
-#include "libdyn/system/stations.hpp"
+#include "libdyn/motions/run_result.hpp"
 
 namespace whirl {
 
@@ -18,16 +15,6 @@ class ResultWriter;
 
 /// Options of simulate and identify, behind those of one of them.
 std::vector<OptionSpec> integration_options(std::vector<OptionSpec> own = {});
-
-/// A finished (or failed, or stopped) run.
-struct Run {
-  Scene scene;
-  Simulation simulation;
-  std::vector<NamedPoint> stations;
-  std::string method;
-  std::shared_ptr<const ResponseSpectra> spectra;  ///< null without a motion
-  bool has_motion() const { return simulation.recording.revolutions > 0; }
-};
 
 /// @throws ModelError  for a model without an operating speed
 void require_speed(const Model& model);

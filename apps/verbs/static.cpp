@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "apps/invocation.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "libfe/bending.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 
@@ -17,13 +19,7 @@ namespace {
 
 /// The bending line as JSON, and a sentence about its largest moment.
 std::string add_bending(const BendingLine& line, Record& record) {
-  Record shaft;
-  const auto column = [](const Mat& of, Eigen::Index plane) { return Vec(of.col(plane)); };
-  shaft.set("z_m", line.z);
-  shaft.set("x_m", column(line.deflection, 0)).set("y_m", column(line.deflection, 1));
-  shaft.set("moment_x_n_m", column(line.moment, 0)).set("moment_y_n_m", column(line.moment, 1));
-  shaft.set("shear_x_n", column(line.shear, 0)).set("shear_y_n", column(line.shear, 1));
-  record.set("shaft", shaft);
+  record.set("shaft", record_of(line));
   if (line.moment.isZero(0.0)) return "";  // no weight, or no shaft
   Eigen::Index largest = 0, lowest = 0;
   line.moment.rowwise().norm().maxCoeff(&largest);
@@ -35,16 +31,46 @@ std::string add_bending(const BendingLine& line, Record& record) {
       fixed(1e6 * line.deflection.row(lowest).norm(), 3));
 }
 
-void write_bending(ResultWriter& file, const BendingLine& line) {
-  if (line.z.size() == 0) return;
-  const std::vector<std::string> axes{"/static/z", ""};
-  file.dataset("/static/z", line.z,
-               {"m", "position along the shaft, both ends of every beam", {""}});
-  file.dataset("/static/deflection", line.deflection, {"m", "static deflection (x, y)", axes});
-  file.dataset("/static/moment", line.moment,
-               {"N.m", "bending moment (of the planes x-z, y-z)", axes});
-  file.dataset("/static/shear", line.shear,
-               {"N", "shear force of the right part on the left one (x, y)", axes});
+/// A place of the rotor at rest.
+struct RestingStation {
+  std::optional<int> node;  ///< from 1; nothing: a body
+  std::string name;
+  double x = 0.0, y = 0.0;  ///< [m]
+
+  static constexpr auto columns() {
+    return std::tuple{column("node", &RestingStation::node, "", "number of the node"),
+                      column("name", &RestingStation::name, "", "what is there"),
+                      column("x", &RestingStation::x, "m", "displacement"),
+                      column("y", &RestingStation::y, "m", "displacement")};
+  }
+};
+
+/// Displacements of all named places: their records, and a table for people.
+std::string add_stations(const Model& model, const Assembler& assembler, const Vec& displacement,
+                         Record& record) {
+  const DofMap dofs = assembler.uncondensed(model.speed).dofs;
+  Record list = Record::array();
+  Table table({"station", "z [mm]", "x [um]", "y [um]"});
+  for (const NamedPoint& p : named_points(model, assembler)) {
+    RestingStation at{.name = p.name};
+    if (p.node() > 0) at.node = p.node();
+    at.x = displacement(dofs.full_index(p.point, X));
+    at.y = displacement(dofs.full_index(p.point, Y));
+    list.add(record_of(at));
+    std::string z;
+    if (at.node) z = fmt::format("{:.1f}", 1e3 * assembler.mesh().z.at(*at.node - 1));
+    table.row({point_label(p), z, fixed(1e6 * at.x, 3), fixed(1e6 * at.y, 3)});
+  }
+  record.set("stations", list);
+  return table.text();
+}
+
+std::string loads_text(const std::vector<BearingLoad>& bearings) {
+  Table loads({"bearing", "load x [N]", "load y [N]"});
+  for (const BearingLoad& load : bearings) {
+    loads.row({load.name, fixed(load.fx(), 4), fixed(load.fy(), 4)});
+  }
+  return loads.text();
 }
 
 Report run_static(const Invocation& call) {
@@ -52,59 +78,22 @@ Report run_static(const Invocation& call) {
   const Assembler assembler(model.structure);
   const StaticEquilibrium at_rest = static_equilibrium(assembler, model.speed);
   const BendingLine line = bending_line(assembler, model.speed, at_rest.displacement);
-  const DofMap dofs = assembler.uncondensed(model.speed).dofs;
 
   Report report{.record = begin_record(call, model)};
-  Record stations = Record::array(), bearings = Record::array();
-  Table table({"station", "z [mm]", "x [um]", "y [um]"});
-  for (const NamedPoint& p : named_points(model, assembler)) {
-    const double x = at_rest.displacement(dofs.full_index(p.point, X));
-    const double y = at_rest.displacement(dofs.full_index(p.point, Y));
-    Record station;
-    station.set("node", p.node() > 0 ? Record(p.node()) : Record(nullptr)).set("name", p.name);
-    station.set("x_m", x).set("y_m", y);
-    stations.add(station);
-    const std::string z =
-        p.node() > 0
-            ? fmt::format("{:.1f}",
-                          1e3 * assembler.mesh().z[static_cast<std::size_t>(p.point.index)])
-            : "";
-    table.row({point_label(p), z, fixed(1e6 * x, 3), fixed(1e6 * y, 3)});
-  }
-  Table loads({"bearing", "load x [N]", "load y [N]"});
-  for (const BearingLoad& load : at_rest.bearings) {
-    Record bearing;
-    bearing.set("name", load.name).set("fx_n", load.force(0)).set("fy_n", load.force(1));
-    bearings.add(bearing);
-    loads.row({load.name, fixed(load.force(0), 4), fixed(load.force(1), 4)});
-  }
-  report.record.set("stations", stations).set("bearings", bearings);
   report.text = "Static equilibrium under gravity\n";
   if (model.structure.gravity == 0.0)
     report.text += "(the model has no gravity: add gravity = \"9.81 m/s^2\")\n";
-  report.text += "\n" + table.text() + "\n" + loads.text() +
+  report.text += "\n" + add_stations(model, assembler, at_rest.displacement, report.record) + "\n";
+  report.record.merge(record_of(at_rest));
+  report.text += loads_text(at_rest.bearings) +
                  "\n  A load is the force of the rotor on its bearing; y points up.\n";
   report.text += add_bending(line, report.record);
   note_left_out(model, report);
   note_tables(model, model.speed, model.speed, report);
   if (const auto file = call.result_file(model)) {
     write_points(*file, model, assembler);
-    file->dataset("/static/displacement", at_rest.displacement,
-                  {"m, rad",
-                   "static displacement: x, y, theta_x, theta_y of every node, then of every body",
-                   {""}});
-    std::vector<std::string> names;
-    Mat forces(static_cast<Eigen::Index>(at_rest.bearings.size()), 2);
-    for (std::size_t i = 0; i < at_rest.bearings.size(); ++i) {
-      names.push_back(at_rest.bearings[i].name);
-      forces.row(static_cast<Eigen::Index>(i)) = at_rest.bearings[i].force.transpose();
-    }
-    if (!names.empty()) {
-      file->dataset("/static/bearing", names, {"", "bearing", {""}});
-      file->dataset("/static/bearing_load", forces,
-                    {"N", "force of the rotor on the bearing (x, y)", {"/static/bearing", ""}});
-    }
-    write_bending(*file, line);
+    write_result(*file, at_rest);
+    if (line.z.size() > 0) write_result(*file, line);
     commit(call, file.get(), report);
   }
   return report;

@@ -13,7 +13,7 @@ constexpr std::size_t classification_size = 15;  ///< columns
 
 }  // namespace
 
-std::vector<Column> classification_columns(const Scene& scene, const std::string& group) {
+std::vector<PointColumn> classification_columns(const Scene& scene, const std::string& group) {
   const std::vector<Eigen::Index> exponents{scene.contacts.size()};
   const std::vector<Eigen::Index> contacts{scene.contacts.owners()};
   const std::vector<std::string> per{contacts[0] > 0 ? group + "/contact" : ""};

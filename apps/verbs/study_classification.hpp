@@ -11,7 +11,7 @@
 namespace whirl {
 
 /// Columns of a classified motion: motion, period, exponents, what contacts do.
-std::vector<Column> classification_columns(const Scene& scene, const std::string& group);
+std::vector<PointColumn> classification_columns(const Scene& scene, const std::string& group);
 /// Axes of these columns.
 void write_classification_axes(ResultWriter& file, const Scene& scene, const std::string& group);
 /// Their numbers.

@@ -34,17 +34,17 @@ struct Portraits {
   std::vector<NamedPoint> stations;
   long sections, spectrum_revolutions;
 
-  std::vector<Column> columns(const Scene& scene) const;
+  std::vector<PointColumn> columns(const Scene& scene) const;
   void write_axes(ResultWriter& file) const;
   void add(const StudyPoint& point, double tolerance, PointRow& row) const;
 };
 
-std::vector<Column> Portraits::columns(const Scene& scene) const {
+std::vector<PointColumn> Portraits::columns(const Scene& scene) const {
   const Eigen::Index n = std::ssize(stations), contacts = scene.contacts.owners();
   const std::string station = group + "/station", contact = group + "/contact";
   const Eigen::Index full = scene.reduced.dofs.T.rows(),
                      lines = std::max(1L, spectrum_revolutions) * 2 * highest_order + 1;
-  std::vector<Column> columns{
+  std::vector<PointColumn> columns{
       {"poincare_x", "m", "x at phase 0, last sections", false, {n, sections}, {station, ""}},
       {"poincare_y", "m", "y at phase 0, last sections", false, {n, sections}, {station, ""}},
       {"end_displacement", "m, rad", "displacement that the next value starts from", false, {full}},
@@ -311,8 +311,8 @@ Report run_sweep(const Invocation& call) {
       .stations = select_points(*first.model, first.scene->assembler, call.text("stations")),
       .sections = setup.options().sections,
       .spectrum_revolutions = call.integer("spectra", 0)};
-  std::vector<Column> columns = classification_columns(*first.scene, group);
-  for (const Column& c : portraits.columns(*first.scene)) columns.push_back(c);
+  std::vector<PointColumn> columns = classification_columns(*first.scene, group);
+  for (const PointColumn& c : portraits.columns(*first.scene)) columns.push_back(c);
   const std::string way = group + "/direction", along = setup.axis_paths(group)[0];
   PointTable table(group, columns,
                    {static_cast<Eigen::Index>(ways), static_cast<Eigen::Index>(values)},

@@ -1,7 +1,12 @@
 #include "libdyn/motions/combinations.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+
+#include "libbase/constants.hpp"
 
 namespace whirl {
 
@@ -71,6 +76,18 @@ std::optional<Combination> combination_of(double f, std::span<const double> othe
     }
   }
   return std::nullopt;
+}
+
+std::string Combination::text() const {
+  std::string text;
+  for (const Term& t : terms) {
+    const bool is_minus = t.times < 0;
+    text += text.empty() ? (is_minus ? "-" : "") : is_minus ? " - " : " + ";
+    if (std::abs(t.times) > 1) text += fmt::format("{} x ", std::abs(t.times));
+    text += t.frequency < 0.0 ? fmt::format("({:.1f})", t.frequency / rpm)
+                              : fmt::format("{:.1f}", t.frequency / rpm);
+  }
+  return text;
 }
 
 }  // namespace whirl

@@ -3,7 +3,10 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
+
+#include "libbase/column.hpp"
 
 namespace whirl {
 
@@ -14,12 +17,19 @@ struct Combination {
   struct Term {
     int times = 0;
     double frequency = 0.0;  ///< signed [rad/s]
+
+    static constexpr auto columns() {
+      return std::tuple{column("times", &Term::times, "", "so many times"),
+                        column("frequency", &Term::frequency, "rad/s", "signed frequency")};
+    }
   };
   std::vector<Term> terms;  ///< the largest number of times first
 
   double frequency() const;
   /// The sum of all |times|.
   int order() const;
+  /// "2 x 2377.2 - 4430.0", in rpm.
+  std::string text() const;
 };
 
 /// The simplest combination of other frequencies that gives one, if there is any.

@@ -137,6 +137,7 @@ Identification identify(const Model& model, const Scene& scene, const Recording&
   const Vec total = spectra.total();
   for (const Peak& peak : distinct_peaks(total, spectra.bin(), options)) {
     IdentifiedPeak found{.frequency = peak.frequency};
+    found.frequency_rotating = peak.frequency - scene.system.Omega;
     for (const Point& p : system.dofs.points()) {
       found.amplitude = std::max(found.amplitude, std::abs(spectra.line(p, peak.bin)));
     }

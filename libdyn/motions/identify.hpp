@@ -2,7 +2,10 @@
 /// Which complex modes make up a motion: deflection shapes at spectral peaks against modes (MAC).
 
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "libbase/column.hpp"
 #include "libdyn/motions/combinations.hpp"
 #include "libdyn/motions/response.hpp"
 #include "libfe/modes.hpp"
@@ -25,6 +28,39 @@ struct IdentifiedPeak {
   int mode = 0;                            ///< best one, from 0
   double shift = 0.0;                      ///< |frequency| over that mode's, less one
   std::optional<Combination> combination;  ///< of stronger peaks that are none themselves
+  double frequency_rotating = 0.0;         ///< seen from the rotor [rad/s]
+
+  /// Of the best mode, from 1; nothing if there are no modes.
+  std::optional<int> mode_number() const {
+    return mac.empty() ? std::nullopt : std::optional(mode + 1);
+  }
+  /// The combination as a file has it; "": none.
+  std::string combination_text() const { return combination ? combination->text() : ""; }
+  std::optional<std::vector<Combination::Term>> combination_terms() const {
+    return combination ? std::optional(combination->terms) : std::nullopt;
+  }
+
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("frequency", &IdentifiedPeak::frequency, "rad/s", "signed frequency of the peak")
+            .axis()
+            .within(valid::finite),
+        column("amplitude", &IdentifiedPeak::amplitude, "m", "largest radius at the peak"),
+        column("mac", &IdentifiedPeak::mac, "", "modal assurance criterion").along("/modes/number"),
+        column("mode", &IdentifiedPeak::mode_number, "", "the mode it is most alike").only(in_json),
+        column("shift", &IdentifiedPeak::shift, "", "frequency over that mode's, less one")
+            .only(in_json),
+        column("frequency_rotating", &IdentifiedPeak::frequency_rotating, "rad/s",
+               "seen from the rotor")
+            .only(in_json),
+        column("combination", &IdentifiedPeak::combination_text, "",
+               "stronger peaks that make up the frequency [rpm]")
+            .only(in_file)
+            .maybe(),
+        column("combination", &IdentifiedPeak::combination_terms, "", "of these frequencies")
+            .only(in_json)};
+  }
 };
 
 /// Ratio of the two strongest frequencies seen from the rotor.
@@ -32,6 +68,16 @@ struct FrequencyRatio {
   int p = 0, q = 0;              ///< p >= q
   double error = 0.0;            ///< |ratio / (p/q) - 1|
   double high = 0.0, low = 0.0;  ///< the frequencies, unsigned [rad/s]
+
+  static constexpr auto columns() {
+    constexpr auto ratio = [](const FrequencyRatio& r) { return std::vector<int>{r.p, r.q}; };
+    constexpr auto both = [](const FrequencyRatio& r) {
+      return std::vector<double>{r.high, r.low};
+    };
+    return std::tuple{column("ratio", ratio, "", "p:q"),
+                      column("error", &FrequencyRatio::error, "", "relative, of the ratio"),
+                      column("frequencies", both, "rad/s", "seen from the rotor")};
+  }
 };
 
 struct Identification {
@@ -39,6 +85,14 @@ struct Identification {
   std::vector<IdentifiedPeak> peaks;  ///< strongest first
   std::optional<FrequencyRatio> resonance;
   double bin = 0.0;  ///< distance of spectral lines [rad/s]
+
+  static constexpr std::string_view group = "/mac";
+  static constexpr auto columns() {
+    return std::tuple{
+        rows(&Identification::peaks, "peaks+").maybe(),
+        column("resonance", &Identification::resonance, "", "two strongest, seen from the rotor")
+            .only(Written::in_json)};
+  }
 };
 
 /// Identifies the modes in a steady motion.

@@ -2,10 +2,12 @@
 /// Speed against error of integrators, on one motion.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libdyn/methods/methods.hpp"
 
 namespace whirl {
@@ -69,6 +71,27 @@ struct TimedRun {
   Integration integration;
 
   bool has_failed() const { return integration.outcome != Outcome::reached_end; }
+  long steps() const { return integration.cost.steps; }
+  long evaluations() const { return integration.cost.evaluations; }
+  long events() const { return integration.cost.events; }
+  /// Time of a revolution [ns]; nothing if it failed.
+  std::optional<double> nanoseconds() const {
+    return has_failed() ? std::nullopt : std::optional(1e9 * time);
+  }
+  /// Why it failed; empty: it did not.
+  std::string failure() const { return has_failed() ? integration.diagnosis : std::string(); }
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("method", &TimedRun::method, "", "method"),
+        column("tolerance", &TimedRun::tolerance, "", "of its steps"),
+        column("error", &TimedRun::error, "", "at the end"),
+        column("ns_per_revolution", &TimedRun::nanoseconds, "", "processor time"),
+        column("steps", &TimedRun::steps, "", "steps"),
+        column("evaluations", &TimedRun::evaluations, "", "of the equations of motion"),
+        column("events", &TimedRun::events, "", "events"),
+        column("failure", &TimedRun::failure, "", "why").only(Written::in_json).maybe()};
+  }
 };
 
 /// Measures a candidate from a state to that of the reference.

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 
@@ -21,6 +22,19 @@ struct ClearanceUse {
   double largest = 0.0;            ///< distance from the middle of the clearance [m]
   double at = 0.0;                 ///< where it is that far [rad/s]
   std::vector<SpeedRange> beyond;  ///< where it is more than the clearance
+
+  static constexpr auto columns() {
+    constexpr auto ranges = [](const ClearanceUse& use) {
+      std::vector<std::vector<double>> all;
+      for (const SpeedRange& r : use.beyond) all.push_back({r.first, r.last});
+      return all;
+    };
+    return std::tuple{column("name", &ClearanceUse::name, "", "whose clearance it is"),
+                      column("clearance", &ClearanceUse::clearance, "m", "clearance"),
+                      column("largest", &ClearanceUse::largest, "m", "largest distance"),
+                      column("largest_at", &ClearanceUse::at, "rad/s", "where it is that far"),
+                      column("beyond", ranges, "rad/s", "where it is more than the clearance")};
+  }
 };
 
 /// Clearances of contacts and oil films beside the linear response to unbalance.

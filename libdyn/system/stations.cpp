@@ -29,6 +29,11 @@ std::vector<Label> labels(const Model& model, const Assembler& assembler) {
 
 }  // namespace
 
+std::string NamedPoint::label() const {
+  if (node() == 0) return name;
+  return name.empty() ? fmt::format("{}", node()) : fmt::format("{} {}", node(), name);
+}
+
 std::vector<NamedPoint> named_points(const Model& model, const Assembler& assembler) {
   const std::vector<Label> all = labels(model, assembler);
   std::vector<NamedPoint> points;
@@ -44,6 +49,17 @@ std::vector<NamedPoint> named_points(const Model& model, const Assembler& assemb
     }
   }
   return points;
+}
+
+PointNames point_names(const Model& model, const Assembler& assembler) {
+  const std::vector<double>& z = assembler.mesh().z;
+  PointNames names{.z = Vec::Map(z.data(), std::ssize(z))};
+  names.node_names.resize(z.size());
+  for (const NamedPoint& p : named_points(model, assembler)) {
+    if (p.node() > 0) names.node_names[static_cast<std::size_t>(p.point.index)] = p.name;
+  }
+  for (const Body& body : model.structure.bodies) names.body_names.push_back(body.name);
+  return names;
 }
 
 std::vector<NamedPoint> select_points(const Model& model, const Assembler& assembler,

@@ -1,9 +1,12 @@
+#include "libfe/campbell.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "libio/figures/common.hpp"
+#include "libio/results/columns.hpp"
 
 namespace whirl {
 
@@ -14,23 +17,35 @@ using namespace figures;
 /// What both figures draw: branches over speed.
 struct Branches {
   explicit Branches(const ResultView& result)
-      : speed(scaled(numbers(result.file.vector("/campbell/speed")), 1.0 / rpm)),
+      : diagram(read_result<Campbell>(result.file)),
+        speed(scaled(diagram.speeds, 1.0 / rpm)),
         unit(result.frequency),
-        frequency(result.file.matrix("/campbell/frequency") * unit.factor),
-        decrement(result.file.matrix("/campbell/log_decrement")),
-        whirl(result.file.strings("/campbell/whirl")) {}
+        frequency(matrix(&CampbellBranch::frequency) * unit.factor),
+        decrement(matrix(&CampbellBranch::log_decrement)) {}
+  Campbell diagram;
   std::vector<double> speed;  ///< [rpm]
   DisplayUnit unit;           ///< of frequencies
-  Mat frequency, decrement;   ///< [unit], [-]
-  std::vector<std::string> whirl;
+  Mat frequency, decrement;   ///< branches x speeds [unit], [-]
 
-  std::string name(Eigen::Index i) const {
-    return fmt::format("{}{}", i + 1, whirl_style(whirl[static_cast<std::size_t>(i)]).letter);
+  const CampbellBranch& branch(Eigen::Index i) const {
+    return diagram.branches[static_cast<std::size_t>(i)];
+  }
+  WhirlStyle style(Eigen::Index i) const { return whirl_style(branch(i).whirl); }
+  std::string name(Eigen::Index i) const { return fmt::format("{}{}", i + 1, style(i).letter); }
+
+ private:
+  Mat matrix(std::vector<double> CampbellBranch::*member) const {
+    Mat m(std::ssize(diagram.branches), std::ssize(diagram.speeds));
+    for (Eigen::Index i = 0; i < m.rows(); ++i) {
+      const std::vector<double>& values = branch(i).*member;
+      m.row(i) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), m.cols());
+    }
+    return m;
   }
 };
 
 Curve curve_of(const Branches& b, Eigen::Index i, std::vector<double> y) {
-  const WhirlStyle style = whirl_style(b.whirl[static_cast<std::size_t>(i)]);
+  const WhirlStyle style = b.style(i);
   const std::size_t every = std::max<std::size_t>(1, b.speed.size() / 8);
   Curve c{.name = style.name, .end_name = b.name(i), .paint = style.paint, .x = b.speed};
   c.y = std::move(y);
@@ -162,24 +177,22 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
   p.rules.push_back({Rule::Kind::slope, 2.0 * per_rpm, "2X", Paint::gray, Dash::dotted});
   p.rules.push_back({Rule::Kind::slope, 0.5 * per_rpm, "½X", Paint::gray, Dash::dotted});
   mark_operation(result, p);
-  if (result.file.has("/campbell/critical_speed")) {
-    const auto speeds = numbers(result.file.vector("/campbell/critical_speed"));
-    const auto branches = result.file.integers("/campbell/critical_branch");
+  if (!b.diagram.crossings.empty()) {
     Curve c{.name = "critical speed", .paint = Paint::ink, .has_line = false};
     c.has_marker = true;
     c.marker = Marker::cross;
     c.size = 9.0;
     f.table.header = {"critical speed [rpm]", "[" + b.unit.name + "]", "branch", "whirl",
                       "log decrement"};
-    for (std::size_t i = 0; i < speeds.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(branches[i] - 1);
-      const double speed = speeds[i] / rpm;
+    for (const Crossing& crossing : b.diagram.crossings) {
+      const auto k = static_cast<Eigen::Index>(crossing.branch);
+      const double speed = crossing.speed / rpm;
       c.x.push_back(speed);
       c.y.push_back(speed * per_rpm);
       c.hover.push_back(fmt::format("critical speed {:.1f} rpm of branch {}", speed, b.name(k)));
       const double decrement = between(b.speed, b.decrement, k, speed);
       f.table.rows.push_back({fmt::format("{:.1f}", speed), fmt::format("{:.2f}", speed * per_rpm),
-                              b.name(k), b.whirl[static_cast<std::size_t>(k)],
+                              b.name(k), std::string(name_of(b.branch(k).whirl)),
                               fmt::format("{:.4f}", decrement)});
     }
     p.curves.push_back(c);

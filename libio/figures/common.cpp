@@ -36,14 +36,17 @@ std::string speed_text(const ResultView& result) {
   return std::isfinite(speed) && speed > 0.0 ? fmt::format("{:.6g} rpm", speed / rpm) : "";
 }
 
-WhirlStyle whirl_style(const std::string& whirl) {
-  if (whirl == "forward")
-    return {Paint::forward, Dash::solid, Marker::triangle, "forward (F)", "F"};
-  if (whirl == "backward") {
-    return {Paint::backward, Dash::dashed, Marker::triangle_down, "backward (B)", "B"};
+WhirlStyle whirl_style(Whirl whirl) {
+  switch (whirl) {
+    case Whirl::forward:
+      return {Paint::forward, Dash::solid, Marker::triangle, "forward (F)", "F"};
+    case Whirl::backward:
+      return {Paint::backward, Dash::dashed, Marker::triangle_down, "backward (B)", "B"};
+    case Whirl::mixed:
+      return {Paint::mixed, Dash::dash_dot, Marker::circle, "mixed (M)", "M"};
+    default:
+      return {Paint::mixed, Dash::dotted, Marker::diamond, "planar (P)", "P"};
   }
-  if (whirl == "mixed") return {Paint::mixed, Dash::dash_dot, Marker::circle, "mixed (M)", "M"};
-  return {Paint::mixed, Dash::dotted, Marker::diamond, "planar (P)", "P"};
 }
 
 std::string with_unit(const std::string& what, const DisplayUnit& unit) {

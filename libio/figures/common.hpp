@@ -2,6 +2,7 @@
 /// What kinds of figures share.
 
 #include "libbase/constants.hpp"
+#include "libfe/modes.hpp"
 #include "libio/figures/figures.hpp"
 
 namespace whirl {
@@ -26,8 +27,7 @@ struct WhirlStyle {
   Marker marker;
   const char *name, *letter;
 };
-/// Of "forward", "backward", "mixed", "planar".
-WhirlStyle whirl_style(const std::string& whirl);
+WhirlStyle whirl_style(Whirl whirl);
 
 /// An axis of a study, as it is shown.
 struct ShownAxis {

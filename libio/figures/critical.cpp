@@ -6,6 +6,7 @@
 
 #include "libfe/critical_map.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/results/columns.hpp"
 
 namespace whirl {
 
@@ -18,7 +19,7 @@ std::vector<Curve> branch_curves(const CriticalMap& map) {
   std::map<Whirl, int> seen;
   std::vector<Curve> curves;
   for (const CriticalMapBranch& branch : map.branches) {
-    const WhirlStyle style = whirl_style(std::string(name_of(branch.whirl)));
+    const WhirlStyle style = whirl_style(branch.whirl);
     const std::string name = fmt::format("{}{}", ++seen[branch.whirl], style.letter);
     // those that leave the picture at its top would have their names there, upon each other
     const bool is_seen = branch.speed.back() <= map.top;
@@ -75,22 +76,21 @@ void add_gaps(const CriticalMap& map, Figure& f) {
   }
 }
 
-FigureTable criticals_of(const ResultView& result, const std::vector<double>& speeds) {
-  const auto whirl = result.file.strings("/critical/whirl");
-  const auto damped = numbers(result.file.vector("/critical/damped_speed"));
+FigureTable table_of(const std::vector<Critical>& criticals) {
   FigureTable table{.header = {"critical speed [rpm]", "whirl", "damped [rpm]"}};
-  for (std::size_t i = 0; i < speeds.size(); ++i) {
-    table.rows.push_back({fmt::format("{:.1f}", speeds[i] / rpm), whirl[i],
-                          std::isfinite(damped[i]) ? fmt::format("{:.1f}", damped[i] / rpm) : "-"});
+  for (const Critical& c : criticals) {
+    table.rows.push_back(
+        {fmt::format("{:.1f}", c.speed / rpm), std::string(name_of(c.whirl)),
+         std::isfinite(c.damped_speed) ? fmt::format("{:.1f}", c.damped_speed / rpm) : "-"});
   }
   return table;
 }
 
 std::vector<Figure> critical_figures(const ResultView& result) {
-  const auto speeds = numbers(result.file.vector("/critical/speed"));
-  if (speeds.empty()) return {};
-  const CriticalOptions options{.count = static_cast<int>(speeds.size()),
-                                .order = result.file.number_attribute("/critical", "order")};
+  const auto found = read_result<CriticalSpeeds>(result.file);
+  if (found.criticals.empty()) return {};
+  const CriticalOptions options{.count = static_cast<int>(found.criticals.size()),
+                                .order = found.order};
   const CriticalMap map = critical_map(result.model->structure, {.critical = options});
   if (map.branches.empty()) return {};
   Figure f{.height = 500.0};
@@ -117,7 +117,7 @@ std::vector<Figure> critical_figures(const ResultView& result) {
     p.rules.push_back({Rule::Kind::horizontal, speed, "operating", Paint::gray, Dash::dotted});
   }
   add_gaps(map, f);
-  f.table = criticals_of(result, speeds);
+  f.table = table_of(found.criticals);
   f.panels.push_back(std::move(p));
   return {f};
 }

@@ -1,3 +1,5 @@
+#include "libfe/modes.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include "libfe/shaft_line.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
+#include "libio/results/columns.hpp"
 
 namespace whirl {
 
@@ -27,8 +30,7 @@ struct Shapes {
 
 /// The shapes between the nodes too, by the shape functions of the elements; at the nodes only where
 /// the model cannot be read again.
-Shapes shapes_of(const ResultView& result) {
-  const CMat full = result.file.complex_matrix("/modes/shape");
+Shapes shapes_of(const ResultView& result, const CMat& full) {
   const Vec z = result.file.vector("/points/z");
   const auto nodes = z.size();
   if (full.rows() < 4 * nodes) throw FileError("/modes/shape and /points/z do not fit");
@@ -79,13 +81,13 @@ Complex turn_of(const CVec& values) {
 
 /// What a mode is called, the most telling parts first.
 std::string title_of(const ResultView& result, Eigen::Index k, double frequency, double decrement,
-                     const std::string& sense) {
+                     Whirl whirl) {
   return fmt::format("Mode {} | {:.4g} {} | {} | log dec {:.3g}", k + 1,
-                     frequency * result.frequency.factor, result.frequency.name, sense, decrement);
+                     frequency * result.frequency.factor, result.frequency.name, name_of(whirl),
+                     decrement);
 }
 
-Panel shape_panel(const ResultView& result, const Shapes& shapes, Eigen::Index k,
-                  const std::string& sense) {
+Panel shape_panel(const ResultView& result, const Shapes& shapes, Eigen::Index k, Whirl whirl) {
   Panel p;
   p.x = {.title = "position along the shaft [mm]"};
   p.y = {.title = "displacement", .first = -1.15, .last = 1.15};
@@ -97,7 +99,8 @@ Panel shape_panel(const ResultView& result, const Shapes& shapes, Eigen::Index k
   Curve x{.name = "x at its largest", .paint = Paint::series};
   Curve y{.name = "y at its largest", .paint = series_paint(1)};
   y.dash = Dash::dashed;
-  Curve outline{.name = "envelope of the orbits: " + sense, .paint = whirl_style(sense).paint};
+  Curve outline{.name = fmt::format("envelope of the orbits: {}", name_of(whirl)),
+                .paint = whirl_style(whirl).paint};
   outline.has_line = false;
   outline.fill = 0.16;
   const CVec a = shapes.x.col(k), b = shapes.y.col(k);
@@ -132,25 +135,23 @@ std::string remark_on(double damping_ratio) {
   return "";
 }
 
-FigureTable table_of_modes(const ResultView& result) {
-  const Vec frequency = result.file.vector("/modes/frequency");
-  const Vec damping = result.file.vector("/modes/damping_ratio");
-  const Vec decrement = result.file.vector("/modes/log_decrement");
-  const auto whirl = result.file.strings("/modes/whirl");
+FigureTable table_of(const Modes& modes, const ResultView& result) {
   const double speed = speed_of(result);
   const bool spins = std::isfinite(speed) && speed > 0.0;
   FigureTable t{.header = {"mode", with_unit("frequency", result.frequency), "damping ratio",
                            "log decrement", "whirl"}};
   if (spins) t.header.emplace_back("from the speed");
   t.header.emplace_back("remark");
-  for (Eigen::Index k = 0; k < frequency.size(); ++k) {
-    const double ratio = damping(k);
-    std::vector<std::string> row{
-        fmt::format("{}", k + 1), fmt::format("{:.5g}", frequency(k) * result.frequency.factor),
-        with_minus(fmt::format("{:.5f}", ratio)), with_minus(fmt::format("{:.4f}", decrement(k))),
-        whirl.at(static_cast<std::size_t>(k))};
+  int number = 0;
+  for (const Mode& mode : modes.oscillatory) {
+    const double ratio = mode.damping_ratio();
+    std::vector<std::string> row{fmt::format("{}", ++number),
+                                 fmt::format("{:.5g}", mode.frequency() * result.frequency.factor),
+                                 with_minus(fmt::format("{:.5f}", ratio)),
+                                 with_minus(fmt::format("{:.4f}", mode.log_decrement())),
+                                 std::string(name_of(mode.whirl))};
     if (spins) {
-      const double off = frequency(k) / speed - 1.0;
+      const double off = mode.frequency() / speed - 1.0;
       row.push_back(
           fmt::format("{:.1f} % {}", 100.0 * std::abs(off), off < 0.0 ? "below" : "above"));
     }
@@ -166,20 +167,18 @@ FigureTable table_of_modes(const ResultView& result) {
 }
 
 std::vector<Figure> mode_figures(const ResultView& result) {
-  const Vec frequency = result.file.vector("/modes/frequency");
-  const Vec decrement = result.file.vector("/modes/log_decrement");
-  const auto whirl = result.file.strings("/modes/whirl");
-  const Shapes shapes = shapes_of(result);
+  const auto modes = read_result<ModesAtPoints>(result.file);
+  const Shapes shapes = shapes_of(result, modes.shape);
   constexpr Eigen::Index most = 6;  // beside each other
   const std::string speed = speed_text(result).empty() ? "" : " at " + speed_text(result);
   Figure all{.variant = "all", .subtitle = "Mode shapes" + speed, .width = 1080.0};
-  all.table = table_of_modes(result);
+  all.table = table_of(modes, result);
   std::vector<Figure> singles;
-  for (Eigen::Index k = 0; k < std::min(shapes.x.cols(), frequency.size()); ++k) {
-    const std::string sense = whirl.at(static_cast<std::size_t>(k));
-    Panel p = shape_panel(result, shapes, k, sense);
+  for (Eigen::Index k = 0; k < shapes.x.cols(); ++k) {
+    const Mode& mode = modes.oscillatory.at(static_cast<std::size_t>(k));
+    Panel p = shape_panel(result, shapes, k, mode.whirl);
     if (p.curves.empty()) continue;
-    p.title = title_of(result, k, frequency(k), decrement(k), sense);
+    p.title = title_of(result, k, mode.frequency(), mode.log_decrement(), mode.whirl);
     Figure f{.variant = fmt::format("mode {}", k + 1), .height = 340.0};
     f.subtitle = "Mode shape" + speed;
     f.panels.push_back(p);
@@ -198,8 +197,7 @@ std::vector<Figure> mode_figures(const ResultView& result) {
 std::vector<Figure> mac_figures(const ResultView& result) {
   const Mat mac = result.file.matrix("/mac/mac");
   const Vec peaks = result.file.vector("/mac/frequency");
-  const Vec modes = result.file.vector("/modes/frequency");
-  const auto whirl = result.file.strings("/modes/whirl");
+  const auto modes = read_result<ModesAtPoints>(result.file).oscillatory;
   if (mac.rows() == 0 || mac.cols() == 0) return {};
   Figure f;
   f.subtitle = "Modal assurance criterion: deflection shapes of the motion against modes" +
@@ -216,9 +214,9 @@ std::vector<Figure> mac_figures(const ResultView& result) {
   c.prints_values = true;
   for (Eigen::Index j = 0; j < mac.cols(); ++j) {
     c.x.push_back(static_cast<double>(j + 1));
-    c.x_names.push_back(fmt::format("{}{} {:.1f}", j + 1,
-                                    whirl_style(whirl[static_cast<std::size_t>(j)]).letter,
-                                    modes(j) * result.frequency.factor));
+    const Mode& mode = modes.at(static_cast<std::size_t>(j));
+    c.x_names.push_back(fmt::format("{}{} {:.1f}", j + 1, whirl_style(mode.whirl).letter,
+                                    mode.frequency() * result.frequency.factor));
   }
   for (Eigen::Index i = mac.rows(); i-- > 0;) {  // the strongest peak on top
     c.y.push_back(static_cast<double>(mac.rows() - i));

@@ -1,12 +1,15 @@
+#include "libfe/static.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "libbase/error.hpp"
+#include "libfe/bending.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
+#include "libio/results/columns.hpp"
 
 namespace whirl {
 
@@ -94,27 +97,23 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
   Panel behind;
   add_rotor(behind, result, 0.0, 0.22 * span);
   p.curves.insert(p.curves.begin(), behind.curves.begin(), behind.curves.end());
-  if (!result.file.has("/static/bearing_load")) return;
-  const auto names = result.file.strings("/static/bearing");
-  const Mat load = result.file.matrix("/static/bearing_load");
-  if (load.rows() != static_cast<Eigen::Index>(names.size()) || load.cols() != 2) {
-    throw FileError("/static/bearing_load and /static/bearing do not fit");
-  }
-  const DisplayUnit unit = unit_for(load.cwiseAbs().maxCoeff(), "N");
+  const auto bearings = read_result<StaticEquilibrium>(result.file).bearings;
+  if (bearings.empty()) return;
+  double largest = 0.0;
+  for (const BearingLoad& b : bearings) largest = std::max(largest, b.force.cwiseAbs().maxCoeff());
+  const DisplayUnit unit = unit_for(largest, "N");
   table.header = {"bearing", with_unit("load x", unit), with_unit("load y", unit)};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
+  for (std::size_t i = 0; i < bearings.size(); ++i) {
     const auto text = [&](double force) {
       const double shown = unit.factor * force;
-      return with_minus(fmt::format(
-          "{:.4g}", std::abs(force) > still * load.cwiseAbs().maxCoeff() ? shown : 0.0));
+      return with_minus(fmt::format("{:.4g}", std::abs(force) > still * largest ? shown : 0.0));
     };
-    table.rows.push_back({names[i], text(load(k, 0)), text(load(k, 1))});
+    table.rows.push_back({bearings[i].name, text(bearings[i].fx()), text(bearings[i].fy())});
     if (!result.assembler || i >= result.model->structure.bearings.size()) continue;
     const Point at = result.assembler->point(result.model->structure.bearings[i].from);
     if (at.kind != Point::Kind::node) continue;
     const double z = mm * result.assembler->mesh().z[static_cast<std::size_t>(at.index)];
-    const double reaction = -unit.factor * load(k, 1);
+    const double reaction = -unit.factor * bearings[i].fy();
     Label l{z, 0.3 * span,
             fmt::format("{} {:.4g} {}", reaction < 0.0 ? "↓" : "↑", std::abs(reaction), unit.name)};
     const double along = (z - p.x.first) / (p.x.last - p.x.first);
@@ -126,15 +125,11 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
 }
 
 std::vector<Figure> static_figures(const ResultView& result) {
-  const Vec z = result.file.vector("/static/z");
-  const std::array<Line, 3> lines{{{"deflection", "m", result.file.matrix("/static/deflection")},
-                                   {"bending moment", "N.m", result.file.matrix("/static/moment")},
-                                   {"shear force", "N", result.file.matrix("/static/shear")}}};
-  for (const Line& line : lines) {
-    if (line.values.rows() != z.size() || line.values.cols() != 2) {
-      throw FileError("/static/z and what stands over it do not fit");
-    }
-  }
+  const auto of = read_result<BendingLine>(result.file);
+  const Vec& z = of.z;
+  const std::array<Line, 3> lines{{{"deflection", "m", of.deflection},
+                                   {"bending moment", "N.m", of.moment},
+                                   {"shear force", "N", of.shear}}};
   if (z.size() < 2 || lines[0].values.isZero(0.0)) return {};  // nothing has a weight
   Figure f{.subtitle =
                "Static deflection under gravity, with the reactions of the bearings; "

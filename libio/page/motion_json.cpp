@@ -8,6 +8,7 @@
 #include "libfe/unbalance.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/results/columns.hpp"
 
 namespace whirl {
 
@@ -143,23 +144,22 @@ Record motion_record(const ResultView& result, ArrayStore& arrays) {
     moves = true;
   }
   if (result.file.has("/modes/shape")) {
-    const CMat shapes = result.file.complex_matrix("/modes/shape");
-    const Vec frequency = result.file.vector("/modes/frequency");
-    const Vec decrement = result.file.vector("/modes/log_decrement");
-    const auto whirl = result.file.strings("/modes/whirl");
+    const auto modes = read_result<ModesAtPoints>(result.file);
+    const CMat& shapes = modes.shape;
     for (Eigen::Index k = 0; k < shapes.cols() && shapes.rows() == dofs.full_size; ++k) {
       std::vector<double> re, im;
       for (const int row : rows) {
         re.push_back(row < 0 ? 0.0 : shapes(row, k).real());
         im.push_back(row < 0 ? 0.0 : shapes(row, k).imag());
       }
-      const std::string sense = whirl[static_cast<std::size_t>(k)];
+      const Mode& of = modes.oscillatory.at(static_cast<std::size_t>(k));
+      const std::string_view sense = name_of(of.whirl);
       Record mode;
       mode.set("kind", "mode").set("whirl", sense);
       mode.set("about", "One cycle of the mode, damping left out; it has no amplitude of its own.");
-      mode.set("name",
-               fmt::format("Mode {} | {:.2f} Hz ({:.0f} cpm) | {} | log dec {:.3f}", k + 1,
-                           frequency(k) / rpm / 60.0, frequency(k) / rpm, sense, decrement(k)));
+      mode.set("name", fmt::format("Mode {} | {:.2f} Hz ({:.0f} cpm) | {} | log dec {:.3f}", k + 1,
+                                   of.frequency() / rpm / 60.0, of.frequency() / rpm, sense,
+                                   of.log_decrement()));
       motions.add(mode.set("re", arrays.add(re)).set("im", arrays.add(im)));
       moves = true;
     }

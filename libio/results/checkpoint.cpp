@@ -9,13 +9,13 @@
 
 namespace whirl {
 
-std::size_t Column::size() const {
+std::size_t PointColumn::size() const {
   std::size_t product = 1;
   for (const Eigen::Index n : shape) product *= static_cast<std::size_t>(n);
   return product;
 }
 
-PointTable::PointTable(std::string group, std::vector<Column> columns,
+PointTable::PointTable(std::string group, std::vector<PointColumn> columns,
                        std::vector<Eigen::Index> shape, std::vector<std::string> axes)
     : group_(std::move(group)),
       columns_(std::move(columns)),
@@ -25,7 +25,7 @@ PointTable::PointTable(std::string group, std::vector<Column> columns,
   std::size_t points = 1;
   for (const Eigen::Index n : shape_) points *= static_cast<std::size_t>(n);
   done_.assign(points, 0);
-  for (const Column& c : columns_) {
+  for (const PointColumn& c : columns_) {
     values_.emplace_back(points * c.size(),
                          c.is_integer ? -1.0 : std::numeric_limits<double>::quiet_NaN());
   }
@@ -37,7 +37,7 @@ std::size_t PointTable::done() const {
 
 std::size_t PointTable::index_of(const std::string& column) const {
   const auto found = std::find_if(columns_.begin(), columns_.end(),
-                                  [&](const Column& c) { return c.name == column; });
+                                  [&](const PointColumn& c) { return c.name == column; });
   assert(found != columns_.end());
   return static_cast<std::size_t>(found - columns_.begin());
 }
@@ -58,7 +58,7 @@ void PointTable::put(std::size_t point, const PointRow& row) {
 
 void PointTable::write(ResultWriter& file) const {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const Column& c = columns_[i];
+    const PointColumn& c = columns_[i];
     std::vector<Eigen::Index> shape = shape_;
     shape.insert(shape.end(), c.shape.begin(), c.shape.end());
     DatasetInfo info{c.units, c.long_name, axes_};

@@ -14,7 +14,7 @@ namespace whirl {
 inline constexpr const char* words_attribute = "words";
 
 /// A dataset of a study: one number of every point, or several.
-struct Column {
+struct PointColumn {
   std::string name;  ///< below the group of the study
   std::string units, long_name;
   bool is_integer = false;
@@ -38,7 +38,7 @@ class PointTable {
   /// @param group  of the result file, such as "/map"
   /// @param shape  how many points there are along each axis
   /// @param axes   paths of the datasets along these, written before this
-  PointTable(std::string group, std::vector<Column> columns, std::vector<Eigen::Index> shape,
+  PointTable(std::string group, std::vector<PointColumn> columns, std::vector<Eigen::Index> shape,
              std::vector<std::string> axes);
 
   std::size_t points() const { return done_.size(); }
@@ -61,7 +61,7 @@ class PointTable {
   std::size_t index_of(const std::string& column) const;
 
   std::string group_;
-  std::vector<Column> columns_;
+  std::vector<PointColumn> columns_;
   std::vector<Eigen::Index> shape_;
   std::vector<std::string> axes_;
   std::vector<std::vector<double>> values_;  ///< per column, points x size

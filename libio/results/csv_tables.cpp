@@ -106,8 +106,8 @@ struct Dimension {
   Index size = 0, stride = 1;
 };
 
-/// Column of a table: one value per row, at first + the row's indices times the strides.
-struct Column {
+/// TableColumn of a table: one value per row, at first + the row's indices times the strides.
+struct TableColumn {
   std::string head;
   std::shared_ptr<const std::vector<std::string>> values;
   Index first = 0;
@@ -117,7 +117,7 @@ struct Column {
 struct CsvTable {
   std::string name;
   std::vector<Dimension> rows;
-  std::vector<Column> columns;
+  std::vector<TableColumn> columns;
 };
 
 /// Splits the dimensions of a dataset into those along rows and those along columns.
@@ -191,7 +191,7 @@ std::string csv_of(const ResultReader& file, const CsvTable& table,
            (d.axis.empty() ? "number" : csv_text(heading(file, d.axis, "")));
     along.push_back(d.axis.empty() ? std::vector<std::string>{} : read_texts(file, d.axis));
   }
-  for (const Column& c : table.columns) out += ',' + csv_text(c.head);
+  for (const TableColumn& c : table.columns) out += ',' + csv_text(c.head);
   out += '\n';
   std::vector<Index> at = first;
   for (Index row = 0; row < count; ++row) {
@@ -200,7 +200,7 @@ std::string csv_of(const ResultReader& file, const CsvTable& table,
       out += along[i].empty() ? fmt::format("{}", at[i] + 1)
                               : along[i][static_cast<std::size_t>(at[i])];
     }
-    for (const Column& c : table.columns) {
+    for (const TableColumn& c : table.columns) {
       Index place = c.first;
       for (std::size_t i = 0; i < at.size(); ++i) place += at[i] * c.strides[i];
       out += ',' + (*c.values)[static_cast<std::size_t>(place)];

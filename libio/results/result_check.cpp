@@ -57,7 +57,7 @@ class ResultCheck {
 
   void check(const ResultSet& set) {
     const bool is_there = has(set.entries.front().path);
-    for (const std::string_view other : is_there ? set.needs : std::vector<std::string_view>{}) {
+    for (const std::string& other : is_there ? set.needs : std::vector<std::string>{}) {
       if (!has(other)) fail(set.entries.front().path, fmt::format("{} is missing", other));
     }
     for (const ResultEntry& entry : set.entries) {

@@ -2,8 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <string>
+
+#include "libdyn/motions/identify.hpp"
+#include "libdyn/motions/run_result.hpp"
+#include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/studies/classification_result.hpp"
+#include "libdyn/studies/resonance_study.hpp"
+#include "libdyn/studies/work_precision_study.hpp"
+#include "libdyn/system/stations.hpp"
+#include "libfe/bending.hpp"
+#include "libfe/campbell.hpp"
+#include "libfe/critical.hpp"
+#include "libfe/static.hpp"
+#include "libio/results/columns.hpp"
 
 namespace whirl {
 
@@ -11,30 +23,13 @@ namespace {
 
 using enum ObjectKind;
 
-constexpr double largest = std::numeric_limits<double>::max();
-constexpr ValidValues any{};
-constexpr ValidValues finite{-largest, largest, false};
-constexpr ValidValues nonnegative{0.0, largest, false};
-constexpr ValidValues positive{std::numeric_limits<double>::denorm_min(), largest, false};
+using namespace valid;
 
-constexpr ValidValues from_to(double least, double most) {
-  return {least, most, false};
-}
-/// Numbers of the elements of a dimension, from 1.
-constexpr ValidValues numbers_of(std::string_view dimension) {
-  return {1.0, largest, false, dimension};
-}
-
-constexpr double most_samples = 1e9;      ///< of a revolution
 constexpr double most_revolutions = 1e9;  ///< of a period
-constexpr double most_order = 1e6;        ///< of a critical speed, of a resonance
 
 /// Columns that every study of many points has; a point is -1 or NaN where it failed.
 ResultSet classified(std::string_view group, std::vector<ResultEntry> more) {
-  static std::vector<std::unique_ptr<std::string>> texts;  // paths outlive the views of them
-  const auto path = [&](std::string_view name) -> std::string_view {
-    return *texts.emplace_back(std::make_unique<std::string>(fmt::format("{}/{}", group, name)));
-  };
+  const auto path = [&](std::string_view name) { return fmt::format("{}/{}", group, name); };
   ResultSet set{{{path("motion"), integer, "point", from_to(-1.0, 5.0)},
                  {path("period"), integer, "point"},
                  {path("is_proven"), integer, "point", from_to(-1.0, 1.0)},
@@ -56,7 +51,32 @@ ResultSet classified(std::string_view group, std::vector<ResultEntry> more) {
   return set;
 }
 
-std::vector<ResultSet> make_schema() {
+/// What is stated by the columns of results.
+std::vector<ResultSet> stated_schema() {
+  std::vector<ResultSet> all;
+  const auto add = [&](const std::vector<ResultSet>& sets) {
+    all.insert(all.end(), sets.begin(), sets.end());
+  };
+  add(schema_of<PointNames>());
+  add(schema_of<MotionEnd>());
+  add(schema_of<RunFacts>());
+  add(schema_of<ContactShares>());
+  add(schema_of<Trajectory>());
+  add(schema_of<StationSpectra>());
+  add(schema_of<Identification>());
+  add(schema_of<StaticEquilibrium>());
+  add(schema_of<BendingLine>());
+  add(schema_of<ModesAtPoints>());
+  add(schema_of<Campbell>());
+  add(schema_of<ResonanceStudy>());
+  add(schema_of<WorkPrecisionStudy>());
+  add(schema_of<ClassificationResult>());
+  add(schema_of<CriticalSpeeds>());
+  add(schema_of<UnbalanceStudy>());
+  return all;
+}
+
+std::vector<ResultSet> other_schema() {
   return {
       {{{"/model", text, "1"}}},
       {{{"/arguments", text, "words+"}}},
@@ -67,103 +87,6 @@ std::vector<ResultSet> make_schema() {
       {{{"/from/displacement", real, "full", finite},
         {"/from/velocity", real, "full", finite},
         {"/from@phase", real, "", finite}}},
-      {{{"/points/z", real, "nodes+", finite}, {"/points/node_name", text, "nodes"}}},
-      {{{"/points/body_name", text, "bodies+"}}},
-      // motions
-      {{{"/trajectory/end_displacement", real, "full"},
-        {"/trajectory/end_velocity", real, "full"},
-        {"/trajectory@end_phase", real, "", finite}}},
-      {{{"/trajectory@samples_per_revolution", real, "", from_to(1.0, most_samples)},
-        {"/trajectory@revolutions", real, "", nonnegative},
-        {"/trajectory@period", real, "", nonnegative},
-        {"/trajectory@steps", real, ""},
-        {"/trajectory@evaluations", real, ""},
-        {"/trajectory@events", real, ""}}},
-      {{{"/trajectory/time", real, "samples+", finite},
-        {"/trajectory/coordinates", real, "reduced samples"},
-        {"/trajectory/basis", real, "full reduced"}},
-       {"/trajectory/end_displacement", "/trajectory@samples_per_revolution"}},
-      {{{"/trajectory/station", text, "stations+"},
-        {"/trajectory/x", real, "stations samples"},
-        {"/trajectory/y", real, "stations samples"}},
-       {"/trajectory/time"}},
-      {{{"/trajectory/normal_force", real, "contacts samples"},
-        {"/trajectory/friction_force", real, "contacts samples"}},
-       {"/trajectory/time", "/contacts/name"}},
-      {{{"/contacts/name", text, "contacts+"},
-        {"/contacts/regime", text, "contacts"},
-        {"/contacts/duty", real, "contacts"},
-        {"/contacts/impacts_per_rev", real, "contacts"},
-        {"/contacts/max_normal", real, "contacts"},
-        {"/contacts/max_tangential", real, "contacts"},
-        {"/contacts/sticking", real, "contacts"},
-        {"/contacts/mean_slip", real, "contacts"}}},
-      {{{"/spectra/frequency", real, "lines+", finite},
-        {"/spectra/amplitude", real, "stations lines"}},
-       {"/trajectory/station"}},
-      {{{"/classify/exponent", real, "exponents"},
-        {"/classify@motion", text, ""},
-        {"/classify@period_revolutions", real, ""}}},
-      // linear
-      {{{"/modes/number", integer, "modes", numbers_of("modes")},
-        {"/modes/eigenvalue", complex, "modes"},
-        {"/modes/frequency", real, "modes"},
-        {"/modes/damping_ratio", real, "modes"},
-        {"/modes/log_decrement", real, "modes"},
-        {"/modes/kappa", real, "modes"},
-        {"/modes/whirl", text, "modes"},
-        {"/modes/shape", complex, "full modes"}}},
-      {{{"/mac/frequency", real, "peaks+"},
-        {"/mac/amplitude", real, "peaks"},
-        {"/mac/combination", text, "peaks", any, true},
-        {"/mac/mac", real, "peaks modes"}},
-       {"/modes/number"}},
-      {{{"/campbell/speed", real, "speeds+", finite},
-        {"/campbell/branch", integer, "branches", numbers_of("branches")},
-        {"/campbell/frequency", real, "branches speeds"},
-        {"/campbell/log_decrement", real, "branches speeds"},
-        {"/campbell/whirl", text, "branches"}}},
-      {{{"/campbell/critical_speed", real, "crossings"},
-        {"/campbell/critical_branch", integer, "crossings", numbers_of("branches")}},
-       {"/campbell/speed"}},
-      {{{"/resonances/speed", real, "resonances"},
-        {"/resonances/p", integer, "resonances", from_to(1.0, most_order)},
-        {"/resonances/q", integer, "resonances", from_to(1.0, most_order)},
-        {"/resonances/fast", integer, "resonances", numbers_of("branches")},
-        {"/resonances/slow", integer, "resonances", numbers_of("branches")},
-        {"/resonances/frequency", real, "resonances"},
-        {"/resonances/bouncing_speed", real, "resonances"},
-        {"/resonances/bouncing_period", real, "resonances"},
-        {"/resonances/bouncing_stable", integer, "resonances", from_to(-1.0, 1.0)}},
-       {"/campbell/speed"}},
-      {{{"/critical/speed", real, "speeds"},
-        {"/critical/damped_speed", real, "speeds"},
-        {"/critical/damping_ratio", real, "speeds", any, true},
-        {"/critical/whirl", text, "speeds"},
-        {"/critical@order", real, "", from_to(positive.least, most_order)}}},
-      {{{"/unbalance/speed", real, "speeds+", finite},
-        {"/unbalance/station", text, "stations+"},
-        {"/unbalance/x", complex, "stations speeds"},
-        {"/unbalance/y", complex, "stations speeds"},
-        {"/unbalance/major", real, "stations speeds"},
-        {"/unbalance/minor", real, "stations speeds"}}},
-      {{{"/unbalance/curve_speed", real, "curve+", finite},
-        {"/unbalance/curve_x", complex, "stations curve"},
-        {"/unbalance/curve_y", complex, "stations curve"},
-        {"/unbalance/curve_major", real, "stations curve"}},
-       {"/unbalance/speed"}},
-      {{{"/unbalance/peak_speed", real, "response_peaks", finite},
-        {"/unbalance/peak_station", integer, "response_peaks", numbers_of("stations")},
-        {"/unbalance/peak_amplitude", real, "response_peaks"},
-        {"/unbalance/peak_below", real, "response_peaks"},
-        {"/unbalance/peak_above", real, "response_peaks"}},
-       {"/unbalance/speed"}},
-      {{{"/static/displacement", real, "full"}}},
-      {{{"/static/z", real, "along+", finite},
-        {"/static/deflection", real, "along 2", finite},
-        {"/static/moment", real, "along 2", finite},
-        {"/static/shear", real, "along 2", finite}}},
-      {{{"/static/bearing", text, "bearings+"}, {"/static/bearing_load", real, "bearings 2"}}},
       // periodic motions
       {{{"/orbit/multiplier", complex, "multipliers"},
         {"/orbit@period_revolutions", real, "", any, true}}},
@@ -253,21 +176,17 @@ std::vector<ResultSet> make_schema() {
                              {"/basins/axis_3", real, "third+", finite, true}}),
       {{{"/basins/attractor", integer, "point", {-2.0, largest, false, "point"}}},
        {"/basins/motion"}},
-      {{{"/bench/method", text, "methods+"},
-        {"/bench/tolerance", real, "tolerances+", positive},
-        {"/bench/error", real, "methods tolerances"},
-        {"/bench/time", real, "methods tolerances"},
-        {"/bench/steps", real, "methods tolerances"},
-        {"/bench/evaluations", real, "methods tolerances"},
-        {"/bench@revolutions", real, "", any},
-        {"/bench@reference_error", real, "", any}}},
   };
 }
 
 }  // namespace
 
 const std::vector<ResultSet>& result_schema() {
-  static const std::vector<ResultSet> schema = make_schema();
+  static const std::vector<ResultSet> schema = [] {
+    std::vector<ResultSet> all = stated_schema();
+    for (ResultSet& set : other_schema()) all.push_back(std::move(set));
+    return all;
+  }();
   return schema;
 }
 

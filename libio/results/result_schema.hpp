@@ -2,11 +2,11 @@
 /// What a result file holds: every dataset with its kind, its sizes and the values it can have.
 
 #include <filesystem>
-#include <limits>
 #include <memory>
-#include <string_view>
+#include <string>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl {
@@ -16,30 +16,24 @@ namespace whirl {
 /// without the attribute are of the first one.
 constexpr int result_format = 1;
 
-/// Values that numbers of a dataset or attribute can have.
-struct ValidValues {
-  double least = -std::numeric_limits<double>::infinity();
-  double most = std::numeric_limits<double>::infinity();
-  bool has_gaps = true;          ///< NaN stands where nothing is known
-  std::string_view counts = {};  ///< a dimension: numbers of its elements, from 1
-};
-
 /// A dataset or attribute of a result.
 struct ResultEntry {
-  std::string_view path;  ///< "/trajectory/x"; "/trajectory@period" is an attribute
+  std::string path;  ///< "/trajectory/x"; "/trajectory@period" is an attribute
   ObjectKind kind = ObjectKind::real;
   /// Its dimensions by name, "stations samples": those of one name have one size throughout a file.
   /// "+" behind a name: at least one element. A number is a size. "point" stands for the dimensions of
   /// a study, one per axis. Attributes have none.
-  std::string_view sizes;
+  std::string sizes;
   ValidValues values{};
   bool is_optional = false;  ///< else it is there wherever the first entry of its set is
+  std::string unit{}, meaning{};
+  bool is_axis = false;  ///< numbers or names along its dimension
 };
 
 /// Entries that a file has together or not at all; the first one says which.
 struct ResultSet {
   std::vector<ResultEntry> entries;
-  std::vector<std::string_view> needs{};  ///< what must be there too, of other sets
+  std::vector<std::string> needs{};  ///< what must be there too, of other sets
 };
 
 /// All that whirl reads from results.

@@ -51,7 +51,7 @@ TEST_F(Checkpoint, KnowsWhatIsDone) {
 // What a table has got since a file was begun stays unknown; what it had may not be missing.
 TEST_F(Checkpoint, GoesOnWithAFileFromBeforeAColumn) {
   const auto with = [](bool may_lack) {
-    Column later{"later", "", "a later column", true};
+    PointColumn later{"later", "", "a later column", true};
     later.may_lack = may_lack;
     return PointTable("/study",
                       {{"kind", "", "kind", true}, {"value", "m", "values", false, {2}}, later},

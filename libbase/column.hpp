@@ -1,0 +1,182 @@
+#pragma once
+/// Columns: one table per result says what it holds, in which units, and what it means. Result
+/// files, JSON, checks of files that are read, and the manual all work from these tables, as model
+/// files do from fields (field.hpp).
+
+#include <concepts>
+#include <limits>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace whirl {
+
+/// Values that numbers of a dataset or attribute can have.
+struct ValidValues {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool has_gaps = true;          ///< NaN stands where nothing is known
+  std::string_view counts = {};  ///< a dimension: numbers of its elements, from 1
+};
+
+namespace valid {
+constexpr double largest = std::numeric_limits<double>::max();
+constexpr ValidValues any{};
+constexpr ValidValues finite{-largest, largest, false};
+constexpr ValidValues nonnegative{0.0, largest, false};
+constexpr ValidValues positive{std::numeric_limits<double>::denorm_min(), largest, false};
+
+constexpr ValidValues from_to(double least, double most) {
+  return {least, most, false};
+}
+/// Numbers of the elements of a dimension, from 1.
+constexpr ValidValues numbers_of(std::string_view dimension) {
+  return {1.0, largest, false, dimension};
+}
+}  // namespace valid
+
+/// Where a column is written.
+enum class Written { everywhere, in_file, in_json };
+
+/// One member of a result.
+///
+/// A member of a whole result that is one number, text or choice is an attribute of its group; one
+/// that has many numbers is a dataset. A member of a row is a dataset of all rows together.
+template <class Member>
+struct Column {
+  std::string_view key;      ///< dataset or attribute, below the group
+  Member member;             ///< pointer to a member, or function of the result: then not read back
+  std::string_view unit;     ///< SI unit; empty if it has none
+  std::string_view meaning;  ///< what it is, for a plot's axis and the manual
+  /// Dimensions by name, beyond that of the rows: "stations speeds". Those of one name have one size
+  /// throughout a file; a number is a size, a path the dataset along it; "+" behind a name: at least
+  /// one element.
+  std::string_view dimensions = "";
+  ValidValues values{};
+  /// Key in JSON; left out, the key with its unit: "speed_rpm" for rad/s, "x_m". Frequencies are
+  /// rpm there wherever their key ends so.
+  std::string_view json_key = "";
+  Written written = Written::everywhere;
+  bool is_axis = false;  ///< numbers or names along its one dimension, which other datasets have
+  bool is_from_one = false;  ///< a number from 0 that is written from 1
+  bool is_optional = false;  ///< see maybe()
+
+  constexpr Column along(std::string_view names) const {
+    Column c = *this;
+    c.dimensions = names;
+    return c;
+  }
+  /// @param name  of its dimension; of a member of a row left out: the rows
+  constexpr Column axis(std::string_view name = "") const {
+    Column c = along(name);
+    c.is_axis = true;
+    return c;
+  }
+  constexpr Column within(const ValidValues& range) const {
+    Column c = *this;
+    c.values = range;
+    return c;
+  }
+  constexpr Column as(std::string_view name) const {
+    Column c = *this;
+    c.json_key = name;
+    return c;
+  }
+  constexpr Column only(Written place) const {
+    Column c = *this;
+    c.written = place;
+    return c;
+  }
+  constexpr Column from_one() const {
+    Column c = *this;
+    c.is_from_one = true;
+    return c;
+  }
+  /// Left out of files where it is empty, and files without it are whole; if it is in JSON only, left
+  /// out of that.
+  constexpr Column maybe() const {
+    Column c = *this;
+    c.is_optional = true;
+    return c;
+  }
+};
+
+template <class Member>
+constexpr Column<Member> column(std::string_view key, Member member, std::string_view unit,
+                                std::string_view meaning) {
+  return {key, member, unit, meaning};
+}
+
+/// A member of a result that is a list of structs with columns of their own.
+template <class Member>
+struct RowsColumn {
+  Member member;                  ///< pointer to a member, or function of the result
+  std::string_view dimension;     ///< of the rows: "branches"; their key in JSON, too
+  std::string_view number = "";   ///< dataset of their numbers, 1, 2, ...; empty: none
+  std::string_view meaning = "";  ///< of the numbers
+  std::string_view prefix = "";   ///< of their datasets: "critical_"
+  bool is_optional = false;       ///< see maybe()
+  Written written = Written::everywhere;
+
+  constexpr RowsColumn numbered(std::string_view name, std::string_view what) const {
+    RowsColumn c = *this;
+    c.number = name;
+    c.meaning = what;
+    return c;
+  }
+  constexpr RowsColumn prefixed(std::string_view text) const {
+    RowsColumn c = *this;
+    c.prefix = text;
+    return c;
+  }
+  constexpr RowsColumn only(Written place) const {
+    RowsColumn c = *this;
+    c.written = place;
+    return c;
+  }
+  /// As of columns: an empty list has no datasets then.
+  constexpr RowsColumn maybe() const {
+    RowsColumn c = *this;
+    c.is_optional = true;
+    return c;
+  }
+};
+
+template <class Member>
+constexpr RowsColumn<Member> rows(Member member, std::string_view dimension) {
+  return {member, dimension};
+}
+
+/// A struct that names its members: `static constexpr auto columns()`, a tuple of them.
+template <class T>
+concept HasColumns = requires {
+  T::columns();
+};
+
+/// One that is a group of a result file: `static constexpr std::string_view group`, too.
+template <class T>
+concept HasGroup = HasColumns<T> && requires {
+  { T::group } -> std::convertible_to<std::string_view>;
+};
+
+template <class T>
+constexpr bool is_rows_column = false;
+template <class Member>
+constexpr bool is_rows_column<RowsColumn<Member>> = true;
+
+/// Calls f with every column of a struct.
+template <HasColumns T, class F>
+constexpr void for_each_column(const F& f) {
+  std::apply([&](const auto&... c) { (f(c), ...); }, T::columns());
+}
+
+/// Type of what a column gives of a struct.
+template <class T, class Member>
+using ColumnValue = std::remove_cvref_t<std::invoke_result_t<Member, const T&>>;
+
+/// Type of the rows of a column of rows.
+template <class T, class Member>
+using RowOf = typename ColumnValue<T, Member>::value_type;
+
+}  // namespace whirl

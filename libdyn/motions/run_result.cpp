@@ -1,0 +1,91 @@
+#include "libdyn/motions/run_result.hpp"
+
+#include <algorithm>
+
+namespace whirl {
+
+Mat motion_of(const Run& run, const Point& point) {
+  const Mat map = run.scene.displacement_map();
+  const DofMap& dofs = run.scene.reduced.dofs;
+  Mat xy(run.simulation.recording.eta.cols(), 2);
+  for (const int c : {X, Y}) {
+    xy.col(c) = (map.row(dofs.full_index(point, c)) * run.simulation.recording.eta).transpose();
+  }
+  return xy;
+}
+
+ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long revolutions) {
+  ContactShares shares;
+  for (const ContactMeasure& c : contacts) {
+    shares.contacts.push_back({
+        .name = c.name,
+        .regime = c.regime(),
+        .duty = c.duty,
+        .impacts_per_rev = c.impacts / static_cast<double>(std::max(1L, revolutions)),
+        .max_normal = c.max_normal,
+        .max_tangential = c.max_tangential,
+        .sticking = c.sticking,
+        .mean_slip = c.mean_slip,
+    });
+  }
+  return shares;
+}
+
+MotionEnd motion_end(const Scene& scene, const MotionState& state) {
+  const FullState end = full_state(scene, state);
+  return {end.displacement, end.velocity, state.phase};
+}
+
+RunFacts run_facts(const Simulation& simulation) {
+  const Recording& r = simulation.recording;
+  const Cost& cost = simulation.integration.cost;
+  return {.samples_per_revolution = r.samples,
+          .revolutions = static_cast<double>(r.revolutions),
+          .period = r.period,
+          .steps = static_cast<double>(cost.steps),
+          .evaluations = static_cast<double>(cost.evaluations),
+          .events = static_cast<double>(cost.events),
+          .failure = simulation.integration.diagnosis};
+}
+
+Trajectory trajectory_of(const Run& run) {
+  const Recording& r = run.simulation.recording;
+  Trajectory t{.coordinates = r.eta, .basis = run.scene.displacement_map()};
+  t.time.resize(r.eta.cols());
+  for (Eigen::Index j = 0; j < t.time.size(); ++j) {
+    t.time(j) =
+        r.period * (static_cast<double>(r.first_revolution) + static_cast<double>(j) / r.samples);
+  }
+  for (const NamedPoint& p : run.stations) {
+    const Mat xy = motion_of(run, p.point);
+    t.stations.push_back({p.label(), xy.col(0), xy.col(1)});
+  }
+  if (!r.contacts.empty()) {
+    t.normal = r.normal;
+    t.friction = r.friction;
+  }
+  return t;
+}
+
+StationSpectra spectra_of(const Run& run) {
+  const ResponseSpectra& spectra = *run.spectra;
+  const Eigen::Index bins = spectra.size(), half = bins / 2;
+  StationSpectra result{.frequency = Vec(bins)};
+  for (Eigen::Index k = 0; k < bins; ++k) {
+    result.frequency(k) = static_cast<double>(k - half) * spectra.bin();
+  }
+  for (const NamedPoint& p : run.stations) {
+    const Spectrum s = spectra.at(p.point);
+    Vec amplitude(bins);
+    for (Eigen::Index k = 0; k < bins; ++k) amplitude(k) = std::abs(s.at(k - half));
+    result.stations.push_back({std::move(amplitude)});
+  }
+  return result;
+}
+
+ReductionFacts reduction_facts(const Scene& scene) {
+  return {static_cast<int>(scene.reduced.size()), static_cast<int>(scene.system.size()),
+          scene.error.eigenvalue(), scene.error.receptance};
+}
+
+}  // namespace whirl

@@ -1,0 +1,194 @@
+#pragma once
+/// A run and its parts as results (libbase/column.hpp): where it ended, how it moved, what its
+/// contacts did, its spectra.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libdyn/motions/response.hpp"
+#include "libdyn/motions/simulate.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/stations.hpp"
+
+namespace whirl {
+
+/// A finished (or failed, or stopped) run.
+struct Run {
+  Scene scene;
+  Simulation simulation;
+  std::vector<NamedPoint> stations;
+  std::string method;
+  std::shared_ptr<const ResponseSpectra> spectra;  ///< null without a motion
+  bool has_motion() const { return simulation.recording.revolutions > 0; }
+};
+
+/// Motion of a point in a recording, samples x (x, y) [m].
+Mat motion_of(const Run& run, const Point& point);
+
+/// What a contact did, over some revolutions.
+struct ContactShare {
+  std::string name;
+  Regime regime = Regime::none;
+  double duty = 0.0;
+  double impacts_per_rev = 0.0;
+  double max_normal = 0.0, max_tangential = 0.0;  ///< of one blade [N]
+  double sticking = 0.0;
+  double mean_slip = 0.0;  ///< [m/s]
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("name", &ContactShare::name, "", "contact").axis(),
+        column("regime", &ContactShare::regime, "", "regime"),
+        column("duty", &ContactShare::duty, "", "share of time in touch"),
+        column("impacts_per_rev", &ContactShare::impacts_per_rev, "", "impacts per revolution"),
+        column("max_normal", &ContactShare::max_normal, "N", "largest normal force"),
+        column("max_tangential", &ContactShare::max_tangential, "N", "largest friction force"),
+        column("sticking", &ContactShare::sticking, "", "share of time sticking"),
+        column("mean_slip", &ContactShare::mean_slip, "m/s", "mean slip velocity in touch")};
+  }
+};
+
+/// What all contacts did; group /contacts.
+struct ContactShares {
+  std::vector<ContactShare> contacts;
+
+  static constexpr std::string_view group = "/contacts";
+  static constexpr auto columns() {
+    return std::tuple{rows(&ContactShares::contacts, "contacts+").maybe()};
+  }
+};
+ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long revolutions);
+
+/// Where a motion ended: others begin there; in group /trajectory.
+struct MotionEnd {
+  Vec displacement, velocity;  ///< full vectors, see DofMap [m, rad], [m/s, rad/s]
+  double phase = 0.0;          ///< [rad]
+
+  static constexpr std::string_view group = "/trajectory";
+  static constexpr auto columns() {
+    return std::tuple{
+        column("end_displacement", &MotionEnd::displacement, "m, rad",
+               "displacement at the end: x, y, theta_x, theta_y of every node, then of every body")
+            .along("full"),
+        column("end_velocity", &MotionEnd::velocity, "m/s, rad/s",
+               "velocity at the end: x, y, theta_x, theta_y of every node, then of every body")
+            .along("full"),
+        column("end_phase", &MotionEnd::phase, "rad", "phase at the end").within(valid::finite)};
+  }
+};
+MotionEnd motion_end(const Scene& scene, const MotionState& state);
+
+/// How a motion was computed and recorded; in group /trajectory.
+struct RunFacts {
+  int samples_per_revolution = 0;
+  double revolutions = 0.0;
+  double period = 0.0;  ///< of a revolution [s]
+  double steps = 0.0, evaluations = 0.0, events = 0.0;
+  std::string failure;
+
+  static constexpr std::string_view group = "/trajectory";
+  static constexpr auto columns() {
+    constexpr double most_samples = 1e9;
+    return std::tuple{
+        column("samples_per_revolution", &RunFacts::samples_per_revolution, "", "samples")
+            .within(valid::from_to(1.0, most_samples)),
+        column("revolutions", &RunFacts::revolutions, "", "revolutions that are recorded")
+            .within(valid::nonnegative),
+        column("period", &RunFacts::period, "s", "of a revolution").within(valid::nonnegative),
+        column("steps", &RunFacts::steps, "", "steps of the integration"),
+        column("evaluations", &RunFacts::evaluations, "", "evaluations of the equations of motion"),
+        column("events", &RunFacts::events, "", "beginnings and ends of touch, slip and stick"),
+        column("failure", &RunFacts::failure, "", "why it ended early").maybe()};
+  }
+};
+RunFacts run_facts(const Simulation& simulation);
+
+/// Motion of a station.
+struct StationMotion {
+  std::string station;
+  Vec x, y;  ///< per sample [m]
+
+  static constexpr auto columns() {
+    return std::tuple{column("station", &StationMotion::station, "", "station").axis(),
+                      column("x", &StationMotion::x, "m", "displacement x").along("samples"),
+                      column("y", &StationMotion::y, "m", "displacement y").along("samples")};
+  }
+};
+
+/// A motion as it was recorded; in group /trajectory.
+struct Trajectory {
+  Vec time;         ///< since the start [s]
+  Mat coordinates;  ///< reduced ones x samples
+  Mat basis;        ///< displacement of all points = basis * coordinates
+  std::vector<StationMotion> stations;
+  Mat normal, friction;  ///< contacts x samples [N]
+
+  static constexpr std::string_view group = "/trajectory";
+  static constexpr auto columns() {
+    return std::tuple{
+        column("time", &Trajectory::time, "s", "time since the start")
+            .axis("samples+")
+            .within(valid::finite),
+        column("coordinates", &Trajectory::coordinates, "",
+               "reduced coordinates: displacement = basis * coordinates")
+            .along("reduced samples"),
+        column("basis", &Trajectory::basis, "m, rad",
+               "displacement of the reduced coordinates: x, y, theta_x, theta_y of every node, "
+               "then of every body")
+            .along("full reduced"),
+        rows(&Trajectory::stations, "stations+").maybe(),
+        column("normal_force", &Trajectory::normal, "N", "normal force")
+            .along("/contacts/name samples")
+            .maybe(),
+        column("friction_force", &Trajectory::friction, "N", "friction force along the tangent")
+            .along("/contacts/name samples")
+            .maybe()};
+  }
+};
+Trajectory trajectory_of(const Run& run);
+
+/// Spectrum of a station.
+struct StationSpectrum {
+  Vec amplitude;  ///< per line [m]
+
+  static constexpr auto columns() {
+    return std::tuple{column("amplitude", &StationSpectrum::amplitude, "m",
+                             "radius of the circle at a signed frequency (Hann window)")
+                          .along("lines")};
+  }
+};
+
+/// Spectra of the stations of a run in ascending frequency, backward to the left; group /spectra.
+struct StationSpectra {
+  Vec frequency;  ///< signed [rad/s]
+  std::vector<StationSpectrum> stations;
+
+  static constexpr std::string_view group = "/spectra";
+  static constexpr auto columns() {
+    return std::tuple{
+        column("frequency", &StationSpectra::frequency, "rad/s", "signed frequency, forward > 0")
+            .axis("lines+")
+            .within(valid::finite),
+        rows(&StationSpectra::stations, "/trajectory/station")};
+  }
+};
+StationSpectra spectra_of(const Run& run);
+
+/// How a rotor was reduced.
+struct ReductionFacts {
+  int size = 0, freedoms = 0;  ///< degrees of freedom, with and without the reduction
+  double eigenvalue_error = 0.0, receptance_error = 0.0;
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("size", &ReductionFacts::size, "", "reduced degrees of freedom"),
+        column("freedoms", &ReductionFacts::freedoms, "", "degrees of freedom"),
+        column("eigenvalue_error", &ReductionFacts::eigenvalue_error, "", "largest, relative"),
+        column("receptance_error", &ReductionFacts::receptance_error, "", "of the contacts")};
+  }
+};
+ReductionFacts reduction_facts(const Scene& scene);
+
+}  // namespace whirl

@@ -1,0 +1,137 @@
+#pragma once
+/// The steady response to unbalance as a result: orbits of stations over speeds, peaks with their
+/// margins, clearances.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libdyn/system/clearance.hpp"
+#include "libdyn/system/stations.hpp"
+#include "libfe/response_curve.hpp"
+
+namespace whirl {
+
+struct UnbalanceOptions {
+  std::vector<double> speeds;     ///< ascending [rad/s]
+  bool has_given_speeds = false;  ///< else only their range counts, and the curve's own are taken
+  std::vector<NamedPoint> stations;
+};
+
+/// Orbits of a station: u(t) = Re(value e^(i Omega t)).
+struct StationResponse {
+  std::optional<int> node;  ///< from 1; nothing: a body
+  std::string name, label;
+  CVec x, y;         ///< complex amplitudes, per speed [m]
+  Vec major, minor;  ///< semi-axes, the minor one > 0 forward, per speed [m]
+  /// The same over the speeds of the curve; empty if the speeds are these.
+  CVec curve_x, curve_y;
+  Vec curve_major;
+
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("node", &StationResponse::node, "", "number of the node").only(in_json),
+        column("name", &StationResponse::name, "", "what is there").only(in_json),
+        column("station", &StationResponse::label, "", "station").axis().only(in_file),
+        column("major", &StationResponse::major, "m", "major semi-axis of the orbit")
+            .along("speeds"),
+        column("minor", &StationResponse::minor, "m", "minor semi-axis, > 0 forward")
+            .along("speeds"),
+        column("x", &StationResponse::x, "m", "complex amplitude of x").along("speeds"),
+        column("y", &StationResponse::y, "m", "complex amplitude of y").along("speeds"),
+        column("curve_x", &StationResponse::curve_x, "m", "complex amplitude of x")
+            .along("curve")
+            .only(in_file)
+            .maybe(),
+        column("curve_y", &StationResponse::curve_y, "m", "complex amplitude of y")
+            .along("curve")
+            .only(in_file)
+            .maybe(),
+        column("curve_major", &StationResponse::curve_major, "m", "major semi-axis of the orbit")
+            .along("curve")
+            .only(in_file)
+            .maybe()};
+  }
+};
+
+/// A peak of the largest response, and how far it is from the operating speed.
+struct StationPeak : ResponsePeak {
+  std::optional<int> node;  ///< of the station that moves most
+  std::string name;
+  std::optional<SeparationMargin> separation;  ///< nothing: the model has no operating speed
+
+  int station() const { return static_cast<int>(row) + 1; }
+  std::vector<double> half_power() const { return {below, above}; }
+  std::optional<double> margin() const {
+    return separation ? std::optional(separation->actual) : std::nullopt;
+  }
+  std::optional<std::string> side() const;
+  std::optional<double> required_margin() const {
+    return separation ? std::optional(separation->required) : std::nullopt;
+  }
+  std::optional<bool> is_kept() const;
+
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("speed", &StationPeak::speed, "rad/s", "speed of a peak")
+            .axis()
+            .within(valid::finite),
+        column("station", &StationPeak::station, "", "number of the station, from 1")
+            .within(valid::numbers_of("stations"))
+            .only(in_file),
+        column("node", &StationPeak::node, "", "where it is largest").only(in_json),
+        column("name", &StationPeak::name, "", "where it is largest").only(in_json),
+        column("amplitude", &StationPeak::amplitude, "m", "major semi-axis there"),
+        column("amplification", &StationPeak::amplification, "", "factor").only(in_json),
+        column("half_power", &StationPeak::half_power, "rad/s", "0.707 of the peak").only(in_json),
+        column("below", &StationPeak::below, "rad/s", "0.707 of the peak, below it").only(in_file),
+        column("above", &StationPeak::above, "rad/s", "0.707 of the peak, above it").only(in_file),
+        column("margin", &StationPeak::margin, "", "to the operating speed").only(in_json),
+        column("side", &StationPeak::side, "", "of the operating speed").only(in_json),
+        column("required_margin", &StationPeak::required_margin, "", "[API617]").only(in_json),
+        column("is_kept", &StationPeak::is_kept, "", "the required margin").only(in_json)};
+  }
+};
+
+/// The steady response to unbalance; group /unbalance.
+struct UnbalanceStudy {
+  std::vector<double> speeds;  ///< those asked for, else those of the curve [rad/s]
+  std::vector<StationResponse> stations;
+  std::vector<double> curve_speeds;  ///< as many as curves need; empty if speeds are these [rad/s]
+  std::vector<StationPeak> peaks;
+  std::vector<ClearanceUse> clearances;
+  std::vector<double> unbounded;         ///< undamped resonances [rad/s]
+  std::vector<LargestResponse> largest;  ///< per station
+  std::string failure;                   ///< why narrow peaks may be missing; empty: they are not
+
+  static constexpr std::string_view group = "/unbalance";
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("speed", &UnbalanceStudy::speeds, "rad/s", "rotor speed")
+            .axis("speeds+")
+            .within(valid::finite)
+            .as("speeds_rpm"),
+        column("curve_speed", &UnbalanceStudy::curve_speeds, "rad/s",
+               "rotor speed, as many as the curves need")
+            .axis("curve+")
+            .within(valid::finite)
+            .only(in_file)
+            .maybe(),
+        rows(&UnbalanceStudy::stations, "stations+"),
+        rows(&UnbalanceStudy::peaks, "peaks").prefixed("peak_").maybe(),
+        rows(&UnbalanceStudy::clearances, "clearances").only(in_json),
+        column("unbounded", &UnbalanceStudy::unbounded, "rad/s", "undamped resonances")
+            .only(in_json)};
+  }
+};
+
+/// Responses of stations, and where they come too near to what stands around them.
+/// @throws NumericalError  at a given speed where the dynamic stiffness is singular
+UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
+                               const UnbalanceOptions& options);
+
+}  // namespace whirl

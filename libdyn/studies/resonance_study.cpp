@@ -1,0 +1,90 @@
+#include "libdyn/studies/resonance_study.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "libbase/constants.hpp"
+#include "libdyn/motions/identify.hpp"
+
+namespace whirl {
+
+namespace {
+
+/// The mode of a sense that is nearest to a frequency seen from the rotor; null: there is none.
+const Mode* nearest_mode(const Modes& modes, Whirl whirl, double Omega, double seen) {
+  const Mode* nearest = nullptr;
+  double distance = std::numeric_limits<double>::infinity();
+  const double sense = whirl == Whirl::backward ? -1.0 : 1.0;
+  for (const Mode& m : modes.oscillatory) {
+    const double off = std::abs(std::abs(Omega - sense * m.frequency()) - seen);
+    if (m.whirl != whirl || off >= distance) continue;
+    nearest = &m;
+    distance = off;
+  }
+  return nearest;
+}
+
+/// Orbit of a mode in a contact, by the largest of the rotor.
+double size_at(const Contact& contact, const Assembler& assembler, const System& system,
+               const Mode* mode) {
+  if (!mode) return nan;
+  const Eigen::Vector2cd d =
+      closing_rows(contact, assembler, system.dofs).cast<Complex>() * mode->shape;
+  return Orbit(d(0), d(1)).major();
+}
+
+}  // namespace
+
+double ResonancePlace::bouncing_speed() const {
+  return bouncing ? bouncing->speed : nan;
+}
+
+double ResonancePlace::bouncing_period() const {
+  return bouncing ? bouncing->turns : nan;
+}
+
+int ResonancePlace::bouncing_stable() const {
+  return !bouncing ? -1 : bouncing->cycle.is_stable() ? 1 : 0;
+}
+
+std::shared_ptr<const Scene> scene_at_speed(const Model& model, double speed) {
+  Model at = model;
+  at.speed = speed;
+  at.has_speed = true;
+  return std::make_shared<const Scene>(make_scene(at, ReductionEstimate::no));
+}
+
+ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
+                               const ResonanceOptions& options,
+                               const Monitor<ResonanceStudy>& monitor) {
+  ResonanceStudy study{.diagram = campbell(assembler, options.speeds, options.modes)};
+  const ModeFinder finder(assembler);
+  for (const InternalResonance& r : internal_resonances(study.diagram, options.largest)) {
+    ResonancePlace place{r, {}, {}};
+    const Modes modes = finder.at(r.speed, options.modes + 2);
+    const System system = finder.system(r.speed);
+    const auto nearest = [&](int branch, double seen) {
+      const Whirl whirl = study.diagram.branches[static_cast<std::size_t>(branch)].whirl;
+      return nearest_mode(modes, whirl, r.speed, seen);
+    };
+    const Mode *fast = nearest(r.fast, r.p * r.frequency),
+               *slow = nearest(r.slow, r.q * r.frequency);
+    for (const Contact& c : model.contacts) {
+      place.contacts.push_back(
+          {c.name, size_at(c, assembler, system, fast), size_at(c, assembler, system, slow)});
+    }
+    study.places.push_back(std::move(place));
+  }
+  if (!options.confirms) return study;
+  long done = 0;
+  for (ResonancePlace& place : study.places) {
+    place.bouncing = find_bouncing([&](double speed) { return scene_at_speed(model, speed); },
+                                   study.diagram, place, options.search);
+    monitor.show(++done, std::ssize(study.places));
+    study.is_whole = !monitor.stops();
+    if (!study.is_whole) break;
+  }
+  return study;
+}
+
+}  // namespace whirl

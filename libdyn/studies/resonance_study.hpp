@@ -1,0 +1,98 @@
+#pragma once
+/// Internal resonances of a rotor with what its contacts make of them.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libdyn/studies/bouncing.hpp"
+#include "libdyn/studies/monitor.hpp"
+#include "libdyn/system/model.hpp"
+#include "libfe/resonance.hpp"
+
+namespace whirl {
+
+struct ResonanceOptions {
+  std::vector<double> speeds;  ///< ascending [rad/s]
+  int modes = 4;
+  int largest = 4;        ///< of p and q
+  bool confirms = false;  ///< look for bouncing motions near each of them
+  BouncingOptions search{};
+};
+
+/// Orbits of both modes in a contact, by their largest on the rotor.
+struct ContactOrbits {
+  std::string name;
+  double fast = 0.0, slow = 0.0;  ///< major semi-axes; NaN where no mode is near
+
+  static constexpr auto columns() {
+    return std::tuple{column("name", &ContactOrbits::name, "", "contact"),
+                      column("fast", &ContactOrbits::fast, "", "of the faster mode"),
+                      column("slow", &ContactOrbits::slow, "", "of the slower mode")};
+  }
+};
+
+/// A resonance, and what the model makes of it.
+struct ResonancePlace : InternalResonance {
+  std::vector<ContactOrbits> contacts;
+  std::optional<Bouncing> bouncing;
+
+  double bouncing_speed() const;   ///< NaN: none was found, or looked for [rad/s]
+  double bouncing_period() const;  ///< likewise [revolutions]
+  int bouncing_stable() const;     ///< 1 stable, 0 unstable, -1 none
+
+  static constexpr auto columns() {
+    using enum Written;
+    constexpr double most_order = 1e6;
+    return std::tuple{
+        column("speed", &ResonancePlace::speed, "rad/s", "speed of the resonance").axis(),
+        column("p", &ResonancePlace::p, "", "of the ratio p:q, of the faster mode")
+            .within(valid::from_to(1.0, most_order)),
+        column("q", &ResonancePlace::q, "", "of the ratio p:q, of the slower mode")
+            .within(valid::from_to(1.0, most_order)),
+        column("fast", &ResonancePlace::fast, "", "branch of the faster mode")
+            .from_one()
+            .within(valid::numbers_of("branches")),
+        column("slow", &ResonancePlace::slow, "", "branch of the slower mode")
+            .from_one()
+            .within(valid::numbers_of("branches")),
+        column("frequency", &ResonancePlace::frequency, "rad/s",
+               "of both modes over p and q, seen from the rotor"),
+        rows(&ResonancePlace::contacts, "contacts").only(in_json),
+        column("bouncing_speed", &ResonancePlace::bouncing_speed, "rad/s",
+               "where a bouncing motion was found")
+            .only(in_file),
+        column("bouncing_period", &ResonancePlace::bouncing_period, "",
+               "its period seen from the rotor [revolutions]")
+            .only(in_file),
+        column("bouncing_stable", &ResonancePlace::bouncing_stable, "",
+               "1 stable, 0 unstable, -1 none found or not looked for")
+            .within(valid::from_to(-1.0, 1.0))
+            .only(in_file)};
+  }
+};
+
+/// Group /resonances, beside the Campbell diagram that they are of.
+struct ResonanceStudy {
+  Campbell diagram;
+  std::vector<ResonancePlace> places;  ///< ascending speed
+  bool is_whole = true;                ///< false: it was stopped
+
+  static constexpr std::string_view group = "/resonances";
+  static constexpr auto columns() {
+    return std::tuple{rows(&ResonanceStudy::places, "resonances").maybe().only(Written::in_file)};
+  }
+};
+
+/// The model at another speed, reduced.
+std::shared_ptr<const Scene> scene_at_speed(const Model& model, double speed);
+
+/// Finds the resonances between some speeds, and bouncing motions near them if that is asked for.
+/// @throws NumericalError  as campbell
+ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
+                               const ResonanceOptions& options,
+                               const Monitor<ResonanceStudy>& monitor = {});
+
+}  // namespace whirl

@@ -1,0 +1,96 @@
+#pragma once
+/// Speed against error of integrators on a model's motion, as a result.
+
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libdyn/motions/work_precision.hpp"
+#include "libdyn/studies/monitor.hpp"
+
+namespace whirl {
+
+struct WorkPrecisionOptions {
+  std::vector<std::string> methods;  ///< as candidate_names
+  std::vector<double> tolerances;
+  long revolutions = 20;  ///< that are measured
+  long discard = 500;     ///< before
+};
+
+/// What a reference motion is worth.
+struct ReferenceFacts {
+  std::string made_by;
+  double error = 0.0, growth = 1.0;  ///< see ReferenceMotion
+
+  static constexpr auto columns() {
+    return std::tuple{column("made_by", &ReferenceFacts::made_by, "", "how"),
+                      column("error", &ReferenceFacts::error, "", "its own"),
+                      column("growth", &ReferenceFacts::growth, "", "of a small deviation")};
+  }
+};
+
+/// Group /bench.
+struct WorkPrecisionStudy {
+  WorkPrecisionOptions options;
+  ReferenceMotion reference;
+  std::vector<TimedRun> runs;  ///< tolerance by tolerance of method by method
+  bool is_whole = true;        ///< false: it was stopped
+
+  /// A number of each run over methods and tolerances; NaN where it failed, or was not measured.
+  Mat table(double (*number)(const TimedRun&)) const;
+  Mat errors() const;
+  Mat times() const;  ///< [s]
+  Mat steps() const;  ///< per revolution
+  Mat evaluations() const;
+  ReferenceFacts reference_facts() const {
+    return {reference.made_by, reference.error, reference.growth};
+  }
+
+  static constexpr std::string_view group = "/bench";
+  static constexpr auto columns() {
+    using enum Written;
+    using Study = WorkPrecisionStudy;
+    constexpr std::string_view both = "methods tolerances";
+    constexpr auto methods = [](const Study& s) { return s.options.methods; };
+    constexpr auto tolerances = [](const Study& s) { return s.options.tolerances; };
+    constexpr auto revolutions = [](const Study& s) {
+      return static_cast<double>(s.options.revolutions);
+    };
+    constexpr auto made_by = [](const Study& s) { return s.reference.made_by; };
+    constexpr auto error = [](const Study& s) { return s.reference.error; };
+    constexpr auto growth = [](const Study& s) { return s.reference.growth; };
+    constexpr auto counted = [](const Study& s) { return s.options.revolutions; };
+    constexpr auto discard = [](const Study& s) { return s.options.discard; };
+    return std::tuple{
+        column("method", methods, "", "method").axis("methods+").only(in_file),
+        column("tolerance", tolerances, "", "tolerance of a step")
+            .axis("tolerances+")
+            .within(valid::positive)
+            .only(in_file),
+        column("error", &Study::errors, "", "largest error at the end").along(both).only(in_file),
+        column("time", &Study::times, "s", "processor time per revolution")
+            .along(both)
+            .only(in_file),
+        column("steps", &Study::steps, "", "steps per revolution").along(both).only(in_file),
+        column("evaluations", &Study::evaluations, "", "evaluations per revolution")
+            .along(both)
+            .only(in_file),
+        column("revolutions", revolutions, "", "that are measured").only(in_file),
+        column("reference", made_by, "", "how the reference was made").only(in_file).maybe(),
+        column("reference_error", error, "", "the reference's own").only(in_file),
+        column("growth", growth, "", "of a small deviation").only(in_file).maybe(),
+        column("revolutions", counted, "", "that are measured").only(in_json),
+        column("discard", discard, "", "revolutions before them").only(in_json),
+        column("reference", &Study::reference_facts, "", "what errors are measured against")
+            .only(in_json),
+        rows(&Study::runs, "runs").only(in_json)};
+  }
+};
+
+/// Measures all methods at all tolerances, from where the start is after the revolutions before.
+/// @throws NumericalError  if these cannot be integrated
+WorkPrecisionStudy work_precision_study(const ContactSystem& system, MotionState start,
+                                        const WorkPrecisionOptions& options,
+                                        const Monitor<WorkPrecisionStudy>& monitor = {});
+
+}  // namespace whirl

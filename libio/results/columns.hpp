@@ -1,0 +1,473 @@
+#pragma once
+/// Results by their columns (libbase/column.hpp): into a result file and back, as JSON, and as what a
+/// file is checked against.
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <ranges>
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libbase/constants.hpp"
+#include "libbase/error.hpp"
+#include "libbase/field.hpp"
+#include "libio/results/hdf5.hpp"
+#include "libio/results/result_schema.hpp"
+#include "libio/text/record.hpp"
+
+namespace whirl {
+
+template <HasColumns T>
+Record record_of(const T& result);
+
+namespace columns {
+
+template <class T>
+concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, Complex>;
+template <class T>
+concept Text = std::convertible_to<T, std::string_view>;
+/// A std::optional; nothing is null in JSON, and stands in no file.
+template <class T>
+concept Maybe = requires(T t) {
+  t.has_value();
+};
+template <class T>
+concept EigenArray = requires {
+  typename T::Scalar;
+  T::RowsAtCompileTime;
+};
+
+/// Numbers or texts as files hold them, the last index running fastest.
+struct Cells {
+  ObjectKind kind = ObjectKind::real;
+  std::vector<Eigen::Index> shape{};
+  std::vector<double> reals{};
+  std::vector<int> integers{};
+  std::vector<Complex> complexes{};
+  std::vector<std::string> texts{};
+
+  bool is_empty() const {
+    return reals.empty() && integers.empty() && complexes.empty() &&
+           (texts.empty() || (shape.empty() && texts.front().empty()));
+  }
+};
+
+/// What a file holds of a type: of its elements, if it has several.
+template <class T>
+constexpr ObjectKind kind_of() {
+  if constexpr (std::is_enum_v<T> || Text<T>) {
+    return ObjectKind::text;
+  } else if constexpr (std::same_as<T, Complex>) {
+    return ObjectKind::complex;
+  } else if constexpr (std::is_integral_v<T>) {
+    return ObjectKind::integer;
+  } else if constexpr (std::is_floating_point_v<T>) {
+    return ObjectKind::real;
+  } else if constexpr (EigenArray<T>) {
+    return kind_of<typename T::Scalar>();
+  } else if constexpr (HasColumns<T>) {
+    return ObjectKind::other;  // in JSON only
+  } else {
+    return kind_of<typename T::value_type>();
+  }
+}
+
+/// How many dimensions a value has.
+template <class T>
+constexpr int rank_of() {
+  if constexpr (Scalar<T> || Text<T> || HasColumns<T>) {
+    return 0;
+  } else if constexpr (EigenArray<T>) {
+    return T::ColsAtCompileTime == 1 ? 1 : 2;
+  } else if constexpr (Maybe<T>) {
+    return rank_of<typename T::value_type>();
+  } else {
+    return 1 + rank_of<typename T::value_type>();
+  }
+}
+
+/// Whether a file can hold it; what cannot be is for JSON only.
+template <class T>
+constexpr bool fits_files = !Maybe<T> && kind_of<T>() != ObjectKind::other;
+
+template <class T>
+std::vector<Eigen::Index> extents_of(const T& value) {
+  if constexpr (rank_of<T>() == 0) {
+    return {};
+  } else if constexpr (EigenArray<T>) {
+    if constexpr (rank_of<T>() == 1) return {value.size()};
+    return {value.rows(), value.cols()};
+  } else {
+    return {static_cast<Eigen::Index>(std::ssize(value))};
+  }
+}
+
+/// Appends a value, all its elements one after the other.
+template <class T>
+void put(Cells& cells, const T& value, int offset = 0) {
+  if constexpr (std::is_enum_v<T>) {
+    cells.texts.emplace_back(name_of(value));
+  } else if constexpr (Text<T>) {
+    cells.texts.emplace_back(value);
+  } else if constexpr (std::same_as<T, Complex>) {
+    cells.complexes.push_back(value);
+  } else if constexpr (std::is_integral_v<T>) {
+    cells.integers.push_back(static_cast<int>(value) + offset);
+  } else if constexpr (std::is_floating_point_v<T>) {
+    cells.reals.push_back(value);
+  } else if constexpr (EigenArray<T>) {
+    for (Eigen::Index i = 0; i < value.rows(); ++i) {
+      for (Eigen::Index j = 0; j < value.cols(); ++j) put(cells, value(i, j), offset);
+    }
+  } else {
+    for (const auto& element : value) put(cells, element, offset);
+  }
+}
+
+/// Takes the values of cells one after the other.
+class Taking {
+ public:
+  explicit Taking(const Cells& cells) : cells_(cells) {}
+
+  /// @param shape  of the value; empty: one number or text
+  template <class T>
+  void take(T& value, std::span<const Eigen::Index> shape, int offset = 0) {
+    if constexpr (std::is_enum_v<T>) {
+      const std::string& word = cells_.texts.at(at_++);
+      for (const auto& [name, candidate] : choices(T{})) {
+        if (name == word) value = candidate;
+      }
+    } else if constexpr (Text<T>) {
+      value = cells_.texts.at(at_++);
+    } else if constexpr (std::same_as<T, Complex>) {
+      value = cells_.complexes.at(at_++);
+    } else if constexpr (std::is_arithmetic_v<T>) {
+      value = cells_.kind == ObjectKind::integer
+                  ? static_cast<T>(cells_.integers.at(at_++) - offset)
+                  : static_cast<T>(cells_.reals.at(at_++));
+    } else if constexpr (EigenArray<T>) {
+      value.resize(shape[0], shape.size() > 1 ? shape[1] : 1);
+      for (Eigen::Index i = 0; i < value.rows(); ++i) {
+        for (Eigen::Index j = 0; j < value.cols(); ++j) take(value(i, j), {}, offset);
+      }
+    } else {
+      value.resize(static_cast<std::size_t>(shape[0]));
+      for (auto& element : value) take(element, shape.subspan(1), offset);
+    }
+  }
+
+ private:
+  const Cells& cells_;
+  std::size_t at_ = 0;
+};
+
+/// What all columns are described by, whatever their type.
+struct Facts {
+  std::string name;  ///< of the dataset or attribute, below the group
+  std::string unit, meaning;
+  std::string dimensions;  ///< those of the rows first
+  ValidValues values{};
+  bool is_axis = false, is_optional = false;
+};
+
+template <class Member>
+Facts facts_of(const Column<Member>& c, std::string_view rows = "", std::string_view prefix = "") {
+  Facts f{.name = std::string(prefix) + std::string(c.key),
+          .unit = std::string(c.unit),
+          .meaning = std::string(c.meaning),
+          .dimensions = std::string(rows),
+          .values = c.values,
+          .is_axis = c.is_axis,
+          .is_optional = c.is_optional};
+  if (!rows.empty() && !c.dimensions.empty()) f.dimensions += ' ';
+  f.dimensions += c.dimensions;
+  return f;
+}
+
+/// The dataset of the numbers of rows.
+template <class Member>
+Facts number_facts(const RowsColumn<Member>& c) {
+  std::string_view name = c.dimension;
+  if (name.ends_with('+')) name.remove_suffix(1);
+  return {.name = std::string(c.prefix) + std::string(c.number),
+          .unit = "",
+          .meaning = std::string(c.meaning),
+          .dimensions = std::string(c.dimension),
+          .values = valid::numbers_of(name),
+          .is_axis = true};
+}
+
+/// Writes a group of a result file; knows the datasets along its dimensions.
+class GroupWriter {
+ public:
+  GroupWriter(ResultWriter& file, std::string_view group) : file_(file), group_(group) {}
+
+  void attribute(const std::string& name, const Cells& cells);
+  void dataset(const Facts& facts, Cells cells);
+  void dataset(const Facts& facts, const Mat& values);
+  /// Size of a dimension that a dataset written before stands along; 0: none does.
+  Eigen::Index size_of(std::string_view dimension) const;
+
+ private:
+  struct Axis {
+    std::string path;
+    Eigen::Index size = 0;
+  };
+  /// What stands beside a dataset of a shape, whose axis is known from now on if it is one.
+  DatasetInfo info_of(const Facts& facts, std::span<const Eigen::Index> shape);
+
+  ResultWriter& file_;
+  std::string group_;
+  std::map<std::string, Axis, std::less<>> axes_;
+};
+
+/// Names of dimensions, those of a list that a space separates, without their "+".
+std::vector<std::string> dimension_names(std::string_view list);
+
+/// Reads a dataset of a kind, or an attribute, "group@name"; nothing where a file is without it.
+std::optional<Cells> read_cells(const ResultReader& file, const std::string& path, ObjectKind kind);
+
+template <class Member>
+constexpr bool is_read = std::is_member_object_pointer_v<Member>;
+
+/// Calls f with every column of a row that a file can hold; rows of rows are for JSON only.
+template <class Row, class F>
+void for_each_in_row(const F& f) {
+  for_each_column<Row>([&](const auto& c) {
+    if constexpr (!is_rows_column<std::remove_cvref_t<decltype(c)>>) {
+      if constexpr (fits_files<ColumnValue<Row, decltype(c.member)>>) f(c);
+    }
+  });
+}
+
+template <class Row, class Member>
+void write_column(GroupWriter& group, const std::vector<Row>& rows, const Column<Member>& c,
+                  std::string_view dimension, std::string_view prefix) {
+  using Value = ColumnValue<Row, Member>;
+  if (c.written == Written::in_json) return;
+  Cells cells{.kind = kind_of<Value>(), .shape = {static_cast<Eigen::Index>(rows.size())}};
+  for (const Row& row : rows) put(cells, std::invoke(c.member, row), c.is_from_one ? 1 : 0);
+  if constexpr (rank_of<Value>() > 0) {
+    if (!rows.empty()) {
+      for (const auto n : extents_of(std::invoke(c.member, rows.front()))) cells.shape.push_back(n);
+    } else {
+      for (const std::string& d : dimension_names(c.dimensions)) {
+        cells.shape.push_back(group.size_of(d));
+      }
+    }
+  }
+  if (c.is_optional && cells.is_empty()) return;
+  group.dataset(facts_of(c, dimension, prefix), std::move(cells));
+}
+
+template <class T, class Member>
+void write_column(GroupWriter& group, const T& result, const Column<Member>& c) {
+  using Value = ColumnValue<T, Member>;
+  if (c.written == Written::in_json) return;
+  if constexpr (std::same_as<Value, Mat>) {  // may be large: not copied
+    const auto& value = std::invoke(c.member, result);
+    if (!c.is_optional || value.size() > 0) group.dataset(facts_of(c), value);
+  } else if constexpr (fits_files<Value>) {
+    const auto& value = std::invoke(c.member, result);
+    Cells cells{.kind = kind_of<Value>(), .shape = extents_of(value)};
+    put(cells, value, c.is_from_one ? 1 : 0);
+    if (c.is_optional && cells.is_empty()) return;
+    if constexpr (rank_of<Value>() == 0) {
+      group.attribute(std::string(c.key), cells);
+    } else {
+      group.dataset(facts_of(c), std::move(cells));
+    }
+  }
+}
+
+template <class T, class Member>
+void write_column(GroupWriter& group, const T& result, const RowsColumn<Member>& c) {
+  const auto& list = std::invoke(c.member, result);
+  if (c.written == Written::in_json || (c.is_optional && list.empty())) return;
+  if (!c.number.empty()) {
+    Cells numbers{.kind = ObjectKind::integer};
+    for (std::size_t i = 1; i <= list.size(); ++i) numbers.integers.push_back(static_cast<int>(i));
+    numbers.shape = {static_cast<Eigen::Index>(list.size())};
+    group.dataset(number_facts(c), std::move(numbers));
+  }
+  for_each_in_row<RowOf<T, Member>>(
+      [&](const auto& column) { write_column(group, list, column, c.dimension, c.prefix); });
+}
+
+template <class Row, class Member>
+void read_column(const ResultReader& file, const std::string& group, std::vector<Row>& rows,
+                 const Column<Member>& c, std::string_view prefix) {
+  if constexpr (is_read<Member>) {
+    if (c.written == Written::in_json) return;
+    const auto cells = read_cells(file, group + "/" + facts_of(c, "", prefix).name,
+                                  kind_of<ColumnValue<Row, Member>>());
+    if (!cells) return;
+    rows.resize(static_cast<std::size_t>(cells->shape.at(0)));
+    Taking taking(*cells);
+    const std::span<const Eigen::Index> shape(cells->shape);
+    for (Row& row : rows) taking.take(row.*c.member, shape.subspan(1), c.is_from_one ? 1 : 0);
+  }
+}
+
+template <class T, class Member>
+void read_column(const ResultReader& file, const std::string& group, T& result,
+                 const Column<Member>& c) {
+  if constexpr (is_read<Member> && fits_files<ColumnValue<T, Member>>) {
+    using Value = ColumnValue<T, Member>;
+    if (c.written == Written::in_json) return;
+    const char* below = rank_of<Value>() == 0 ? "@" : "/";
+    const auto cells = read_cells(file, group + below + std::string(c.key), kind_of<Value>());
+    if (cells) Taking(*cells).take(result.*c.member, cells->shape, c.is_from_one ? 1 : 0);
+  }
+}
+
+template <class T, class Member>
+void read_column(const ResultReader& file, const std::string& group, T& result,
+                 const RowsColumn<Member>& c) {
+  if constexpr (is_read<Member>) {
+    if (c.written == Written::in_json) return;
+    for_each_column<RowOf<T, Member>>(
+        [&](const auto& column) { read_column(file, group, result.*c.member, column, c.prefix); });
+  }
+}
+
+/// Unit as it ends a key of JSON: "_rpm" of rad/s, "_m_s" of m/s.
+std::string key_suffix(std::string_view unit);
+
+template <class T>
+Record record_value(const T& value, double divisor, int offset = 0) {
+  if constexpr (Maybe<T>) {
+    return value ? record_value(*value, divisor, offset) : Record(nullptr);
+  } else if constexpr (std::is_enum_v<T>) {
+    return Record(name_of(value));
+  } else if constexpr (Text<T>) {
+    return Record(std::string_view(value));
+  } else if constexpr (std::same_as<T, bool>) {
+    return Record(value);
+  } else if constexpr (std::is_integral_v<T>) {
+    return Record(static_cast<long>(value) + offset);
+  } else if constexpr (std::is_floating_point_v<T> || std::same_as<T, Complex>) {
+    return Record(value / divisor);
+  } else if constexpr (HasColumns<T>) {
+    return record_of(value);
+  } else {
+    Record list = Record::array();
+    if constexpr (EigenArray<T> && rank_of<T>() == 2) {
+      for (Eigen::Index i = 0; i < value.rows(); ++i) {
+        Record row = Record::array();
+        for (Eigen::Index j = 0; j < value.cols(); ++j) {
+          row.add(record_value(value(i, j), divisor, offset));
+        }
+        list.add(std::move(row));
+      }
+    } else {
+      for (const auto& element : value) list.add(record_value(element, divisor, offset));
+    }
+    return list;
+  }
+}
+
+template <class Member>
+std::string json_key(const Column<Member>& c) {
+  return c.json_key.empty() ? std::string(c.key) + key_suffix(c.unit) : std::string(c.json_key);
+}
+
+}  // namespace columns
+
+/// Writes a result as the group of a file that it names.
+/// @throws FileError  as ResultWriter
+template <HasGroup T>
+void write_result(ResultWriter& file, const T& result) {
+  columns::GroupWriter group(file, T::group);
+  for_each_column<T>([&](const auto& c) { columns::write_column(group, result, c); });
+}
+
+/// Reads what a file holds of a result; columns that are functions of others are not read.
+/// @throws FileError  as ResultReader
+template <HasGroup T>
+T read_result(const ResultReader& file) {
+  T result{};
+  for_each_column<T>(
+      [&](const auto& c) { columns::read_column(file, std::string(T::group), result, c); });
+  return result;
+}
+
+/// Entries of a result, or of one of its rows, for JSON.
+template <HasColumns T>
+Record record_of(const T& result) {
+  Record record;
+  for_each_column<T>([&](const auto& c) {
+    if (c.written == Written::in_file) return;
+    const auto& value = std::invoke(c.member, result);
+    if constexpr (requires { value.empty(); }) {
+      if (c.is_optional && c.written == Written::in_json && value.empty()) return;
+    }
+    if constexpr (is_rows_column<std::remove_cvref_t<decltype(c)>>) {
+      Record list = Record::array();
+      for (const auto& row : value) {
+        Record entry;
+        if (!c.number.empty()) entry.set("number", static_cast<long>(&row - &value.front()) + 1);
+        list.add(entry.merge(record_of(row)));
+      }
+      record.set(columns::dimension_names(c.dimension).front(), std::move(list));
+    } else {
+      const std::string key = columns::json_key(c);
+      record.set(key, columns::record_value(value, key.ends_with("_rpm") ? rpm : 1.0,
+                                            c.is_from_one ? 1 : 0));
+    }
+  });
+  return record;
+}
+
+/// What a file is checked against that holds a result: what is never missing in one set; datasets
+/// that may be, a set of all along one dimension; then rows that may be. These need the first set.
+template <HasGroup T>
+std::vector<ResultSet> schema_of() {
+  std::vector<ResultSet> sets(1);
+  std::map<std::string, std::size_t> optional_sets;  // by their first dimension
+  const std::string group(T::group);
+  const auto add = [&](ResultSet& set, const columns::Facts& f, ObjectKind kind,
+                       bool is_attribute) {
+    set.entries.push_back({group + (is_attribute ? "@" : "/") + f.name, kind, f.dimensions,
+                           f.values, f.is_optional, f.unit, f.meaning, f.is_axis});
+  };
+  for_each_column<T>([&](const auto& c) {
+    if (c.written == Written::in_json) return;
+    if constexpr (is_rows_column<std::remove_cvref_t<decltype(c)>>) {
+      using Row = RowOf<T, decltype(c.member)>;
+      if (c.is_optional) sets.push_back({});
+      ResultSet& set = c.is_optional ? sets.back() : sets.front();
+      if (!c.number.empty()) add(set, columns::number_facts(c), ObjectKind::integer, false);
+      columns::for_each_in_row<Row>([&](const auto& column) {
+        if (column.written == Written::in_json) return;
+        add(set, columns::facts_of(column, c.dimension, c.prefix),
+            columns::kind_of<ColumnValue<Row, decltype(column.member)>>(), false);
+      });
+    } else {
+      using Value = ColumnValue<T, decltype(c.member)>;
+      columns::Facts facts = columns::facts_of(c);
+      const bool is_attribute = columns::rank_of<Value>() == 0;
+      std::size_t set = 0;
+      if (c.is_optional && !is_attribute) {
+        const std::string along = columns::dimension_names(c.dimensions).at(0);
+        set = optional_sets.try_emplace(along, sets.size()).first->second;
+        if (set == sets.size()) sets.push_back({});
+        facts.is_optional = false;
+      }
+      add(sets[set], facts, columns::kind_of<Value>(), is_attribute);
+    }
+  });
+  if (sets.front().entries.empty()) {
+    sets.erase(sets.begin());
+    return sets;
+  }
+  for (std::size_t i = 1; i < sets.size(); ++i) {
+    sets[i].needs.push_back(sets.front().entries.front().path);
+  }
+  return sets;
+}
+
+}  // namespace whirl

@@ -1,0 +1,157 @@
+// A result states its members once: what is written comes back, and file, JSON and schema agree.
+
+#include "libio/results/columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/io/result_folder.hpp"
+
+namespace whirl::columns_test {
+
+enum class Color { red, blue };
+constexpr auto choices(Color) {
+  return std::array{Choice<Color>{"red", Color::red}, Choice<Color>{"blue", Color::blue}};
+}
+
+struct Row {
+  double speed = 0.0;
+  Color color = Color::red;
+  int partner = 0;
+  Complex value;
+  std::vector<double> over;
+  std::string note;
+
+  double twice() const { return 2.0 * speed; }
+
+  static constexpr auto columns() {
+    return std::tuple{column("speed", &Row::speed, "rad/s", "a speed").within(valid::nonnegative),
+                      column("color", &Row::color, "", "a choice"),
+                      column("partner", &Row::partner, "", "number of a row").from_one(),
+                      column("value", &Row::value, "m", "a complex number"),
+                      column("over", &Row::over, "N", "over places").along("places"),
+                      column("twice", &Row::twice, "rad/s", "a function of others"),
+                      column("note", &Row::note, "", "only here").only(Written::in_json).maybe()};
+  }
+};
+
+struct Result {
+  double share = 0.0;
+  std::string title;
+  Vec places;
+  std::vector<Row> rows_of_it;
+  Mat square;
+  std::vector<double> extra;
+
+  static constexpr std::string_view group = "/thing";
+  static constexpr auto columns() {
+    return std::tuple{
+        column("place", &Result::places, "m", "places").axis("places+"),
+        column("share", &Result::share, "", "a number"),
+        column("title", &Result::title, "", "a text"),
+        rows(&Result::rows_of_it, "items").numbered("item", "items"),
+        column("square", &Result::square, "N.m", "a matrix").along("items places"),
+        column("extra", &Result::extra, "m/s", "may be missing").along("extras").maybe()};
+  }
+};
+
+Result example() {
+  Result r{.share = 0.25, .title = "a thing", .places = Vec::LinSpaced(3, 0.0, 2.0)};
+  r.rows_of_it = {{1.5, Color::blue, 1, {1.0, -2.0}, {1.0, 2.0, 3.0}, "why"},
+                  {2.5, Color::red, 0, {0.0, 4.0}, {4.0, 5.0, nan}, ""}};
+  r.square = (Mat(2, 3) << 1, 2, 3, 4, 5, 6).finished();
+  return r;
+}
+
+class Columns : public test::InResultFolder {
+ protected:
+  void write(const Result& r) const {
+    ResultWriter file(path, Replaces::anything);
+    write_result(file, r);
+    file.commit();
+  }
+};
+
+TEST_F(Columns, BringBackWhatWasWritten) {
+  const Result before = example();
+  write(before);
+  const ResultReader file(path);
+  const auto after = read_result<Result>(file);
+  EXPECT_EQ(after.share, before.share);
+  EXPECT_EQ(after.title, before.title);
+  EXPECT_EQ(after.places, before.places);
+  EXPECT_EQ(after.square, before.square);
+  EXPECT_TRUE(after.extra.empty());
+  ASSERT_EQ(after.rows_of_it.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Row &a = after.rows_of_it[i], &b = before.rows_of_it[i];
+    EXPECT_EQ(a.speed, b.speed);
+    EXPECT_EQ(a.color, b.color);
+    EXPECT_EQ(a.partner, b.partner);
+    EXPECT_EQ(a.value, b.value);
+    EXPECT_EQ(a.over[0], b.over[0]);
+    EXPECT_EQ(std::isnan(a.over[2]), std::isnan(b.over[2]));
+    EXPECT_EQ(a.note, "");  // is in no file
+  }
+}
+
+TEST_F(Columns, WriteDatasetsWithTheirAxes) {
+  write(example());
+  const ResultReader file(path);
+  EXPECT_EQ(file.axes("/thing/speed"), std::vector<std::string>{"/thing/item"});
+  EXPECT_EQ(file.axes("/thing/over"), (std::vector<std::string>{"/thing/item", "/thing/place"}));
+  EXPECT_EQ(file.axes("/thing/square"), (std::vector<std::string>{"/thing/item", "/thing/place"}));
+  EXPECT_EQ(file.integers("/thing/item"), (std::vector<int>{1, 2}));
+  EXPECT_EQ(file.integers("/thing/partner"), (std::vector<int>{2, 1}));
+  EXPECT_EQ(file.strings("/thing/color"), (std::vector<std::string>{"blue", "red"}));
+  EXPECT_EQ(file.vector("/thing/twice")(1), 5.0);
+  EXPECT_FALSE(file.has("/thing/extra"));
+  EXPECT_FALSE(file.has("/thing/note"));
+}
+
+// Of an empty list the datasets are there with the sizes of their other dimensions.
+TEST_F(Columns, WriteEmptyRows) {
+  Result r = example();
+  r.rows_of_it.clear();
+  r.square.resize(0, 3);
+  write(r);
+  const ResultReader file(path);
+  EXPECT_EQ(file.shape("/thing/over"), (std::vector<Eigen::Index>{0, 3}));
+  EXPECT_TRUE(read_result<Result>(file).rows_of_it.empty());
+}
+
+TEST(ColumnsInJson, HaveUnitsInTheirKeysAndSpeedsInRpm) {
+  Result r = example();
+  r.rows_of_it[0].speed = 2.0 * rpm;
+  const std::string json = record_of(r).json();
+  EXPECT_NE(json.find("\"speed_rpm\": 2"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"square_n_m\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"number\": 1"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"partner\": 2"), std::string::npos) << json;
+  EXPECT_EQ(json.find("\"note\": \"\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"note\": \"why\""), std::string::npos) << json;
+}
+
+TEST(ColumnsInSchema, StateKindsSizesAndWhatMayBeMissing) {
+  const std::vector<ResultSet> sets = schema_of<Result>();
+  ASSERT_EQ(sets.size(), 2u);
+  const auto entry = [&](const std::string& path) {
+    for (const ResultSet& set : sets) {
+      for (const ResultEntry& e : set.entries) {
+        if (e.path == path) return e;
+      }
+    }
+    ADD_FAILURE() << path;
+    return ResultEntry{};
+  };
+  EXPECT_EQ(sets[0].entries[0].path, "/thing/place");
+  EXPECT_EQ(entry("/thing/over").sizes, "items places");
+  EXPECT_EQ(entry("/thing/over").unit, "N");
+  EXPECT_EQ(entry("/thing/value").kind, ObjectKind::complex);
+  EXPECT_EQ(entry("/thing/color").kind, ObjectKind::text);
+  EXPECT_EQ(entry("/thing@share").kind, ObjectKind::real);
+  EXPECT_EQ(entry("/thing/item").values.counts, "items");
+  EXPECT_EQ(sets[1].entries[0].path, "/thing/extra");
+  EXPECT_EQ(sets[1].needs, std::vector<std::string>{"/thing/place"});
+}
+
+}  // namespace whirl::columns_test
