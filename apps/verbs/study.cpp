@@ -3,100 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <thread>
 
-#include "apps/progress.hpp"
-#include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
-#include "apps/verbs/simulation.hpp"
-#include "apps/verbs/study_classification.hpp"
-#include "apps/verbs/study_file.hpp"
 #include "libbase/error.hpp"
-#include "libbase/piece_sizes.hpp"
-#include "libbase/work_queue.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl {
 
 namespace {
 
-/// Motions of a study that have not settled.
-struct Unsettled {
-  long motions = 0, would_settle = 0;
-  long after = 0;  ///< revolutions of transient after which these would have settled
-};
-
-Unsettled unsettled_of(const PointTable& table) {
-  Unsettled u;
-  for (std::size_t i = 0; i < table.points(); ++i) {
-    if (motion_name(table, i) != name_of(MotionKind::not_settled)) continue;
-    ++u.motions;
-    const long after = static_cast<long>(table.number("settles_after", i));
-    if (after > 0) ++u.would_settle;
-    u.after = std::max(u.after, after);
-  }
-  return u;
-}
-
-std::string unsettled_text(const Unsettled& u) {
+std::string unsettled_text(const StudyOutcome& o) {
   std::string text =
-      fmt::format("\n  {} motion{} not settled", u.motions, u.motions == 1 ? " has" : "s have");
-  if (u.would_settle == u.motions) {
-    text +=
-        fmt::format("; --discard {} would settle {}\n", u.after, u.motions == 1 ? "it" : "them");
-  } else if (u.would_settle > 0) {
+      fmt::format("\n  {} motion{} not settled", o.unsettled, o.unsettled == 1 ? " has" : "s have");
+  if (o.would_settle == o.unsettled) {
+    text += fmt::format("; --discard {} would settle {}\n", o.settles_after,
+                        o.unsettled == 1 ? "it" : "them");
+  } else if (o.would_settle > 0) {
     text += fmt::format("; --discard {} would settle {}, of others more --revolutions would tell\n",
-                        u.after, u.would_settle);
+                        o.settles_after, o.would_settle);
   } else {
     text += "; more --revolutions would tell what they become\n";
   }
   return text;
-}
-
-/// The pieces of a study that are not done, one after the other.
-class Pieces {
- public:
-  Pieces(const StudyWork& work, const PointTable& table) : work_(work), table_(table) {
-    for (std::size_t i = 0; i < table.points(); ++i) left_ += table.is_done(i) ? 0 : 1;
-  }
-
-  /// Points that are computed together; none: all have been given out.
-  std::vector<std::size_t> next(PieceSizes& sizes) {
-    if (work_.pieces.empty()) return next_points(sizes.next(left_));
-    while (at_ < work_.pieces.size()) {
-      const auto& piece = work_.pieces[at_++];
-      if (!std::all_of(piece.begin(), piece.end(), [&](auto p) { return table_.is_done(p); })) {
-        return piece;
-      }
-    }
-    return {};
-  }
-
- private:
-  std::vector<std::size_t> next_points(std::size_t count) {
-    std::vector<std::size_t> piece;
-    for (; at_ < table_.points() && piece.size() < count; ++at_) {
-      if (!table_.is_done(at_)) piece.push_back(at_);
-    }
-    left_ -= piece.size();
-    return piece;
-  }
-
-  const StudyWork& work_;
-  const PointTable& table_;
-  std::size_t at_ = 0;    ///< the next piece, or point
-  std::size_t left_ = 0;  ///< points that are neither done nor given out
-};
-
-/// Work that says how long it took.
-std::function<StudyRows()> timed(std::function<StudyRows()> work) {
-  return [work = std::move(work)] {
-    const auto begin = std::chrono::steady_clock::now();
-    StudyRows rows = work();
-    rows.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return rows;
-  };
 }
 
 }  // namespace
@@ -111,19 +40,6 @@ std::vector<OptionSpec> study_options(std::vector<OptionSpec> own) {
       restart_option};
   own.insert(own.end(), shared.begin(), shared.end());
   return own;
-}
-
-void together(const std::vector<StudyPoint*>& points,
-              const std::function<void(std::span<Subject>)>& f) {
-  std::vector<StudyPoint*> good;
-  std::vector<Subject> subjects;
-  for (StudyPoint* p : points) {
-    if (!p->is_good()) continue;
-    good.push_back(p);
-    subjects.push_back(std::move(p->subject));
-  }
-  f(subjects);
-  for (std::size_t i = 0; i < good.size(); ++i) good[i]->subject = std::move(subjects[i]);
 }
 
 StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t most)
@@ -142,87 +58,64 @@ StudySetup::StudySetup(const Invocation& call, std::size_t least, std::size_t mo
                                  "such as --over operation.speed=100:200:1rad/s",
                                  axes_.size(), right));
   }
-  options_.revolutions = call.integer("revolutions");
-  options_.discard = call.integer("discard", 0);
-  options_.exponents = call.integer("exponents");
-  options_.tolerance = call.number("tolerance", "");
-  require_tolerance(options_.tolerance, "--tolerance " + call.text("tolerance"));
+  classify_.revolutions = call.integer("revolutions");
+  classify_.discard = call.integer("discard", 0);
+  classify_.exponents = call.integer("exponents");
+  classify_.tolerance = call.number("tolerance", "");
+  require_tolerance(classify_.tolerance, "--tolerance " + call.text("tolerance"));
   const long processors = std::max(1u, std::thread::hardware_concurrency());
   threads_ = static_cast<int>(call.integer_or("threads", processors));
   earlier_ = earlier_start(call, model_);
   if (call.has("from")) model_.start.whirl.clear();  // it goes on as it was
   family_.emplace(model_, axes_);
+  for (const ParameterAxis& a : axes_) grid_.axes.push_back(a.values);
   // what is wrong at the ends is said before the work
   for (std::size_t corner = 0; corner < (std::size_t{1} << axes_.size()); ++corner) {
-    std::vector<std::size_t> indices;
+    std::vector<double> values;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-      indices.push_back((corner >> i & 1) != 0 ? axes_[i].values.size() - 1 : 0);
+      const std::vector<double>& all = axes_[i].values;
+      values.push_back((corner >> i & 1) != 0 ? all.back() : all.front());
     }
-    require_speed(family_->model(values_at(indices)));
+    require_speed(family_->model(values));
   }
 }
 
-std::size_t StudySetup::points() const {
-  std::size_t product = 1;
-  for (const ParameterAxis& a : axes_) product *= a.values.size();
-  return product;
+StudyModels StudySetup::models() const {
+  return {.member =
+              [this](std::span<const double> values) {
+                StudyMember member{.model = family_->model(values), .scene = nullptr};
+                member.scene = family_->scene(member.model);
+                return member;
+              },
+          .start =
+              [this](const StudyMember& member, const FullState* from) {
+                const FullState* start = from ? from : earlier_ ? &earlier_->state : nullptr;
+                if (!start) return family_->start(member.model, *member.scene, nullptr);
+                Model model = member.model;
+                model.start.from = StartFrom::file;
+                model.start.whirl.clear();
+                MotionState state = family_->start(model, *member.scene, start);
+                if (!from) state.phase = earlier_->phase;
+                return state;
+              }};
 }
 
-std::vector<std::size_t> StudySetup::indices_of(std::size_t number) const {
-  std::vector<std::size_t> indices(axes_.size());
-  for (std::size_t i = axes_.size(); i-- > 0;) {
-    indices[i] = number % axes_[i].values.size();
-    number /= axes_[i].values.size();
-  }
-  return indices;
-}
-
-std::vector<double> StudySetup::values_at(const std::vector<std::size_t>& indices) const {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < axes_.size(); ++i) values.push_back(axes_[i].values[indices[i]]);
-  return values;
-}
-
-StudyPoint StudySetup::point(std::size_t number, const FullState* from) const {
-  StudyPoint p;
-  p.model = std::make_unique<Model>(family_->model(values_at(indices_of(number))));
-  const FullState* start = from ? from : earlier_ ? &earlier_->state : nullptr;
-  if (start) {
-    p.model->start.from = StartFrom::file;
-    p.model->start.whirl.clear();
-  }
+StudyMember StudySetup::first() const {
   try {
-    p.scene = family_->scene(*p.model);
-    p.subject.system = &p.scene->contacts;
-    p.subject.found.end = family_->start(*p.model, *p.scene, start);
-    if (start && !from) p.subject.found.end.phase = earlier_->phase;
+    return models().member(grid_.values_at(0));
   } catch (const NumericalError& error) {
-    p.failure = error.what();
+    throw NumericalError((axes_.empty() ? "" : describe(0) + ": ") + error.what());
   }
-  return p;
 }
 
-std::vector<std::string> StudySetup::axis_paths(const std::string& group) const {
-  std::vector<std::string> paths;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    paths.push_back(fmt::format("{}/axis_{}", group, i + 1));
-  }
-  return paths;
-}
-
-std::unique_ptr<ResultWriter> StudySetup::file(const Invocation& call,
-                                               const std::string& group) const {
+std::unique_ptr<ResultWriter> StudySetup::file(const Invocation& call) const {
   auto file = call.result_file(model_);
   write_start(*file, earlier_);
-  const std::vector<std::string> paths = axis_paths(group);
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
-    file->dataset(paths[i], axes_[i].values, {axes_[i].unit, axes_[i].path, {""}});
-  }
   return file;
 }
 
-std::string StudySetup::describe(std::size_t number) const {
-  const std::vector<std::size_t> indices = indices_of(number);
+std::string StudySetup::describe(std::size_t point) const {
+  const std::vector<std::size_t> indices = grid_.indices_of(point);
   std::string text;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     text +=
@@ -242,77 +135,48 @@ Record StudySetup::axes_record() const {
   return list;
 }
 
-StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable& table,
-                       const std::optional<EarlierEnd>& start,
-                       const std::function<std::unique_ptr<ResultWriter>()>& begin) {
-  StudyOutcome outcome;
-  StudyFile saver(
-      call, start, begin, [&](ResultWriter& file) { table.write(file); },
-      [&](const ResultReader& earlier) { table.read(earlier); });
-  outcome.resumed = table.done();
-  install_interrupt_handler();
-  Progress progress(work.label, static_cast<long>(table.points() - outcome.resumed),
-                    call.shows_progress);
-  PieceSizes sizes(work.most_together, work.threads);
-  {
-    WorkQueue<StudyRows> queue(work.threads);
-    const auto take = [&](std::chrono::milliseconds patience) {
-      const auto result = queue.take(patience);
-      if (!result || !result->is_whole) return;
-      for (const auto& [point, row] : result->rows) table.put(point, row);
-      sizes.learn(result->rows.size(), result->seconds);
-      if (outcome.failure.empty()) outcome.failure = result->failure;
-      saver.save_if_due();
-      progress.update(static_cast<long>(table.done() - outcome.resumed));
-    };
-    Pieces pieces(work, table);
-    try {
-      while (!is_interrupted()) {
-        const std::vector<std::size_t> piece = pieces.next(sizes);
-        if (piece.empty()) break;
-        queue.add(timed(work.prepare(piece)));
-        while (queue.is_full()) take(std::chrono::milliseconds(100));
-      }
-      while (queue.has_open()) take(std::chrono::milliseconds(100));
-    } catch (...) {  // a wrong model somewhere in the middle: what is done is kept
-      saver.save();
-      throw;
-    }
-  }
-  saver.save();
+StudyOutcome study_outcome(const std::vector<const ClassifiedMotion*>& motions, std::size_t resumed,
+                           const std::function<std::string(std::size_t)>& describe) {
+  StudyOutcome outcome{.resumed = resumed, .points = motions.size()};
   std::size_t failed = 0;
-  for (std::size_t i = 0; i < table.points(); ++i) {
-    if (table.is_done(i) && table.number("motion", i) < 0.0) ++failed;
+  std::string example;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (!motions[i]) continue;
+    const ClassifiedMotion& motion = *motions[i];
+    ++outcome.done;
+    failed += motion.has_failed() ? 1 : 0;
+    if (example.empty() && !motion.failure.empty()) example = describe(i) + ": " + motion.failure;
+    if (motion.kind != MotionKind::not_settled) continue;
+    ++outcome.unsettled;
+    outcome.would_settle += motion.settles_after > 0 ? 1 : 0;
+    outcome.settles_after = std::max(outcome.settles_after, motion.settles_after);
   }
   if (failed > 0) {
-    outcome.failure =
-        fmt::format("{} of {} points{}{}", failed, table.points(),
-                    outcome.failure.empty() ? "" : ", for instance at ", outcome.failure);
+    outcome.failure = fmt::format("{} of {} points{}{}", failed, outcome.points,
+                                  example.empty() ? "" : ", for instance at ", example);
   }
-  if (table.done() < table.points()) {
+  if (outcome.done < outcome.points) {
     outcome.status = 130;
-  } else if (failed == table.points()) {
+  } else if (failed == outcome.points) {
     outcome.status = 3;
   }
   return outcome;
 }
 
-void add_outcome(const Invocation& call, const StudyOutcome& outcome, const PointTable& table,
-                 Report& report) {
-  const Unsettled unsettled = unsettled_of(table);
+void add_outcome(const Invocation& call, const StudyOutcome& outcome, Report& report) {
   Record not_settled;
-  not_settled.set("motions", unsettled.motions);
+  not_settled.set("motions", outcome.unsettled);
   not_settled.set("settle_after_revs",
-                  unsettled.after > 0 ? Record(unsettled.after) : Record(nullptr));
-  not_settled.set("would_settle", unsettled.would_settle);
+                  outcome.settles_after > 0 ? Record(outcome.settles_after) : Record(nullptr));
+  not_settled.set("would_settle", outcome.would_settle);
   report.record.set("not_settled", not_settled);
-  if (unsettled.motions > 0) report.text += unsettled_text(unsettled);
+  if (outcome.unsettled > 0) report.text += unsettled_text(outcome);
   if (outcome.resumed > 0) {
     report.text +=
-        fmt::format("\n  {} of {} points were there already\n", outcome.resumed, table.points());
+        fmt::format("\n  {} of {} points were there already\n", outcome.resumed, outcome.points);
   }
   if (outcome.status == 130) {
-    report.text += fmt::format("\n  stopped with {} of {} points{}\n", table.done(), table.points(),
+    report.text += fmt::format("\n  stopped with {} of {} points{}\n", outcome.done, outcome.points,
                                call.has("out") ? "; the same line goes on from there" : "");
   }
   if (!outcome.failure.empty()) {

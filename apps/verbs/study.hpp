@@ -1,6 +1,6 @@
 #pragma once
-/// What the verbs share that compute many points (sweep, map, basins): points from axes, and work in
-/// threads that fills a table and its file (study_file.hpp).
+/// What the verbs share that compute many points (sweep, map, basins): points from axes, the file of
+/// --out, and what is said of all motions together.
 
 #include <functional>
 #include <memory>
@@ -9,34 +9,21 @@
 #include <vector>
 
 #include "apps/invocation.hpp"
+#include "apps/progress.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libdyn/studies/classify.hpp"
-#include "libdyn/system/scene.hpp"
+#include "apps/verbs/study_file.hpp"
+#include "libdyn/studies/monitor.hpp"
+#include "libdyn/studies/parameter_grid.hpp"
+#include "libdyn/studies/study_models.hpp"
 #include "libio/model/model_family.hpp"
-#include "libio/results/checkpoint.hpp"
+#include "libio/results/study_columns.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl {
 
 /// Options of all of them, behind those of one.
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);
-
-/// A motion at one point of a study.
-struct StudyPoint {
-  std::unique_ptr<Model> model;
-  std::shared_ptr<const Scene> scene;
-  Subject subject;
-  std::string failure;  ///< why there is no scene
-
-  bool is_good() const { return failure.empty() && subject.found.is_good(); }
-  /// Why it is not.
-  const std::string& why() const { return failure.empty() ? subject.found.diagnosis : failure; }
-};
-
-/// Calls f with the motions of all good points together, such as settle and average take them.
-void together(const std::vector<StudyPoint*>& points,
-              const std::function<void(std::span<Subject>)>& f);
 
 /// What a study knows before its first point.
 class StudySetup {
@@ -48,74 +35,97 @@ class StudySetup {
 
   const Model& model() const { return model_; }
   const std::vector<ParameterAxis>& axes() const { return axes_; }
-  const ClassifyOptions& options() const { return options_; }
-  ClassifyOptions& options() { return options_; }
+  const ParameterGrid& grid() const { return grid_; }
+  const ClassifyOptions& classify() const { return classify_; }
   int threads() const { return threads_; }
   const std::optional<EarlierEnd>& earlier() const { return earlier_; }
-  std::size_t points() const;
 
-  /// Model, scene and start of a point; numbers of points run fastest along the last axis.
-  /// @param from  where the motion goes on from; null: from the model's start
-  StudyPoint point(std::size_t number, const FullState* from = nullptr) const;
+  /// Models at the points; they live no longer than this.
+  StudyModels models() const;
+  /// The model at the first point.
+  /// @throws NumericalError  that names the point, if it cannot be computed with
+  StudyMember first() const;
 
-  /// A result file with the facts of the call and the axes in it, below a group.
-  std::unique_ptr<ResultWriter> file(const Invocation& call, const std::string& group) const;
-  /// Paths of the axes in it.
-  std::vector<std::string> axis_paths(const std::string& group) const;
-
+  /// A result file with the facts of the call in it.
+  std::unique_ptr<ResultWriter> file(const Invocation& call) const;
   /// "operation.speed = 136 rad/s, contact.ring.friction = 0.1" of a point.
-  std::string describe(std::size_t number) const;
+  std::string describe(std::size_t point) const;
   /// Entries of the axes for JSON.
   Record axes_record() const;
 
  private:
-  std::vector<double> values_at(const std::vector<std::size_t>& indices) const;
-  std::vector<std::size_t> indices_of(std::size_t number) const;
-
   Model model_;
   std::vector<ParameterAxis> axes_;
+  ParameterGrid grid_;
   std::optional<ModelFamily> family_;  ///< set with the axes
-  ClassifyOptions options_;
+  ClassifyOptions classify_;
   int threads_ = 1;
   std::optional<EarlierEnd> earlier_;
 };
 
-/// Rows of some points: what a piece of work finds.
-struct StudyRows {
-  std::vector<std::pair<std::size_t, PointRow>> rows;
-  std::string failure;   ///< of the first point that failed, where it is
-  bool is_whole = true;  ///< false: it was interrupted and finds nothing
-  double seconds = 0.0;  ///< that it took
-};
-
-/// How a study becomes pieces of work.
-struct StudyWork {
-  std::string label;  ///< for the progress
-  /// Points that are computed together, one piece after the other; none: any points may be, in
-  /// their order, and pieces are cut as time and threads ask for.
-  std::vector<std::vector<std::size_t>> pieces{};
-  std::size_t most_together = 0;  ///< points of such a piece at most
-  /// Makes the work of a piece, in order and in one thread; none for pieces that are done.
-  std::function<std::function<StudyRows()>(const std::vector<std::size_t>&)> prepare;
-  int threads = 1;  ///< that do the work
-};
-
-/// Computes what is not done of a table, and keeps the file of --out up to date meanwhile: killed
-/// at any moment, it goes on where it was.
-/// @param start  where the motions begin, where that is the end of another result
-/// @param begin  makes a file with everything in it but the table
-/// @return  exit status 0, 3 (every point failed) or 130, and what is to be said
+/// What is said of all points of a study together.
 struct StudyOutcome {
-  int status = 0;
-  std::string failure;
+  int status = 0;           ///< 3: every point failed; 130: stopped
+  std::string failure;      ///< how many points failed, and one of them
+  std::size_t resumed = 0;  ///< points that were there already
+  std::size_t done = 0, points = 0;
+  long unsettled = 0;      ///< motions that have not settled
+  long would_settle = 0;   ///< of these, with a longer transient
+  long settles_after = 0;  ///< revolutions of transient after which these would have settled
+};
+
+/// @param motions   those of all points; null where none is known
+/// @param describe  names a point
+StudyOutcome study_outcome(const std::vector<const ClassifiedMotion*>& motions, std::size_t resumed,
+                           const std::function<std::string(std::size_t)>& describe);
+
+/// Adds what was there already, what has not settled, what failed, and where the result is.
+void add_outcome(const Invocation& call, const StudyOutcome& outcome, Report& report);
+
+/// The motions of a study's points; null where none is known.
+template <class Row>
+std::vector<const ClassifiedMotion*> motions_of(const PointRows<Row>& points) {
+  std::vector<const ClassifiedMotion*> motions;
+  for (const auto& p : points) motions.push_back(p ? &study_columns::motion_of(*p) : nullptr);
+  return motions;
+}
+
+/// A study that has run.
+template <class Result>
+struct StudyRun {
+  Result result;
   std::size_t resumed = 0;  ///< points that were there already
 };
-StudyOutcome run_study(const Invocation& call, const StudyWork& work, PointTable& table,
-                       const std::optional<EarlierEnd>& start,
-                       const std::function<std::unique_ptr<ResultWriter>()>& begin);
 
-/// What was there already, what failed, where the result is, for people.
-void add_outcome(const Invocation& call, const StudyOutcome& outcome, const PointTable& table,
-                 Report& report);
+/// What is to be run: how its progress is called, and how many points it has.
+struct StudyTask {
+  std::string label;
+  std::size_t points = 0;
+};
+
+/// Runs a study, and keeps the file of --out up to date meanwhile: killed at any moment, it goes on
+/// where it was.
+/// @param study  called with a monitor and with what was there already
+template <class Result>
+StudyRun<Result> run_study(const Invocation& call, const StudySetup& setup, const StudyTask& task,
+                           const std::function<Result(const Monitor<Result>&, Result)>& study) {
+  Result earlier;
+  const Result* so_far = nullptr;
+  StudyFile file(
+      call, setup.earlier(), [&] { return setup.file(call); },
+      [&](ResultWriter& to) { write_study(to, setup.axes(), *so_far); },
+      [&](const ResultReader& from) { earlier = read_study<Result>(from, task.points); });
+  const std::size_t resumed = done_points(earlier.points);
+  install_interrupt_handler();
+  Progress progress(task.label, static_cast<long>(task.points - resumed), call.shows_progress);
+  const Monitor<Result> monitor{.progress = [&](long done, long) { progress.update(done); },
+                                .is_stopped = is_interrupted,
+                                .save =
+                                    [&](const Result& result) {
+                                      so_far = &result;
+                                      file.save();
+                                    }};
+  return {study(monitor, std::move(earlier)), resumed};
+}
 
 }  // namespace whirl

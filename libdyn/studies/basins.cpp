@@ -1,6 +1,8 @@
 #include "libdyn/studies/basins.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <utility>
 
@@ -92,6 +94,12 @@ void find_basins(const ContactSystem& system, BasinsResult& result) {
     ++result.basins[number].count;
     result.attractor[settled[i]] = numbers[i];
   }
+  const auto is_known = [](const auto& p) { return p.has_value(); };
+  const bool has_failed = std::all_of(result.attractor.begin(), result.attractor.end(),
+                                      [](int number) { return number == failed_start; });
+  if (has_failed || !std::all_of(result.points.begin(), result.points.end(), is_known)) {
+    result.attractor.clear();
+  }
 }
 
 constexpr std::size_t most_together = 64;  ///< starts, in the lanes of one batch
@@ -125,6 +133,19 @@ MotionState random_start(const ContactSystem& system, const MotionState& around,
   return start;
 }
 
+std::vector<int> BasinsResult::starts() const {
+  std::vector<int> numbers(is_random ? points.size() : 0);
+  std::iota(numbers.begin(), numbers.end(), 1);
+  return numbers;
+}
+
+ColumnSizes BasinsResult::sizes() const {
+  return {{"exponents", system.states},
+          {"full", system.freedoms},
+          {"sections", sections},
+          {"states", system.states}};
+}
+
 BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
                     const Monitor<BasinsResult>& monitor, BasinsResult earlier) {
   BasinsOptions options = wanted;
@@ -133,6 +154,7 @@ BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
   BasinsResult result = std::move(earlier);
   const auto first = models.member(options.grid.values_at(0)).scene;
   result.system = study_system(*first);
+  result.is_random = options.is_random();
   result.sections = options.classify.sections;
   result.points.resize(options.points());
   run_points<BasinsPoint>({.most_together = most_together,

@@ -50,8 +50,24 @@ struct BasinsOptions {
 /// What became of a start.
 struct BasinsPoint {
   ClassifiedMotion motion{};
-  FullState start{};               ///< empty if there is none
-  std::vector<double> sections{};  ///< reduced states at phase 0, the last ones; NaN beyond them
+  FullState start{};  ///< empty if there is none
+  /// Reduced states at phase 0, the last ones, one after the other; NaN beyond them.
+  std::vector<double> sections{};
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column(
+            "start_displacement", [](auto& p) -> auto& { return p.start.displacement; }, "m, rad",
+            "displacement at the start")
+            .along("full"),
+        column(
+            "start_velocity", [](auto& p) -> auto& { return p.start.velocity; }, "m/s, rad/s",
+            "velocity at the start")
+            .along("full"),
+        column("section", &BasinsPoint::sections, "",
+               "reduced states (eta, eta') at phase 0, the last ones")
+            .along("sections states")};
+  }
 };
 
 /// Starts that ended in the same motion.
@@ -63,11 +79,31 @@ struct Basin {
 constexpr int failed_start = -1, unsettled_start = -2;
 
 struct BasinsResult {
+  static constexpr std::string_view group = "/basins";
+  /// Dimension of the points if their starts are random.
+  static constexpr std::string_view leads = "starts";
   StudySystem system{};
+  bool is_random = false;
   long sections = 0;  ///< of a start at most
   PointRows<BasinsPoint> points{};
-  std::vector<Basin> basins{};   ///< in the order of their first starts; set at the end
-  std::vector<int> attractor{};  ///< per start the number of its basin, or why there is none
+  std::vector<Basin> basins{};  ///< in the order of their first starts; set at the end
+  /// Per start the number of its basin, or why there is none; empty until all starts are known.
+  std::vector<int> attractor{};
+
+  /// Numbers of random starts.
+  std::vector<int> starts() const;
+  ColumnSizes sizes() const;
+  static constexpr auto columns() {
+    using C = BasinsResult;
+    return std::tuple{
+        column("start", &C::starts, "", "start").axis("starts+").maybe(), contact_names<C>(),
+        rows(&C::points, "point"),
+        column("attractor", &C::attractor, "",
+               "number of the motion that a start ends in, from 0; -1: failed, -2: not settled")
+            .along("point")
+            .within({-2.0, valid::largest, false, "point"})
+            .maybe()};
+  }
 };
 
 /// Finds the motions that many starts of one model end in.

@@ -4,8 +4,10 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
@@ -20,6 +22,16 @@ struct ContactDoing {
   double sticking = 0.0;         ///< share of time
   double max_normal = 0.0;       ///< [N]
   double max_tangential = 0.0;   ///< [N]
+
+  static constexpr auto columns() {
+    using C = ContactDoing;
+    return std::tuple{column("regime", &C::regime, "", "regime of a contact"),
+                      column("duty", &C::duty, "", "share of time in touch"),
+                      column("impacts_per_rev", &C::impacts_per_rev, "", "impacts per revolution"),
+                      column("sticking", &C::sticking, "", "share of time sticking"),
+                      column("max_normal", &C::max_normal, "N", "largest normal force"),
+                      column("max_tangential", &C::max_tangential, "N", "largest friction force")};
+  }
 };
 
 /// A motion at a point of a study, as it was classified.
@@ -43,6 +55,30 @@ struct ClassifiedMotion {
   double impacts_per_rev() const;
   /// The largest exponent; NaN if there is none.
   double largest_exponent() const;
+
+  static constexpr auto columns() {
+    using C = ClassifiedMotion;
+    return std::tuple{
+        column("motion", &C::kind, "", "kind of motion"),
+        column("period", &C::period, "",
+               "period of a periodic motion [revolutions]; 0: none, or longer"),
+        column("is_proven", &C::is_proven, "",
+               "whether Newton's method found the attracting orbit"),
+        column("transient", &C::transient, "",
+               "revolutions until this was known, or all of the transient"),
+        column("revolutions", &C::revolutions, "", "revolutions of contact measures"),
+        column("resolution", &C::resolution, "",
+               "the largest exponent is known to this in 99 of 100 motions [1/revolution]"),
+        column("section_dimension", &C::section_dimension, "",
+               "dimension of the sections, 1 for a closed curve"),
+        column("exponent", &C::exponents, "", "Lyapunov exponents, descending [1/revolution]")
+            .along("exponents+"),
+        rows(&C::contacts, "contacts"),
+        column("settles_after", &C::settles_after, "",
+               "revolutions of transient that would have settled the motion; 0: it has, or that is "
+               "not known")
+            .maybe()};
+  }
 };
 
 /// What there is to keep of a motion.
@@ -55,5 +91,18 @@ struct StudySystem {
   Eigen::Index freedoms = 0;            ///< of all points, see FullState
 };
 StudySystem study_system(const Scene& scene);
+
+/// Column of the names of the contacts of a study.
+template <class Result>
+constexpr auto contact_names() {
+  return column(
+             "contact", [](const Result& r) -> const auto& { return r.system.contacts; }, "",
+             "contact")
+      .axis("contacts")
+      .maybe();
+}
+
+/// Names of dimensions, with their sizes.
+using ColumnSizes = std::vector<std::pair<std::string_view, Eigen::Index>>;
 
 }  // namespace whirl

@@ -16,8 +16,15 @@ struct MapOptions {
 };
 
 struct MapResult {
+  static constexpr std::string_view group = "/map";
   StudySystem system{};
   PointRows<ClassifiedMotion> points{};  ///< in the order of the grid
+
+  /// Sizes of the dimensions of its columns that no other column has.
+  ColumnSizes sizes() const { return {{"exponents", system.states}}; }
+  static constexpr auto columns() {
+    return std::tuple{contact_names<MapResult>(), rows(&MapResult::points, "point")};
+  }
 };
 
 /// Classifies the motion at every point of a grid, each from the start of its model.

@@ -2,8 +2,10 @@
 /// What is seen of a classified motion: sections and spectra at stations, how far they move, and where
 /// contacts touch.
 
+#include <tuple>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libbase/linalg.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"

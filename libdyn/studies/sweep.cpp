@@ -101,6 +101,28 @@ std::vector<std::vector<std::size_t>> carried_pieces(std::size_t values) {
 
 }  // namespace
 
+std::vector<std::string> SweepResult::ways() const {
+  if (start == SweepStart::fresh) return {"fresh"};
+  return {"up", "down"};
+}
+
+Vec SweepResult::orders() const {
+  return spectrum_revolutions > 0 ? portrait_orders(spectrum_revolutions) : Vec();
+}
+
+Vec SweepResult::sectors() const {
+  return spectrum_revolutions > 0 ? portrait_sectors() : Vec();
+}
+
+ColumnSizes SweepResult::sizes() const {
+  return {{"exponents", system.states}, {"full", system.freedoms}, {"sections", sections}};
+}
+
+bool SweepResult::leaves_out(std::string_view column) const {
+  if (column == "contact_angle") return spectrum_revolutions == 0 || system.contacts.empty();
+  return spectrum_revolutions == 0 && (column == "max_radius" || column == "spectrum");
+}
+
 SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
                   const Monitor<SweepResult>& monitor, SweepResult earlier) {
   using Work = PointWork<SweepPoint>;
@@ -108,7 +130,12 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
   options.classify = stopped_by(monitor.is_stopped, wanted.classify);
   SweepResult result = std::move(earlier);
   result.system = study_system(*models.member({options.values.data(), 1}).scene);
-  result.points.resize(options.ways() * options.values.size());
+  result.start = options.start;
+  result.sections = options.classify.sections;
+  result.spectrum_revolutions = options.portrait.spectrum_revolutions;
+  result.stations.clear();
+  for (const NamedPoint& p : options.portrait.stations) result.stations.push_back(p.label());
+  result.points.resize(result.ways().size() * options.values.size());
 
   const auto fresh = [&](const Work::Piece& piece) {
     Settled settled;

@@ -20,20 +20,82 @@ struct SweepOptions {
   ClassifyOptions classify{};  ///< its `sections` are those of the portraits
   PortraitOptions portrait{};
   int threads = 1;
-
-  std::size_t ways() const { return start == SweepStart::fresh ? 1 : 2; }
 };
 
 struct SweepPoint {
   ClassifiedMotion motion{};
   FullState end{};  ///< where the next value starts; empty if it starts afresh
   Portrait portrait{};
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column(
+            "poincare_x", [](auto& p) -> auto& { return p.portrait.poincare_x; }, "m",
+            "x at phase 0, last sections")
+            .along("stations sections"),
+        column(
+            "poincare_y", [](auto& p) -> auto& { return p.portrait.poincare_y; }, "m",
+            "y at phase 0, last sections")
+            .along("stations sections"),
+        column(
+            "end_displacement", [](auto& p) -> auto& { return p.end.displacement; }, "m, rad",
+            "displacement that the next value starts from")
+            .along("full"),
+        column(
+            "end_velocity", [](auto& p) -> auto& { return p.end.velocity; }, "m/s, rad/s",
+            "velocity that the next value starts from")
+            .along("full"),
+        column(
+            "max_radius", [](auto& p) -> auto& { return p.portrait.max_radius; }, "m",
+            "largest distance from the axis")
+            .along("stations")
+            .maybe(),
+        column(
+            "spectrum", [](auto& p) -> auto& { return p.portrait.spectrum; }, "m",
+            "radius of the circle that turns with an order of the speed; seen from the rotor the "
+            "order is one less")
+            .along("stations orders")
+            .maybe(),
+        column(
+            "contact_angle", [](auto& p) -> auto& { return p.portrait.contact_angle; }, "",
+            "share of the time in touch within a sector around the stator")
+            .along("contacts sectors")
+            .maybe()};
+  }
 };
 
 struct SweepResult {
+  static constexpr std::string_view group = "/sweep";
+  /// Dimension of the points in front of the parameter.
+  static constexpr std::string_view leads = "ways";
   StudySystem system{};
+  SweepStart start = SweepStart::carried;
+  std::vector<std::string> stations{};  ///< of the portraits
+  long sections = 0, spectrum_revolutions = 0;
   /// Way after way, each in the order of the values.
   PointRows<SweepPoint> points{};
+
+  /// Names of the ways.
+  std::vector<std::string> ways() const;
+  Vec orders() const;   ///< of the spectra
+  Vec sectors() const;  ///< of the contact angles
+  ColumnSizes sizes() const;
+  /// Whether a column of the portraits was not asked for, or has nothing to say.
+  bool leaves_out(std::string_view column) const;
+  static constexpr auto columns() {
+    using C = SweepResult;
+    return std::tuple{column("direction", &C::ways, "", "direction").axis("ways+"),
+                      contact_names<C>(),
+                      column("station", &C::stations, "", "station").axis("stations+"),
+                      column("order", &C::orders, "", "signed frequency over speed, forward > 0")
+                          .axis("orders+")
+                          .within(valid::finite)
+                          .maybe(),
+                      column("sector", &C::sectors, "rad", "middle of a sector, from x to y")
+                          .axis("sectors")
+                          .maybe(),
+                      rows(&C::points, "point")};
+  }
 };
 
 /// Classifies and portrays the motions along the values of one parameter.

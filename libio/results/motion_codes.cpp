@@ -1,34 +1,14 @@
 #include "libio/results/motion_codes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <sstream>
 
-#include "libio/results/checkpoint.hpp"
-
 namespace whirl {
-
-std::string motion_words() {
-  std::string words;
-  for (const auto& [name, kind] : choices(MotionKind{})) {
-    words += (words.empty() ? "" : ",") + std::string(name);
-  }
-  return words;
-}
-
-std::string motion_legend() {
-  std::string legend;
-  for (const auto& [name, kind] : choices(MotionKind{})) {
-    legend += fmt::format("{} {}, ", static_cast<int>(kind), name);
-  }
-  return legend + "-1 failed";
-}
 
 MotionCodes::MotionCodes(const ResultReader& file, const std::string& dataset) {
   std::istringstream words(file.has_attribute(dataset, words_attribute)
                                ? file.string_attribute(dataset, words_attribute)
-                               : motion_words());
+                               : code_words<MotionKind>());
   for (std::string word; std::getline(words, word, ',');) {
     const auto all = choices(MotionKind{});
     const auto found =

@@ -10,11 +10,29 @@
 
 namespace whirl {
 
-/// Words of all kinds of motion, by their codes: "equilibrium,periodic,...".
-std::string motion_words();
+/// Attribute of a dataset of codes: words separated by commas, the first one of code 0.
+inline constexpr const char* words_attribute = "words";
 
-/// The same for people: "0 equilibrium, 1 periodic, ..., -1 failed".
-std::string motion_legend();
+/// Words of a list of choices, by their codes: "equilibrium,periodic,...".
+template <class Enum>
+std::string code_words() {
+  std::string words;
+  for (const auto& [name, code] : choices(Enum{})) {
+    words += (words.empty() ? "" : ",") + std::string(name);
+  }
+  return words;
+}
+
+/// The same for people: "0 equilibrium, 1 periodic, ...".
+template <class Enum>
+std::string code_legend() {
+  std::string legend;
+  for (const auto& [name, code] : choices(Enum{})) {
+    legend += (legend.empty() ? "" : ", ") + std::to_string(static_cast<int>(code)) + ' ' +
+              std::string(name);
+  }
+  return legend;
+}
 
 /// What the codes of a dataset mean: by its words, else, as in files without them, by their order.
 class MotionCodes {

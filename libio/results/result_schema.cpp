@@ -1,14 +1,15 @@
 #include "libio/results/result_schema.hpp"
 
-#include <fmt/format.h>
-
 #include <string>
 
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/studies/basins.hpp"
 #include "libdyn/studies/classification_result.hpp"
+#include "libdyn/studies/map.hpp"
 #include "libdyn/studies/resonance_study.hpp"
+#include "libdyn/studies/sweep.hpp"
 #include "libdyn/studies/work_precision_study.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/bending.hpp"
@@ -16,6 +17,7 @@
 #include "libfe/critical.hpp"
 #include "libfe/static.hpp"
 #include "libio/results/columns.hpp"
+#include "libio/results/study_columns.hpp"
 
 namespace whirl {
 
@@ -26,30 +28,6 @@ using enum ObjectKind;
 using namespace valid;
 
 constexpr double most_revolutions = 1e9;  ///< of a period
-
-/// Columns that every study of many points has; a point is -1 or NaN where it failed.
-ResultSet classified(std::string_view group, std::vector<ResultEntry> more) {
-  const auto path = [&](std::string_view name) { return fmt::format("{}/{}", group, name); };
-  ResultSet set{{{path("motion"), integer, "point", from_to(-1.0, 5.0)},
-                 {path("period"), integer, "point"},
-                 {path("is_proven"), integer, "point", from_to(-1.0, 1.0)},
-                 {path("transient"), integer, "point"},
-                 {path("revolutions"), integer, "point"},
-                 {path("resolution"), real, "point"},
-                 {path("section_dimension"), real, "point"},
-                 {path("settles_after"), integer, "point", any, true},
-                 {path("exponent"), real, "point exponents+"},
-                 {path("regime"), integer, "point contacts", from_to(-1.0, 2.0)},
-                 {path("duty"), real, "point contacts"},
-                 {path("impacts_per_rev"), real, "point contacts"},
-                 {path("sticking"), real, "point contacts"},
-                 {path("max_normal"), real, "point contacts"},
-                 {path("max_tangential"), real, "point contacts"},
-                 {path("contact"), text, "contacts", any, true},
-                 {path("done"), integer, "point", from_to(0.0, 1.0), true}}};
-  set.entries.insert(set.entries.end(), more.begin(), more.end());
-  return set;
-}
 
 /// What is stated by the columns of results.
 std::vector<ResultSet> stated_schema() {
@@ -151,31 +129,13 @@ std::vector<ResultSet> other_schema() {
         {"/torus/end_kind", text, "walks", any, true},
         {"/torus/end_reason", text, "walks", any, true}}},
       // studies of many points
-      classified("/sweep", {{"/sweep/axis_1", real, "values+", finite},
-                            {"/sweep/direction", text, "ways+"},
-                            {"/sweep/station", text, "stations+"},
-                            {"/sweep/poincare_x", real, "point stations sections"},
-                            {"/sweep/poincare_y", real, "point stations sections"},
-                            {"/sweep/end_displacement", real, "point full"},
-                            {"/sweep/end_velocity", real, "point full"},
-                            {"/sweep/max_radius", real, "point stations", any, true},
-                            {"/sweep/contact_angle", real, "point contacts sectors", any, true}}),
-      {{{"/sweep/spectrum", real, "point stations orders"},
-        {"/sweep/order", real, "orders+", finite},
-        {"/sweep/sector", real, "sectors"}},
-       {"/sweep/motion"}},
-      classified("/map", {{"/map/axis_1", real, "first+", finite},
-                          {"/map/axis_2", real, "second+", finite},
-                          {"/map/axis_3", real, "third+", finite, true}}),
-      classified("/basins", {{"/basins/start_displacement", real, "point full"},
-                             {"/basins/start_velocity", real, "point full"},
-                             {"/basins/section", real, "point sections states"},
-                             {"/basins/start", integer, "starts+", any, true},
-                             {"/basins/axis_1", real, "first+", finite, true},
-                             {"/basins/axis_2", real, "second+", finite, true},
-                             {"/basins/axis_3", real, "third+", finite, true}}),
-      {{{"/basins/attractor", integer, "point", {-2.0, largest, false, "point"}}},
-       {"/basins/motion"}},
+      study_schema<SweepResult>({{"/sweep/axis_1", real, "values+", finite}}),
+      study_schema<MapResult>({{"/map/axis_1", real, "first+", finite},
+                               {"/map/axis_2", real, "second+", finite},
+                               {"/map/axis_3", real, "third+", finite, true}}),
+      study_schema<BasinsResult>({{"/basins/axis_1", real, "first+", finite, true},
+                                  {"/basins/axis_2", real, "second+", finite, true},
+                                  {"/basins/axis_3", real, "third+", finite, true}}),
   };
 }
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "libio/results/checkpoint.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::motion_codes_test {
@@ -39,14 +38,13 @@ TEST_F(MotionCodesOf, FilesWithWordsMeanTheseInTheirOrder) {
   EXPECT_EQ(codes.kind(1), std::nullopt);
   EXPECT_EQ(codes.kind(2), MotionKind::not_settled);
   EXPECT_EQ(codes.kind(3), std::nullopt);
-  EXPECT_EQ(file(motion_words()).kind(5), MotionKind::not_settled);
+  EXPECT_EQ(file(code_words<MotionKind>()).kind(5), MotionKind::not_settled);
 }
 
 TEST(MotionWords, AreThoseOfTheList) {
   EXPECT_EQ(
-      motion_legend(),
-      "0 equilibrium, 1 periodic, 2 quasi-periodic, 3 chaotic, 4 hyperchaotic, 5 not settled, "
-      "-1 failed");
+      code_legend<MotionKind>(),
+      "0 equilibrium, 1 periodic, 2 quasi-periodic, 3 chaotic, 4 hyperchaotic, 5 not settled");
 }
 
 }  // namespace whirl::motion_codes_test

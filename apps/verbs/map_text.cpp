@@ -1,0 +1,154 @@
+#include "apps/verbs/map_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "libio/text/table.hpp"
+
+namespace whirl {
+
+namespace {
+
+using MapPoint = std::optional<ClassifiedMotion>;
+
+/// Values of the last axis of three; else one plane.
+std::size_t planes_of(const std::vector<ParameterAxis>& axes) {
+  return axes.size() == 3 ? axes[2].values.size() : 1;
+}
+
+/// What a point counts as: its motion, and the period of a periodic one.
+std::string kind_of(const MapPoint& point) {
+  if (!point) return "not computed";
+  if (point->has_failed()) return "failed";
+  if (point->kind != MotionKind::periodic) return std::string(name_of(*point->kind));
+  const int period = point->period;
+  const bool is_common = period > 0 && (period <= 6 || period == 8);
+  return is_common ? fmt::format("period {}", period) : "other periods";
+}
+
+/// By period, then as they get wilder.
+int rank_of(const std::string& kind) {
+  if (kind == name_of(MotionKind::equilibrium)) return 0;
+  if (kind.starts_with("period ")) return std::stoi(kind.substr(7));
+  std::vector<std::string> rest{"other periods"};
+  for (const auto& [name, unused] : choices(MotionKind{})) rest.emplace_back(name);
+  rest.insert(rest.end(), {"failed", "not computed"});
+  return 1000 + static_cast<int>(std::find(rest.begin(), rest.end(), kind) - rest.begin());
+}
+
+/// Shares of something [%], per plane.
+using Shares = std::vector<double>;
+
+/// How many points have another motion than in the plane before.
+Shares changes(const PointRows<ClassifiedMotion>& points, std::size_t planes) {
+  Shares percents(planes, 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % planes == 0 || kind_of(points[i]) == kind_of(points[i - 1])) continue;
+    percents[i % planes] += 100.0 / static_cast<double>(points.size() / planes);
+  }
+  return percents;
+}
+
+std::vector<std::string> cells(std::string_view name, const Shares& percents) {
+  std::vector<std::string> row{std::string(name)};
+  for (const double p : percents) row.push_back(fmt::format("{:.2f} %", p));
+  return row;
+}
+
+/// The sign of a motion that is not periodic: the first letter of its kind, as the list has them.
+char letter_of(MotionKind kind) {
+  return kind == MotionKind::hyperchaotic ? 'H' : name_of(kind).front();
+}
+
+/// What these signs mean.
+std::string letters() {
+  std::string text;
+  for (const auto& [name, kind] : choices(MotionKind{})) {
+    if (kind == MotionKind::equilibrium || kind == MotionKind::periodic) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", letter_of(kind), name);
+  }
+  return text;
+}
+
+std::string sign_of(const MapPoint& point) {
+  if (!point) return " ";
+  if (point->has_failed()) return "!";
+  const bool is_periodic = point->kind == MotionKind::periodic;
+  const bool touches = point->regime() != Regime::none;
+  if (point->kind == MotionKind::equilibrium || (is_periodic && !touches)) return "·";
+  if (!is_periodic) return {letter_of(*point->kind)};
+  return point->period > 0 && point->period < 10 ? std::to_string(point->period) : "p";
+}
+
+}  // namespace
+
+std::string map_picture(const MapResult& map, const std::vector<ParameterAxis>& axes) {
+  constexpr std::size_t most_columns = 88, most_rows = 24;
+  const ParameterAxis &across = axes[0], &up = axes[1];
+  const std::size_t width = across.values.size(), height = up.values.size();
+  const std::size_t columns = std::min(most_columns, width), rows = std::min(most_rows, height);
+  const std::size_t planes = planes_of(axes);
+  std::string text;
+  for (std::size_t r = rows; r-- > 0;) {
+    text += r == rows - 1 || r == 0 ? fmt::format("{:>10.4g} ", up.shown(r == 0 ? 0 : height - 1))
+                                    : std::string(11, ' ');
+    for (std::size_t c = 0; c < columns; ++c) {
+      const std::size_t i = columns == 1 ? 0 : c * (width - 1) / (columns - 1);
+      const std::size_t j = rows == 1 ? 0 : r * (height - 1) / (rows - 1);
+      text += sign_of(map.points[(i * height + j) * planes]);
+    }
+    text += '\n';
+  }
+  const std::string left = fmt::format("{:.6g}", across.shown(0));
+  const std::string right = fmt::format("{:.6g}", across.shown(width - 1));
+  text += std::string(11, ' ') + left;
+  if (columns > left.size() + right.size()) {
+    text += std::string(columns - left.size() - right.size(), ' ') + right;
+  }
+  const std::string plane =
+      planes > 1 ? fmt::format(", {} = {:.6g}", axes[2].path, axes[2].shown(0)) : "";
+  return text + fmt::format(
+                    "\n           to the right {}, up {}{}\n           1 to 9 period, p other "
+                    "periodic, {}, · no contact\n",
+                    across.title(), up.title(), plane, letters());
+}
+
+std::string map_shares(const MapResult& map, const std::vector<ParameterAxis>& axes) {
+  const bool has_planes = axes.size() == 3;
+  const std::size_t planes = planes_of(axes);
+  std::vector<std::string> head{"motion"};
+  for (std::size_t p = 0; p < planes; ++p) {
+    head.push_back(has_planes ? fmt::format("{:.6g}", axes[2].shown(p)) : "share");
+  }
+  std::map<std::pair<int, std::string>, Shares> kinds;
+  std::map<Regime, Shares> regimes;
+  const double each = 100.0 / static_cast<double>(map.points.size() / planes);
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const MapPoint& point = map.points[i];
+    const auto count = [&](Shares& shares) {
+      shares.resize(planes);
+      shares[i % planes] += each;
+    };
+    const std::string kind = kind_of(point);
+    count(kinds[{rank_of(kind), kind}]);
+    if (point && !point->contacts.empty()) count(regimes[point->regime()]);
+  }
+  Table motions(head);
+  for (const auto& [kind, percents] : kinds) motions.row(cells(kind.second, percents));
+  if (has_planes) {
+    std::vector<std::string> row = cells("another than before", changes(map.points, planes));
+    row[1] = "-";
+    motions.row(row);
+  }
+  std::string text = has_planes ? fmt::format("  {}, across\n", axes[2].title()) : "";
+  text += motions.text();
+  if (regimes.empty()) return text;
+  head[0] = "contact";
+  Table contacts(head);
+  for (const auto& [regime, percents] : regimes) contacts.row(cells(name_of(regime), percents));
+  return text + "\n" + contacts.text();
+}
+
+}  // namespace whirl

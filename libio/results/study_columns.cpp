@@ -1,0 +1,121 @@
+#include "libio/results/study_columns.hpp"
+
+#include <fmt/format.h>
+
+namespace whirl::study_columns {
+
+namespace {
+
+std::size_t product(std::span<const Eigen::Index> sizes) {
+  std::size_t all = 1;
+  for (const Eigen::Index n : sizes) all *= static_cast<std::size_t>(n);
+  return all;
+}
+
+}  // namespace
+
+Facts done_column() {
+  return {.key = "done",
+          .unit = "",
+          .meaning = "whether a point is computed",
+          .is_integer = true,
+          .is_optional = true,
+          .values = {0.0, 1.0, false}};
+}
+
+StudyWriter::StudyWriter(ResultWriter& file, std::string_view group, const ColumnSizes& sizes)
+    : file_(file), group_(group) {
+  for (const auto& [name, size] : sizes) axes_[std::string(name)] = {"", size};
+}
+
+void StudyWriter::add_axis(const std::string& dimension, const std::string& path,
+                           Eigen::Index size) {
+  axes_[dimension] = {path, size};
+}
+
+void StudyWriter::write_parameters(const std::vector<ParameterAxis>& parameters,
+                                   const std::string& leads) {
+  if (const auto leading = axes_.find(leads); leading != axes_.end()) {
+    points_.push_back(leading->second);
+  }
+  for (const ParameterAxis& p : parameters) {
+    const std::string place = path(fmt::format("axis_{}", &p - parameters.data() + 1));
+    file_.dataset(place, p.values, {p.unit, p.path, {""}});
+    points_.push_back({place, std::ssize(p.values)});
+  }
+}
+
+std::size_t StudyWriter::width(const Facts& column) const {
+  std::size_t numbers = 1;
+  for (const std::string& name : dimension_names(column.dimensions)) {
+    const auto axis = axes_.find(name);
+    numbers *= axis == axes_.end() ? 0 : static_cast<std::size_t>(axis->second.size);
+  }
+  return numbers;
+}
+
+void StudyWriter::write_points(const Facts& column, const std::vector<double>& values) {
+  std::vector<Eigen::Index> shape;
+  DatasetInfo info{column.unit, column.meaning, {}};
+  const auto add = [&](const Axis& axis) {
+    shape.push_back(axis.size);
+    info.axes.push_back(axis.path);
+  };
+  for (const Axis& axis : points_) add(axis);
+  for (const std::string& name : dimension_names(column.dimensions)) {
+    const auto axis = axes_.find(name);
+    add(axis == axes_.end() ? Axis{} : axis->second);
+  }
+  const std::string place = path(column.key);
+  if (column.is_integer) {
+    file_.dataset(place, std::vector<int>(values.begin(), values.end()), shape, info);
+  } else {
+    file_.dataset(place, values, shape, info);
+  }
+  if (!column.words.empty()) file_.attribute(place, words_attribute, column.words);
+}
+
+void StudyWriter::write_done(const std::vector<int>& done) {
+  const bool is_complete = std::count(done.begin(), done.end(), 1) == std::ssize(done);
+  file_.attribute(group_, "complete", is_complete ? 1 : 0);
+  if (is_complete) return;
+  write_points(done_column(), {done.begin(), done.end()});
+}
+
+std::optional<StoredColumn> read_column(const ResultReader& file, const std::string& group,
+                                        const Facts& column, std::size_t points) {
+  const std::string path = group + '/' + column.key;
+  if (column.is_optional && !file.has(path)) return std::nullopt;
+  const std::vector<Eigen::Index> shape = file.shape(path);
+  const std::size_t behind = dimension_names(column.dimensions).size();
+  const std::span<const Eigen::Index> all(shape);
+  const bool fits = shape.size() >= behind && product(all.first(shape.size() - behind)) == points;
+  if (!fits) {
+    throw FileError(fmt::format("{} is not of {} points: it is of another study", path, points));
+  }
+  StoredColumn stored{.values = file.numbers(path)};
+  if (behind > 0) stored.rows = static_cast<std::size_t>(shape[shape.size() - behind]);
+  return stored;
+}
+
+std::vector<bool> read_done(const ResultReader& file, const std::string& group,
+                            std::size_t points) {
+  if (file.number_attribute(group, "complete") != 0.0) return std::vector<bool>(points, true);
+  const auto flags = read_column(file, group, done_column(), points);
+  std::vector<bool> done(points, false);
+  if (!flags) return done;
+  for (std::size_t i = 0; i < points; ++i) done[i] = flags->values[i] != 0.0;
+  return done;
+}
+
+ResultEntry entry_of(const std::string& group, const Facts& column) {
+  return {.path = group + '/' + column.key,
+          .kind = column.is_integer ? ObjectKind::integer : ObjectKind::real,
+          .sizes = column.dimensions.empty() ? "point" : "point " + column.dimensions,
+          .values = column.values,
+          .is_optional = column.is_optional,
+          .unit = column.unit,
+          .meaning = column.meaning};
+}
+
+}  // namespace whirl::study_columns

@@ -1,0 +1,157 @@
+// Studies in files: what is computed survives, bit by bit, and what is not is known for it.
+
+#include "libio/results/study_columns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "libdyn/studies/basins.hpp"
+#include "libdyn/studies/map.hpp"
+#include "libdyn/studies/sweep.hpp"
+#include "tests/io/result_folder.hpp"
+
+namespace whirl::study_columns_test {
+
+const std::vector<ParameterAxis> axes{
+    {.path = "operation.speed", .unit = "rad/s", .values = {1, 2}},
+    {.path = "gravity", .unit = "m/s^2", .values = {3, 4, 5}}};
+
+ClassifiedMotion motion() {
+  return {.kind = MotionKind::chaotic,
+          .transient = 500,
+          .revolutions = 1000,
+          .resolution = 1.0 / 3.0,
+          .section_dimension = 1.9,
+          .exponents = {0.1, -0.0},
+          .contacts = {{.regime = Regime::intermittent, .duty = 0.25, .max_normal = 7.0}}};
+}
+
+MapResult half_a_map() {
+  MapResult map{.system = {.contacts = {"ring"}, .states = 2}};
+  map.points.resize(6);
+  map.points[4] = motion();
+  map.points[2] = ClassifiedMotion{.failure = "it left its bearing"};
+  return map;
+}
+
+class StudyColumns : public test::InResultFolder {
+ protected:
+  template <class Result>
+  ResultReader saved(const Result& result, const std::vector<ParameterAxis>& parameters) const {
+    ResultWriter file(folder / "study.h5", Replaces::anything);
+    write_study(file, parameters, result);
+    file.commit();
+    return ResultReader(folder / "study.h5");
+  }
+};
+
+TEST_F(StudyColumns, KnowWhatIsDone) {
+  const ResultReader file = saved(half_a_map(), axes);
+  EXPECT_EQ(file.number_attribute("/map", "complete"), 0.0);
+  EXPECT_EQ(file.shape("/map/exponent"), (std::vector<Eigen::Index>{2, 3, 2}));
+  EXPECT_EQ(file.axes("/map/regime"),
+            (std::vector<std::string>{"/map/axis_1", "/map/axis_2", "/map/contact"}));
+  EXPECT_EQ(file.integers("/map/motion"), (std::vector<int>{-1, -1, -1, -1, 3, -1}));
+  EXPECT_EQ(file.integers("/map/done"), (std::vector<int>{0, 0, 1, 0, 1, 0}));
+  EXPECT_EQ(file.integers("/map/is_proven"), (std::vector<int>{-1, -1, -1, -1, 0, -1}));
+  EXPECT_TRUE(std::isnan(file.numbers("/map/duty")[2]));
+  EXPECT_EQ(file.string_attribute("/map/regime", words_attribute), "none,intermittent,permanent");
+
+  const auto again = read_study<MapResult>(file, 6);
+  EXPECT_EQ(done_points(again.points), 2u);
+  EXPECT_TRUE(again.points[2]->has_failed());
+  EXPECT_TRUE(again.points[2]->exponents.empty());
+  const ClassifiedMotion& chaos = *again.points[4];
+  EXPECT_EQ(chaos.kind, MotionKind::chaotic);
+  EXPECT_EQ(chaos.revolutions, 1000);
+  EXPECT_EQ(chaos.resolution, 1.0 / 3.0);
+  ASSERT_EQ(chaos.exponents.size(), 2u);
+  EXPECT_TRUE(std::signbit(chaos.exponents[1]));
+  ASSERT_EQ(chaos.contacts.size(), 1u);
+  EXPECT_EQ(chaos.contacts[0].regime, Regime::intermittent);
+  EXPECT_EQ(chaos.contacts[0].max_normal, 7.0);
+}
+
+TEST_F(StudyColumns, AreWholeWhenAllIsDone) {
+  MapResult map = half_a_map();
+  for (auto& point : map.points) point = motion();
+  const ResultReader file = saved(map, axes);
+  EXPECT_EQ(file.number_attribute("/map", "complete"), 1.0);
+  EXPECT_FALSE(file.has("/map/done"));
+  EXPECT_EQ(done_points(read_study<MapResult>(file, 6).points), 6u);
+}
+
+TEST_F(StudyColumns, RefuseAnotherNumberOfPoints) {
+  EXPECT_THROW(read_study<MapResult>(saved(half_a_map(), axes), 5), FileError);
+}
+
+// What studies have got since a file was begun stays unknown; what they had may not be missing.
+TEST_F(StudyColumns, GoOnWithAFileFromBeforeAColumn) {
+  const auto without = [&](const std::string& key) {
+    ResultWriter file(folder / "before.h5", Replaces::anything);
+    study_columns::StudyWriter to(file, "/map", {{"exponents", 2}, {"contacts", 1}});
+    to.write_parameters(axes, "");
+    for (const auto& c : study_columns::point_columns<ClassifiedMotion>()) {
+      if (c.facts.key == key) continue;
+      to.write_points(c.facts, std::vector<double>(6 * to.width(c.facts), 1.0));
+    }
+    to.write_done(std::vector<int>(6, 1));
+    file.commit();
+    return ResultReader(folder / "before.h5");
+  };
+  const auto known = read_study<MapResult>(without("settles_after"), 6);
+  EXPECT_EQ(known.points[5]->period, 1);
+  EXPECT_EQ(known.points[5]->settles_after, 0);
+  EXPECT_THROW(read_study<MapResult>(without("period"), 6), FileError);
+}
+
+TEST_F(StudyColumns, KeepPortraits) {
+  SweepResult sweep{.system = {.contacts = {"ring"}, .states = 2, .freedoms = 3},
+                    .stations = {"1 left", "2"},
+                    .sections = 4,
+                    .spectrum_revolutions = 1};
+  sweep.points.resize(4);
+  SweepPoint& point = sweep.points[3].emplace();
+  point.motion = motion();
+  point.end = {Vec::LinSpaced(3, 0.0, 1.0), Vec::Zero(3)};
+  point.portrait = {.poincare_x = Mat::Random(2, 4),
+                    .poincare_y = Mat::Random(2, 4),
+                    .max_radius = Vec::Random(2),
+                    .spectrum = Mat::Random(2, 17),
+                    .contact_angle = Mat::Random(1, 36)};
+  const ResultReader file = saved(sweep, {axes[0]});
+  EXPECT_EQ(file.strings("/sweep/direction"), (std::vector<std::string>{"up", "down"}));
+  EXPECT_EQ(file.shape("/sweep/spectrum"), (std::vector<Eigen::Index>{2, 2, 2, 17}));
+  const auto again = read_study<SweepResult>(file, 4);
+  ASSERT_EQ(done_points(again.points), 1u);
+  EXPECT_EQ(again.points[3]->portrait.poincare_x, point.portrait.poincare_x);
+  EXPECT_EQ(again.points[3]->portrait.spectrum, point.portrait.spectrum);
+  EXPECT_EQ(again.points[3]->portrait.contact_angle, point.portrait.contact_angle);
+  EXPECT_EQ(again.points[3]->end.displacement, point.end.displacement);
+
+  sweep.spectrum_revolutions = 0;
+  const ResultReader brief = saved(sweep, {axes[0]});
+  for (const char* name : {"spectrum", "order", "sector", "contact_angle", "max_radius"}) {
+    EXPECT_FALSE(brief.has(std::string("/sweep/") + name)) << name;
+  }
+}
+
+// Random starts are numbered; attractors are there once all starts are.
+TEST_F(StudyColumns, NumberRandomStarts) {
+  BasinsResult basins{.system = {.states = 2, .freedoms = 3}, .is_random = true, .sections = 1};
+  basins.points.resize(2);
+  EXPECT_FALSE(saved(basins, {}).has("/basins/attractor"));
+  for (auto& point : basins.points) {
+    point = BasinsPoint{.motion = {.kind = MotionKind::periodic, .exponents = {0.0, -1.0}},
+                        .start = {Vec::Ones(3), Vec::Zero(3)},
+                        .sections = {1.0, 2.0}};
+  }
+  basins.attractor = {0, 0};
+  const ResultReader file = saved(basins, {});
+  EXPECT_EQ(file.integers("/basins/start"), (std::vector<int>{1, 2}));
+  EXPECT_EQ(file.axes("/basins/attractor"), std::vector<std::string>{"/basins/start"});
+  EXPECT_EQ(read_study<BasinsResult>(file, 2).points[1]->sections, (std::vector<double>{1.0, 2.0}));
+}
+
+}  // namespace whirl::study_columns_test
