@@ -38,6 +38,7 @@ struct Dual {
     return {q, (a.slopes - q * b.slopes) / b.value};
   }
 
+  friend double value_of(const Dual& a) { return a.value; }
   friend Dual sqrt(const Dual& a) {
     const double root = std::sqrt(a.value);
     return {root, a.slopes / (2.0 * root)};

@@ -24,6 +24,12 @@ struct Polynomial {
     for (int k = degree - 1; k >= 1; --k) value = value * s + k * c[static_cast<std::size_t>(k)];
     return degree > 0 ? value : 0.0;
   }
+  Polynomial operator-() const {
+    Polynomial g{{}, degree};
+    for (int k = 0; k <= degree; ++k)
+      g.c[static_cast<std::size_t>(k)] = -c[static_cast<std::size_t>(k)];
+    return g;
+  }
 };
 
 /// First s in [0, 1] at which a polynomial falls below zero; nothing if it stays positive.

@@ -18,6 +18,7 @@ struct Contact {
   Vec2 offset = Vec2::Zero();  ///< centre of the clearance circle [m]
   Friction friction;
   AnyContactLaw<> law;
+  AnyGeometry geometry{};  ///< of a law that has none of its own
   Where where{};
 
   static constexpr auto fields() {
@@ -26,5 +27,9 @@ struct Contact {
                                "radius of the clearance circle")};
   }
 };
+
+inline AnyGeometry geometry_of(const Contact& contact) {
+  return own_geometry(contact.law).value_or(contact.geometry);
+}
 
 }  // namespace whirl

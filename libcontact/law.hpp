@@ -8,7 +8,10 @@
 ///   auto normal(d, d_rate) const;                normal force [N] at depth d [m], its rate [m/s]
 ///   bool is_continuous() const;                  normal(0, d_rate) = 0 for every rate
 ///   static constexpr bool is_analytic;           `normal` has a Taylor series at d = 0
-///   static constexpr Geometry geometry;          what touches what
+///
+/// and, of a geometry that no other law is for,
+///
+///   auto own_geometry() const;                   a member of libcontact/geometries.hpp
 ///
 /// `normal` is the smooth force of the law while in touch, and its smooth continuation a little
 /// beyond (trial steps of integrators end there). It does not branch, allocate or remember:
@@ -20,13 +23,6 @@
 #define WHIRL_INLINE [[gnu::always_inline]] inline
 
 namespace whirl {
-
-/// What touches what.
-enum class Geometry {
-  ring,   ///< a circle in a circle: lateral displacement against a radial clearance
-  face,   ///< a disk's rim on a plane: tilts times its radius against an axial clearance
-  blades  ///< tips of blades, turning with the rotor, in a circle
-};
 
 /// Square root of a depth; zero a little beyond the surface.
 WHIRL_INLINE double depth_root(double d) {

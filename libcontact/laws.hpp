@@ -1,9 +1,11 @@
 #pragma once
 /// The list of contact laws.
 
+#include <optional>
 #include <type_traits>
 #include <variant>
 
+#include "libcontact/geometries.hpp"
 #include "libcontact/laws/blade_tip.hpp"
 #include "libcontact/laws/face.hpp"
 #include "libcontact/laws/hertz.hpp"
@@ -32,13 +34,22 @@ inline bool is_analytic(const AnyContactLaw<>& law) {
                     law);
 }
 
-inline Geometry geometry_of(const AnyContactLaw<>& law) {
-  return std::visit([](const auto& l) { return std::remove_cvref_t<decltype(l)>::geometry; }, law);
-}
-
-/// Whether friction may switch its sign and stick at once, or only smoothly.
-inline bool can_stick(Geometry geometry) {
-  return geometry == Geometry::ring;
+/// Whether a law is for a geometry of its own.
+template <class Law>
+constexpr bool has_own_geometry = requires(const Law& law) {
+  law.own_geometry();
+};
+/// The geometry that a law is for; nothing: any that laws share.
+inline std::optional<AnyGeometry> own_geometry(const AnyContactLaw<>& law) {
+  return std::visit(
+      [](const auto& l) -> std::optional<AnyGeometry> {
+        if constexpr (has_own_geometry<std::remove_cvref_t<decltype(l)>>) {
+          return l.own_geometry();
+        } else {
+          return std::nullopt;
+        }
+      },
+      law);
 }
 
 }  // namespace whirl

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "libbase/field.hpp"
+#include "libcontact/geometry/blade_row.hpp"
 #include "libcontact/law.hpp"
 
 namespace whirl {
@@ -47,7 +48,6 @@ template <class R = double>
 struct BladeTip {
   static constexpr std::string_view name = "blade-tip";
   static constexpr bool is_analytic = false;
-  static constexpr Geometry geometry = Geometry::blades;
 
   int blades = 1;
   double tip_radius = 0.0;         ///< from the rotor's axis to the tips [m]
@@ -76,6 +76,7 @@ struct BladeTip {
   static constexpr auto derived() { return std::tuple{&BladeTip::bend}; }
 
   bool is_continuous() const { return true; }
+  geometry::BladeRow own_geometry() const { return {.blades = blades, .tip = tip_radius}; }
 
   WHIRL_INLINE constexpr auto normal(const auto& d, const auto&) const {
     const auto z = indentation(d, bend);

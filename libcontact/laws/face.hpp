@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "libbase/field.hpp"
+#include "libcontact/geometry/face.hpp"
 #include "libcontact/law.hpp"
 
 namespace whirl {
@@ -22,7 +23,6 @@ template <class R = double>
 struct Face {
   static constexpr std::string_view name = "face";
   static constexpr bool is_analytic = true;
-  static constexpr Geometry geometry = Geometry::face;
 
   R k{};                ///< contact stiffness [N/m]
   double radius = 0.0;  ///< of the rim that touches [m]
@@ -35,6 +35,7 @@ struct Face {
   }
 
   bool is_continuous() const { return true; }
+  geometry::Face own_geometry() const { return {radius}; }
 
   WHIRL_INLINE constexpr auto normal(const auto& d, const auto&) const { return k * d; }
 };

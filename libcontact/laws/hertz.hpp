@@ -20,7 +20,6 @@ template <class R = double>
 struct Hertz {
   static constexpr std::string_view name = "hertz";
   static constexpr bool is_analytic = false;
-  static constexpr Geometry geometry = Geometry::ring;
 
   R k{};  ///< contact stiffness [N/m^1.5]
 

@@ -20,7 +20,6 @@ template <class R = double>
 struct Radial {
   static constexpr std::string_view name = "radial";
   static constexpr bool is_analytic = true;
-  static constexpr Geometry geometry = Geometry::ring;
 
   R k{};  ///< contact stiffness [N/m]
   R c{};  ///< contact damping [N.s/m]

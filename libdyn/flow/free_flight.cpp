@@ -105,8 +105,9 @@ void FreeFlight::prepare() {
   Mat Q = Mat::Zero(2 * n, 2 * n);  // weights what contacts see, and everything a little
   Q.diagonal() = 1e-4 * system_.state_scale().cwiseAbs2().cwiseInverse();
   for (const ReducedContact& c : system_.contacts()) {
-    if (c.blade.number > 0) continue;
-    Q.topLeftCorner(n, n) += c.U.transpose() * c.U / (c.clearance * c.clearance);
+    if (c.place > 0) continue;
+    const Mat U = projection_of(c.geometry) * c.U;
+    Q.topLeftCorner(n, n) += U.transpose() * U / (c.clearance * c.clearance);
   }
   const auto P = lyapunov(first_order_matrix(system_), Q);
   if (!P) return;
@@ -115,15 +116,16 @@ void FreeFlight::prepare() {
   const DenseLu<Mat> factors(P_);
   decays_ = true;
   for (const ReducedContact& c : system_.contacts()) {
-    if (c.blade.number > 0) continue;  // as for the first: none touches before u has the clearance
+    if (c.place > 0) continue;  // as for the first: none touches before u has the clearance
     Mat rows = Mat::Zero(2 * n, 2);
-    rows.topRows(n) = c.U.transpose();
+    const Mat2 seen = projection_of(c.geometry);
+    const Mat U = seen * c.U;
+    rows.topRows(n) = U.transpose();
     const Mat spread = rows.transpose() * factors.solve(rows);
     const double reach = symmetric_modes(0.5 * (spread + spread.transpose())).values(1);
-    const double left =
-        careful * c.clearance - largest_radius(c.U * periodic_.col(0).head(n) - c.offset,
-                                               c.U * periodic_.col(1).head(n),
-                                               c.U * periodic_.col(2).head(n));
+    const double left = careful * c.clearance -
+                        largest_radius(U * periodic_.col(0).head(n) - seen * c.offset,
+                                       U * periodic_.col(1).head(n), U * periodic_.col(2).head(n));
     left_.push_back(left);
     room_.push_back(left > 0.0 ? careful * left * left / reach : -1.0);
   }
@@ -168,8 +170,9 @@ void FreeFlight::prepare_modes() {
   seen_.resize(2 * std::ssize(left_), 2 * n);
   Eigen::Index row = 0;
   for (const ReducedContact& c : system_.contacts()) {
-    if (c.blade.number > 0) continue;
-    seen_.middleRows(row, 2) = c.U * scale.head(n).asDiagonal() * modes->vectors.topRows(n);
+    if (c.place > 0) continue;
+    seen_.middleRows(row, 2) =
+        projection_of(c.geometry) * c.U * scale.head(n).asDiagonal() * modes->vectors.topRows(n);
     row += 2;
   }
   apart_ = Vec::Zero(2 * n);

@@ -50,7 +50,7 @@ double contact_gain(const ReducedContact& contact) {
     return std::sqrt(symmetric_modes(G.transpose() * G).values(1));
   };
   const double normal = gain(contact.U * contact.B);
-  return contact.is_face() ? std::max(normal, gain(contact.V * contact.B_t)) : normal;
+  return contact.rubs_apart() ? std::max(normal, gain(contact.V * contact.B_t)) : normal;
 }
 
 double contact_frequency(const ContactSystem& system) {

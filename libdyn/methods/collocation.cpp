@@ -276,10 +276,11 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
                                    long revolutions, const IntegrationOptions& options,
                                    const Observer& observer) {
   if (!suits_collocation(system)) {
-    throw ModelError({}, "method collocation",
-                     system.films().empty()
-                         ? "is for contacts of rings only; take taylor for faces and blades"
-                         : "cannot compute oil films, which carry without a pause; take taylor");
+    throw ModelError(
+        {}, "method collocation",
+        system.films().empty()
+            ? "is for contacts of rings only; take taylor for faces and blades"
+            : "cannot compute oil films, which carry without a pause; take taylor");
   }
   return Run(system, state, options, observer).go(state.revolution + revolutions);
 }
@@ -287,7 +288,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
 bool suits_collocation(const ContactSystem& system) {
   return system.films().empty() &&
          std::all_of(system.contacts().begin(), system.contacts().end(),
-                     [](const ReducedContact& c) { return geometry_of(c.law) == Geometry::ring; });
+                     [](const ReducedContact& c) { return !c.turns() && !c.rubs_apart(); });
 }
 
 bool prefers_collocation(const ContactSystem& system) {

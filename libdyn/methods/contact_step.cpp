@@ -184,8 +184,8 @@ Vec2 ContactStep::node_force(int contact, const ContactState& state, const doubl
                              int stride) {
   const ReducedContact& c = system_.contacts()[static_cast<std::size_t>(contact)];
   ++evaluations_;
-  const ContactForces f = kinematics(c, Vec2(node[0], node[stride]) - c.offset,
-                                     Vec2(node[2 * stride], node[3 * stride]));
+  const ContactForces f = forces_at(c, Vec2(node[0], node[stride]) - c.offset,
+                                    Vec2(node[2 * stride], node[3 * stride]));
   return f.normal * f.n + sliding_friction(c, state, f) * f.t();
 }
 
@@ -231,7 +231,7 @@ void ContactStep::residual(const MotionState& from, int contact, const double* d
     return;
   }
   ++evaluations_;
-  const ContactForces f = kinematics(c, Vec2(dw[0], dw[1]) - c.offset, Vec2(dw[2], dw[3]));
+  const ContactForces f = forces_at(c, Vec2(dw[0], dw[1]) - c.offset, Vec2(dw[2], dw[3]));
   const Vec2 t = f.t();
   if (!system_.leads(from.contacts, i)) {  // another one carries its friction
     out = force - f.normal * f.n;

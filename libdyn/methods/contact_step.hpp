@@ -91,7 +91,7 @@ class ContactStep {
 
     ContactForces forces(const ReducedContact& contact, Eigen::Index place) const {
       const auto at = values.row(place);
-      return kinematics(contact, Vec2(at(0), at(1)), Vec2(at(2), at(3)));
+      return forces_at(contact, Vec2(at(0), at(1)), Vec2(at(2), at(3)));
     }
   };
   /// How values at places give polynomials.
@@ -100,6 +100,10 @@ class ContactStep {
     Mat to_legendre, to_powers;
   };
 
+  /// Kinematics of a contact that neither turns nor rubs apart.
+  static ContactForces forces_at(const ReducedContact& contact, const Vec2& d, const Vec2& w) {
+    return kinematics(contact, 0.0, {{d(0), d(1)}, {w(0), w(1)}, {w(0), w(1)}});
+  }
   const Nodes& nodes_of(Rung rung, bool is_touching);
   void fill(Nodes& table, LinearFlow& flow, int level, const Vec& s, bool has_force) const;
   void evaluate_nodes(bool with_rates);

@@ -112,22 +112,14 @@ Polynomial ContactStep::polynomial(const EventWatcher& watcher, int contact, Eve
   const auto i = static_cast<std::size_t>(contact);
   const ReducedContact& c = system_.contacts()[i];
   const Path& path = paths_[i];
-  const auto m = static_cast<int>(path.values.rows());
   Polynomial g;
   const bool is_distance = kind == EventKind::touch || kind == EventKind::part ||
                            (kind == EventKind::release && is_continuous(c.law));
   if (is_distance) {
-    const double sign = kind == EventKind::touch ? -1.0 : 1.0;
-    const double* x = path.powers.col(0).data();
-    const double* y = path.powers.col(1).data();
-    g.degree = 2 * (m - 1);
-    for (int j = 0; j < m; ++j) {
-      for (int k = 0; k < m; ++k) {
-        g.c[static_cast<std::size_t>(j + k)] += sign * (x[j] * x[k] + y[j] * y[k]);
-      }
-    }
-    g.c[0] -= sign;
+    const Polynomial beyond = *beyond_surface(c, path.powers.col(0), path.powers.col(1));
+    g = kind == EventKind::touch ? -beyond : beyond;
   } else {
+    const auto m = static_cast<int>(path.values.rows());
     const Places& places = touching_.empty() ? flight_places_ : touch_places_;
     Vec values(m);
     for (int k = 0; k < m; ++k) {

@@ -91,31 +91,22 @@ Sparse mac_weights(const DofMap& dofs, double length) {
   return dofs.T.transpose() * Sparse(W * dofs.T);
 }
 
-PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs) {
-  const Point at = assembler.point(contact.at), against = assembler.point(contact.against);
-  const auto* face = std::get_if<Face<>>(&contact.law);
-  const double arm = face ? face->radius : 1.0;
-  PlaneRows rows(2, dofs.size());
-  for (const int i : {0, 1}) {
-    const int component = (face ? THETA_X : X) + i;
-    rows.row(i) = arm * (dofs.row(at, component) - dofs.row(against, component)).transpose();
-  }
-  return rows;
-}
-
 System stiffened(const Model& model, const Scene& scene) {
   System system = scene.system;
   int owner = -1;
   for (const ReducedContact& reduced : scene.contacts.contacts()) {
-    if (reduced.owner == owner) continue;  // another blade
+    if (reduced.owner == owner) continue;  // another place
     owner = reduced.owner;
     const Contact& c = model.contacts[static_cast<std::size_t>(owner)];
     const double depth = 1e-3 * c.clearance;
     // of the reduced contact, whose law knows how a blade bends
     const double k = normal_force(reduced.law, depth, 0.0) / depth;
     const PlaneRows rows = closing_rows(c, scene.assembler, system.dofs);
-    for (const int i : {0, 1}) {
-      const Sparse column = Vec(rows.row(i).transpose()).sparseView();
+    const auto direction = direction_of(reduced.geometry);
+    const std::vector<Vec2> pressed =
+        direction ? std::vector{*direction} : std::vector<Vec2>{Vec2::UnitX(), Vec2::UnitY()};
+    for (const Vec2& n : pressed) {
+      const Sparse column = Vec(rows.transpose() * n).sparseView();
       system.K += k * Sparse(column * Sparse(column.transpose()));
     }
   }

@@ -116,10 +116,6 @@ FrequencyRatio ratio_of(double high, double low);
 /// @param bin  distance of spectral lines [rad/s]
 bool is_forced(double frequency, double Omega, double bin);
 
-/// Rows of the displacement that closes a contact, over the coordinates of a system: of its station
-/// against the other one [m]; of a face its tilts times its radius.
-PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs);
-
 /// The system with the stiffness of its contacts added at their stations, as if closed for good: of
 /// rings and blades to lateral displacements, of faces to tilts.
 System stiffened(const Model& model, const Scene& scene);

@@ -50,7 +50,8 @@ std::optional<Shape> shape_of(const Scene& scene, const Modes& modes, double fre
   // radius of its circle at the contact that it reaches first, in clearances
   double reach = 0.0;
   for (const ReducedContact& c : scene.contacts.contacts()) {
-    reach = std::max(reach, Orbit((c.U.row(0) * q)(0), (c.U.row(1) * q)(0)).major() / c.clearance);
+    const Mat U = projection_of(c.geometry) * c.U;
+    reach = std::max(reach, Orbit((U.row(0) * q)(0), (U.row(1) * q)(0)).major() / c.clearance);
   }
   if (!(reach > 0.0)) return std::nullopt;
   CVec y(2 * q.size());

@@ -31,7 +31,7 @@ Mat contact_angles(const ContactSystem& system, const Recording& recording) {
   const double each = 1.0 / static_cast<double>(recording.eta.cols());
   int last = -1;
   for (const ReducedContact& c : system.contacts()) {
-    if (c.owner == last) continue;  // another blade
+    if (c.owner == last) continue;  // another place
     last = c.owner;
     for (Eigen::Index j = 0; j < recording.eta.cols(); ++j) {
       if (recording.normal(c.owner, j) <= 0.0) continue;

@@ -17,7 +17,7 @@ namespace {
 constexpr int moments = 720;        ///< of a period; the largest distance is right to 1e-5
 constexpr double tolerance = 1e-9;  ///< of the ends of a range, relative
 
-/// A clearance and how far the rotor is from its middle, from complex amplitudes of the full vector.
+/// A clearance and how much of it the rotor takes, from complex amplitudes of the full vector.
 struct Gap {
   std::string name;
   double clearance = 0.0;
@@ -44,27 +44,25 @@ Complex relative(const CVec& full, const DofMap& dofs, const Point& at, const Po
 
 std::vector<Gap> gaps_of(const Model& model, const Assembler& assembler, const DofMap& dofs) {
   std::vector<Gap> gaps;
-  const auto lateral = [&](const Station& at, const Station& against, const Vec2& offset) {
-    return [&dofs, offset, from = assembler.point(at),
-            to = assembler.point(against)](const CVec& full) {
-      return farthest(relative(full, dofs, from, to, X), relative(full, dofs, from, to, Y), offset);
+  const auto motion = [&](const Station& at, const Station& against, const Vec2& offset,
+                          const AnyGeometry& geometry) {
+    const int first = closing_of(geometry) == Closing::tilts ? THETA_X : X;
+    return [&dofs, offset, first, arm = arm_of(geometry), direction = direction_of(geometry),
+            from = assembler.point(at), to = assembler.point(against)](const CVec& full) {
+      const Complex x = relative(full, dofs, from, to, first),
+                    y = relative(full, dofs, from, to, first + 1);
+      if (direction)
+        return std::abs((*direction)(0) * x + (*direction)(1) * y) - direction->dot(offset);
+      return arm * farthest(x, y, offset);
     };
   };
   for (const Contact& c : model.contacts) {
-    Gap gap{named("contact", c.name), c.clearance, lateral(c.at, c.against, c.offset)};
-    if (const auto* face = std::get_if<Face<>>(&c.law)) {
-      gap.distance = [&dofs, radius = face->radius, from = assembler.point(c.at),
-                      to = assembler.point(c.against)](const CVec& full) {
-        return radius * Orbit(relative(full, dofs, from, to, THETA_X),
-                              relative(full, dofs, from, to, THETA_Y))
-                            .major();
-      };
-    }
-    gaps.push_back(std::move(gap));
+    gaps.push_back(
+        {named("contact", c.name), c.clearance, motion(c.at, c.against, c.offset, geometry_of(c))});
   }
   for (const OilFilm& film : model.films) {
     gaps.push_back({named("oil film", film.name), film.bearing.clearance,
-                    lateral(film.at, film.against, film.offset)});
+                    motion(film.at, film.against, film.offset, geometry::Ring{})});
   }
   return gaps;
 }

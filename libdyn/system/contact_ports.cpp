@@ -23,39 +23,29 @@ constexpr double nothing = 1e-9;  ///< of a force that does not jump, over that 
 template <int P>
 struct Push {
   using D = Dual<2 * P>;
-  D depth, slip, normal;
-  D n[2], t[2];
+  ContactGap<D> gap;
+  D normal;
 };
 
 template <int P>
 Push<P> push_of(const ReducedContact& c, double phase, const Vec& u, const Vec& rate) {
   using D = typename Push<P>::D;
-  Vec2 at = -c.offset, speed = Vec2::Zero();
-  if (c.is_blade()) {
-    const Vec2 e = c.direction(phase);
-    at += c.blade.radius * e;
-    speed = c.blade.speed * Vec2(-e(1), e(0));
-  }
-  D d[2], w[2];
+  GapMotion<D> motion;
   for (int i = 0; i < 2; ++i) {
-    d[i] = D::variable(u(i), i) + at(i);
-    w[i] = D::variable(rate(i), P + i) + speed(i);
+    const auto k = static_cast<std::size_t>(i);
+    motion.d[k] = D::variable(u(i), i) - c.offset(i);
+    motion.w[k] = D::variable(rate(i), P + i);
+    motion.v[k] = D::variable(rate(P - 2 + i), P + P - 2 + i);  // P = 4: where friction acts
   }
-  const D r = sqrt(d[0] * d[0] + d[1] * d[1]);
   Push<P> p;
-  p.n[0] = d[0] / r, p.n[1] = d[1] / r;
-  p.t[0] = -p.n[1], p.t[1] = p.n[0];
-  p.depth = r - c.circle();
-  const D depth_rate = p.n[0] * w[0] + p.n[1] * w[1];
-  if constexpr (P == 4) {  // a face: friction follows the lateral motion
-    for (int i = 0; i < 2; ++i) w[i] = D::variable(rate(2 + i), P + 2 + i);
-  }
-  p.slip = c.rim_speed + p.t[0] * w[0] + p.t[1] * w[1];
-  p.normal = std::visit([&](const auto& law) { return D(law.normal(p.depth, depth_rate)); }, c.law);
+  p.gap = std::visit([&](const auto& geometry) { return geometry.gap(c.space(), phase, motion); },
+                     c.geometry);
+  p.normal =
+      std::visit([&](const auto& law) { return D(law.normal(p.gap.depth, p.gap.rate)); }, c.law);
   return p;
 }
 
-/// The sample of g = -N n - T t, T = mu N s; of a face the two act on ports of their own.
+/// The sample of g = -N n - T t, T = mu N s; of 4 ports N has the first two, T the others.
 template <int P>
 PortSample sample_of(const ReducedContact& c, const Push<P>& p, double sign, double theta,
                      double share) {
@@ -67,13 +57,15 @@ PortSample sample_of(const ReducedContact& c, const Push<P>& p, double sign, dou
       friction = f.mu * sign * p.normal;
     } else {
       friction = f.mu * p.normal;
-      if (f.slip != Slip::forward) friction = friction * tanh(p.slip / f.tolerance);
+      if (f.slip != Slip::forward) friction = friction * tanh(p.gap.slip / f.tolerance);
     }
   }
   D g[P];
+  const auto t = p.gap.t();
   for (int i = 0; i < 2; ++i) {
-    g[i] = -p.normal * p.n[i];
-    g[P - 2 + i] = g[P - 2 + i] - friction * p.t[i];
+    const auto k = static_cast<std::size_t>(i);
+    g[i] = -p.normal * p.gap.n[k];
+    g[P - 2 + i] = g[P - 2 + i] - friction * t[k];
   }
   PortSample s{theta, share, PortVec(P), PortMat(P, P), PortMat(P, P)};
   for (int i = 0; i < P; ++i) {
@@ -128,15 +120,16 @@ void sample_contact(const ReducedContact& c, const Periodic& motion, const Gauss
         if (!(p.normal.value > nothing * normal_force(c.law, c.clearance, 0.0))) continue;
         const double rate = path.at(theta).rate / motion.frequency();
         const PortVec g = sample_of<P>(c, p, span.sign, theta, 0.0).g;
-        samples.push_back(jump<P>(g, p.depth, rate, theta));
+        samples.push_back(jump<P>(g, p.gap.depth, rate, theta));
       } else {  // friction turns round; each of the two spans takes its half
         constexpr double h = 1e-6;
         const double by_theta = (path.at(theta + h).slip - path.at(theta - h).slip) / (2.0 * h);
         PortVec g = PortVec::Zero(P);
         for (int i = 0; i < 2; ++i) {
-          g(P - 2 + i) = -c.friction.mu * p.normal.value * p.t[i].value;
+          g(P - 2 + i) =
+              -c.friction.mu * p.normal.value * p.gap.t()[static_cast<std::size_t>(i)].value;
         }
-        samples.push_back(jump<P>(g, p.slip, by_theta, theta));
+        samples.push_back(jump<P>(g, p.gap.slip, by_theta, theta));
       }
     }
   }
@@ -170,7 +163,7 @@ bool film_law(const ReducedFilm& film, const PortVec& u, const PortVec& rate, Po
 PortForces contact_port(std::vector<ReducedContact> contacts) {
   const ReducedContact& c = contacts.front();
   PortForces forces{.name = c.name, .U = c.U, .B = c.B};
-  if (c.is_face()) {
+  if (c.rubs_apart()) {
     forces.U.resize(4, c.U.cols());
     forces.U << c.U, c.V;
     forces.B.resize(c.B.rows(), 4);
@@ -179,7 +172,7 @@ PortForces contact_port(std::vector<ReducedContact> contacts) {
   forces.sample = [contacts = std::move(contacts), gauss = gauss_rule(gauss_points)](
                       const Periodic& motion, std::vector<PortSample>& samples) {
     for (const ReducedContact& contact : contacts) {
-      if (contact.is_face()) {
+      if (contact.rubs_apart()) {
         sample_contact<4>(contact, motion, gauss, samples);
       } else {
         sample_contact<2>(contact, motion, gauss, samples);
@@ -192,9 +185,9 @@ PortForces contact_port(std::vector<ReducedContact> contacts) {
 
 /// Motion of a contact's ports.
 Periodic path_of(const ReducedContact& c, const Periodic& motion) {
-  Mat rows(c.is_face() ? 4 : 2, motion.coefficients.rows());
+  Mat rows(c.rubs_apart() ? 4 : 2, motion.coefficients.rows());
   rows.topRows(2) = c.U;
-  if (c.is_face()) rows.bottomRows(2) = c.V;
+  if (c.rubs_apart()) rows.bottomRows(2) = c.V;
   return {rows * motion.coefficients, motion.period, motion.rate};
 }
 

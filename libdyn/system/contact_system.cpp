@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
@@ -21,53 +20,85 @@ constexpr double alike = 1e-9;
 /// Whether the slip of two contacts is the same in every motion.
 bool slip_alike(const ReducedContact& a, const ReducedContact& b) {
   if (!a.friction.is_exact() || !b.friction.is_exact()) return false;
+  if (!(a.geometry == b.geometry)) return false;
+  const bool is_plane = direction_of(a.geometry).has_value();  // which is the same anywhere
   return (a.U - b.U).cwiseAbs().maxCoeff() <= alike * a.U.cwiseAbs().maxCoeff() &&
-         (a.offset - b.offset).norm() <= alike * std::min(a.clearance, b.clearance) &&
+         (is_plane || (a.offset - b.offset).norm() <= alike * std::min(a.clearance, b.clearance)) &&
          std::abs(a.rim_speed - b.rim_speed) <= alike * std::abs(a.rim_speed);
 }
 
-PlaneRows rows(const DofMap& dofs, const Point& p) {
+PlaneRows rows_of(Closing closing, const DofMap& dofs, const Point& p) {
   PlaneRows r(2, dofs.size());
-  r.row(0) = dofs.row(p, X).transpose();
-  r.row(1) = dofs.row(p, Y).transpose();
+  switch (closing) {
+    case Closing::lateral:
+      r.row(0) = dofs.row(p, X).transpose();
+      r.row(1) = dofs.row(p, Y).transpose();
+      break;
+    case Closing::tilts:
+      r.row(0) = -dofs.row(p, THETA_Y).transpose();
+      r.row(1) = dofs.row(p, THETA_X).transpose();
+      break;
+  }
   return r;
 }
-/// Axial displacement, per radius, of points on the axes x and y that turn with the cross-section.
-PlaneRows axial_rows(const DofMap& dofs, const Point& p) {
-  PlaneRows r(2, dofs.size());
-  r.row(0) = -dofs.row(p, THETA_Y).transpose();
-  r.row(1) = dofs.row(p, THETA_X).transpose();
-  return r;
+PlaneRows relative_rows(Closing closing, const DofMap& dofs, const Point& at,
+                        const Point& against) {
+  return rows_of(closing, dofs, at) - rows_of(closing, dofs, against);
+}
+
+/// Speed of the rotor's surface in the slip; what turns has its own in the gap's motion.
+double rim_speed_of(const AnyGeometry& geometry, double Omega, const Friction& friction) {
+  return turns(geometry) ? 0.0 : Omega * rim_radius_of(geometry).value_or(friction.radius);
+}
+
+/// A law with what follows from the operation: how much friction bends a blade.
+AnyContactLaw<> law_at(double Omega, AnyContactLaw<> any, const Friction& friction) {
+  if (auto* law = std::get_if<BladeTip<>>(&any)) {
+    law->bend = blade_shortening(*law, friction.mu, Omega) * law->k * law->k;
+  }
+  return any;
 }
 
 }  // namespace
 
 ContactForces kinematics(const ReducedContact& c, const double* y, int coordinates) {
-  assert(!c.is_blade());
+  assert(!c.turns());
   return kinematics(c, 0.0, y, coordinates);
 }
 
 ContactForces kinematics(const ReducedContact& c, double phase, const double* y, int coordinates) {
   const Eigen::Map<const Vec> eta(y, coordinates), rate(y + coordinates, coordinates);
-  if (c.is_blade()) {
-    const Vec2 e = c.direction(phase);
-    return kinematics(c, c.U * eta - c.offset + c.blade.radius * e,
-                      c.U * rate + c.blade.speed * Vec2(-e(1), e(0)));
-  }
-  ContactForces f = kinematics(c, c.U * eta - c.offset, c.U * rate);
-  if (c.is_face()) f.slip = c.rim_speed + f.t().dot(c.V * rate);
+  const Vec2 d = c.U * eta - c.offset, w = c.U * rate, v = c.rubs_apart() ? Vec2(c.V * rate) : w;
+  return kinematics(c, phase, {{d(0), d(1)}, {w(0), w(1)}, {v(0), v(1)}});
+}
+
+ContactForces kinematics(const ReducedContact& c, double phase, const GapMotion<double>& motion) {
+  const ContactGap<double> gap = std::visit(
+      [&](const auto& geometry) { return geometry.gap(c.space(), phase, motion); }, c.geometry);
+  ContactForces f{.n = {gap.n[0], gap.n[1]},
+                  .r = gap.r,
+                  .depth = gap.depth,
+                  .rate = gap.rate,
+                  .slip = gap.slip};
+  f.normal = normal_force(c.law, f.depth, f.rate);
   return f;
 }
 
-ContactForces kinematics(const ReducedContact& c, const Vec2& d, const Vec2& w) {
-  ContactForces f;
-  f.r = d.norm();
-  f.n = f.r > 0.0 ? Vec2(d / f.r) : Vec2(1.0, 0.0);
-  f.depth = f.r - c.circle();
-  f.rate = f.n.dot(w);
-  f.slip = c.rim_speed + f.t().dot(w);
-  f.normal = normal_force(c.law, f.depth, f.rate);
-  return f;
+double beyond_surface(const ReducedContact& c, const ContactForces& f) {
+  const ContactGap<double> gap{f.r, f.depth, f.rate, f.slip, {f.n(0), f.n(1)}};
+  return std::visit([&](const auto& geometry) { return geometry.beyond(gap, c.space()); },
+                    c.geometry);
+}
+
+std::optional<Polynomial> beyond_surface(const ReducedContact& c, const PathPowers& x,
+                                         const PathPowers& y) {
+  return std::visit([&](const auto& geometry) { return geometry.beyond(x, y); }, c.geometry);
+}
+
+PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs) {
+  const AnyGeometry geometry = geometry_of(contact);
+  return arm_of(geometry) * relative_rows(closing_of(geometry), dofs, assembler.point(contact.at),
+                                          assembler.point(contact.against));
 }
 
 double sliding_friction(const ReducedContact& c, const ContactState& state,
@@ -78,7 +109,7 @@ double sliding_friction(const ReducedContact& c, const ContactState& state,
 }
 
 void push(const ReducedContact& c, const ContactForces& f, double T, Eigen::Ref<Vec> a) {
-  if (!c.is_face()) {
+  if (!c.rubs_apart()) {
     a.noalias() -= c.B * (f.normal * f.n + T * f.t());
     return;
   }
@@ -102,31 +133,25 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
 
   double clearance = std::numeric_limits<double>::infinity();
   for (const Contact& c : contacts) {
-    const Point at = assembler.point(c.at), against = assembler.point(c.against);
+    const AnyGeometry geometry = geometry_of(c);
+    assert(may_stick(geometry) || !c.friction.is_exact());
     ReducedContact r{.name = c.name,
                      .offset = c.offset,
                      .clearance = c.clearance,
-                     .rim_speed = Omega_ * c.friction.radius,
+                     .rim_speed = rim_speed_of(geometry, Omega_, c.friction),
                      .friction = c.friction,
-                     .law = c.law,
+                     .law = law_at(Omega_, c.law, c.friction),
+                     .geometry = geometry,
                      .owner = static_cast<int>(&c - contacts.data())};
-    const PlaneRows lateral = (rows(reduced.dofs, at) - rows(reduced.dofs, against)) * reduced.Phi;
-    if (const auto* face = std::get_if<Face<>>(&c.law)) {
-      assert(!c.friction.is_exact());
-      r.rim_speed = Omega_ * face->radius;
-      r.U = face->radius * (axial_rows(reduced.dofs, at) - axial_rows(reduced.dofs, against)) *
-            reduced.Phi;
-      r.V = lateral;
-      r.B_t = mass.solve(r.V.transpose());
-    } else {
-      r.U = lateral;
-    }
+    r.U = closing_rows(c, assembler, reduced.dofs) * reduced.Phi;
     r.B = mass.solve(r.U.transpose());
-    if (std::holds_alternative<BladeTip<>>(c.law)) {
-      add_blades(r);
-    } else {
-      contacts_.push_back(std::move(r));
+    if (whirl::rubs_apart(geometry)) {
+      r.V = relative_rows(Closing::lateral, reduced.dofs, assembler.point(c.at),
+                          assembler.point(c.against)) *
+            reduced.Phi;
+      r.B_t = mass.solve(r.V.transpose());
     }
+    add_places(std::move(r), geometry);
     clearance = std::min(clearance, c.clearance);
   }
   find_slip_groups();
@@ -140,8 +165,8 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
         .spin = Omega_ / phase_rate(),
         .rate = phase_rate(),
         .law = film.law};
-    r.U = (rows(reduced.dofs, assembler.point(film.at)) -
-           rows(reduced.dofs, assembler.point(film.against))) *
+    r.U = relative_rows(Closing::lateral, reduced.dofs, assembler.point(film.at),
+                        assembler.point(film.against)) *
           reduced.Phi;
     r.B = mass.solve(r.U.transpose());
     films_.push_back(std::move(r));
@@ -168,7 +193,8 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
       }
     }
     for (const ReducedContact& c : contacts_) {
-      if (c.is_face()) largest = std::max(largest, c.U.col(i).cwiseAbs().maxCoeff());
+      if (closing_of(c.geometry) == Closing::lateral) continue;
+      largest = std::max(largest, c.U.col(i).cwiseAbs().maxCoeff());
     }
     scale_(i) = largest > 0.0 ? clearance / largest : clearance;
     scale_(n + i) = scale_(i) * phase_rate();
@@ -200,19 +226,10 @@ void ContactSystem::set_group(ContactStates& states, int i, const ContactState& 
   }
 }
 
-void ContactSystem::add_blades(ReducedContact& r) {
-  assert(!r.friction.is_exact());
-  auto& law = std::get<BladeTip<>>(r.law);
-  law.bend = blade_shortening(law, r.friction.mu, Omega_) * law.k * law.k;
-  r.rim_speed = 0.0;  // the tip's own velocity is in that of u + R (cos, sin)
-  r.blade.radius = law.tip_radius;
-  r.blade.turns = Omega_ != 0.0 ? 1.0 : 0.0;
-  r.blade.speed = Omega_ * law.tip_radius;
-  for (int i = 0; i < law.blades; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / law.blades;
-    r.blade.number = i;
-    r.blade.cosine = std::cos(angle);
-    r.blade.sine = std::sin(angle);
+void ContactSystem::add_places(ReducedContact r, const AnyGeometry& geometry) {
+  for (int i = 0; i < places_of(geometry); ++i) {
+    r.geometry = place_of(geometry, i, Omega_);
+    r.place = i;
     contacts_.push_back(r);
   }
 }
@@ -249,7 +266,7 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   std::vector<int> sticking;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     out[i] = {};
-    if (contacts_[i].is_blade() && states[i].touch == Touch::apart) continue;  // most of many
+    if (contacts_[i].turns() && states[i].touch == Touch::apart) continue;  // most of many
     out[i] = kinematics(contacts_[i], phase, y, n);
     if (leads(states, i)) {
       sticking.push_back(static_cast<int>(i));

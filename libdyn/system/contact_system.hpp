@@ -2,6 +2,7 @@
 /// Equations of motion of a reduced rotor with its contacts, ready for integration.
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,42 +35,30 @@ using PlaneColumns = Eigen::Matrix<double, Eigen::Dynamic, 2>;
 
 /// A contact in reduced coordinates eta.
 ///
-/// One contact of the model is one of these, or as many as it has blades.
+/// One contact of the model is one of these, or as many as its geometry has places.
 struct ReducedContact {
   std::string name;
-  PlaneRows U;  ///< relative displacement u = U eta [m]; of a face: of its tilts times the radius
+  PlaneRows U;     ///< motion u = U eta that closes the clearance, times its arm [m]
   PlaneColumns B;  ///< acceleration eta'' = -B (force on the stator)
   Vec2 offset;
   double clearance;  ///< [m]
   double rim_speed;  ///< Omega R [m/s]
   Friction friction;
   AnyContactLaw<> law;
+  AnyGeometry geometry;
   int owner = 0;  ///< number of the model's contact, from 0
+  int place = 0;  ///< number of its place, from 0
   /// Contacts of equal number slip alike at every instant and stick together: between the same
   /// stations, about one center, at one radius, with friction that switches exactly.
   int slip_group = 0;
-  PlaneRows V{};       ///< of a face: lateral displacement, whose rate is in the slip; else empty
-  PlaneColumns B_t{};  ///< of a face: the same as B of the friction force; else empty
-
-  /// A blade: it is its tip that touches, at u + radius (cos, sin)(turns phase + angle).
-  struct Blade {
-    int number = 0;                   ///< from 0, among those of the owner
-    double radius = 0.0;              ///< [m]
-    double cosine = 1.0, sine = 0.0;  ///< of the angle
-    double turns = 0.0;               ///< 1, or 0 without spin
-    double speed = 0.0;               ///< Omega radius [m/s]
-  } blade{};
+  PlaneRows V{};       ///< where friction acts elsewhere: displacement whose rate is in the slip
+  PlaneColumns B_t{};  ///< and the same as B of the friction force; else both are empty
 
   /// Whether friction acts elsewhere than the normal force.
-  bool is_face() const { return V.cols() > 0; }
-  bool is_blade() const { return blade.radius > 0.0; }
-  /// Radius of the circle that the contact point leaves [m].
-  double circle() const { return clearance + blade.radius; }
-  /// Direction of the blade.
-  Vec2 direction(double phase) const {
-    const double c = std::cos(blade.turns * phase), s = std::sin(blade.turns * phase);
-    return {c * blade.cosine - s * blade.sine, s * blade.cosine + c * blade.sine};
-  }
+  bool rubs_apart() const { return V.cols() > 0; }
+  /// Whether it is one of many places that turn with the rotor, most of which are apart.
+  bool turns() const { return whirl::turns(geometry); }
+  ContactSpace space() const { return {clearance, rim_speed}; }
 };
 
 /// What holds contacts that slip alike.
@@ -82,9 +71,9 @@ struct Hold {
 
 /// Kinematics and forces of one contact at one instant.
 struct ContactForces {
-  Vec2 n = Vec2::Zero();  ///< normal, from the centre of the clearance circle to the rotor
-  double r = 0.0;         ///< distance from that centre [m]
-  double depth = 0.0;     ///< r - clearance (and a blade's radius) [m]
+  Vec2 n = Vec2::Zero();  ///< normal, from the rotor to the stator
+  double r = 0.0;         ///< distance from that centre, infinite of a plane [m]
+  double depth = 0.0;     ///< beyond the surface [m]
   double rate = 0.0;      ///< of the depth [m/s]
   double slip = 0.0;      ///< slip velocity v_t [m/s]
   double normal = 0.0;    ///< N of the law, whether or not in touch [N]
@@ -143,7 +132,7 @@ class ContactSystem {
 
   /// Normal force, slip and friction of every contact; friction of sticking ones is solved for.
   /// Contacts of one slip group share theirs in proportion to mu N: only its sum is determined, and
-  /// so they all slip at the same instant. Of blades that are apart nothing is said.
+  /// so they all slip at the same instant. Of turning places that are apart nothing is said.
   void forces(double phase, const double* y, const ContactStates& states,
               std::vector<ContactForces>& out) const;
 
@@ -170,8 +159,8 @@ class ContactSystem {
   void find_slip_groups();
   /// Shares what the leaders of slip groups hold among all that stick.
   void share_friction(const ContactStates& states, std::vector<ContactForces>& forces) const;
-  /// Adds a contact as many times as it has blades.
-  void add_blades(ReducedContact& contact);
+  /// Adds a contact at every place of its geometry.
+  void add_places(ReducedContact contact, const AnyGeometry& geometry);
   /// Without contacts.
   void smooth_acceleration(double phase, const double* y, double* a) const;
 
@@ -192,11 +181,23 @@ double distance(const ContactSystem& system, const Vec& a, const Vec& b);
 ContactForces kinematics(const ReducedContact& contact, double phase, const double* y,
                          int coordinates);
 
-/// The same of a contact that is no blade, which does not ask for the phase.
+/// The same of a contact that does not turn and so does not ask for the phase.
 ContactForces kinematics(const ReducedContact& contact, const double* y, int coordinates);
 
-/// The same from d = U eta - offset [m] and its rate w [m/s], of contacts that are no faces.
-ContactForces kinematics(const ReducedContact& contact, const Vec2& d, const Vec2& w);
+/// The same from the motion of the gap.
+ContactForces kinematics(const ReducedContact& contact, double phase,
+                         const GapMotion<double>& motion);
+
+/// How far beyond its surface a contact is, of order one; above zero in touch.
+double beyond_surface(const ReducedContact& contact, const ContactForces& f);
+
+/// The same along a path of d = U eta - offset over the clearance, polynomials of s; nothing where it
+/// is none.
+std::optional<Polynomial> beyond_surface(const ReducedContact& contact, const PathPowers& x,
+                                         const PathPowers& y);
+
+/// Rows of the motion that closes a contact, times its arm [m], over the coordinates of a system.
+PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs);
 
 /// Takes what the force -N n - T t of a contact adds to the accelerations from them.
 void push(const ReducedContact& contact, const ContactForces& f, double T, Eigen::Ref<Vec> a);

@@ -9,8 +9,8 @@ namespace whirl {
 
 namespace {
 
-/// The blade of a contact whose tip is farthest out.
-int deepest_blade(const ContactSystem& system, const MotionState& state, int owner) {
+/// The place of a contact that is farthest out.
+int deepest_place(const ContactSystem& system, const MotionState& state, int owner) {
   int deepest = 0;
   double depth = -std::numeric_limits<double>::infinity();
   for (const ReducedContact& c : system.contacts()) {
@@ -18,7 +18,7 @@ int deepest_blade(const ContactSystem& system, const MotionState& state, int own
     const double d = kinematics(c, state.phase, state.y.data(), system.coordinates()).depth;
     if (d <= depth) continue;
     depth = d;
-    deepest = c.blade.number;
+    deepest = c.place;
   }
   return deepest;
 }
@@ -31,7 +31,7 @@ std::string diagnosis(const ContactSystem& system, const MotionState& state,
   std::string contacts;
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const ReducedContact& c = system.contacts()[i];
-    if (c.is_blade() && c.blade.number != deepest_blade(system, state, c.owner)) continue;
+    if (c.turns() && c.place != deepest_place(system, state, c.owner)) continue;
     const ContactForces f = kinematics(c, state.phase, state.y.data(), system.coordinates());
     contacts += fmt::format(
         "; contact \"{}\" {}, {:.4g} clearances from its centre, slip {:.3g} m/s", c.name,

@@ -35,11 +35,11 @@ const Interpolation& interpolation() {
   return table;
 }
 
-/// Whether a disk may move by the clearance of its blades: none can touch before.
-bool may_reach(const ReducedContact& blade, const Step& step) {
-  PlaneRows u = blade.U * step.q;
-  u.col(0) -= blade.offset;
-  return u.colwise().norm().sum() >= (1.0 - 1e-9) * blade.clearance;
+/// Whether a rotor may move by the clearance of places that turn with it: none can touch before.
+bool may_reach(const ReducedContact& place, const Step& step) {
+  PlaneRows u = place.U * step.q;
+  u.col(0) -= place.offset;
+  return u.colwise().norm().sum() >= (1.0 - 1e-9) * place.clearance;
 }
 
 }  // namespace
@@ -103,8 +103,7 @@ double EventWatcher::value(const Event& event, const ContactForces& f,
                            const ContactState& state) const {
   const auto i = static_cast<std::size_t>(event.contact);
   const ReducedContact& c = system_.contacts()[i];
-  const double beyond = c.is_blade() ? f.depth * (f.r + c.circle()) / (c.clearance * c.circle())
-                                     : (f.r * f.r) / (c.clearance * c.clearance) - 1.0;
+  const double beyond = beyond_surface(c, f);
   switch (event.kind) {
     case EventKind::touch:
       return -beyond;
@@ -128,22 +127,13 @@ Polynomial EventWatcher::polynomial(const Step& step, int contact, EventKind kin
   Polynomial g;
   const bool is_distance = kind == EventKind::touch || kind == EventKind::part ||
                            (kind == EventKind::release && is_continuous(c.law));
-  if (is_distance && !c.is_blade()) {  // r^2 is a polynomial: exact
+  if (is_distance && !c.turns()) {
     Eigen::Matrix<double, 2, Eigen::Dynamic> d = c.U * step.q;
     d.col(0) -= c.offset;
     d /= c.clearance;
-    const double sign = kind == EventKind::touch ? -1.0 : 1.0;
-    const auto terms = static_cast<int>(d.cols());
-    g.degree = 2 * (terms - 1);
-    for (int k = 0; k <= g.degree; ++k) {
-      double sum = 0.0;
-      for (int j = std::max(0, k - terms + 1); j <= std::min(k, terms - 1); ++j) {
-        sum += d.col(j).dot(d.col(k - j));
-      }
-      g.c[static_cast<std::size_t>(k)] = sign * sum;
+    if (const auto exact = beyond_surface(c, d.row(0).transpose(), d.row(1).transpose())) {
+      return kind == EventKind::touch ? -*exact : *exact;
     }
-    g.c[0] -= sign;
-    return g;
   }
   const Interpolation& table = interpolation();
   Eigen::Matrix<double, samples, 1> values;
@@ -161,11 +151,11 @@ Polynomial EventWatcher::polynomial(const Step& step, int contact, EventKind kin
 
 std::optional<Event> EventWatcher::first(const Step& step) const {
   std::optional<Event> earliest;
-  bool comes_near = true;  // what is true of one blade's disk is true of all
+  bool comes_near = true;  // what is true of one place that turns is true of all of its contact
   for (int i = 0; i < static_cast<int>(step.contacts.size()); ++i) {
     const ReducedContact& c = system_.contacts()[static_cast<std::size_t>(i)];
-    if (c.is_blade()) {
-      if (c.blade.number == 0) comes_near = may_reach(c, step);
+    if (c.turns()) {
+      if (c.place == 0) comes_near = may_reach(c, step);
       if (!comes_near && !step.contacts[static_cast<std::size_t>(i)].in_touch()) continue;
     }
     for (const EventKind kind : kinds(i, step.contacts)) {

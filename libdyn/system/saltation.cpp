@@ -1,9 +1,37 @@
 #include "libdyn/system/saltation.hpp"
 
-#include <cassert>
 #include <cmath>
 
+#include "libbase/dual.hpp"
+
 namespace whirl {
+
+namespace {
+
+/// The gap over the motion of its ports: (u, of friction) and their rates as variables 0 to 7.
+ContactGap<Dual<8>> gap_of(const ReducedContact& c, double phase, const Vec& y, Eigen::Index n) {
+  const Vec2 d = c.U * y.head(n) - c.offset, w = c.U * y.tail(n);
+  const Vec2 v = c.rubs_apart() ? Vec2(c.V * y.tail(n)) : w;
+  GapMotion<Dual<8>> motion;
+  for (int i = 0; i < 2; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    motion.d[k] = Dual<8>::variable(d(i), i);
+    motion.w[k] = Dual<8>::variable(w(i), 4 + i);
+    motion.v[k] = Dual<8>::variable(v(i), 6 + i);
+  }
+  return std::visit([&](const auto& g) { return g.gap(c.space(), phase, motion); }, c.geometry);
+}
+
+/// Slopes over the ports as a gradient over the state.
+Vec gradient_of(const ReducedContact& c, const Dual<8>::Slopes& by, Eigen::Index n) {
+  const PlaneRows& V = c.rubs_apart() ? c.V : c.U;
+  Vec gradient(2 * n);
+  gradient.head(n) = c.U.transpose() * by.segment<2>(0);
+  gradient.tail(n) = c.U.transpose() * by.segment<2>(4) + V.transpose() * by.segment<2>(6);
+  return gradient;
+}
+
+}  // namespace
 
 double Saltation::log_determinant() const {
   return std::log(std::abs(1.0 + gradient.dot(jump)));
@@ -21,23 +49,14 @@ std::optional<Saltation> saltation(const ContactSystem& system, const Event& eve
   if (change.isZero(0.0)) return std::nullopt;
 
   const ReducedContact& contact = system.contacts()[static_cast<std::size_t>(event.contact)];
-  assert(!contact.is_face() && !contact.is_blade());
-  const Vec2 d = contact.U * y.head(n) - contact.offset, d_rate = contact.U * y.tail(n);
-  const double r = d.norm();
-  const Vec2 normal = d / r, t(-normal(1), normal(0));
+  const ContactGap<Dual<8>> gap = gap_of(contact, phase, y, n);
+  const bool touches = event.kind == EventKind::touch;
   Saltation s;
-  s.gradient = Vec::Zero(2 * n);
-  if (event.kind == EventKind::touch) {  // g = r - clearance
-    s.gradient.head(n) = contact.U.transpose() * normal;
-  } else {  // g = v_t = Omega R + (d x d') / r
-    const double turn = t.dot(d_rate);
-    s.gradient.tail(n) = contact.U.transpose() * t;
-    s.gradient.head(n) =
-        contact.U.transpose() * (Vec2(d_rate(1), -d_rate(0)) / r - turn / r * normal);
-  }
+  s.gradient = gradient_of(contact, touches ? gap.depth.slopes : gap.slip.slopes, n);
   Vec f(2 * n);
   f << y.tail(n), a_before;
-  const double rate = s.gradient.dot(f);
+  // a place that turns moves by itself, too; its friction does not switch
+  const double rate = contact.turns() ? gap.rate.value : s.gradient.dot(f);
   if (rate == 0.0) return std::nullopt;  // a graze to the last digit: no side to come from
   s.jump = Vec::Zero(2 * n);
   s.jump.tail(n) = change / rate;

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array lateral{X, Y};
 constexpr std::array lateral_and_tilts{X, Y, THETA_X, THETA_Y};
 std::span<const Component> components(const Contact& c) {
-  if (geometry_of(c.law) == Geometry::face) return lateral_and_tilts;
+  if (closing_of(geometry_of(c)) == Closing::tilts) return lateral_and_tilts;
   return lateral;
 }
 

@@ -29,14 +29,9 @@ ContactPath::ContactPath(const ReducedContact& contact, const Periodic& motion)
 
 ContactForces ContactPath::at(double theta) const {
   const auto [u, rate] = motion_.at(theta);
-  if (contact_.is_blade()) {
-    const Vec2 e = contact_.direction(motion_.phase(theta));
-    return kinematics(contact_, u.head<2>() - contact_.offset + contact_.blade.radius * e,
-                      rate.head<2>() + contact_.blade.speed * Vec2(-e(1), e(0)));
-  }
-  ContactForces f = kinematics(contact_, Vec2(u.head<2>() - contact_.offset), rate.head<2>());
-  if (contact_.is_face()) f.slip = contact_.rim_speed + f.t().dot(rate.tail<2>());
-  return f;
+  const Vec2 d = u.head<2>() - contact_.offset;
+  return kinematics(contact_, motion_.phase(theta),
+                    {{d(0), d(1)}, {rate(0), rate(1)}, {rate.tail<2>()(0), rate.tail<2>()(1)}});
 }
 
 double ContactPath::gap(const ContactForces& f) const {

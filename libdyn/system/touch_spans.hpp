@@ -9,10 +9,10 @@
 
 namespace whirl {
 
-/// A contact on the motion of its displacements (of a face: also its lateral ones, below).
+/// A contact on the motion that closes it (and below, where friction acts elsewhere, of that).
 class ContactPath {
  public:
-  /// @param motion  2 rows, of a face 4; both must live as long as the path
+  /// @param motion  2 rows, or 4 of a contact that rubs apart; both must live as long as the path
   ContactPath(const ReducedContact& contact, const Periodic& motion);
 
   /// A stretch of touching, without an event inside.

@@ -33,9 +33,10 @@ struct BladeLanes {
   P along[P::most_terms], across[P::most_terms], square[P::most_terms];
 
   HWY_ATTR void load(const ReducedContact& from, int l, Number rate_of_phase) {
-    const Number R = from.blade.radius, c = from.clearance;
+    const auto& row = std::get<geometry::BladeRow>(from.geometry);
+    const Number R = row.tip, c = from.clearance;
     set_lane(radius, l, R);
-    set_lane(turns, l, from.blade.turns);
+    set_lane(turns, l, row.sense);
     set_lane(rate, l, rate_of_phase);
     set_lane(clearance2, l, c * c);
     set_lane(within, l, c * (Number(2.0) * R + c));

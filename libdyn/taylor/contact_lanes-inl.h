@@ -14,10 +14,10 @@
 
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/taylor/blade_lanes-inl.h"
-#include "libdyn/taylor/face_lanes-inl.h"
 #include "libdyn/taylor/law_lanes-inl.h"
 #include "libdyn/taylor/older_terms-inl.h"
 #include "libdyn/taylor/pattern.hpp"
+#include "libdyn/taylor/rub_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl {
@@ -29,6 +29,9 @@ inline void put(uint64_t& bits_of, uint64_t bit, bool yes) {
 }
 
 /// The force of a contact is -(q d + tau rot d): q = N / r, tau = T / r, rot d = (-d_y, d_x).
+///
+/// Of a plane d is its normal, r is one, and s, else the square of the distance, is how far the rotor
+/// is beyond it.
 template <class P>
 struct ContactLanes {
   using Number = typename P::Number;
@@ -44,7 +47,8 @@ struct ContactLanes {
   AnyContactLaw<P> law;
   std::vector<P> ux, uy;                              // per of_x, of_y
   std::vector<P> bx, by;                              // per pushed_by_x, pushed_by_y
-  std::unique_ptr<FaceLanes<P>> face;                 // of a face, whose friction it pushes by
+  std::unique_ptr<RubLanes<P>> rub;                   // where friction acts elsewhere, or a plane
+  P plane_at{0.0};                                    // n . u of a plane
   const BladeLanes<P>* disk = nullptr;                // of a blade, what it shares with the others
   P blade_cosine{1.0}, blade_sine{0.0}, excess{0.0};  // of its angle; d . d - clearance^2 at first
   uint64_t continuous = 0, exact = 0, smooth = 0;
@@ -79,17 +83,23 @@ struct ContactLanes {
         uy(of.of_y.size(), P(0.0)),
         bx(of.pushed_by_x.size(), P(0.0)),
         by(of.pushed_by_y.size(), P(0.0)),
-        face(of.is_face ? std::make_unique<FaceLanes<P>>(of) : nullptr) {}
+        rub(of.rubs_apart || of.is_plane ? std::make_unique<RubLanes<P>>(of) : nullptr) {
+    if (!of.is_plane) return;
+    for (int k = 0; k < P::most_terms; ++k) dx[k] = dy[k] = r[k] = P(0.0);
+    r[0] = inverse_r = P(1.0);
+  }
 
   HWY_ATTR void load(const ReducedContact& from, const ContactState& state, int l, double turn) {
     const uint64_t bit = uint64_t{1} << l;
     const Friction& f = from.friction;
-    const Number circle = Number(from.clearance) + Number(from.blade.radius);
+    const Number circle = Number(from.clearance) + Number(tip_radius_of(from.geometry));
     set_lane(clearance, l, circle);
     set_lane(clearance2, l, circle * circle);
     set_lane(distance_scale, l, circle * Number(from.clearance));
-    set_lane(blade_cosine, l, from.blade.cosine);
-    set_lane(blade_sine, l, from.blade.sine);
+    if (const auto* blade = std::get_if<geometry::BladeRow>(&from.geometry)) {
+      set_lane(blade_cosine, l, blade->cosine);
+      set_lane(blade_sine, l, blade->sine);
+    }
     set_lane(offset_x, l, from.offset(0));
     set_lane(offset_y, l, from.offset(1));
     set_lane(mu, l, f.mu);
@@ -104,7 +114,8 @@ struct ContactLanes {
     for (size_t i = 0; i < uy.size(); ++i) set_lane(uy[i], l, from.U(1, rows.of_y[i]));
     for (size_t i = 0; i < bx.size(); ++i) set_lane(bx[i], l, from.B(rows.pushed_by_x[i], 0));
     for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, from.B(rows.pushed_by_y[i], 1));
-    if (face) face->load(from, l);
+    if (const auto n = direction_of(from.geometry)) load_plane(from, *n, l, turn);
+    if (rub) rub->load(from, l);
     put(continuous, bit, is_continuous(from.law));
     put(exact, bit, f.is_exact());
     put(smooth, bit, f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
@@ -114,6 +125,19 @@ struct ContactLanes {
     put(surface_slip, bit, false);
     put(level_slip, bit, false);
     for (P* sum : {&duty, &stuck, &max_normal, &max_friction}) set_lane(*sum, l, 0.0);
+  }
+
+  /// A plane is compared with its clearance, and d and r do not have its unit.
+  HWY_ATTR void load_plane(const ReducedContact& from, const Vec2& n, int l, double turn) {
+    const Number x = n(0), y = n(1);
+    set_lane(dx[0], l, x);
+    set_lane(dy[0], l, y);
+    set_lane(plane_at, l,
+             Number(from.clearance) + (x * Number(from.offset(0)) + y * Number(from.offset(1))));
+    set_lane(clearance, l, 1.0);
+    set_lane(clearance2, l, 1.0);
+    set_lane(distance_scale, l, from.clearance);
+    set_lane(slip_scale, l, std::max(std::abs(from.rim_speed), from.clearance * turn));
   }
 
   HWY_ATTR void set_state(const ContactState& state, int l) {
@@ -167,6 +191,7 @@ struct ContactLanes {
   /// Coefficient 0 of displacement, distance squared, distance.
   HWY_ATTR inline void first_geometry(const P* x) {
     if (disk) return blade_geometry(0, is_evaluated);
+    if (rows.is_plane) return plane_geometry(x, 0);
     P x0, y0;
     displacement(x, x0, y0);
     dx[0] = x0 = x0 - offset_x;
@@ -183,6 +208,7 @@ struct ContactLanes {
   /// Coefficient k > 0 of the same.
   HWY_ATTR inline void geometry(const P* x, int k, bool with_distance) {
     if (disk) return blade_geometry(k, with_distance);
+    if (rows.is_plane) return plane_geometry(x, k);
     P xk, yk;
     displacement(x, xk, yk);
     dx[k] = xk;
@@ -192,6 +218,19 @@ struct ContactLanes {
     const P half_s = fma(dx[0], xk, older.xx) + fma(dy[0], yk, older.yy);
     s[k] = half_s + half_s;
     if (with_distance) r[k] = (half_s - older.rr) * inverse_r;
+  }
+
+  /// The same of a plane, for any k.
+  HWY_ATTR inline void plane_geometry(const P* x, int k) {
+    P xk, yk;
+    displacement(x, xk, yk);
+    s[k] = fma(dx[0], xk, dy[0] * yk);
+    if (k == 0) s[0] = s[0] - plane_at;
+  }
+
+  /// Coefficient 0 of what s has beyond the surface.
+  HWY_ATTR inline P beyond() const {
+    return disk ? excess : rows.is_plane ? s[0] : s[0] - clearance2;
   }
 
   /// The same of a blade, for any k, from what its disk does.
@@ -216,6 +255,7 @@ struct ContactLanes {
   /// Coefficient k of the depth. A law that has no Taylor series at the surface starts its step just
   /// below it, where its force is still nothing; steps near the surface are short by themselves.
   HWY_ATTR inline P depth(int k) const {
+    if (rows.is_plane) return k == 0 ? max(s[0], least_depth) : s[k];
     P d = r[k];
     if (k == 0) d = max(disk ? first_depth_of_blade() : d - clearance, least_depth);
     return d;
@@ -226,7 +266,9 @@ struct ContactLanes {
   }
 
   /// Rate of the distance, coefficient k; for laws that know it, geometry is one coefficient ahead.
-  HWY_ATTR inline P rate(int k) const { return rows.has_rate ? P(k + 1.0) * r[k + 1] : P(0.0); }
+  HWY_ATTR inline P rate(int k) const {
+    return rows.has_rate ? P(k + 1.0) * (rows.is_plane ? s[k + 1] : r[k + 1]) : P(0.0);
+  }
 
   /// Coefficient k of the normal force.
   HWY_ATTR inline P normal(AnyLawWork<P>& work, int k) const {
@@ -253,7 +295,7 @@ struct ContactLanes {
       px = fma(q[k], dx[0], fma(q[0], dx[k], older.xq));
       py = fma(q[k], dy[0], fma(q[0], dy[k], older.yq));
     }
-    if (face) return face_force(k, px, py);
+    if (rub) return forces_apart(k, px, py);
     fx = fnma(share, py, px);
     fy = fma(share, px, py);
     if (!any_has_tau) return;
@@ -266,12 +308,12 @@ struct ContactLanes {
     fy = select(has_tau, py, fy);
   }
 
-  /// The same of a face from coefficient k of q d: normal force and friction apart.
-  HWY_ATTR void face_force(int k, const P& of_x, const P& of_y) {
+  /// The same from coefficient k of q d, normal force and friction apart.
+  HWY_ATTR void forces_apart(int k, const P& of_x, const P& of_y) {
     fx = of_x;
     fy = of_y;
-    face->fx = -(share * of_y);
-    face->fy = share * of_x;
+    rub->fx = -(share * of_y);
+    rub->fy = share * of_x;
     if (!any_has_tau) return;
     tau[k] = friction(k);
     P tx(0.0), ty(0.0);
@@ -279,8 +321,8 @@ struct ContactLanes {
       tx = fnma(tau[i], dy[k - i], tx);
       ty = fma(tau[i], dx[k - i], ty);
     }
-    face->fx = select(has_tau, tx, face->fx);
-    face->fy = select(has_tau, ty, face->fy);
+    rub->fx = select(has_tau, tx, rub->fx);
+    rub->fy = select(has_tau, ty, rub->fy);
   }
 
   /// Adds coefficient k of d x d' to a sum;  d'_i = (i + 1) d_{i+1}.
@@ -296,8 +338,8 @@ struct ContactLanes {
   /// tau_k of lanes that slide smoothly; zero in sticking ones, for which it is solved later.
   HWY_ATTR P friction(int k) {
     if (smooth == 0) return P(0.0);
-    // slip velocity rim + (d x d') / r, of a face rim + (d x w) / r, over the width
-    P cross = face ? face->turn(dx, dy, k) : add_turn(P(0.0), k);
+    // slip velocity rim + (d x d') / r, where friction acts elsewhere rim + (d x w) / r, over the width
+    P cross = rub ? rub->turn(dx, dy, k) : add_turn(P(0.0), k);
     for (int i = 1; i <= k; ++i) cross = fnma(r[i], turn_rate[k - i], cross);
     turn_rate[k] = cross * inverse_r;
     slip[k] = (k == 0 ? rim + turn_rate[0] : turn_rate[k]) * inverse_width;
@@ -344,7 +386,7 @@ template <class P>
 std::vector<std::unique_ptr<BladeLanes<P>>> disks_of(const Pattern& pattern,
                                                      std::vector<ContactLanes<P>>& contacts) {
   std::vector<std::unique_ptr<BladeLanes<P>>> disks;
-  for (const Pattern::BladeGroup& group : pattern.blade_groups) {
+  for (const Pattern::TurningGroup& group : pattern.turning) {
     disks.push_back(std::make_unique<BladeLanes<P>>());
     disks.back()->first = group.first;
     disks.back()->count = group.count;

@@ -27,6 +27,13 @@ struct SeriesMatrix {
       yy[k] = yy[k] + product_term(ay, by, k);
     }
   }
+  /// Adds a (ax, ay) (bx, by)^T to coefficient k.
+  HWY_ATTR void add_dyad(int k, const P& a, const P& ax, const P& ay, const P& bx, const P& by) {
+    xx[k] = fma(a * ax, bx, xx[k]);
+    xy[k] = fma(a * ax, by, xy[k]);
+    yx[k] = fma(a * ay, bx, yx[k]);
+    yy[k] = fma(a * ay, by, yy[k]);
+  }
   /// Largest entry of coefficient k.
   HWY_ATTR P size(int k) const {
     return max(max(abs(xx[k]), abs(xy[k])), max(abs(yx[k]), abs(yy[k])));
@@ -48,12 +55,14 @@ struct ContactSlopes {
   SeriesMatrix<P> J, H;
   P normal_by_depth[P::most_terms], normal_by_rate[P::most_terms];
   bool has_H = false;
-  std::unique_ptr<SeriesMatrix<P>> J_t;  ///< J of a face's friction, apart; its H is all friction's
+  std::unique_ptr<SeriesMatrix<P>>
+      J_t;  ///< J of friction that acts elsewhere; then H is all friction's
 
   HWY_ATTR void find(const ContactLanes<P>& c, int N) {
     derivatives_of_law(c, N);
     const auto& in_touch = c.in_touch;
     has_H = c.rows.has_rate || c.rows.has_smooth_friction;
+    if (c.rows.is_plane) return find_of_plane(c, N);
     P alpha[P::most_terms], beta[P::most_terms], work[P::most_terms], ex[P::most_terms],
         ey[P::most_terms];
     for (int k = 0; k <= N; ++k) work[k] = normal_by_depth[k] - c.q[k];
@@ -79,8 +88,8 @@ struct ContactSlopes {
       J.xx[k] = J.xx[k] + c.q[k];
       J.yy[k] = J.yy[k] + c.q[k];
     }
-    if (c.rows.has_friction && !c.face) add_friction(c, N);
-    if (c.rows.has_friction && c.face) find_friction_of_face(c, N);
+    if (c.rows.has_friction && !c.rub) add_friction(c, N);
+    if (c.rows.has_friction && c.rub) find_friction_apart(c, N);
   }
 
  private:
@@ -94,6 +103,45 @@ struct ContactSlopes {
         normal_by_rate[k] = by_rate.at(k, c.depth(k), c.rate(k));
       }
     });
+  }
+
+  /// J = N_d n n^T, H = N_v n n^T with a normal n that does not change; friction adds phi times the
+  /// same along t = rot n, and chi t t^T to H as in add_slip.
+  HWY_ATTR void find_of_plane(const ContactLanes<P>& c, int N) {
+    const P x = c.dx[0], y = c.dy[0], nothing(0.0);
+    J.clear(N);
+    if (has_H) H.clear(N);
+    for (int k = 0; k <= N; ++k) {
+      normal_by_depth[k] = select(c.in_touch, normal_by_depth[k], nothing);
+      normal_by_rate[k] = select(c.in_touch, normal_by_rate[k], nothing);
+      J.add_dyad(k, normal_by_depth[k], x, y, x, y);
+      if (has_H) H.add_dyad(k, normal_by_rate[k], x, y, x, y);
+    }
+    if (!c.rows.has_friction) return;
+    if (!J_t) J_t = std::make_unique<SeriesMatrix<P>>();
+    J_t->clear(N);
+    P phi[P::most_terms];
+    share_of_normal(c, phi, N);
+    const auto smooth = mask_of<P>(c.smooth & c.touching);
+    const P factor = c.mu * c.inverse_width;
+    for (int k = 0; k <= N; ++k) {
+      J_t->add_dyad(k, product_term(phi, normal_by_depth, k), -y, x, x, y);
+      if (!has_H) continue;
+      H.add_dyad(k, product_term(phi, normal_by_rate, k), -y, x, x, y);
+      if (c.smooth == 0) continue;
+      const P chi = select(smooth, factor * product_term(c.q, c.cosine2, k), nothing);
+      H.add_dyad(k, chi, -y, x, -y, x);
+    }
+  }
+
+  /// phi of tau = phi q where it slides; zero where it sticks.
+  static HWY_ATTR void share_of_normal(const ContactLanes<P>& c, P* phi, int N) {
+    const auto smooth = mask_of<P>(c.smooth & c.touching);
+    const P share = select(mask_of<P>(c.sticking), P(0.0), c.share);
+    for (int k = 0; k <= N; ++k) {
+      phi[k] = k == 0 ? share : P(0.0);
+      if (c.smooth != 0) phi[k] = select(smooth, c.mu * c.sine[k], phi[k]);
+    }
   }
 
   static HWY_ATTR void velocity(const ContactLanes<P>& c, P* vx, P* vy, int N) {
@@ -129,14 +177,11 @@ struct ContactSlopes {
   }
 
   /// phi rot J and the part of the slip, which does not act where the normal force does.
-  HWY_ATTR void find_friction_of_face(const ContactLanes<P>& c, int N) {
+  HWY_ATTR void find_friction_apart(const ContactLanes<P>& c, int N) {
     if (!J_t) J_t = std::make_unique<SeriesMatrix<P>>();
     const auto smooth = mask_of<P>(c.smooth & c.touching);
     P phi[P::most_terms], back_x[P::most_terms], back_y[P::most_terms];
-    for (int k = 0; k <= N; ++k) {
-      phi[k] = k == 0 ? c.share : P(0.0);
-      if (c.smooth != 0) phi[k] = select(smooth, c.mu * c.sine[k], phi[k]);
-    }
+    share_of_normal(c, phi, N);
     const auto turned = [&](const P* x, const P* y, P* to_x, P* to_y) HWY_ATTR {
       multiply(phi, y, back_x, N);
       multiply(phi, x, back_y, N);
@@ -195,9 +240,9 @@ struct ContactSlopes {
     divide(a, c.s, b, N, smooth);  // chi (d x d') / r^3
     divide(chi, c.r, a, N, smooth);
     velocity(c, vx, vy, N);
-    if (c.face) {
-      std::copy(c.face->wx, c.face->wx + N + 1, vx);
-      std::copy(c.face->wy, c.face->wy + N + 1, vy);
+    if (c.rub) {
+      std::copy(c.rub->wx, c.rub->wx + N + 1, vx);
+      std::copy(c.rub->wy, c.rub->wy + N + 1, vy);
     }
     for (int k = 0; k <= N; ++k) {
       px[k] = product_term(a, vy, k) - product_term(b, c.dx, k);

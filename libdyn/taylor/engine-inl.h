@@ -158,6 +158,7 @@ class Engine {
   HWY_ATTR bool is_out_of_reach(const BladeLanes<P>& disk, const P& h) const;
   HWY_ATTR void watch_force(size_t i, P& h);
   HWY_ATTR void watch_slip(size_t i, P& h);
+  HWY_ATTR void note_slip(size_t i, uint64_t asked, P& h);
   HWY_ATTR void watch_stick(size_t i, P& h);
   HWY_ATTR void note(size_t i, uint64_t Falls::*kind, const Mask& fell);
   HWY_ATTR void apply_events(uint64_t instant);

@@ -37,7 +37,7 @@ HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
     // the distance: apart to touch; in touch to apart where the force vanishes with the depth;
     // beyond the circle without force to apart
     const P s0 = c.s[0];
-    c.s[0] = c.disk ? c.excess : s0 - c.clearance2;
+    c.s[0] = c.beyond();
     const uint64_t watched = active_ & (~c.touching | c.continuous);
     const P sign = select(mask_of<P>(c.touching | c.receding), P(1.0), P(-1.0));
     note(i, &Falls::distance,
@@ -81,6 +81,13 @@ template <class P>
 HWY_ATTR void Engine<P>::watch_slip(size_t i, P& h) {
   ContactLanes<P>& c = contacts_[i];
   const uint64_t sliding = c.touching & active_ & c.exact & ~c.sticking;
+  if (c.rows.is_plane) {
+    for (int k = 0; k <= N; ++k) {
+      c.rub->velocity(term(k + 1), k);
+      c.slip[k] = fma(c.rim, c.r[k], c.rub->turn(c.dx, c.dy, k));
+    }
+    return note_slip(i, sliding, h);
+  }
   P distance(0.0), speed(0.0);
   for (int k = N + 1; k >= 1; --k) {
     const P size = abs(c.dx[k]) + abs(c.dy[k]);
@@ -93,8 +100,15 @@ HWY_ATTR void Engine<P>::watch_slip(size_t i, P& h) {
   const uint64_t asked = sliding & (~bits(h, certain) | c.surface_slip);
   if (asked == 0) return;
   // sign * (Omega R r + d x d'), which has the sign of the slip times the sense it had
+  for (int k = 0; k <= N; ++k) c.slip[k] = c.add_turn(c.rim * c.r[k], k);
+  note_slip(i, asked, h);
+}
+
+/// Notes where the series in c.slip comes to rest, in lanes that are asked.
+template <class P>
+HWY_ATTR void Engine<P>::note_slip(size_t i, uint64_t asked, P& h) {
+  ContactLanes<P>& c = contacts_[i];
   P* g = c.slip;
-  for (int k = 0; k <= N; ++k) g[k] = c.add_turn(c.rim * c.r[k], k);
   if (c.level_slip != 0) g[1] = select(mask_of<P>(c.level_slip), P(0.0), g[1]);
   note(i, &Falls::slip,
        first_fall(g, N, c.sign, c.slip_scale, h, mask_of<P>(asked), mask_of<P>(c.surface_slip)));
@@ -141,11 +155,13 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
     if (common != 0) {
       const uint64_t enters = common & ~c.touching;
       if ((enters & c.exact) != 0) {  // the slip that it begins with
-        P x, y, u, v;
-        c.displacement(y_.data(), x, y);
+        P x = c.dx[0], y = c.dy[0], u, v;
         c.displacement(y_.data() + n_, u, v);
-        x = x - c.offset_x;
-        y = y - c.offset_y;
+        if (!c.rows.is_plane) {
+          c.displacement(y_.data(), x, y);
+          x = x - c.offset_x;
+          y = y - c.offset_y;
+        }
         const P slip = fma(c.rim, c.clearance, fma(x, v, -(y * u)));
         c.sign = select(mask_of<P>(enters & c.exact), select(less(slip, P(0.0)), P(-1.0), P(1.0)),
                         c.sign);

@@ -81,7 +81,7 @@ HWY_ATTR void Engine<P>::series() {
   }
   if (!is_rotor_in_stator()) return series_of_any();
   with_alternative(laws_[0], [&](auto& law) HWY_ATTR {
-    if constexpr (std::remove_cvref_t<decltype(law)>::is_of_ring) {
+    if constexpr (std::remove_cvref_t<decltype(law)>::is_of_bodies) {
       pattern_.is_isotropic ? series_of_bodies<2, true>(law) : series_of_bodies<2, false>(law);
     }
   });
@@ -110,14 +110,14 @@ HWY_ATTR void Engine<P>::series_of_any() {
       } else if (k > 0) {
         c.geometry(term(k), k, c.is_evaluated);
       }
-      if (c.face && c.is_ahead) c.face->velocity(term(k + 1), k);
+      if (c.rub && c.is_ahead) c.rub->velocity(term(k + 1), k);
       if (c.is_evaluated) c.force(laws_[i], k);
     }
     accelerate(k, acceleration);
     for (const ContactLanes<P>& c : contacts_) {
       if (!c.is_evaluated) continue;
       c.push(acceleration, c.fx, c.fy);
-      if (c.face) c.face->push(acceleration, c.face->fx, c.face->fy);
+      if (c.rub) c.rub->push(acceleration, c.rub->fx, c.rub->fy);
     }
     for (const auto& film : films_) film->add(term(k), term(k + 1), k, acceleration);
     if (any_sticks) stick(k);

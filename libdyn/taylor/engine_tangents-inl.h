@@ -25,7 +25,7 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
   t.log_sums.assign(size, P(0.0));
   t.weights.assign(size, P(1.0));
   t.weighted.assign(size, P(0.0));
-  t.forces.assign(8 * contacts_.size(), P(0.0));  // the second half: friction of faces
+  t.forces.assign(8 * contacts_.size(), P(0.0));  // the second half: friction that acts elsewhere
   t.slopes.resize(contacts_.size());
   t.film_slopes.resize(films_.size());
   for (auto& track : t.tracks) {
@@ -111,10 +111,10 @@ HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces, P* to
     if ((contact.touching & active_) == 0) continue;
     contact.template push<Bodies>(to_a, forces[0], forces[1]);
     contact.template push<Bodies>(to_b, forces[2], forces[3]);
-    if (Bodies == 0 && contact.face) {
+    if (Bodies == 0 && contact.rub) {
       const P* friction = forces + 4 * contacts;
-      contact.face->push(to_a, friction[0], friction[1]);
-      contact.face->push(to_b, friction[2], friction[3]);
+      contact.rub->push(to_a, friction[0], friction[1]);
+      contact.rub->push(to_b, friction[2], friction[3]);
     }
   }
   if (Bodies > 0) return;
@@ -168,12 +168,12 @@ template <class P>
 HWY_ATTR P Engine<P>::contact_divergence(size_t i, const P& h) {
   const ContactLanes<P>& c = contacts_[i];
   const SeriesMatrix<P>& H = tangents_->slopes[i].H;
-  P xx(0.0), xy(0.0), yx(0.0), yy(0.0);  // of U B, of a face of V B_t
+  P xx(0.0), xy(0.0), yx(0.0), yy(0.0);  // of U B, or V B_t
   const auto effect = [&](const P& fx, const P& fy, P& to_x, P& to_y) HWY_ATTR {
     work_.assign(static_cast<size_t>(n_), P(0.0));
-    if (c.face) {
-      c.face->push(work_.data(), fx, fy);
-      c.face->lateral(work_.data(), to_x, to_y);
+    if (c.rub) {
+      c.rub->push(work_.data(), fx, fy);
+      c.rub->lateral(work_.data(), to_x, to_y);
     } else {
       c.push(work_.data(), fx, fy);
       c.displacement(work_.data(), to_x, to_y);
@@ -217,11 +217,11 @@ HWY_ATTR void Engine<P>::move_columns(P* columns, bool any_sticks, const P& h) {
         const P whole(k + 1.0);
         for (auto [column, rate] : {std::pair(&u, now + n), std::pair(&w, other + n)}) {
           P vx, vy;
-          c.face ? c.face->lateral(rate, vx, vy) : c.displacement(rate, vx, vy);
+          c.rub ? c.rub->lateral(rate, vx, vy) : c.displacement(rate, vx, vy);
           column->vx[k] = whole * vx;
           column->vy[k] = whole * vy;
         }
-        P* of_rate = c.face ? of_contact + 4 * contacts : of_contact;
+        P* of_rate = c.rub ? of_contact + 4 * contacts : of_contact;
         add_slope_forces(slopes.H, u.vx, u.vy, w.vx, w.vy, k, of_rate);
       }
       if (Bodies == 0 && slopes.J_t) {
@@ -265,6 +265,10 @@ HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k)
       fy = fma(u.tau[j], c.dx[k - j], fy);
     }
     c.push(acceleration, fx, fy);
+    if (c.rows.is_plane) {  // its d and r do not change
+      u.r[k + 1] = P(0.0);
+      continue;
+    }
     c.displacement(tangents_->term(track, k + 1), u.dx[k + 1], u.dy[k + 1]);
     if (k == 0) u.r[0] = fma(c.dx[0], u.dx[0], c.dy[0] * u.dy[0]) / c.r[0];
     P along(0.0);
@@ -281,7 +285,9 @@ HWY_ATTR void Engine<P>::stick_column(typename Tangents<P>::Track& track, int k)
     c.displacement(acceleration, ax, ay);
     P sum = fma(c.dx[0], ay, -(c.dy[0] * ax));
     for (int j = 1; j <= k; ++j) sum = fma(c.dx[j], u.ay[k - j], fnma(c.dy[j], u.ax[k - j], sum));
-    for (int j = 0; j <= k; ++j) sum = fma(u.dx[j], c.ay[k - j], fnma(u.dy[j], c.ax[k - j], sum));
+    for (int j = 0; j <= k && !c.rows.is_plane; ++j) {
+      sum = fma(u.dx[j], c.ay[k - j], fnma(u.dy[j], c.ax[k - j], sum));
+    }
     sum = fma(c.rim, P(k + 1.0) * u.r[k + 1], sum);
     work_[i] = select(mask_of<P>(c.leading), sum, P(0.0));
   }

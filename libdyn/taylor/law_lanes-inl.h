@@ -85,7 +85,7 @@ HWY_ATTR inline decltype(auto) with_alternative(Variant& v, F&& f) {
 /// A law over packs, with the series that its normal force needs.
 template <class P, class Law>
 struct LawWork {
-  static constexpr bool is_of_ring = Law::geometry == Geometry::ring;
+  static constexpr bool is_of_bodies = !has_own_geometry<Law>;  // see Pattern::bodies
   using Force = decltype(std::declval<Law>().normal(Leaf<P, 0>(), Leaf<P, 1>()));
   using RatelessForce = decltype(std::declval<Law>().normal(Leaf<P, 0>(), Zero<P>()));
   Force force;

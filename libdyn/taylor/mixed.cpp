@@ -14,7 +14,10 @@ void integrate_mixed(std::vector<Trajectory>& all, const BatchOptions& options) 
   std::map<std::vector<std::size_t>, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<std::size_t> shape{static_cast<std::size_t>(all[i].system->coordinates())};
-    for (const ReducedContact& c : all[i].system->contacts()) shape.push_back(c.law.index());
+    for (const ReducedContact& c : all[i].system->contacts()) {
+      shape.push_back(c.law.index());
+      shape.push_back(c.geometry.index());
+    }
     for (const ReducedFilm& f : all[i].system->films()) shape.push_back(100 + f.law.index());
     groups[shape].push_back(i);
   }

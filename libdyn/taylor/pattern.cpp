@@ -15,7 +15,8 @@ void insert(std::vector<int>& sorted, int value) {
 
 int bodies_in(const Pattern& p) {
   if (!p.films.empty() || p.contacts.size() != 1 || p.contacts[0].has_rate ||
-      p.contacts[0].is_face || !p.blade_groups.empty() || p.off_diagonals > 0)
+      p.contacts[0].rubs_apart || p.contacts[0].is_plane || !p.turning.empty() ||
+      p.off_diagonals > 0)
     return 0;
   const int bodies = p.n / 2;
   std::vector<int> of_x, of_y;
@@ -79,13 +80,15 @@ std::vector<Pattern::Alike> alike_in(std::span<const ContactSystem* const> syste
   return pairs;
 }
 
-void insert_friction(Pattern::ContactRows& rows, const ReducedContact& face, int n) {
-  rows.is_face = true;
+/// Adds the rows by which the friction of a contact acts.
+void insert_friction(Pattern::ContactRows& rows, const ReducedContact& c, int n) {
+  const PlaneRows& V = c.rubs_apart() ? c.V : c.U;
+  const PlaneColumns& B_t = c.rubs_apart() ? c.B_t : c.B;
   for (int j = 0; j < n; ++j) {
-    if (face.V(0, j) != 0.0) insert(rows.slips_by_x, j);
-    if (face.V(1, j) != 0.0) insert(rows.slips_by_y, j);
-    if (face.B_t(j, 0) != 0.0) insert(rows.rubbed_x, j);
-    if (face.B_t(j, 1) != 0.0) insert(rows.rubbed_y, j);
+    if (V(0, j) != 0.0) insert(rows.slips_by_x, j);
+    if (V(1, j) != 0.0) insert(rows.slips_by_y, j);
+    if (B_t(j, 0) != 0.0) insert(rows.rubbed_x, j);
+    if (B_t(j, 1) != 0.0) insert(rows.rubbed_y, j);
   }
 }
 
@@ -103,10 +106,13 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     p.contacts[c].law = law.index();
     p.contacts[c].is_analytic = is_analytic(law);
     const ReducedContact& contact = systems.front()->contacts()[c];
-    if (!contact.is_blade()) continue;
-    if (contact.blade.number == 0) p.blade_groups.push_back({c, 0});
-    ++p.blade_groups.back().count;
-    p.contacts[c].group = static_cast<int>(p.blade_groups.size()) - 1;
+    p.contacts[c].geometry = contact.geometry.index();
+    p.contacts[c].rubs_apart = contact.rubs_apart();
+    p.contacts[c].is_plane = direction_of(contact.geometry).has_value();
+    if (!contact.turns()) continue;
+    if (contact.place == 0) p.turning.push_back({c, 0});
+    ++p.turning.back().count;
+    p.contacts[c].group = static_cast<int>(p.turning.size()) - 1;
   }
   for (const ReducedFilm& film : systems.front()->films()) p.films.push_back({.law = film.law});
   for (const ContactSystem* s : systems) {
@@ -134,13 +140,16 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
       if (contact.law.index() != rows.law) {
         throw NumericalError("the systems of a batch must have the same laws at their contacts");
       }
+      if (contact.geometry.index() != rows.geometry) {
+        throw NumericalError("the systems of a batch must have the same contact geometries");
+      }
       for (int j = 0; j < p.n; ++j) {
         if (contact.U(0, j) != 0.0) insert(rows.of_x, j);
         if (contact.U(1, j) != 0.0) insert(rows.of_y, j);
         if (contact.B(j, 0) != 0.0) insert(rows.pushed_by_x, j);
         if (contact.B(j, 1) != 0.0) insert(rows.pushed_by_y, j);
       }
-      if (contact.is_face()) insert_friction(rows, contact, p.n);
+      if (rows.rubs_apart || rows.is_plane) insert_friction(rows, contact, p.n);
       const Friction& f = contact.friction;
       rows.has_rate = rows.has_rate || !is_continuous(contact.law);
       rows.has_friction = rows.has_friction || f.mu > 0.0;

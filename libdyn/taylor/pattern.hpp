@@ -19,14 +19,16 @@ struct Pattern {
   struct ContactRows {
     std::vector<int> of_x, of_y;                ///< coordinates that move the contact in x, in y
     std::vector<int> pushed_by_x, pushed_by_y;  ///< coordinates that its force accelerates
-    /// Of a face: coordinates whose rates are in the slip, that friction accelerates.
+    /// Where friction acts elsewhere: coordinates whose rates are in the slip, that it accelerates.
     std::vector<int> slips_by_x, slips_by_y, rubbed_x, rubbed_y;
-    bool is_face = false;
-    int group = -1;         ///< of blades, in blade_groups
+    bool rubs_apart = false;
+    bool is_plane = false;  ///< it is met in one direction, which does not change
+    int group = -1;         ///< of places that turn, in turning
     bool has_rate = false;  ///< the law depends on the rate of the depth
     bool has_friction = false;
     bool has_smooth_friction = false;  ///< tanh of the slip
     std::size_t law = 0;               ///< index in AnyContactLaw
+    std::size_t geometry = 0;          ///< index in AnyGeometry
     bool is_analytic = true;           ///< the law has a Taylor series at the surface
   };
   struct FilmRows {
@@ -42,11 +44,11 @@ struct Pattern {
   std::vector<ContactRows> contacts;
   std::vector<FilmRows> films;
 
-  /// Contacts of the model that have blades: which of `contacts` these are.
-  struct BladeGroup {
+  /// Contacts of the model whose places turn: which of `contacts` these are.
+  struct TurningGroup {
     std::size_t first = 0, count = 0;
   };
-  std::vector<BladeGroup> blade_groups;
+  std::vector<TurningGroup> turning;
 
   /// Two contacts that slip alike in any of the systems (see ReducedContact::slip_group).
   struct Alike {

@@ -170,6 +170,7 @@ class Rk4Lanes {
 
   /// Adds the force of a contact where it touches and pushes.
   HWY_ATTR void push(const ContactLanes<P>& c, const P* y, P* a) const {
+    if (c.rows.is_plane) return push_by_plane(c, y, a);
     P dx, dy, vx, vy;
     c.displacement(y, dx, dy);
     dx = dx - c.offset_x;
@@ -196,18 +197,40 @@ class Rk4Lanes {
     const P N = with_alternative(
         c.law, [&](const auto& law) HWY_ATTR { return law.normal(r - c.clearance, rate); });
     const P q = select(both(beyond, less(P(0.0), N)), N * inverse_r, P(0.0));
+    push_by(c, q, dx, dy, inverse_r, vx, vy, y, a);
+  }
+
+  /// The same of a plane: d is its normal, r is one.
+  HWY_ATTR void push_by_plane(const ContactLanes<P>& c, const P* y, P* a) const {
+    P x, yy, vx, vy;
+    c.displacement(y, x, yy);
+    const P &nx = c.dx[0], &ny = c.dy[0], depth = fma(nx, x, ny * yy) - c.plane_at, nothing(0.0);
+    const Mask beyond = less(nothing, depth);
+    if (!any(depth, beyond)) return;
+    c.displacement(y + n_, vx, vy);
+    const P rate = fma(nx, vx, ny * vy);
+    const P N = with_alternative(c.law, [&](const auto& law) HWY_ATTR {
+      return law.normal(select(beyond, depth, nothing), rate);
+    });
+    const P q = select(both(beyond, less(nothing, N)), N, nothing);
+    push_by(c, q, nx, ny, P(1.0), vx, vy, y, a);
+  }
+
+  /// Adds -(q d + tau rot d), with the velocity (vx, vy) of the place.
+  HWY_ATTR inline void push_by(const ContactLanes<P>& c, const P& q, const P& dx, const P& dy,
+                               const P& inverse_r, P vx, P vy, const P* y, P* a) const {
     if (!c.rows.has_friction) {
       c.push(a, q * dx, q * dy);
       return;
     }
-    if (c.face) c.face->lateral(y + n_, vx, vy);
+    if (c.rub) c.rub->lateral(y + n_, vx, vy);
     const P slip = fma(fma(dx, vy, -(dy * vx)), inverse_r, c.rim);
     P share = select(both(mask_of<P>(c.exact), less(slip, P(0.0))), P(-1.0), P(1.0));
     if (c.smooth != 0) share = select(mask_of<P>(c.smooth), tanh(slip * c.inverse_width), share);
     const P tau = c.mu * share * q;
-    if (c.face) {
+    if (c.rub) {
       c.push(a, q * dx, q * dy);
-      c.face->push(a, -(tau * dy), tau * dx);
+      c.rub->push(a, -(tau * dy), tau * dx);
       return;
     }
     c.push(a, fnma(tau, dy, q * dx), fma(tau, dx, q * dy));

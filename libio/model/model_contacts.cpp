@@ -11,43 +11,53 @@ namespace whirl {
 
 namespace {
 
-/// Reads the law of the given name into the contact.
-template <std::size_t... I>
-void read_law(const std::string& name, TableReader& table, AnyContactLaw<>& to,
-              std::index_sequence<I...>) {
-  const auto try_one = [&](auto law) {
-    if (decltype(law)::name != name) return;
-    table.read(law);
-    to = law;
+/// Calls f with every alternative of a list that has keys of its own.
+template <class List, class F, std::size_t... I>
+void for_each_member(F&& f, std::index_sequence<I...>) {
+  const auto call = [&](auto member) {
+    if constexpr (requires { decltype(member)::fields(); }) f(member);
   };
-  (try_one(std::variant_alternative_t<I, AnyContactLaw<>>{}), ...);
+  (call(std::variant_alternative_t<I, List>{}), ...);
+}
+template <class List, class F>
+void for_each_member(F&& f) {
+  for_each_member<List>(f, std::make_index_sequence<std::variant_size_v<List>>{});
 }
 
-template <std::size_t... I>
-std::vector<std::string> law_names(std::index_sequence<I...>) {
-  return {std::string(std::variant_alternative_t<I, AnyContactLaw<>>::name)...};
+/// Reads a member of a list, whose name a key gives.
+template <class List>
+void read_member(TableReader& table, std::string_view key, List& to) {
+  std::vector<std::string> names;
+  for_each_member<List>([&](const auto& member) { names.emplace_back(member.name); });
+  const auto found = table.choice(key, names);
+  if (!found && table.has(key)) {  // one mistake, and not many: the keys of all of them are known
+    for_each_member<List>([&](const auto& member) {
+      std::apply([&](const auto&... field) { (table.node(field.name), ...); }, member.fields());
+    });
+    return;
+  }
+  const std::string name = found.value_or(names.front());
+  for_each_member<List>([&](auto member) {
+    if (member.name != name) return;
+    table.read(member);
+    to = member;
+  });
 }
-/// Keys of all laws, so that a wrong name of the law is one mistake and not many.
-template <std::size_t... I>
-void accept_all_laws(TableReader& table, std::index_sequence<I...>) {
-  const auto accept = [&](const auto&... field) { (table.node(field.name), ...); };
-  (std::apply(accept, std::variant_alternative_t<I, AnyContactLaw<>>::fields()), ...);
-}
-/// What does not go with a law's geometry.
+/// What does not go with a contact's geometry.
 void check_geometry(const Contact& contact, TableReader& table) {
-  const Geometry geometry = geometry_of(contact.law);
-  if (geometry == Geometry::ring) return;
-  if (table.has("radius")) {
+  const AnyGeometry geometry = geometry_of(contact);
+  if (rim_radius_of(geometry) && table.has("radius")) {
     table.problem("radius", "the law says where it slips: leave it out");
   }
-  if (contact.friction.is_exact() && !can_stick(geometry)) {
+  if (contact.friction.is_exact() && !may_stick(geometry)) {
     table.problem(
         "slip_tolerance",
         "found none, but this law cannot stick: give a width to the sign of the slip, such "
         "as \"1 mm/s\", or say slip = \"forward\"");
   }
-  if (geometry == Geometry::face && table.has("offset")) {
-    table.problem("offset", "a face has none: its clearance is axial");
+  if (!takes_offset(geometry) && table.has("offset")) {
+    table.problem("offset",
+                  fmt::format("a {} has none: its clearance is axial", name_of(geometry)));
   }
   if (const auto* tips = std::get_if<BladeTip<>>(&contact.law)) {
     table.at_most("blades", tips->blades, 1000);
@@ -56,8 +66,6 @@ void check_geometry(const Contact& contact, TableReader& table) {
     }
   }
 }
-
-constexpr auto laws = std::make_index_sequence<std::variant_size_v<AnyContactLaw<>>>{};
 
 }  // namespace
 
@@ -76,30 +84,23 @@ void ModelBuilder::read_contacts() {
     }
     table.read(contact);
     table.read(contact.friction);
-    const auto law = table.choice("law", law_names(laws));
-    if (!law && table.has("law")) {
-      accept_all_laws(table, laws);
-    } else {
-      read_law(law.value_or("radial"), table, contact.law, laws);
-    }
+    read_member(table, "law", contact.law);
     contact.offset = center(table);
     check_geometry(contact, table);
-    if (const auto* face = std::get_if<Face<>>(&contact.law)) {
-      contact.friction.radius = face->radius;
-    } else if (const auto* tips = std::get_if<BladeTip<>>(&contact.law)) {
-      contact.friction.radius = tips->tip_radius;
-    }
-    if (at && at->kind == Station::Kind::body && geometry_of(contact.law) == Geometry::face) {
+    const AnyGeometry geometry = geometry_of(contact);
+    const auto rim = rim_radius_of(geometry);
+    if (rim) contact.friction.radius = *rim;
+    if (at && at->kind == Station::Kind::body && closing_of(geometry) == Closing::tilts) {
       const auto& bodies = model_.structure.bodies;
       const auto body = std::find_if(bodies.begin(), bodies.end(),
                                      [&](const Body& b) { return b.name == at->body; });
       if (body != bodies.end() && !body->tilts) {
-        table.problem("body", fmt::format("a face touches as it tilts, but {} does not: give it "
+        table.problem("body", fmt::format("a {} touches as it tilts, but {} does not: give it "
                                           "tilts = true",
-                                          in_quotes(at->body)));
+                                          name_of(geometry), in_quotes(at->body)));
       }
     }
-    if (!table.has("radius") && geometry_of(contact.law) == Geometry::ring) {
+    if (!table.has("radius") && !rim) {
       missing_radii_.push_back({model_.contacts.size(), table.where(), table.path("radius")});
     }
     if (at) model_.structure.stations.push_back(*at);

@@ -1,10 +1,10 @@
-// What a face contact has beside other contacts: its friction acts elsewhere than its normal force.
+// Friction that acts elsewhere than the normal force, as that of a face.
 
-#if defined(WHIRL_FACE_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef WHIRL_FACE_LANES_INL_H
-#undef WHIRL_FACE_LANES_INL_H
+#if defined(WHIRL_RUB_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_RUB_LANES_INL_H
+#undef WHIRL_RUB_LANES_INL_H
 #else
-#define WHIRL_FACE_LANES_INL_H
+#define WHIRL_RUB_LANES_INL_H
 #endif
 
 #include <vector>
@@ -16,16 +16,16 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl {
 namespace HWY_NAMESPACE {
 
-/// Friction of a face in all lanes: the lateral velocity of its slip, the coordinates it pushes.
+/// The lateral velocity of the slip in all lanes, the coordinates that friction pushes.
 template <class P>
-struct FaceLanes {
+struct RubLanes {
   const Pattern::ContactRows& rows;
   std::vector<P> vx, vy;                             // per slips_by_x, slips_by_y
   std::vector<P> bx, by;                             // per rubbed_x, rubbed_y
   P wx[P::most_terms] = {}, wy[P::most_terms] = {};  // lateral velocity V eta'
   P fx{0.0}, fy{0.0};  // newest coefficient of the friction on the rotor, sign reversed
 
-  explicit FaceLanes(const Pattern::ContactRows& of)
+  explicit RubLanes(const Pattern::ContactRows& of)
       : rows(of),
         vx(of.slips_by_x.size(), P(0.0)),
         vy(of.slips_by_y.size(), P(0.0)),
@@ -33,10 +33,12 @@ struct FaceLanes {
         by(of.rubbed_y.size(), P(0.0)) {}
 
   HWY_ATTR void load(const ReducedContact& from, int l) {
-    for (size_t i = 0; i < vx.size(); ++i) set_lane(vx[i], l, from.V(0, rows.slips_by_x[i]));
-    for (size_t i = 0; i < vy.size(); ++i) set_lane(vy[i], l, from.V(1, rows.slips_by_y[i]));
-    for (size_t i = 0; i < bx.size(); ++i) set_lane(bx[i], l, from.B_t(rows.rubbed_x[i], 0));
-    for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, from.B_t(rows.rubbed_y[i], 1));
+    const PlaneRows& V = from.rubs_apart() ? from.V : from.U;
+    const PlaneColumns& B_t = from.rubs_apart() ? from.B_t : from.B;
+    for (size_t i = 0; i < vx.size(); ++i) set_lane(vx[i], l, V(0, rows.slips_by_x[i]));
+    for (size_t i = 0; i < vy.size(); ++i) set_lane(vy[i], l, V(1, rows.slips_by_y[i]));
+    for (size_t i = 0; i < bx.size(); ++i) set_lane(bx[i], l, B_t(rows.rubbed_x[i], 0));
+    for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, B_t(rows.rubbed_y[i], 1));
   }
 
   /// V times coordinates or their rates.
