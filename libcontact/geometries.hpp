@@ -6,13 +6,15 @@
 #include "libcontact/geometry/blade_row.hpp"
 #include "libcontact/geometry/face.hpp"
 #include "libcontact/geometry/ring.hpp"
+#include "libcontact/geometry/stop.hpp"
 
 namespace whirl {
 
 using AnyGeometry = std::variant<  //
     geometry::Ring,                //
     geometry::Face,                //
-    geometry::BladeRow>;
+    geometry::BladeRow,            //
+    geometry::Stop>;
 
 inline std::string_view name_of(const AnyGeometry& any) {
   return std::visit([](const auto& g) { return g.name; }, any);

@@ -159,7 +159,7 @@ Run run_simulation(const Invocation& call, const Model& model) {
   options.method = method.empty() ? suitable_method(scene.contacts) : method_named(method);
   if (method == "collocation" && !suits_collocation(scene.contacts)) {
     throw ModelError({"--method collocation"}, "",
-                     "is for contacts of rings only, without oil films; take taylor");
+                     "is for contacts of rings and stops only, without oil films; take taylor");
   }
   std::vector<NamedPoint> stations = select_points(model, scene.assembler, call.text("stations"));
   require_memory(options, bytes_of_sample(scene.contacts.coordinates(), model.contacts.size(),

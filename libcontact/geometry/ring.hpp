@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tuple>
+
 #include "libcontact/geometry.hpp"
 
 namespace whirl::geometry {
@@ -12,6 +14,8 @@ struct Ring {
   static constexpr bool may_stick = true;
   static constexpr bool takes_offset = true;
   static constexpr bool turns = false;
+
+  static constexpr auto fields() { return std::tuple{}; }
 
   int places() const { return 1; }
   Ring place(int, double) const { return *this; }

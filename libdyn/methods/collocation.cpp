@@ -279,7 +279,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
     throw ModelError(
         {}, "method collocation",
         system.films().empty()
-            ? "is for contacts of rings only; take taylor for faces and blades"
+            ? "is for contacts of rings and stops only; take taylor for faces and blades"
             : "cannot compute oil films, which carry without a pause; take taylor");
   }
   return Run(system, state, options, observer).go(state.revolution + revolutions);

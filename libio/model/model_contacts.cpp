@@ -43,9 +43,26 @@ void read_member(TableReader& table, std::string_view key, List& to) {
     to = member;
   });
 }
+/// Keys of members that were not chosen.
+template <class List>
+void refuse_others(TableReader& table, std::string_view key, const List& chosen) {
+  for_each_member<List>([&](const auto& member) {
+    if (member.name == name_of(chosen)) return;
+    const auto refuse = [&](const auto& field) {
+      if (!table.has(field.name)) return;
+      table.node(field.name);
+      table.problem(field.name, fmt::format("goes with {} = \"{}\"", key, member.name));
+    };
+    std::apply([&](const auto&... field) { (refuse(field), ...); }, member.fields());
+  });
+}
+
 /// What does not go with a contact's geometry.
 void check_geometry(const Contact& contact, TableReader& table) {
   const AnyGeometry geometry = geometry_of(contact);
+  if (own_geometry(contact.law) && table.has("geometry")) {
+    table.problem("geometry", "the law says what it touches: leave it out");
+  }
   if (rim_radius_of(geometry) && table.has("radius")) {
     table.problem("radius", "the law says where it slips: leave it out");
   }
@@ -85,6 +102,8 @@ void ModelBuilder::read_contacts() {
     table.read(contact);
     table.read(contact.friction);
     read_member(table, "law", contact.law);
+    read_member(table, "geometry", contact.geometry);
+    refuse_others(table, "geometry", contact.geometry);
     contact.offset = center(table);
     check_geometry(contact, table);
     const AnyGeometry geometry = geometry_of(contact);

@@ -141,6 +141,7 @@ struct Switch {
 };
 constexpr Switch switches[] = {{"bearing.[]", "kind", "[[bearing]]", ""},
                                {"contact.[]", "law", "[[contact]]", "radial"},
+                               {"contact.[]", "geometry", "[[contact]]", "ring"},
                                {"start", "from", "[start]", "static"}};
 
 void add_switch(Key& root, const Switch& s) {
@@ -148,6 +149,7 @@ void add_switch(Key& root, const Switch& s) {
   const AskedKey* choice = table.entry(s.key).find(AskedKey::Form::choice);
   const std::vector<std::string> values = choice ? choice->names : std::vector<std::string>{};
   std::vector<std::vector<std::string>> known;
+  std::set<std::string> known_to_some;  // others depend on another switch
   std::vector<Condition> conditions;
   for (const std::string& value : values) {
     const auto asked = asked_in(fmt::format("{}\n{} = \"{}\"\n", s.header, s.key, value));
@@ -155,6 +157,7 @@ void add_switch(Key& root, const Switch& s) {
     Key alone;
     insert(alone, asked);
     known.push_back(names_of(alone.at(s.table).entries));
+    known_to_some.insert(known.back().begin(), known.back().end());
     conditions.push_back({s.key, value, value == s.otherwise, missing_in(asked, s.table), {}});
   }
   // what all values need is needed anyway, and what the key itself would do for
@@ -169,7 +172,8 @@ void add_switch(Key& root, const Switch& s) {
                           std::inserter(common, common.end()));
     table.required = common;
     for (const auto& name : names_of(table.entries)) {
-      if (std::find(known[i].begin(), known[i].end(), name) == known[i].end())
+      if (known_to_some.contains(name) &&
+          std::find(known[i].begin(), known[i].end(), name) == known[i].end())
         conditions[i].unknown.push_back(name);
     }
   }

@@ -79,6 +79,7 @@ constexpr Note notes[] = {
     {"clamped", "pins x, y and the tilts", "false"},
     {"bearing.[].kind", "how its coefficients are given; left out: told by the other keys"},
     {"contact.[].law", "law of the normal force", "\"radial\""},
+    {"contact.[].geometry", "what touches what, of a law that leaves it open", "\"ring\""},
     {"contact.[].offset", "[x, y] of the center of the clearance circle", "[0, 0]"},
     {"oil_film.[].law", "theory of the film", "\"short\""},
     {"oil_film.[].offset", "[x, y] of the bearing's center", "[0, 0]"},

@@ -108,4 +108,16 @@ TEST(Bearings, NoCodeAsksForAKind) {
   }
 }
 
+// A contact geometry: likewise. Equations, events, orbits, model files and pictures ask it, and none
+// knows it by name.
+TEST(Geometries, AStopIsAFileAndTwoLinesOfTheList) {
+  const std::string named = "\\bStop\\b|geometry/stop";
+  std::map<std::string, int> outside = places_in("libcontact", named);
+  outside.erase("geometry/stop.hpp");
+  EXPECT_EQ(outside, (std::map<std::string, int>{{"geometries.hpp", 2}}));
+  for (const char* folder : {"libfe", "libdyn", "libio", "apps"}) {
+    EXPECT_TRUE(places_in(folder, named).empty()) << folder;
+  }
+}
+
 }  // namespace families_test

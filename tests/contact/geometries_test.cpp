@@ -27,6 +27,9 @@ geometry::BladeRow sample(geometry::BladeRow) {
   return geometry::BladeRow{.blades = 3, .tip = 0.1}.place(1, Omega);
 }
 
+geometry::Stop sample(geometry::Stop) {
+  return {.angle = 0.4};
+}
 
 /// A motion that is beyond the surface of every sample: d, its rate, and the velocity in the slip.
 struct Motion {

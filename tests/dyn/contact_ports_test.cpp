@@ -25,6 +25,11 @@ Model ring(double cC, double kH, Friction friction) {
   m.contacts[0].friction = friction;
   return m;
 }
+Model stop(double cC, double kH, Friction friction) {
+  Model m = ring(cC, kH, friction);
+  m.contacts[0].geometry = geometry::Stop{.angle = -1.0};
+  return m;
+}
 Model face(Slip slip, double tolerance) {
   Model m;
   m.speed = 230.0;
@@ -63,6 +68,9 @@ std::vector<Case> cases() {
           {"reversals of slip", ring(0.0, 0.0, {.mu = 0.3}), 2.0},
           {"creep", ring(0.0, 0.0, {.mu = 0.3, .tolerance = 0.05}), 2.0},
           {"hertz", ring(0.0, 1e7, {.mu = 0.1, .slip = Slip::forward}), 2.0},
+          {"stop", stop(0.0, 0.0, {.mu = 0.1, .slip = Slip::forward}), 2.0},
+          {"damped stop", stop(40.0, 0.0, {.mu = 0.3}), 2.0},
+          {"stop that creeps", stop(0.0, 1e7, {.mu = 0.3, .tolerance = 0.05}), 2.0},
           {"face", face(Slip::forward, 0.0), 2.0},
           {"face that creeps", face(Slip::actual, 5.0), 2.0},
           {"blades", blades(Slip::forward, 0.0), 2.0},

@@ -96,6 +96,60 @@ blade_line_density = 1
          "m:11:1: contact.tips.stiffness: unknown key");
 }
 
+TEST(BadContact, KeysOfAStop) {
+  const std::string text = R"(format = 1
+[[body]]
+name = "rotor"
+mass = 1
+[[contact]]
+name = "snubber"
+geometry = "stop"
+body = "rotor"
+clearance = 1
+stiffness = 1
+angle = "-90 deg"
+)";
+  EXPECT_EQ(joined(problems(text)), "");
+  EXPECT_EQ(joined(problems(text + "damping = 1\nfriction = 0.1\nradius = 1\noffset = [0, 1]\n")),
+            "");
+  const auto expect = [&](const std::string& of, const std::string& becomes,
+                          const std::string& part) {
+    std::string wrong = text;
+    wrong.replace(wrong.find(of), of.size(), becomes);
+    const auto found = problems(wrong);
+    ASSERT_EQ(found.size(), 1u) << joined(found);
+    EXPECT_NE(found[0].find(part), std::string::npos) << found[0];
+  };
+  expect("angle = \"-90 deg\"\n", "",
+         "m:5:1: contact.snubber.angle: missing, expected an angle (rad)");
+  expect("-90 deg", "-90 mm", "m:11:9: contact.snubber.angle: found \"-90 mm\", expected an angle");
+  expect("geometry = \"stop\"\n", "",
+         "m:10:9: contact.snubber.angle: goes with geometry = \"stop\"");
+  expect("\"stop\"", "\"stob\"", "expected one of ring, stop; did you mean \"stop\"?");
+}
+
+TEST(BadContact, ALawThatIsForAGeometryTakesNoOther) {
+  const auto found = problems(R"(format = 1
+[[body]]
+name = "rotor"
+mass = 1
+tilts = true
+diametral_inertia = 1
+[[contact]]
+name = "rim"
+law = "face"
+geometry = "ring"
+body = "rotor"
+clearance = 1
+stiffness = 1
+face_radius = 1
+)");
+  ASSERT_EQ(found.size(), 1u) << joined(found);
+  EXPECT_NE(found[0].find("m:10:12: contact.rim.geometry: the law says what it touches"),
+            std::string::npos)
+      << found[0];
+}
+
 TEST(BadContact, FrictionOnABodyNeedsARadius) {
   const std::string text = R"(format = 1
 [[body]]
