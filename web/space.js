@@ -155,7 +155,16 @@ class SpaceView {
         const q = { x: base.x + scale * s.x, y: base.y + scale * s.y, tx: 0, ty: 0, z: s.z };
         const half = Math.max(0.12 * s.radius, 0.012 * this.size);
         [[inner, -half], [outer, -half], [outer, half], [inner, half]].forEach(([r, dz], k) => {
-          for (let f = 0; f < 64; ++f) this.around(array, k * 64 + f, q, r, (2 * Math.PI * f) / 64, dz);
+          for (let f = 0; f < 64; ++f) {
+            const angle = (2 * Math.PI * f) / 64;
+            if (!s.direction) {
+              this.around(array, k * 64 + f, q, r, angle, dz);
+              continue;
+            }
+            // a plate: there and back along the line that is r away
+            const [nx, ny] = s.direction, along = s.radius * Math.cos(angle);
+            this.set(array, k * 64 + f, q.x + r * nx - along * ny, q.y + r * ny + along * nx, q.z + dz);
+          }
         });
       });
       const flash = new three.Mesh(new three.SphereGeometry(0.018, 20, 12), new three.MeshBasicMaterial({ color: color("alarm") }));
@@ -286,8 +295,9 @@ class SpaceView {
       if (touches) {
         const q = this.state(s.rotor), base = s.point >= 0 ? this.state(s.point) : { x: 0, y: 0 };
         const dx = q.x - base.x - this.scale * s.x, dy = q.y - base.y - this.scale * s.y, far = Math.hypot(dx, dy) || 1;
+        const [nx, ny] = s.direction ?? [dx / far, dy / far];
         const place = new Float32Array(3);
-        this.set(place, 0, q.x + (s.radius * dx) / far, q.y + (s.radius * dy) / far, s.z);
+        this.set(place, 0, q.x + s.radius * nx, q.y + s.radius * ny, s.z);
         s.flash.position.set(...place);
       }
     }

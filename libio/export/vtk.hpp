@@ -2,6 +2,7 @@
 /// Motions for ParaView: a collection (.pvd) of surfaces (.vtp), one per moment.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,18 +26,19 @@ struct VtkDisk {
   double width = 0.0;         ///< [m]
 };
 
-/// A ring around the rotor, fixed or moving with a body.
+/// A ring around the rotor, or a plate beside it, fixed or moving with a body.
 ///
 /// Its distance from the rotor is drawn as much enlarged as the displacements, so that the surfaces
 /// touch on the screen when they touch in the model.
 struct VtkStator {
   std::string name;
-  int point = -1;              ///< what carries it, from 0; -1: the ground
-  double z = 0.0;              ///< of its middle [m]
-  Vec2 offset = Vec2::Zero();  ///< of its center [m]
-  double rotor_radius = 0.0;   ///< of the rotor there [m]
-  double clearance = 0.0;      ///< [m]
-  double width = 0.0;          ///< [m]; 0: a fifth of its radius
+  int point = -1;                   ///< what carries it, from 0; -1: the ground
+  double z = 0.0;                   ///< of its middle [m]
+  Vec2 offset = Vec2::Zero();       ///< of its center [m]
+  double rotor_radius = 0.0;        ///< of the rotor there [m]
+  double clearance = 0.0;           ///< [m]
+  double width = 0.0;               ///< [m]; 0: a fifth of its radius
+  std::optional<Vec2> direction{};  ///< of a plate, from the rotor
 };
 
 /// A place where forces may act, drawn as an arrow's shaft.

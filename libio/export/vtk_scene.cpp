@@ -81,10 +81,10 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
   }
   for (const Contact& c : model.contacts) {
     const Point at = assembler.point(c.at), against = assembler.point(c.against);
-    scene.stators.push_back({c.name,
-                             against.kind == Point::Kind::body ? index_of(against, assembler) : -1,
-                             position(model, assembler, at), c.offset,
-                             contact_radius(model, assembler, c), c.clearance, 0.0});
+    scene.stators.push_back(
+        {c.name, against.kind == Point::Kind::body ? index_of(against, assembler) : -1,
+         position(model, assembler, at), c.offset, contact_radius(model, assembler, c), c.clearance,
+         0.0, direction_of(geometry_of(c))});
     scene.contacts.push_back({c.name, index_of(at, assembler)});
   }
   return scene;
@@ -133,7 +133,8 @@ VtkFrame vtk_frame(const Model& model, const Assembler& assembler, double time, 
       d(k) += full(dofs.full_index(at, k));
       if (const int j = dofs.full_index(against, k); j >= 0) d(k) -= full(j);
     }
-    const Vec2 n = d.norm() > 0.0 ? Vec2(d.normalized()) : Vec2(1.0, 0.0);
+    const Vec2 n = direction_of(geometry_of(c))
+                       .value_or(d.norm() > 0.0 ? Vec2(d.normalized()) : Vec2(1.0, 0.0));
     const Vec2 t(-n(1), n(0));
     const auto j = static_cast<Eigen::Index>(i);
     const double radius = contact_radius(model, assembler, c);

@@ -137,6 +137,17 @@ Curve circle(const std::string& name, double radius, double x, double y) {
   return c;
 }
 
+Curve line_across(const std::string& name, const Vec2& direction, double distance, double x,
+                  double y) {
+  constexpr double longer = 1.5;  // than the distance, to both sides
+  Curve c{.name = name, .paint = Paint::stator, .dash = Dash::dashed};
+  for (const double side : {-longer, longer}) {
+    c.x.push_back(x + distance * (direction(0) - side * direction(1)));
+    c.y.push_back(y + distance * (direction(1) + side * direction(0)));
+  }
+  return c;
+}
+
 Motion::Motion(const ResultView& result)
     : time(result.file.vector("/trajectory/time")), window(result.window) {
   const auto number = [&](const char* name) {

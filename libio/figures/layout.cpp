@@ -107,8 +107,12 @@ std::vector<Figure> front_view(const ResultView& result) {
     rotor.fill = 0.4;
     rotor.hover.assign(rotor.x.size(),
                        fmt::format("{} of radius {}", c.at.body, format_length(radius)));
-    Curve inner = figures::circle("stator", mm * (radius + gap)),
-          outer = figures::circle("stator", mm * (1.12 * radius + gap));
+    const auto direction = direction_of(geometry_of(c));
+    const auto stator = [&](double distance) {
+      return direction ? figures::line_across("stator", *direction, mm * distance)
+                       : figures::circle("stator", mm * distance);
+    };
+    Curve inner = stator(radius + gap), outer = stator(1.12 * radius + gap);
     inner.dash = outer.dash = Dash::solid;
     inner.width = 2.2;
     inner.hover.assign(inner.x.size(), "clearance " + format_length(c.clearance));

@@ -131,16 +131,21 @@ std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown, con
   return curves;
 }
 
-/// The clearance circle of a contact, where it stands still in a frame and is not far outside.
+/// The clearance circle of a contact, or the line of a stop, where it stands still in a frame and is
+/// not far outside.
 /// @param size  of the orbit [m]
-std::optional<Curve> clearance_circle(const Contact& contact, double size, double factor,
-                                      bool is_rotating) {
+std::optional<Curve> clearance_curve(const Contact& contact, double size, double factor,
+                                     bool is_rotating) {
   const bool is_fixed = contact.against.kind == Station::Kind::ground;
-  const bool is_centered = contact.offset.norm() == 0.0;
+  const auto direction = direction_of(geometry_of(contact));
+  const bool is_centered = contact.offset.norm() == 0.0 && !direction;
   if (!(contact.clearance > 0.0 && contact.clearance < 20.0 * size)) return std::nullopt;
   if (is_rotating && !(is_fixed && is_centered)) return std::nullopt;
-  return circle(is_fixed ? "clearance" : "clearance, stator at rest", factor * contact.clearance,
-                factor * contact.offset(0), factor * contact.offset(1));
+  const std::string name = is_fixed ? "clearance" : "clearance, stator at rest";
+  const double distance = factor * contact.clearance;
+  const Vec2 middle = factor * contact.offset;
+  return direction ? line_across(name, *direction, distance, middle(0), middle(1))
+                   : circle(name, distance, middle(0), middle(1));
 }
 
 std::vector<Figure> orbit_figures(const ResultView& result) {
@@ -166,7 +171,7 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
       p.y.title = with_unit(is_rotating ? "η" : "y", unit);
       if (contact >= 0) {
         const Contact& at = result.model->contacts[static_cast<std::size_t>(contact)];
-        if (auto around = clearance_circle(at, size, unit.factor, is_rotating)) {
+        if (auto around = clearance_curve(at, size, unit.factor, is_rotating)) {
           p.curves.push_back(std::move(*around));
         }
       }

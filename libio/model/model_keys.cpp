@@ -177,8 +177,14 @@ void add_switch(Key& root, const Switch& s) {
         conditions[i].unknown.push_back(name);
     }
   }
+  Requirements shared;  // by all values: required by what another switch says
+  if (!conditions.empty()) shared = conditions.front().required;
+  for (const Condition& c : conditions) {
+    std::erase_if(shared, [&](const auto& names) { return !c.required.contains(names); });
+  }
   for (Condition& c : conditions) {
     for (const auto& always : table.required) c.required.erase(always);
+    for (const auto& elsewhere : shared) c.required.erase(elsewhere);
     if (!c.required.empty() || !c.unknown.empty()) table.conditions.push_back(c);
   }
 }

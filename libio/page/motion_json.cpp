@@ -35,6 +35,7 @@ Record scene_record(const VtkScene& scene) {
     r.set("name", s.name).set("point", s.point).set("z", s.z);
     r.set("x", s.offset(0)).set("y", s.offset(1)).set("radius", s.rotor_radius);
     r.set("clearance", s.clearance).set("rotor", scene.contacts[i].point);
+    if (s.direction) r.set("direction", Record::Array{(*s.direction)(0), (*s.direction)(1)});
     stators.add(r);
   }
   Record r;

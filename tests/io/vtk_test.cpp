@@ -153,6 +153,24 @@ TEST_F(VtkSeries, HasAllSurfacesAndArrays) {
   EXPECT_EQ(names->GetValue(1), "guard");
 }
 
+// The clearance away from the rotor's surface, as wide as the rotor.
+TEST_F(VtkSeries, AStopIsAPlateAcrossItsDirection) {
+  VtkScene scene = example();
+  const Vec2 n(0.6, 0.8), t(-0.8, 0.6);
+  scene.stators[1].direction = n;
+  const auto data = written(scene, at_rest(scene), {.deflection_scale = 1.0, .facets = 12});
+  int corners = 0;
+  for (const vtkIdType i : points(data, 2)) {
+    const Vector3d p = point(data, i);
+    if (p(2) < 0.8) continue;  // of the ring
+    ++corners;
+    EXPECT_NEAR(n.dot(p.head<2>()), 0.021, single);
+    EXPECT_NEAR(std::abs(t.dot(p.head<2>())), 0.02, single);
+    EXPECT_NEAR(std::abs(p(2) - 0.9), 0.005, single);
+  }
+  EXPECT_EQ(corners, 4);
+}
+
 TEST_F(VtkSeries, SurfacesAreClosedWithTheirTrueDiameters) {
   const VtkOptions options{.facets = 12};
   const auto data = written(example(), at_rest(example()), options);

@@ -43,6 +43,20 @@ class Builder {
     }
   }
 
+  /// A plate across the shaft's surface in a direction, so wide, its normal towards the rotor.
+  void plate(const Vertex& left, const Vertex& right, double radius, double gap, const Vec2& to) {
+    const Vector3d n(to(0), to(1), 0.0), t(-to(1), to(0), 0.0);
+    std::vector<int> corners;
+    for (const auto& [end, side] : {std::pair(&left, -1.0), std::pair(&left, 1.0),
+                                    std::pair(&right, 1.0), std::pair(&right, -1.0)}) {
+      corners.push_back(static_cast<int>(surfaces_.vertices.size()));
+      surfaces_.vertices.push_back(*end);
+      surfaces_.vertices.back().arm += radius * (n + side * t);
+      surfaces_.vertices.back().gap += gap * n;
+    }
+    add(std::move(corners));
+  }
+
   /// The polygon that closes a ring, with its normal towards -z or +z.
   void left_cap(Ring ring) {
     std::reverse(ring.begin(), ring.end());
@@ -131,6 +145,10 @@ Surfaces surfaces_of(const VtkScene& scene, const VtkOptions& options) {
     const Vector3d offset(s.offset.x(), s.offset.y(), 0.0);
     const Vertex left{s.point, s.point, 0.0, Vector3d(0.0, 0.0, z - 0.5 * width), offset};
     const Vertex right{s.point, s.point, 0.0, Vector3d(0.0, 0.0, z + 0.5 * width), offset};
+    if (s.direction) {
+      builder.plate(left, right, s.rotor_radius, s.clearance, *s.direction);
+      continue;
+    }
     builder.band(builder.ring(left, s.rotor_radius, s.clearance),
                  builder.ring(right, s.rotor_radius, s.clearance));
   }
