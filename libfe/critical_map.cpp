@@ -53,7 +53,7 @@ StiffnessRange range_of(const Structure& s, double beyond) {
     if (!is_flexible(b)) continue;
     const auto told = told_speeds(b.coefficients);
     std::vector<double> speeds(told.begin(), told.end());
-    if (speeds.empty()) speeds = {0.0};
+    if (speeds.empty()) speeds.push_back(0.0);
     for (const double Omega : speeds) {
       const Mat2 K = coefficients(b.coefficients, Omega).K;
       for (const double k : {K(0, 0), K(1, 1)}) {
