@@ -136,48 +136,52 @@ bool Continuation::add_tangent(Trial& trial, const Vec& along) const {
 
 Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) const {
   const Eigen::Index size = plane.at.size() - 1;
-  Trial trial;
-  Vec z = plane.at;
-  double before = std::numeric_limits<double>::infinity();
-  for (;; ++trial.corrections) {
-    if (z(size) < 0.0 || z(size) > 1.0) {
-      trial.is_outside = true;
-      trial.failure = "outside of the range";
-      return trial;
-    }
-    BranchEquations::Value at = evaluate(z, Tangents::yes);
-    if (at.residual.size() == 0) {
-      trial.failure = at.failure;
-      return trial;
-    }
-    trial.point.contacts = at.contacts;  // also of a failure, to tell why
-    const double residual = at.residual.lpNorm<Eigen::Infinity>();
-    if (has_converged(residual, before)) {
-      trial.point.value = value_of(z(size));
-      trial.point.z = z;
-      trial.point.residual = residual;
-      trial.point.multipliers = at.multipliers();
-      trial.jacobian = std::move(at.jacobian);
-      return trial;
-    }
-    if (trial.corrections == most_corrections || residual > 2.0 * before || residual > 1e3) {
-      trial.failure = "Newton's method does not converge";
-      return trial;
-    }
-    before = residual;
-    if (trial.corrections == renewal) by_parameter = derivative_by_parameter(z);
+  struct Place {
+    Vec z;
+    BranchEquations::Value value{};
+    double residual = std::numeric_limits<double>::infinity();
+  };
+  const auto is_outside = [&](const Vec& z) { return z(size) < 0.0 || z(size) > 1.0; };
+  const auto place = [&](Vec z) {
+    Place p{std::move(z)};
+    p.value = is_outside(p.z) ? BranchEquations::Value{.failure = "outside of the range"}
+                              : evaluate(p.z, Tangents::yes);
+    if (p.value.residual.size() > 0) p.residual = p.value.residual.lpNorm<Eigen::Infinity>();
+    return p;
+  };
+  int corrections = 0;
+  const auto step = [&](const Place& p) {
+    if (corrections++ == renewal) by_parameter = derivative_by_parameter(p.z);
     Mat M(size + 1, size + 1);
-    M << at.jacobian, by_parameter, plane.normal.cwiseProduct(weights_).transpose();
+    M << p.value.jacobian, by_parameter, plane.normal.cwiseProduct(weights_).transpose();
     Vec r(size + 1);
-    r << at.residual, dot(plane.normal, z - plane.at);
-    const auto correction = newton_step(M, r);
-    if (!correction) {
-      trial.failure = "the equations of the branch are singular";
-      return trial;
-    }
-    z -= *correction;
-    if (plane.normal.head(size).isZero(0.0)) z(size) = plane.at(size);  // exactly at this value
+    r << p.value.residual, dot(plane.normal, p.z - plane.at);
+    return newton_step(M, r);
+  };
+  const bool is_at_value = plane.normal.head(size).isZero(0.0);
+  const auto moved = [&](const Place& p, const Vec& dz) {
+    Vec z = p.z - dz;
+    if (is_at_value) z(size) = plane.at(size);  // exactly
+    return place(std::move(z));
+  };
+  Place at = place(plane.at);
+  const NewtonSearch search = newton(
+      at, step, moved, {.most_steps = most_corrections, .largest_growth = 2.0, .largest = 1e3});
+  Trial trial{.corrections = search.steps()};
+  if (search.has_converged()) {
+    trial.point = {.value = value_of(at.z(size)),
+                   .z = at.z,
+                   .multipliers = at.value.multipliers(),
+                   .residual = at.residual,
+                   .contacts = std::move(at.value.contacts)};
+    trial.jacobian = std::move(at.value.jacobian);
+    return trial;
   }
+  trial.is_outside = is_outside(at.z);
+  trial.failure = at.value.failure;
+  if (search.end == NewtonEnd::singular) trial.failure = "the equations of the branch are singular";
+  if (trial.failure.empty()) trial.failure = "Newton's method does not converge";
+  return trial;
 }
 
 Continuation::Plane Continuation::range_end_ahead() const {

@@ -90,48 +90,58 @@ void require_isotropy(const ContactSystem& system, const Mat& S) {
 
 Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most_steps) {
   const Eigen::Index n = start.size();
-  Cycle cycle{.state = start, .period = period};
-  double before = std::numeric_limits<double>::infinity();
-  for (int step = 0;; ++step) {
-    if (!(cycle.period > 0.1 * period && cycle.period < 10.0 * period)) {
-      cycle.failure = "no closed motion: the period runs away";
-      return cycle;
+  struct Passed {
+    Vec state;
+    double period;
+    FreeFlow::Arrival arrival{};
+    Mat tangent{};
+    Vec gap{};  ///< and the motion along itself: 0
+    double residual = std::numeric_limits<double>::infinity();
+  };
+  const Vec to_scale = flow.scale.cwiseInverse();
+  const auto passed = [&](Vec state, double time) {
+    Passed p{std::move(state), time};
+    if (!(time > 0.1 * period && time < 10.0 * period)) {
+      p.arrival.failure = "no closed motion: the period runs away";
+      return p;
     }
-    const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period, Tangents::yes);
-    if (!at.failure.empty() || !at.tangent.allFinite()) {
-      cycle.failure = at.failure.empty() ? "the tangent is not finite" : at.failure;
-      return cycle;
+    p.arrival = flow.go(p.state, time, Tangents::yes);
+    if (!p.arrival.failure.empty()) return p;
+    if (!p.arrival.end.allFinite() || !p.arrival.tangent.allFinite()) {
+      p.arrival.failure = "the motion or its tangent is not finite";
+      return p;
     }
-    const Vec to_scale = flow.scale.cwiseInverse();
-    const Vec gap = (at.end - cycle.state).cwiseProduct(to_scale);
-    const Mat tangent = to_scale.asDiagonal() * at.tangent * flow.scale.asDiagonal();
-    cycle.residual = gap.lpNorm<Eigen::Infinity>();
-    cycle.residuals.push_back(cycle.residual);
-    if (has_converged(cycle.residual, before)) {
-      cycle.multipliers = multipliers_across(tangent);
-      cycle.contacts = at.contacts;
-      return cycle;
-    }
-    if (step == most_steps) {
-      cycle.failure =
-          fmt::format("no closed motion: after {} steps of Newton's method the residual is {:.1e}",
-                      step, cycle.residual);
-      return cycle;
-    }
-    before = cycle.residual;
-    Vec r(n + 1);
-    r << gap, 0.0;
-    const auto correction = newton_step(
-        cycle_jacobian(tangent, flow.rate(cycle.state).cwiseProduct(to_scale) * cycle.period,
-                       flow.rate(at.end).cwiseProduct(to_scale) * cycle.period),
-        r);
-    if (!correction) {
-      cycle.failure = "no closed motion: the equations for state and period are singular";
-      return cycle;
-    }
-    cycle.state -= flow.scale.cwiseProduct(correction->head(n));
-    cycle.period *= 1.0 - (*correction)(n);
+    p.tangent = to_scale.asDiagonal() * p.arrival.tangent * flow.scale.asDiagonal();
+    p.gap = Vec::Zero(n + 1);
+    p.gap.head(n) = (p.arrival.end - p.state).cwiseProduct(to_scale);
+    p.residual = p.gap.lpNorm<Eigen::Infinity>();
+    return p;
+  };
+  const auto rate = [&](const Passed& p, const Vec& y) -> Vec {
+    return flow.rate(y).cwiseProduct(to_scale) * p.period;
+  };
+  Passed at = passed(start, period);
+  NewtonSearch search = newton(
+      at,
+      [&](const Passed& p) {
+        return newton_step(cycle_jacobian(p.tangent, rate(p, p.state), rate(p, p.arrival.end)),
+                           p.gap);
+      },
+      [&](const Passed& p, const Vec& step) {
+        return passed(p.state - flow.scale.cwiseProduct(step.head(n)), p.period * (1.0 - step(n)));
+      },
+      {.most_steps = most_steps});
+  Cycle cycle{.state = at.state, .period = at.period, .residual = at.residual};
+  cycle.residuals = std::move(search.residuals);
+  cycle.failure = at.arrival.failure;
+  if (search.has_converged()) {
+    cycle.multipliers = multipliers_across(at.tangent);
+    cycle.contacts = at.arrival.contacts;
+  } else if (search.end != NewtonEnd::undefined) {
+    cycle.failure =
+        search.failure("no closed motion", "the equations for state and period are singular");
   }
+  return cycle;
 }
 
 Mat rotation(const Scene& scene, double angle) {

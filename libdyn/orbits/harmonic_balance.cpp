@@ -278,54 +278,46 @@ namespace {
 /// Newton's method at one number of harmonics, from displacements at the forces.
 HarmonicOrbit solve(const HarmonicEquations& equations, Mat u, const HarmonicOptions& options) {
   const HarmonicProblem& problem = equations.problem();
-  const double scale = problem.length_scale;
+  struct Balance {
+    Mat u;
+    HarmonicEquations::Evaluation of{};
+    double residual = std::numeric_limits<double>::infinity();
+  };
+  const auto balance = [&](Mat at) {
+    Balance b{std::move(at)};
+    b.of = equations.evaluate(b.u, false);
+    if (!b.of.has_force) return b;
+    const bool is_linear = b.of.residual.size() == 0;
+    b.residual = is_linear ? 0.0 : b.of.residual.lpNorm<Eigen::Infinity>() / problem.length_scale;
+    return b;
+  };
+  Balance at = balance(std::move(u));
+  NewtonSearch search = newton(
+      at,
+      [&](const Balance& b) {
+        return newton_step(equations.jacobian(equations.evaluate(b.u, true)),
+                           b.of.residual.reshaped());
+      },
+      [&](const Balance& b, const Vec& step) {
+        return balance(b.u - step.reshaped(b.u.rows(), b.u.cols()));
+      },
+      {.most_steps = options.most_steps,
+       .accurate = options.accurate,
+       .most_halvings = most_halvings,
+       .worse = 1.0});
   HarmonicOrbit orbit;
-  const auto size_of = [&](const HarmonicEquations::Evaluation& e) {
-    if (!e.has_force) return std::numeric_limits<double>::infinity();
-    return e.residual.size() == 0 ? 0.0 : e.residual.lpNorm<Eigen::Infinity>() / scale;
-  };
-  const auto keep = [&](const Mat& at, const HarmonicEquations::Evaluation& e) {
-    orbit.ports = {at, options.period, problem.rate};
-    orbit.motion = {equations.motion(e.g), options.period, problem.rate};
-  };
-  auto now = equations.evaluate(u, true);
-  double before = std::numeric_limits<double>::infinity();
-  for (int step = 0;; ++step) {
-    orbit.residual = size_of(now);
-    orbit.residuals.push_back(orbit.residual);
-    if (!now.has_force) {
-      orbit.failure =
-          "no orbit: a force is not defined on the motion, such as that of an oil film "
-          "outside its bearing";
-      keep(u, now);
-      return orbit;
-    }
-    if (has_converged(orbit.residual, before, options.accurate)) break;
-    if (step == options.most_steps) {
-      orbit.failure =
-          fmt::format("no orbit: after {} steps of Newton's method the residual is {:.1e}", step,
-                      orbit.residual);
-      break;
-    }
-    before = orbit.residual;
-    const Vec r = Eigen::Map<const Vec>(now.residual.data(), now.residual.size());
-    const auto correction = newton_step(equations.jacobian(now), r);
-    if (!correction) {
-      orbit.failure = "no orbit: the equations are singular, as where branches meet or turn";
-      break;
-    }
-    const Eigen::Map<const Mat> du(correction->data(), u.rows(), u.cols());
-    // the first share of the step that reduces the residual, else the best of all
-    double share = 1.0, best_share = 0.0, best = std::numeric_limits<double>::infinity();
-    for (int k = 0; k <= most_halvings; ++k, share *= 0.5) {
-      const double size = size_of(equations.evaluate(u - share * du, false));
-      if (size < best) best = size, best_share = share;
-      if (size < before) break;
-    }
-    u -= best_share * du;
-    now = equations.evaluate(u, true);
+  orbit.ports = {at.u, options.period, problem.rate};
+  orbit.motion = {equations.motion(at.of.g), options.period, problem.rate};
+  orbit.residual = at.residual;
+  if (search.end == NewtonEnd::undefined) {
+    orbit.failure =
+        "no orbit: a force is not defined on the motion, such as that of an oil film "
+        "outside its bearing";
+  } else if (!search.has_converged()) {
+    orbit.failure =
+        search.failure("no orbit", "the equations are singular, as where branches meet or turn");
   }
-  keep(u, now);
+  orbit.residuals = std::move(search.residuals);
   return orbit;
 }
 

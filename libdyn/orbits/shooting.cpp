@@ -101,40 +101,40 @@ PeriodicOrbit find_orbit(const Flow& flow, std::vector<Vec> starts,
                          const ShootingOptions& options) {
   options.check();
   const Eigen::Index n = flow.scale.size();
-  PeriodicOrbit orbit{.period = options.period, .states = std::move(starts)};
-  Vec gaps = shoot(flow, orbit);
-  double before = std::numeric_limits<double>::infinity();
-  for (int step = 0;; ++step) {
-    orbit.residuals.push_back(orbit.residual);
-    if (gaps.size() == 0) return orbit;
-    if (has_converged(orbit.residual, before, options.accurate)) break;
-    if (step == options.most_steps) {
-      orbit.failure =
-          fmt::format("no orbit: after {} steps of Newton's method the residual is {:.1e}", step,
-                      orbit.residual);
-      return orbit;
-    }
-    before = orbit.residual;
-    const auto correction = newton_step(shooting_jacobian(orbit.tangents), gaps);
-    if (!correction) {
-      orbit.failure = "no orbit: a multiplier is one, there the return map has no isolated orbit";
-      return orbit;
-    }
-    PeriodicOrbit next;
-    double share = 1.0;
-    for (int k = 0; k <= most_halvings; ++k, share *= 0.5) {
-      next = orbit;
-      for (std::size_t i = 0; i < next.states.size(); ++i) {
-        next.states[i] -= share * flow.scale.cwiseProduct(
-                                      correction->segment(static_cast<Eigen::Index>(i) * n, n));
-      }
-      gaps = shoot(flow, next);
-      if (gaps.size() > 0 && next.residual <= worse * before) break;
-    }
-    orbit = std::move(next);
+  struct Shot {
+    PeriodicOrbit orbit;
+    Vec gaps{};
+    double residual = 0.0;
+  };
+  const auto shot = [&](PeriodicOrbit orbit) {
+    Shot s{std::move(orbit)};
+    s.gaps = shoot(flow, s.orbit);
+    s.residual = s.orbit.residual;
+    return s;
+  };
+  Shot at = shot({.period = options.period, .states = std::move(starts)});
+  NewtonSearch search = newton(
+      at, [](const Shot& s) { return newton_step(shooting_jacobian(s.orbit.tangents), s.gaps); },
+      [&](const Shot& s, const Vec& step) {
+        PeriodicOrbit next = s.orbit;
+        for (std::size_t i = 0; i < next.states.size(); ++i) {
+          next.states[i] -=
+              flow.scale.cwiseProduct(step.segment(static_cast<Eigen::Index>(i) * n, n));
+        }
+        return shot(std::move(next));
+      },
+      {.most_steps = options.most_steps,
+       .accurate = options.accurate,
+       .most_halvings = most_halvings,
+       .worse = worse});
+  if (search.has_converged()) {
+    at.orbit.multipliers = multipliers_of(at.orbit.tangents);
+  } else if (search.end != NewtonEnd::undefined) {
+    at.orbit.failure = search.failure(
+        "no orbit", "a multiplier is one, there the return map has no isolated orbit");
   }
-  orbit.multipliers = multipliers_of(orbit.tangents);
-  return orbit;
+  at.orbit.residuals = std::move(search.residuals);
+  return std::move(at.orbit);
 }
 
 PeriodicOrbit find_orbit(const Flow& flow, const Vec& start, const ShootingOptions& options) {
