@@ -232,6 +232,29 @@ void LinearFlow::advance(int level, double fraction, const Eigen::Vector3d& load
   }
 }
 
+LinearFlow::Rows LinearFlow::rows_by_series(double d, const Mat& r, int columns) const {
+  Mat power = r;  // r (A d)^m / m!
+  Mat load = Mat::Zero(r.rows(), 3);
+  Rows sum{r, load, Mat::Zero(r.rows(), columns * terms_)};
+  for (int m = 0; m <= series_terms; ++m) {
+    const Mat pushed = power * B_.leftCols(columns);
+    double factor = d;
+    for (int i = 1; i <= m + 1; ++i) factor /= i;
+    for (int i = 1; i <= m; ++i) factor *= i;
+    for (int j = 0; j < terms_; ++j) {
+      if (j > 0) factor *= static_cast<double>(j) / (j + m + 1);
+      for (int b = 0; b < columns; ++b) {
+        sum.force.col(b * terms_ + j) -= factor * pushed.col(b);
+      }
+    }
+    load = (d / (m + 1) * (power * F_ + load * W_)).eval();
+    sum.load += load;
+    power = (d / (m + 1) * (power * A_)).eval();
+    sum.y += power;
+  }
+  return sum;
+}
+
 LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r, Forces forces) {
   // the same pieces as advance(), walked from the last to the first
   struct Piece {
@@ -255,45 +278,22 @@ LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r, Forc
   }
   const int columns = forces == Forces::all ? 2 * contacts_ : 0;
   Rows out{r, Mat::Zero(r.rows(), 3), Mat::Zero(r.rows(), columns * terms_)};
+  const auto add_force = [&](const Mat& force, const Mat& part) {
+    for (int b = 0; b < columns; ++b) {
+      out.force.middleCols(b * terms_, terms_) += force.middleCols(b * terms_, terms_) * part;
+    }
+  };
   const double h = size(level), d = (fraction - at) * h;
   if (d > 0.0) {
-    Mat power = r;  // r (A d)^m / m!
-    Mat load = Mat::Zero(r.rows(), 3), load_sum = load;
-    Mat force = Mat::Zero(r.rows(), columns * terms_);
-    for (int m = 0; m <= series_terms; ++m) {
-      const Mat pushed = power * B_.leftCols(columns);
-      double factor = d;
-      for (int i = 1; i <= m + 1; ++i) factor /= i;
-      for (int i = 1; i <= m; ++i) factor *= i;
-      for (int j = 0; j < terms_; ++j) {
-        if (j > 0) factor *= static_cast<double>(j) / (j + m + 1);
-        for (int b = 0; b < columns; ++b) {
-          force.col(b * terms_ + j) -= factor * pushed.col(b);
-        }
-      }
-      load = (d / (m + 1) * (power * F_ + load * W_)).eval();
-      load_sum += load;
-      power = (d / (m + 1) * (power * A_)).eval();
-      out.y += power;
-    }
-    out.load = load_sum * rotation(at * h);
-    if (columns > 0) {
-      const Mat to_powers = to_powers_ * restriction(at, fraction, rule_);
-      for (int b = 0; b < columns; ++b) {
-        out.force.middleCols(b * terms_, terms_) = force.middleCols(b * terms_, terms_) * to_powers;
-      }
-    }
+    const Rows rest = rows_by_series(d, r, columns);
+    out.y = rest.y;
+    out.load = rest.load * rotation(at * h);
+    if (columns > 0) add_force(rest.force, to_powers_ * restriction(at, fraction, rule_));
   }
   for (auto p = pieces.rbegin(); p != pieces.rend(); ++p) {
     const Table& t = table(p->level);
     out.load += out.y * t.L * rotation(p->from * h);
-    if (columns > 0) {
-      const Mat force = out.y * t.G;
-      const Mat part = restriction(p->from, p->to, rule_);
-      for (int b = 0; b < columns; ++b) {
-        out.force.middleCols(b * terms_, terms_) += force.middleCols(b * terms_, terms_) * part;
-      }
-    }
+    if (columns > 0) add_force(out.y * t.G, restriction(p->from, p->to, rule_));
     out.y += (out.y * t.X).eval();
   }
   return out;

@@ -67,6 +67,8 @@ class LinearFlow {
  private:
   void build_by_series(Table& t) const;
   void build_by_doubling(Table& t, const Table& half) const;
+  /// rows() of a time d by Taylor series, with the forces of so many columns of B as powers of t / d.
+  Rows rows_by_series(double d, const Mat& r, int columns) const;
   Eigen::Matrix3d rotation(double t) const;
   bool is_small(int level) const { return norm_ * size(level) <= 0.25; }
 

@@ -66,6 +66,8 @@ class Run {
              boundless);
   }
   Result advance();
+  /// To the end of a step.
+  void move_on(double turn, bool ends_revolution, const std::optional<Event>& event);
   Result finish(long last);
   /// Gives the pieces of a step but the last to the observer; true if it stopped there.
   bool show(double limit);
@@ -207,8 +209,14 @@ Run::Result Run::advance() {
   if (is_boundless(end_)) return fail(Outcome::step_too_small, "the motion grows without bound");
   instant_events_ = 0;
   if (observer_ && show(limit)) return Result::ended;
+  move_on(limit * h * rate, ends_revolution, event);
+  choose_next(rung, touched);
+  return show_last();
+}
+
+void Run::move_on(double turn, bool ends_revolution, const std::optional<Event>& event) {
   state_.y = end_;
-  state_.phase += limit * h * rate;
+  state_.phase += turn;
   if (ends_revolution) {
     ++state_.revolution;
     state_.phase = 0.0;
@@ -217,8 +225,6 @@ Run::Result Run::advance() {
   if (event) watcher_.apply(*event, state_.phase, state_.y.data(), state_.contacts);
   may_be_certain_ = event.has_value() || ends_revolution;
   system_.remove_slip(state_.y.data(), state_.contacts);
-  choose_next(rung, touched);
-  return show_last();
 }
 
 bool Run::show(double limit) {

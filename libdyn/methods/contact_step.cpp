@@ -241,9 +241,48 @@ void ContactStep::residual(const MotionState& from, int contact, const double* d
   out = (f.n.dot(force) - f.normal) * f.n - (f.slip / mobility) * t;
 }
 
+void ContactStep::add_slopes(const MotionState& from, const Nodes& table, Eigen::Index p, int k,
+                             const Vec2& force, const Vec2& value, Mat& J) {
+  const int c = touching_[static_cast<std::size_t>(p)];
+  const auto i = static_cast<std::size_t>(c);
+  const auto contacts = static_cast<int>(at_.size());
+  const auto m = static_cast<Eigen::Index>(touching_.size());
+  double dw[rows];
+  for (int d = 0; d < rows; ++d) dw[d] = at_[i](k, d);
+  Vec2 other;
+  Eigen::Matrix<double, 2, rows> by_motion;
+  for (int d = 0; d < rows; ++d) {
+    const double step =
+        1e-7 * system_.contacts()[i].clearance * (d < 2 ? 1.0 : system_.phase_rate());
+    const double kept = dw[d];
+    dw[d] = kept + step;
+    residual(from, c, dw, force, other);
+    dw[d] = kept;
+    by_motion.col(d) = (other - value) / step;
+  }
+  Mat2 by_force;
+  for (int d = 0; d < 2; ++d) {
+    const double step = std::max(1.0, force.norm());
+    residual(from, c, dw, force + step * Vec2::Unit(d), other);
+    by_force.col(d) = (other - value) / step;
+  }
+  for (int d = 0; d < 2; ++d) {
+    for (int e = 0; e < 2; ++e) {
+      J.block((2 * p + d) * terms, (2 * p + e) * terms, terms, terms) +=
+          by_force(d, e) * project_.col(k) * at_nodes_.row(k);
+    }
+    for (Eigen::Index q = 0; q < m; ++q) {
+      const int b = touching_[static_cast<std::size_t>(q)];
+      const Mat& kernel = table.kernel[static_cast<std::size_t>(c * contacts + b)];
+      Eigen::RowVectorXd along = Eigen::RowVectorXd::Zero(2 * terms);
+      for (int e = 0; e < rows; ++e) along += by_motion(d, e) * kernel.row(e * nodes_ + k);
+      J.block((2 * p + d) * terms, q * 2 * terms, terms, 2 * terms) += project_.col(k) * along;
+    }
+  }
+}
+
 bool ContactStep::newton(const MotionState& from) {
   const Nodes& table = nodes_of(rung_, true);
-  const auto contacts = static_cast<int>(at_.size());
   const auto m = static_cast<Eigen::Index>(touching_.size());
   const double h = size(rung_);
   Mat J(2 * terms * m, 2 * terms * m);
@@ -260,47 +299,17 @@ bool ContactStep::newton(const MotionState& from) {
     for (Eigen::Index p = 0; p < m; ++p) {
       const int c = touching_[static_cast<std::size_t>(p)];
       const auto i = static_cast<std::size_t>(c);
-      const ReducedContact& contact = system_.contacts()[i];
       const Eigen::Map<const Mat> a(a_.data() + 2 * c * terms, terms, 2);
       for (int k = 0; k < nodes_; ++k) {
         double dw[rows];
         for (int d = 0; d < rows; ++d) dw[d] = at_[i](k, d);
         const Vec2 force = (at_nodes_.row(k) * a).transpose();
-        Vec2 value, other;
+        Vec2 value;
         residual(from, c, dw, force, value);
         for (int d = 0; d < 2; ++d) {
           r.segment((2 * p + d) * terms, terms) += value(d) * project_.col(k);
         }
-        if (!renew) continue;
-        Eigen::Matrix<double, 2, rows> by_motion;
-        for (int d = 0; d < rows; ++d) {
-          const double step = 1e-7 * contact.clearance * (d < 2 ? 1.0 : system_.phase_rate());
-          const double kept = dw[d];
-          dw[d] = kept + step;
-          residual(from, c, dw, force, other);
-          dw[d] = kept;
-          by_motion.col(d) = (other - value) / step;
-        }
-        Mat2 by_force;
-        for (int d = 0; d < 2; ++d) {
-          const double step = std::max(1.0, force.norm());
-          residual(from, c, dw, force + step * Vec2::Unit(d), other);
-          by_force.col(d) = (other - value) / step;
-        }
-        for (int d = 0; d < 2; ++d) {
-          for (int e = 0; e < 2; ++e) {
-            J.block((2 * p + d) * terms, (2 * p + e) * terms, terms, terms) +=
-                by_force(d, e) * project_.col(k) * at_nodes_.row(k);
-          }
-          for (Eigen::Index q = 0; q < m; ++q) {
-            const int b = touching_[static_cast<std::size_t>(q)];
-            const Mat& kernel = table.kernel[static_cast<std::size_t>(c * contacts + b)];
-            Eigen::RowVectorXd along = Eigen::RowVectorXd::Zero(2 * terms);
-            for (int e = 0; e < rows; ++e) along += by_motion(d, e) * kernel.row(e * nodes_ + k);
-            J.block((2 * p + d) * terms, q * 2 * terms, terms, 2 * terms) +=
-                project_.col(k) * along;
-          }
-        }
+        if (renew) add_slopes(from, table, p, k, force, value, J);
       }
     }
     if (renew) lu.emplace(J);

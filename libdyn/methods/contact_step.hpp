@@ -110,6 +110,9 @@ class ContactStep {
   Vec2 node_force(int contact, const ContactState& state, const double* node, int stride);
   bool picard(const MotionState& from);
   bool newton(const MotionState& from);
+  /// Derivatives of the value of the residual of touching contact p at node k, by all forces.
+  void add_slopes(const MotionState& from, const Nodes& table, Eigen::Index p, int k,
+                  const Vec2& force, const Vec2& value, Mat& J);
   void residual(const MotionState& from, int contact, const double* dw, const Vec2& force,
                 Vec2& out);
   /// False if a contact moves out of what numbers can hold.

@@ -1,11 +1,9 @@
 #include "libdyn/methods/dop853.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <optional>
 
 #include "libdyn/methods/dop853_coefficients.hpp"
 #include "libdyn/system/diagnosis.hpp"
@@ -169,132 +167,157 @@ double step_onto(const Event& event, const EventWatcher& watcher, Stepper& stepp
   return last;
 }
 
+/// One integration: the state, the step sizes, what has happened.
+class Run {
+ public:
+  Run(const ContactSystem& system, MotionState& state, const IntegrationOptions& options,
+      const Observer& observer)
+      : system_(system),
+        state_(state),
+        options_(options),
+        observer_(observer),
+        stepper_(system, options, result_.cost),
+        watcher_(system),
+        rate_(system.phase_rate()),
+        period_(system.period()),
+        h_(is_fixed() ? options.fixed_step : period_ / 50.0) {}
+
+  Integration go(long last);
+
+ private:
+  enum class Result { goes_on, ended };
+
+  bool is_fixed() const { return options_.fixed_step > 0.0; }
+  Result fail(Outcome outcome, std::string_view what) {
+    whirl::fail(result_, system_, state_, outcome, what);
+    return Result::ended;
+  }
+  void begin_revolution() {
+    ++state_.revolution;
+    state_.phase = 0.0;
+  }
+  Result advance();
+  /// Makes the next trial shorter: the error of one was too large, or an event was missed.
+  Result reject(double trial, double error);
+  Result miss(double trial);
+  Result apply_at_once(const Event& event);
+  /// @param next  size of the next step, that the error asks for
+  Result accept(const std::optional<Event>& event, bool ends_revolution, double next);
+
+  const ContactSystem& system_;
+  MotionState& state_;
+  const IntegrationOptions& options_;
+  const Observer& observer_;
+  Integration result_;
+  Stepper stepper_;
+  EventWatcher watcher_;
+  double rate_, period_;
+  double h_;
+  double longest_ = std::numeric_limits<double>::infinity();  ///< after an event was missed
+  bool is_rejected_ = false;
+  int instant_events_ = 0;
+  Step step_;
+};
+
+Integration Run::go(long last) {
+  if (state_.contacts.size() != system_.contacts().size()) {
+    state_.contacts = system_.classify(state_.phase, state_.y.data());
+  }
+  if (system_.left_bearing(state_.y.data())) {
+    fail(Outcome::left_bearing, "");
+    return result_;
+  }
+  stepper_.start(state_);
+  while (state_.revolution < last && advance() == Result::goes_on) {
+  }
+  return result_;
+}
+
+Run::Result Run::advance() {
+  const double left = period_ - state_.phase / rate_;  // steps end on revolutions
+  if (left <= too_small * period_) {                   // an event fell on the end
+    begin_revolution();
+    return Result::goes_on;
+  }
+  double trial = std::min(h_, longest_);
+  bool ends_revolution = trial >= left * (1.0 - 1e-12);
+  if (ends_revolution) {
+    trial = left;
+  } else if (!is_fixed() && trial > 0.5 * left) {
+    trial = 0.5 * left;
+  }
+  const double error = stepper_.attempt(state_, trial);
+  if (!std::isfinite(error) || (error > 1.0 && !is_fixed())) return reject(trial, error);
+  double factor = error > 0.0 ? safety * std::pow(error, -1.0 / 8.0) : largest_factor;
+  factor = std::clamp(factor, smallest_factor, is_rejected_ ? 1.0 : largest_factor);
+  is_rejected_ = false;
+
+  stepper_.dense(state_, step_);
+  const auto event = watcher_.first(step_);
+  if (event) {
+    ends_revolution = false;
+    if (event->s * trial <= too_small * period_) return apply_at_once(*event);
+    const double remainder = step_onto(*event, watcher_, stepper_, state_, step_, rate_);
+    if (!std::isfinite(remainder)) return fail(Outcome::not_finite, "a distance overflowed");
+    if (remainder > missed) return miss(trial);
+    ++result_.cost.events;
+  }
+  return accept(event, ends_revolution, trial * factor);
+}
+
+Run::Result Run::reject(double trial, double error) {
+  ++result_.cost.rejected;
+  is_rejected_ = true;
+  const bool is_finite = std::isfinite(error);
+  h_ = trial * (is_finite ? std::max(smallest_factor, safety * std::pow(error, -1.0 / 8.0)) : 0.1);
+  if (h_ >= too_small * period_) return Result::goes_on;
+  return fail(is_finite ? Outcome::step_too_small : Outcome::not_finite, "the step underflowed");
+}
+
+Run::Result Run::miss(double trial) {
+  ++result_.cost.rejected;
+  longest_ = 0.5 * trial;
+  if (longest_ >= too_small * period_) return Result::goes_on;
+  return fail(Outcome::step_too_small, "an event could not be located");
+}
+
+Run::Result Run::apply_at_once(const Event& event) {
+  if (++instant_events_ > most_instant_events) {
+    return fail(Outcome::step_too_small, "events follow without time passing");
+  }
+  ++result_.cost.events;
+  watcher_.apply(event, state_.phase, state_.y.data(), state_.contacts);
+  stepper_.start(state_);
+  return Result::goes_on;
+}
+
+Run::Result Run::accept(const std::optional<Event>& event, bool ends_revolution, double next) {
+  instant_events_ = 0;
+  longest_ = std::numeric_limits<double>::infinity();
+  state_.y = stepper_.end();
+  state_.phase += step_.turn;
+  if (ends_revolution) begin_revolution();
+  ++result_.cost.steps;
+  watcher_.moved_on();
+  if (event) {
+    watcher_.apply(*event, state_.phase, state_.y.data(), state_.contacts);
+  } else if (!is_fixed()) {
+    h_ = ends_revolution ? std::max(h_, next) : next;
+  }
+  const bool sticks = std::any_of(state_.contacts.begin(), state_.contacts.end(),
+                                  [](const ContactState& c) { return c.touch == Touch::sticking; });
+  if (sticks) system_.remove_slip(state_.y.data(), state_.contacts);
+  event || sticks ? stepper_.start(state_) : stepper_.reuse_last();
+  if (!observer_ || observer_(step_)) return Result::goes_on;
+  result_.outcome = Outcome::stopped_by_observer;
+  return Result::ended;
+}
+
 }  // namespace
 
 Integration Dop853::integrate(const ContactSystem& system, MotionState& state, long revolutions,
                               const IntegrationOptions& options, const Observer& observer) {
-  Integration result;
-  Cost& cost = result.cost;
-  Stepper stepper(system, options, cost);
-  EventWatcher watcher(system);
-  const double rate = system.phase_rate(), period = system.period();
-  const long last = state.revolution + revolutions;
-  double h = options.fixed_step > 0.0 ? options.fixed_step : period / 50.0;
-  double longest = std::numeric_limits<double>::infinity();  // after an event was missed
-  bool is_rejected = false;
-  int instant_events = 0;
-  Step step;
-  if (state.contacts.size() != system.contacts().size()) {
-    state.contacts = system.classify(state.phase, state.y.data());
-  }
-  if (system.left_bearing(state.y.data())) {
-    fail(result, system, state, Outcome::left_bearing, "");
-    return result;
-  }
-  stepper.start(state);
-
-  while (state.revolution < last) {
-    const double left = period - state.phase / rate;  // steps end on revolutions
-    if (left <= too_small * period) {                 // an event fell on the end
-      ++state.revolution;
-      state.phase = 0.0;
-      continue;
-    }
-    double trial = std::min(h, longest);
-    bool ends_revolution = false;
-    if (trial >= left * (1.0 - 1e-12)) {
-      trial = left;
-      ends_revolution = true;
-    } else if (options.fixed_step == 0.0 && trial > 0.5 * left) {
-      trial = 0.5 * left;
-    }
-    const double error = stepper.attempt(state, trial);
-    if (!std::isfinite(error) || (error > 1.0 && options.fixed_step == 0.0)) {
-      ++cost.rejected;
-      is_rejected = true;
-      const double factor = std::isfinite(error)
-                                ? std::max(smallest_factor, safety * std::pow(error, -1.0 / 8.0))
-                                : 0.1;
-      h = trial * factor;
-      if (h < too_small * period) {
-        fail(result, system, state,
-             std::isfinite(error) ? Outcome::step_too_small : Outcome::not_finite,
-             "the step underflowed");
-        return result;
-      }
-      continue;
-    }
-    double factor = error > 0.0 ? safety * std::pow(error, -1.0 / 8.0) : largest_factor;
-    factor = std::clamp(factor, smallest_factor, is_rejected ? 1.0 : largest_factor);
-    is_rejected = false;
-
-    stepper.dense(state, step);
-    const auto event = watcher.first(step);
-    if (event) {
-      ends_revolution = false;
-      const bool is_instant = event->s * trial <= too_small * period;
-      if (is_instant && ++instant_events > most_instant_events) {
-        result.outcome = Outcome::step_too_small;
-        result.diagnosis = diagnosis(system, state, "events follow without time passing");
-        return result;
-      }
-      if (is_instant) {
-        ++cost.events;
-        watcher.apply(*event, state.phase, state.y.data(), state.contacts);
-        stepper.start(state);
-        continue;
-      }
-      const double remainder = step_onto(*event, watcher, stepper, state, step, rate);
-      if (!std::isfinite(remainder)) {
-        result.outcome = Outcome::not_finite;
-        result.diagnosis = diagnosis(system, state, "a distance overflowed");
-        return result;
-      }
-      if (remainder > missed) {
-        ++cost.rejected;
-        longest = 0.5 * trial;
-        if (longest < too_small * period) {
-          result.outcome = Outcome::step_too_small;
-          result.diagnosis = diagnosis(system, state, "an event could not be located");
-          return result;
-        }
-        continue;
-      }
-      ++cost.events;
-    }
-    instant_events = 0;
-    longest = std::numeric_limits<double>::infinity();
-
-    state.y = stepper.end();
-    state.phase += step.turn;
-    if (ends_revolution) {
-      ++state.revolution;
-      state.phase = 0.0;
-    }
-    ++cost.steps;
-    watcher.moved_on();
-    bool must_restart = false;
-    if (event) {
-      watcher.apply(*event, state.phase, state.y.data(), state.contacts);
-      must_restart = true;
-    } else if (options.fixed_step == 0.0 && !ends_revolution) {
-      h = trial * factor;
-    } else if (options.fixed_step == 0.0) {
-      h = std::max(h, trial * factor);
-    }
-    for (const ContactState& c : state.contacts) {
-      if (c.touch != Touch::sticking) continue;
-      system.remove_slip(state.y.data(), state.contacts);
-      must_restart = true;
-      break;
-    }
-    must_restart ? stepper.start(state) : stepper.reuse_last();
-    if (observer && !observer(step)) {
-      result.outcome = Outcome::stopped_by_observer;
-      return result;
-    }
-  }
-  return result;
+  return Run(system, state, options, observer).go(state.revolution + revolutions);
 }
 
 }  // namespace whirl

@@ -25,6 +25,25 @@ void dense(const Vec& y0, const Vec& dy0, const Vec& y1, const Vec& dy1, Step& s
   for (int k = 1; k <= 5; ++k) step.v.col(k - 1) = (k / h) * step.q.col(k);
 }
 
+/// Slopes within a step, and where it ends.
+struct Slopes {
+  Vec k1, k2, k3, k4, stage, end;
+  explicit Slopes(int size) : k1(size), k2(size), k3(size), k4(size), stage(size), end(size) {}
+};
+
+/// Makes a step from y, with its first slope.
+template <class Derivative>
+void try_step(const Derivative& derivative, double phase, double turn, double h, const Vec& y,
+              Slopes& s) {
+  s.stage = y + 0.5 * h * s.k1;
+  derivative(phase + 0.5 * turn, s.stage, s.k2);
+  s.stage = y + 0.5 * h * s.k2;
+  derivative(phase + 0.5 * turn, s.stage, s.k3);
+  s.stage = y + h * s.k3;
+  derivative(phase + turn, s.stage, s.k4);
+  s.end = y + (h / 6.0) * (s.k1 + 2.0 * (s.k2 + s.k3) + s.k4);
+}
+
 }  // namespace
 
 Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long revolutions,
@@ -43,24 +62,18 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
   };
 
   Vec& y = state.y;
-  Vec k1(2 * n), k2(2 * n), k3(2 * n), k4(2 * n), stage(2 * n), end(2 * n);
+  Slopes s(2 * n);
   Step step;
-  derivative(state.phase, y, k1);
+  derivative(state.phase, y, s.k1);
   while (state.revolution < last) {
     const double first = state.phase, left = period - first / rate;
     const double count = equal_steps(period, left, options);
     const double h = left / count, turn = h * rate;
     for (double i = 0.0; i < count; ++i) {  // a double: counts beyond any integer fail by time
       const double phase = first + i * turn;
-      stage = y + 0.5 * h * k1;
-      derivative(phase + 0.5 * turn, stage, k2);
-      stage = y + 0.5 * h * k2;
-      derivative(phase + 0.5 * turn, stage, k3);
-      stage = y + h * k3;
-      derivative(phase + turn, stage, k4);
-      end = y + (h / 6.0) * (k1 + 2.0 * (k2 + k3) + k4);
-      has_left = has_left || system.left_bearing(end.data()) != nullptr;
-      if (has_left || !end.allFinite()) {
+      try_step(derivative, phase, turn, h, y, s);
+      has_left = has_left || system.left_bearing(s.end.data()) != nullptr;
+      if (has_left || !s.end.allFinite()) {
         state.contacts = system.classify(state.phase, y.data());
         fail(result, system, state, has_left ? Outcome::left_bearing : Outcome::not_finite,
              has_left ? "a step of RK4 leaves a bearing" : "a step of RK4 gave no finite numbers");
@@ -73,10 +86,10 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
       step.h = h;
       step.turn = turn;
       if (observer) step.contacts = system.classify(phase, y.data());
-      derivative(phase + turn, end, k2);  // of the end, where the next step starts
-      if (observer) dense(y, k1, end, k2, step);
-      y.swap(end);
-      k1.swap(k2);
+      derivative(phase + turn, s.end, s.k2);  // of the end, where the next step starts
+      if (observer) dense(y, s.k1, s.end, s.k2, step);
+      y.swap(s.end);
+      s.k1.swap(s.k2);
       state.phase = phase + turn;
       if (ends_revolution) {
         ++state.revolution;

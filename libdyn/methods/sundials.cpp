@@ -129,6 +129,17 @@ void Motion::dense(const Solver& solver, void* memory, double from, double to, S
   }
 }
 
+void Motion::apply_roots(const Solver& solver, void* memory) {
+  std::vector<int> found(roots_.size());
+  solver.found_roots(memory, found.data());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i] == 0) continue;
+    const Event event{1.0, roots_[i].first, roots_[i].second};
+    watcher_.apply(event, state_.phase, state_.y.data(), state_.contacts);
+    ++result_.cost.events;
+  }
+}
+
 Integration Motion::run(const Solver& solver, void* memory, long revolutions,
                         const Observer& observer) {
   const double rate = system_.phase_rate(), period = system_.period();
@@ -164,14 +175,7 @@ Integration Motion::run(const Solver& solver, void* memory, long revolutions,
     state_.y = now;
     state_.phase = t * rate;
     if (flag == Flag::root) {
-      std::vector<int> found(roots_.size());
-      solver.found_roots(memory, found.data());
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        if (found[i] == 0) continue;
-        const Event event{1.0, roots_[i].first, roots_[i].second};
-        watcher_.apply(event, state_.phase, state_.y.data(), state_.contacts);
-        ++result_.cost.events;
-      }
+      apply_roots(solver, memory);
       if (!has_moved && ++instant_events > most_instant_events) {
         return fail(Outcome::step_too_small, "events follow without time passing");
       }

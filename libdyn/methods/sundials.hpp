@@ -91,6 +91,8 @@ class Motion {
  private:
   static int root_functions(realtype t, N_Vector y, realtype* g, void* motion);
   void restart(const Solver& solver, void* memory, double t);
+  /// Applies the events at the roots that the solver has found.
+  void apply_roots(const Solver& solver, void* memory);
   void find_roots();
   void apply_events_at_start();
   void watch(const Solver& solver, void* memory);
