@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libbase/newton.hpp"
+#include "libbase/roots.hpp"
 #include "libbase/smooth_average.hpp"
 
 namespace whirl {
@@ -21,6 +23,7 @@ constexpr int tested = 16;          ///< harmonics by which they are compared
 constexpr double all_told = 1e-4;   ///< of the energy, that may be left without a search
 constexpr double much_less = 0.25;  ///< energy left, for a part to be taken
 constexpr Eigen::Index scanned = 1024;  ///< sections in which a line is looked for at first
+constexpr double sharpest = 1e-9;       ///< share of a line's width, to which it is found
 constexpr double moves = 1e-9;          ///< scales that a motion moves at least
 
 /// Shift of a trigonometric polynomial by its values at N even angles: the value at theta + angle is
@@ -118,10 +121,90 @@ std::pair<Vec, double> across(const Vec& all) {
   return {others, all(along)};
 }
 
-/// The equations of a circle for its unknowns, and the tangents at its points.
+/// Sections of a motion about their mean, a state per column, seen by their lines: frequencies
+/// [cycles a section]. The first `used` of them are looked at.
+class Lines {
+ public:
+  Lines(const Mat& sections, Eigen::Index most, Eigen::Index used)
+      : sections_(sections), row_(sections.row(most)) {
+    use(used);
+  }
+  void use(Eigen::Index used) { weights_ = smooth_weights(used); }
+  Eigen::Index used() const { return weights_.size(); }
+  double width() const { return 0.5 / static_cast<double>(used()); }
+
+  /// Complex amplitude of a line.
+  CVec operator()(double cycles) const { return average(sections_, cycles); }
+  /// Its size in the coordinate that moves most.
+  double size(double cycles) const { return std::abs(average(row_, cycles)(0)); }
+  double energy() const {
+    double whole = 0.0;
+    for (Eigen::Index i = 0; i < used(); ++i) {
+      whole += weights_(i) * sections_.col(i).squaredNorm();
+    }
+    return whole;
+  }
+  /// Energy that the harmonics of a line leave.
+  double left(double cycles) const {
+    double energy_left = energy();
+    for (int k = 1; k <= tested; ++k) energy_left -= 2.0 * (*this)(k * cycles).squaredNorm();
+    return std::abs(energy_left);
+  }
+  /// The strongest on a grid that none falls through.
+  double strongest() const {
+    double best = width(), largest = 0.0;
+    for (double cycles = width(); cycles < 0.5; cycles += width()) {
+      if (const double s = size(cycles); s > largest) {
+        best = cycles;
+        largest = s;
+      }
+    }
+    return best;
+  }
+  /// A line by its harmonic `part`, which is strong.
+  double sharpened(double line, int part) const {
+    return bracketed_maximum([&](double cycles) { return size(part * cycles); }, line - width(),
+                             line, line + width(), sharpest * width())
+        .at;
+  }
+
+ private:
+  CVec average(const Mat& rows, double cycles) const {
+    CVec sum = CVec::Zero(rows.rows());
+    for (Eigen::Index i = 0; i < used(); ++i) {
+      const double place = cycles * static_cast<double>(i);
+      sum += rows.col(i) * std::polar(weights_(i), -turn * (place - std::floor(place)));
+    }
+    return sum;
+  }
+  const Mat& sections_;
+  Mat row_;
+  Vec weights_;
+};
+
+/// A line of which the strongest one is a harmonic, and which: itself, or a part of it whose harmonics
+/// leave much less.
+std::pair<double, int> own_line(const Lines& lines, double strongest) {
+  std::pair<double, int> found{strongest, 1};
+  const double all = all_told * lines.energy();
+  double least = lines.left(strongest);
+  for (int k = 2; k <= parts && least > all; ++k) {
+    for (int turns = 0; turns < k; ++turns) {
+      const double cycles = (strongest + turns) / k, energy = lines.left(cycles);
+      if (energy > much_less * least) continue;
+      found = {cycles, k};
+      least = energy;
+    }
+  }
+  return found;
+}
+
+/// The equations of a circle for its unknowns x, and the tangents at its points.
 struct Turned {
   BranchEquations::Value value;
   std::vector<Mat> tangents{};
+  Vec x{};
+  double residual = std::numeric_limits<double>::infinity();
 };
 Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eigen::Index coordinate,
               Tangents wanted, double most_tail) {
@@ -150,6 +233,8 @@ Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eige
   at.value.residual.head(size) = (ends - scaled * shift.value.transpose()).reshaped();
   const CVec c = harmonics_of(scaled.row(coordinate)).row(0);
   at.value.residual(size) = c(1).imag();
+  at.x = x;
+  at.residual = at.value.residual.lpNorm<Eigen::Infinity>();
   if (wanted == Tangents::no) return at;
   at.value.jacobian = Mat::Zero(size + 1, size + 1);
   for (Eigen::Index i = 0; i < N; ++i) {
@@ -204,72 +289,18 @@ std::optional<InvariantCircle> guessed_circle(const Mat& sections, const Vec& sc
   if (moving.rowwise().squaredNorm().maxCoeff(&most) < moves * moves * static_cast<double>(count)) {
     return std::nullopt;
   }
-  /// Complex amplitude of a line, from as many sections as there are weights.
-  const auto average = [&](const auto& rows, const Vec& weights, double cycles) {
-    CVec sum = CVec::Zero(rows.rows());
-    for (Eigen::Index i = 0; i < weights.size(); ++i) {
-      const double place = cycles * static_cast<double>(i);
-      sum += rows.col(i) * std::polar(weights(i), -turn * (place - std::floor(place)));
-    }
-    return sum;
-  };
-  // the strongest line: on a grid that none falls through, then by golden sections of more and more
-  Eigen::Index used = std::min<Eigen::Index>(count, scanned);
-  Vec weights = smooth_weights(used);
-  const Mat row = moving.row(most);
-  const auto size = [&](double cycles) { return std::abs(average(row, weights, cycles)(0)); };
-  double width = 0.5 / static_cast<double>(used), best = width, strongest = 0.0;
-  for (double cycles = width; cycles < 0.5; cycles += width) {
-    if (const double s = size(cycles); s > strongest) {
-      best = cycles;
-      strongest = s;
-    }
-  }
-  // it may be a harmonic of the circle: its parts, if their harmonics leave much less
-  double whole = 0.0;
-  for (Eigen::Index i = 0; i < used; ++i) whole += weights(i) * moving.col(i).squaredNorm();
-  const auto left = [&](double cycles) {
-    double energy = whole;
-    for (int k = 1; k <= tested; ++k) {
-      energy -= 2.0 * average(moving, weights, k * cycles).squaredNorm();
-    }
-    return std::abs(energy);
-  };
-  const auto sharpened = [&](double line, int part) {  // line: of harmonic `part`
-    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-    double low = line - width, high = line + width;
-    for (int i = 0; i < 50; ++i) {
-      const double a = high - golden * (high - low), b = low + golden * (high - low);
-      const bool is_left = size(part * a) > size(part * b);
-      (is_left ? high : low) = is_left ? b : a;
-    }
-    return 0.5 * (low + high);
-  };
-  best = sharpened(best, 1);
-  int part = 1;
-  double least = left(best);
-  const double strongest_line = best;
-  for (int k = 2; k <= parts && least > all_told * whole; ++k) {
-    for (int turns = 0; turns < k; ++turns) {
-      const double cycles = (strongest_line + turns) / k, energy = left(cycles);
-      if (energy > much_less * least) continue;
-      best = cycles;
-      part = k;
-      least = energy;
-    }
-  }
-  for (;;) {
-    best = sharpened(best, part);
-    if (used == count) break;
-    used = std::min(2 * used, count);
-    width = 0.5 / static_cast<double>(used);
-    weights = smooth_weights(used);
+  // among more and more sections, as lines are sharper there
+  Lines lines(moving, most, std::min<Eigen::Index>(count, scanned));
+  auto [best, part] = own_line(lines, lines.sharpened(lines.strongest(), 1));
+  for (;; lines.use(std::min(2 * lines.used(), count))) {
+    best = lines.sharpened(best, part);
+    if (lines.used() == count) break;
   }
   InvariantCircle circle{.rotation = best, .period = period};
   const Eigen::Index N = 2 * harmonics + 1;
   circle.points = scale.cwiseProduct(mean).replicate(1, N);
   for (int k = 1; k <= harmonics; ++k) {
-    const CVec c = average(moving, weights, k * circle.rotation);
+    const CVec c = lines(k * circle.rotation);
     for (Eigen::Index j = 0; j < N; ++j) {
       const double angle = turn * static_cast<double>(k * j % N) / static_cast<double>(N);
       circle.points.col(j) += scale.cwiseProduct((2.0 * c * std::polar(1.0, angle)).real());
@@ -300,31 +331,26 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
       }
     }
     circle.points = points;
-    Vec x = circle_unknowns(circle, scale);
-    double before = std::numeric_limits<double>::infinity();
-    for (int step = 0;; ++step) {
-      const Turned there = turned(flow, scale, x, options.period, coordinate, Tangents::yes, 1.0);
-      const BranchEquations::Value& at = there.value;
-      circle = circle_of(x, scale, options.period);
-      circle.coordinate = coordinate;
-      circle.failure = at.failure;
-      if (at.residual.size() == 0) return circle;
-      circle.residual = at.residual.lpNorm<Eigen::Infinity>();
-      if (has_converged(circle.residual, before)) {
-        std::tie(circle.exponents, circle.along) =
-            across(exponents_of(there.tangents, circle.rotation));
-        break;
-      }
-      const auto correction = newton_step(at.jacobian, at.residual);
-      if (!correction || step == options.most_steps || circle.residual > 1e3 * before) {
-        circle.failure =
-            fmt::format("no circle: after {} steps of Newton's method the residual is {:.1e}", step,
-                        circle.residual);
-        return circle;
-      }
-      before = circle.residual;
-      x -= *correction;
+    const auto at_unknowns = [&](const Vec& x) {
+      return turned(flow, scale, x, options.period, coordinate, Tangents::yes, 1.0);
+    };
+    Turned at = at_unknowns(circle_unknowns(circle, scale));
+    const NewtonSearch search = newton(
+        at, [](const Turned& t) { return newton_step(t.value.jacobian, t.value.residual); },
+        [&](const Turned& t, const Vec& step) { return at_unknowns(t.x - step); },
+        {.most_steps = options.most_steps, .largest_growth = 1e3});
+    if (search.end == NewtonEnd::undefined) {
+      circle.failure = at.value.failure;
+      return circle;
     }
+    circle = circle_of(at.x, scale, options.period);
+    circle.coordinate = coordinate;
+    circle.residual = at.residual;
+    if (!search.has_converged()) {
+      circle.failure = search.failure("no circle", "its equations are singular");
+      return circle;
+    }
+    std::tie(circle.exponents, circle.along) = across(exponents_of(at.tangents, circle.rotation));
     if (circle.tail < options.smooth || 2 * K > options.most_harmonics) {
       if (circle.tail > broken) {
         circle.failure = fmt::format(
