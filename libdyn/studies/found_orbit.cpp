@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "libbase/error.hpp"
-#include "libdyn/orbits/cycle.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
+#include "libdyn/orbits/hill.hpp"
 
 namespace whirl {
 
@@ -11,7 +16,89 @@ namespace {
 
 constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
 
+FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
+  const Flow flow = flow_of(scene.contacts);
+  PeriodicOrbit orbit = find_orbit(flow, start, {.period = period});
+  FoundOrbit found{.period = period, .shortest_period = period};
+  found.residual = orbit.residual;
+  found.steps = std::max(1L, std::ssize(orbit.residuals)) - 1;
+  found.states = orbit.states;
+  found.multipliers = orbit.multipliers;
+  found.contacts = orbit.contacts;
+  found.failure = orbit.failure;
+  if (!orbit.is_good()) return found;
+  found.shortest_period = shortest_period(orbit, flow.scale);
+  found.exponents = orbit.exponents();
+  found.is_stable = orbit.is_stable();
+  found.modes = modes_of_multipliers(scene, orbit);
+  return found;
+}
+
+ShootingGap gap_of(const Scene& scene, const FoundOrbit& orbit) {
+  const ContactSystem& system = scene.contacts;
+  const auto n = system.coordinates();
+  const PeriodicOrbit shot = find_orbit(flow_of(system), orbit.states, {.period = orbit.period});
+  ShootingGap found{.residual = shot.residual, .failure = shot.failure};
+  if (!shot.is_good()) return found;
+  for (std::size_t i = 0; i < orbit.states.size(); ++i) {
+    const Vec gap =
+        (orbit.states[i] - shot.states[i]).cwiseQuotient(system.state_scale()).cwiseAbs();
+    found.displacement = std::max(found.displacement, gap.head(n).maxCoeff());
+    found.velocity = std::max(found.velocity, gap.tail(n).maxCoeff());
+  }
+  for (const Complex& m : orbit.multipliers) {
+    const Vec gap = (shot.multipliers.array() - m).abs();
+    found.multiplier = std::max(found.multiplier, gap.minCoeff());
+  }
+  return found;
+}
+
+/// Amplitudes of all points.
+void add_amplitudes(const Scene& scene, const HarmonicOrbit& orbit, OrbitSeries& series) {
+  const Mat full = scene.displacement_map() * orbit.motion.coefficients;
+  series.orders.resize(orbit.harmonics() + 1);
+  series.amplitudes.resize(full.rows(), series.orders.size());
+  series.orders(0) = 0.0;
+  series.amplitudes.col(0) = full.col(0).cast<Complex>();
+  for (Eigen::Index k = 1; k < series.orders.size(); ++k) {
+    series.orders(k) = static_cast<double>(k) / orbit.motion.period;
+    series.amplitudes.col(k) = full.col(2 * k - 1) - Complex(0.0, 1.0) * full.col(2 * k);
+  }
+}
+
+FoundOrbit find_by_harmonic_balance(const Scene& scene, const Vec& start,
+                                    const OrbitOptions& options) {
+  const ContactOrbit at = find_harmonic_orbit(
+      scene.contacts, start, {.period = options.period, .harmonics = options.harmonics});
+  const HarmonicOrbit& orbit = at.orbit;
+  FoundOrbit found{.period = options.period, .shortest_period = options.period};
+  found.residual = orbit.residual;
+  found.failure = orbit.failure;
+  for (const HarmonicOrbit::Level& level : orbit.levels) found.steps += level.steps;
+  for (int i = 0; i < options.period; ++i) found.states.push_back(orbit.state(i));
+  found.series = OrbitSeries{
+      .harmonics = orbit.harmonics(), .truncation = orbit.truncation, .levels = orbit.levels};
+  if (!orbit.is_good()) return found;
+  found.contacts = at.contacts;
+  found.shortest_period = shortest_period(orbit);
+  const HillStability hill = hill_stability(harmonic_problem(scene.contacts), orbit);
+  found.multipliers = hill.multipliers;
+  found.exponents = hill.exponents;
+  found.is_stable = hill.is_stable();
+  found.series->missing_multipliers = hill.missing;
+  found.series->averaged_multipliers = hill.averaged;
+  found.series->stability_failure = hill.failure;
+  add_amplitudes(scene, orbit, *found.series);
+  if (options.is_verified) found.series->gap = gap_of(scene, found);
+  return found;
+}
+
 }  // namespace
+
+FoundOrbit find_orbit_near(const Scene& scene, const Vec& start, const OrbitOptions& options) {
+  return options.method == OrbitMethod::shooting ? find_by_shooting(scene, start, options.period)
+                                                 : find_by_harmonic_balance(scene, start, options);
+}
 
 double guessed_period(const Scene& scene, const Vec& start) {
   const auto guess = recurrence(scene, start, most_recurrence);
@@ -20,6 +107,10 @@ double guessed_period(const Scene& scene, const Vec& start) {
       fmt::format("the motion does not come back within {} revolutions as seen from the rotor, or "
                   "stands still there",
                   most_recurrence));
+}
+
+Cycle find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& start) {
+  return shorten(flow, find_cycle(flow, start, guessed_period(scene, start)));
 }
 
 }  // namespace whirl

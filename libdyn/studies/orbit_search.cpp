@@ -1,0 +1,68 @@
+#include "libdyn/studies/orbit_search.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/studies/basins.hpp"
+#include "libdyn/taylor/batch.hpp"
+
+namespace whirl {
+
+namespace {
+
+constexpr double same_state = 1e-6;       ///< at phase 0, in scales
+constexpr double start_tolerance = 1e-8;  ///< of a step, on the way to a start of Newton's method
+
+/// Whether two orbits are one, begun at any revolution of their period.
+bool is_same(const PeriodicOrbit& a, const PeriodicOrbit& b, const Vec& scale) {
+  return std::any_of(b.states.begin(), b.states.end(), [&](const Vec& y) {
+    return (y - a.states[0]).cwiseQuotient(scale).lpNorm<Eigen::Infinity>() < same_state;
+  });
+}
+
+/// The orbit near a random start; nothing: there is none.
+std::optional<PeriodicOrbit> orbit_near(const Scene& scene, const Flow& flow,
+                                        const MotionState& start,
+                                        const OrbitSearchOptions& options) {
+  Trajectory t{.system = &scene.contacts, .state = start, .revolutions = options.discard};
+  if (options.discard > 0) integrate_single(t, {.tolerance = start_tolerance});
+  if (t.outcome != Outcome::reached_end) return std::nullopt;
+  PeriodicOrbit orbit = find_orbit(flow, t.state.y, {.period = options.period});
+  if (!orbit.is_good()) return std::nullopt;
+  return orbit;
+}
+
+}  // namespace
+
+OrbitSearch search_orbits(const Scene& scene, const MotionState& around,
+                          const OrbitSearchOptions& options, const Monitor<OrbitSearch>& monitor) {
+  const Flow flow = flow_of(scene.contacts);
+  OrbitSearch search;
+  std::vector<SearchedOrbit>& all = search.orbits;
+  for (; search.done < options.starts && !monitor.stops(); ++search.done) {
+    monitor.show(search.done, options.starts);
+    const MotionState start = random_start(scene.contacts, around, options.size, options.seed,
+                                           static_cast<std::uint64_t>(search.done));
+    auto orbit = orbit_near(scene, flow, start, options);
+    if (!orbit) {
+      ++search.failed;
+      continue;
+    }
+    const auto known = std::find_if(all.begin(), all.end(), [&](const SearchedOrbit& s) {
+      return is_same(*orbit, s.orbit, flow.scale);
+    });
+    if (known != all.end()) {
+      ++known->starts;
+    } else {
+      const int shortest = shortest_period(*orbit, flow.scale);
+      all.push_back({std::move(*orbit), shortest, 1});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const SearchedOrbit& a, const SearchedOrbit& b) {
+    return std::pair(a.orbit.is_stable(), a.starts) > std::pair(b.orbit.is_stable(), b.starts);
+  });
+  return search;
+}
+
+}  // namespace whirl

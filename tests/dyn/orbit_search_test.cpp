@@ -1,0 +1,74 @@
+// Orbits near random starts, and the same orbit by two methods.
+
+#include "libdyn/studies/orbit_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include "libdyn/motions/start.hpp"
+#include "libdyn/studies/found_orbit.hpp"
+#include "libdyn/taylor/batch.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace whirl::orbit_search_test {
+
+// At 138.4 rad/s, 64 MN/m and friction 0.11 orbits of one revolution coexist, all of them unstable.
+TEST(OrbitSearch, FindsUnstableOrbitsOnce) {
+  const test::RotorStator rotor{.Omega = 138.4, .kC = 64e6, .mu = 0.11};
+  const Scene scene = rotor.scene();
+  const MotionState around = start_state(rotor.model(), scene, nullptr);
+  const OrbitSearchOptions options{.starts = 40, .size = 1.0};
+  const OrbitSearch all = search_orbits(scene, around, options, {});
+  EXPECT_EQ(all.done, 40);
+  EXPECT_GE(all.orbits.size(), 3u);
+  long starts = all.failed;
+  for (const SearchedOrbit& s : all.orbits) {
+    EXPECT_FALSE(s.orbit.is_stable());
+    EXPECT_EQ(s.shortest_period, 1);
+    starts += s.starts;
+    for (const SearchedOrbit& other : all.orbits) {
+      if (&other == &s) continue;
+      EXPECT_GT((other.orbit.states[0] - s.orbit.states[0]).norm(), 1e-6);
+    }
+  }
+  EXPECT_EQ(starts, all.done);
+  for (std::size_t i = 1; i < all.orbits.size(); ++i) {
+    EXPECT_LE(all.orbits[i].starts, all.orbits[i - 1].starts);
+  }
+  // stopped it has what the first starts led to
+  long asked = 0;
+  const OrbitSearch part =
+      search_orbits(scene, around, options, {.is_stopped = [&] { return asked++ >= 5; }});
+  EXPECT_EQ(part.done, 5);
+}
+
+// In permanent contact the forces are smooth: both methods find one orbit, with its multipliers.
+TEST(FoundOrbit, IsTheSameByBothMethods) {
+  const Scene scene = test::P3.scene();
+  Trajectory motion{.system = &scene.contacts,
+                    .state = start_state(test::P3.model(), scene, nullptr),
+                    .revolutions = 300};
+  integrate_single(motion, {});
+  const FoundOrbit shot = find_orbit_near(scene, motion.state.y, {});
+  ASSERT_TRUE(shot.is_good()) << shot.failure;
+  EXPECT_FALSE(shot.series);
+  const FoundOrbit series = find_orbit_near(
+      scene, motion.state.y, {.method = OrbitMethod::harmonic_balance, .is_verified = true});
+  ASSERT_TRUE(series.is_good()) << series.failure;
+  ASSERT_TRUE(series.series && series.series->gap);
+  EXPECT_EQ(series.is_stable, shot.is_stable);
+  const ShootingGap& gap = *series.series->gap;
+  EXPECT_TRUE(gap.failure.empty()) << gap.failure;
+  constexpr double truncated = 1e-5;  // tolerance of the series [length scales]
+  EXPECT_LT(gap.displacement, truncated);
+  EXPECT_LT(gap.multiplier, 1e-3);
+  EXPECT_LT((series.states[0] - shot.states[0])
+                .cwiseQuotient(scene.contacts.state_scale())
+                .head(scene.contacts.coordinates())
+                .lpNorm<Eigen::Infinity>(),
+            truncated);
+  // the amplitude of all points at order 1 is that of the states' displacements but for sag and rest
+  EXPECT_EQ(series.series->orders(1), 1.0);
+  EXPECT_EQ(series.series->amplitudes.rows(), scene.displacement_map().rows());
+}
+
+}  // namespace whirl::orbit_search_test
