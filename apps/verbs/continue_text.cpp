@@ -4,13 +4,15 @@
 
 #include <algorithm>
 
+#include "apps/verbs/common.hpp"
+#include "apps/verbs/notes.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl {
 
 namespace {
 
-std::string named(const ParameterAxis& axis) {
+std::string axis_label(const ParameterAxis& axis) {
   return axis.path + (axis.unit.empty() ? "" : " [" + axis.unit + "]");
 }
 
@@ -49,7 +51,7 @@ std::string period_text(const Branch& branch, const BranchLayout& layout) {
 }
 
 std::string bifurcations_table(const Branch& branch, const ParameterAxis& axis) {
-  Table table({"bifurcation", named(axis), "after point", "multiplier"});
+  Table table({"bifurcation", axis_label(axis), "after point", "multiplier"});
   for (const Bifurcation& x : branch.bifurcations) {
     const bool is_grazing = x.kind == BifurcationKind::grazing;
     table.row({std::string(name_of(x.kind)) + (is_grazing ? " of " + x.contact : ""),
@@ -60,8 +62,6 @@ std::string bifurcations_table(const Branch& branch, const ParameterAxis& axis) 
   }
   return table.text();
 }
-
-}  // namespace
 
 Record branches_record(const BranchTree& tree) {
   Record list = Record::array();
@@ -147,8 +147,8 @@ std::string branches_text(const BranchTree& tree, const ParameterAxis& axis) {
 
 std::string curves_text(const BifurcationCurves& curves, const CurveAxes& axes) {
   if (curves.curves.empty()) return "\n  no border: there is no bifurcation to follow\n";
-  Table table(
-      {"border", "of branch", "points", named(axes.first), "at " + named(axes.second), "it ends"});
+  Table table({"border", "of branch", "points", axis_label(axes.first),
+               "at " + axis_label(axes.second), "it ends"});
   const auto first = [&](const BranchPoint& p) { return first_value(axes.along, p); };
   for (const BifurcationCurve& c : curves.curves) {
     const auto &begin = c.branch.points.front(), &end = c.branch.points.back();
@@ -158,6 +158,41 @@ std::string curves_text(const BifurcationCurves& curves, const CurveAxes& axes) 
                fmt::format("{:.6g} to {:.6g}", begin.value, end.value), c.branch.end_text()});
   }
   return "\n  borders in the plane of both parameters\n\n" + table.text();
+}
+
+}  // namespace
+
+Report continue_report(const Invocation& call, const Model& model, const ContinueCall& asked,
+                       const FollowedBranches& found) {
+  const BranchTree& tree = found.tree;
+  const ParameterAxis& axis = asked.parameters.along.axis;
+  Report report{.record = begin_record(call, model), .status = found.status};
+  note_tables(call, model, report);
+  Record& r = report.record;
+  r.set("parameter", axis.path).set("unit", axis.unit).set("method", call.text("method"));
+  const bool is_series = asked.tree.method == OrbitMethod::harmonic_balance;
+  if (is_series) r.set("harmonics", tree.layout.harmonics);
+  r.set("branches", branches_record(tree)).set("points", points_record(tree));
+  r.set("bifurcations", bifurcations_record(tree)).set("resumed", found.resumed);
+  report.text =
+      "Periodic orbits along " + axis.path + (model.title.empty() ? "" : ": " + model.title) + "\n";
+  if (is_series) {
+    report.text += fmt::format("  by harmonic balance with {} harmonics\n", tree.layout.harmonics);
+  }
+  report.text += branches_text(tree, axis);
+  if (asked.parameters.across) {
+    r.set("borders", curves_record(found.curves, asked.tree.along));
+    report.text += curves_text(found.curves, asked.curve_axes());
+  }
+  if (found.resumed > 0) {
+    report.text += fmt::format("\n  {} points were there already\n", found.resumed);
+  }
+  if (found.status == 130) {
+    report.text +=
+        fmt::format("\n  stopped{}\n", call.has("out") ? "; the same line goes on from there" : "");
+  }
+  if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+  return report;
 }
 
 }  // namespace whirl

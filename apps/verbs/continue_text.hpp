@@ -1,24 +1,12 @@
 #pragma once
 /// What `whirl continue` says.
 
-#include <string>
-
-#include "libdyn/studies/branch_tree.hpp"
-#include "libio/results/curve_results.hpp"
-#include "libio/text/parameter_axis.hpp"
-#include "libio/text/record.hpp"
+#include "apps/verbs/continue_call.hpp"
 
 namespace whirl {
 
-/// Entries `branches`, `points`, `bifurcations` of JSON.
-Record branches_record(const BranchTree& tree);
-Record points_record(const BranchTree& tree);
-Record bifurcations_record(const BranchTree& tree);
-/// Entry `borders`.
-Record curves_record(const BifurcationCurves& curves, const ParameterRange& along);
-
-/// The same for people.
-std::string branches_text(const BranchTree& tree, const ParameterAxis& axis);
-std::string curves_text(const BifurcationCurves& curves, const CurveAxes& axes);
+/// All of it, as JSON and for people.
+Report continue_report(const Invocation& call, const Model& model, const ContinueCall& asked,
+                       const FollowedBranches& found);
 
 }  // namespace whirl

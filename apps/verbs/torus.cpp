@@ -1,9 +1,6 @@
-#include <fmt/format.h>
-
 #include "apps/invocation.hpp"
 #include "apps/progress.hpp"
 #include "apps/verb.hpp"
-#include "apps/verbs/branch_parameters.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"
@@ -11,7 +8,6 @@
 #include "apps/verbs/simulation.hpp"
 #include "apps/verbs/study_file.hpp"
 #include "apps/verbs/torus_text.hpp"
-#include "libbase/error.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libio/results/torus_results.hpp"
 
@@ -19,43 +15,8 @@ namespace whirl {
 
 namespace {
 
-/// What a call asks for.
-struct TorusCall {
-  std::optional<BranchParameters> parameters{};
-  TorusOptions options{};
-  Model at_first{};  ///< the model at the first value
-  std::shared_ptr<const Scene> scene{};
-
-  ParameterAxis axis() const { return parameters ? parameters->along.axis : ParameterAxis{}; }
-};
-
-TorusCall torus_call(const Invocation& call, const Model& model) {
-  TorusCall asked;
-  asked.options = {.circle = {.period = static_cast<int>(call.integer("period")),
-                              .harmonics = static_cast<int>(call.integer("harmonics"))},
-                   .sections = call.integer("revolutions", 200),
-                   .most_points = static_cast<int>(call.integer("most"))};
-  if (!call.over.empty()) {
-    asked.parameters = branch_parameters(call, model);
-    if (asked.parameters->across) throw ModelError({"--over"}, "", "found 2 of them, expected one");
-    asked.options.along = asked.parameters->along.range;
-  }
-  asked.at_first = asked.parameters ? asked.parameters->model(asked.options.along->first) : model;
-  asked.scene = std::make_shared<const Scene>(make_scene(asked.at_first));
-  return asked;
-}
-
-/// The circle where it is looked for; nothing: stopped before.
-std::optional<TorusBranch> first_circle(const Invocation& call, const TorusCall& asked) {
-  const Trajectory transient = after_transient(call, asked.at_first, *asked.scene);
-  const int status = status_of(transient.outcome);
-  if (status == 130) return std::nullopt;
-  if (status == 3) throw NumericalError(transient.diagnosis);
-  return find_torus(*asked.scene, transient.state, asked.options);
-}
-
-TorusBranch followed(const Invocation& call, const TorusCall& asked, const TorusBranch& begun,
-                     const std::function<void(const TorusBranch&)>& save) {
+TorusBranch followed_torus(const Invocation& call, const TorusCall& asked, const TorusBranch& begun,
+                           const std::function<void(const TorusBranch&)>& save) {
   install_interrupt_handler();
   Progress progress("circles", asked.options.most_points, call.shows_progress);
   const FlowAt flow_at = [&](double value) {
@@ -65,30 +26,6 @@ TorusBranch followed(const Invocation& call, const TorusCall& asked, const Torus
                       {.progress = [&](long done, long) { progress.update(done); },
                        .is_stopped = is_interrupted,
                        .save = save});
-}
-
-/// What was found, as JSON and for people.
-void say(Report& report, const Invocation& call, const Model& model, const TorusCall& asked,
-         const TorusBranch& torus, std::size_t resumed) {
-  const bool is_good = torus.circle.is_good();
-  const double speed = asked.scene->contacts.Omega();
-  Record& r = report.record;
-  add_circle(r, torus.circle, speed);
-  if (!report.failure.empty()) r.set("failure", report.failure);
-  report.text = "Quasi-periodic motion" + (model.title.empty() ? "" : ": " + model.title) + "\n\n";
-  if (is_good) report.text += circle_text(torus.circle, speed);
-  if (!torus.walks.empty()) {
-    add_walks(r, torus, asked.axis());
-    r.set("resumed", static_cast<long>(resumed));
-    report.text += walks_text(torus, asked.axis());
-    if (resumed > 0) report.text += fmt::format("\n  {} circles were there already\n", resumed);
-    if (report.status == 130 && call.has("out")) {
-      report.text += "\n  stopped; the same line goes on from there\n";
-    }
-  }
-  if (is_good && call.has("out")) {
-    report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
-  }
 }
 
 Report run_torus(const Invocation& call) {
@@ -120,17 +57,17 @@ Report run_torus(const Invocation& call) {
   const std::size_t resumed = torus.points().size();
   const bool is_begun = torus.circle.points.size() > 0;
   if (!is_begun) {
-    const auto found = first_circle(call, asked);
-    if (!found) {
+    const auto state = settled_state(call, asked.at_first, *asked.scene);
+    if (!state) {
       report.failure = "stopped in the transient";
       report.status = 130;
       return report;
     }
-    torus = *found;
+    torus = find_torus(*asked.scene, *state, asked.options);
   }
   if (torus.circle.is_good()) {
     if (!is_begun) file.save();
-    torus = followed(call, asked, torus, [&](const TorusBranch& so_far) {
+    torus = followed_torus(call, asked, torus, [&](const TorusBranch& so_far) {
       known = &so_far;
       file.save();
     });
@@ -141,7 +78,7 @@ Report run_torus(const Invocation& call) {
     report.status = 3;
   }
 
-  say(report, call, model, asked, torus, resumed);
+  say_torus(report, call, model, asked, torus, resumed);
   return report;
 }
 

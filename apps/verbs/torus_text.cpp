@@ -38,15 +38,6 @@ long harmonics_in(const InvariantCircle& circle) {
   return static_cast<long>((circle.points.cols() - 1) / 2);
 }
 
-}  // namespace
-
-std::string failure_text(const TorusBranch& torus) {
-  const auto [p, q] = nearest_ratio(torus.motion_rotation);
-  return fmt::format("{}; the motion turns by {:.9f} of the circle, {}/{} and {:+.1e}",
-                     torus.circle.failure, torus.motion_rotation, p, q,
-                     torus.motion_rotation - double(p) / q);
-}
-
 void add_circle(Record& record, const InvariantCircle& circle, double speed) {
   const int period = circle.period;
   Record exponents = Record::array();
@@ -99,6 +90,38 @@ std::string walks_text(const TorusBranch& torus, const ParameterAxis& axis) {
   std::string text = "\n" + table.text();
   for (const CircleWalk& walk : torus.walks) text += "  it ends: " + end_text(walk) + "\n";
   return text;
+}
+
+}  // namespace
+
+std::string failure_text(const TorusBranch& torus) {
+  const auto [p, q] = nearest_ratio(torus.motion_rotation);
+  return fmt::format("{}; the motion turns by {:.9f} of the circle, {}/{} and {:+.1e}",
+                     torus.circle.failure, torus.motion_rotation, p, q,
+                     torus.motion_rotation - double(p) / q);
+}
+
+void say_torus(Report& report, const Invocation& call, const Model& model, const TorusCall& asked,
+               const TorusBranch& torus, std::size_t resumed) {
+  const bool is_good = torus.circle.is_good();
+  const double speed = asked.scene->contacts.Omega();
+  Record& r = report.record;
+  add_circle(r, torus.circle, speed);
+  if (!report.failure.empty()) r.set("failure", report.failure);
+  report.text = "Quasi-periodic motion" + (model.title.empty() ? "" : ": " + model.title) + "\n\n";
+  if (is_good) report.text += circle_text(torus.circle, speed);
+  if (!torus.walks.empty()) {
+    add_walks(r, torus, asked.axis());
+    r.set("resumed", static_cast<long>(resumed));
+    report.text += walks_text(torus, asked.axis());
+    if (resumed > 0) report.text += fmt::format("\n  {} circles were there already\n", resumed);
+    if (report.status == 130 && call.has("out")) {
+      report.text += "\n  stopped; the same line goes on from there\n";
+    }
+  }
+  if (is_good && call.has("out")) {
+    report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+  }
 }
 
 }  // namespace whirl

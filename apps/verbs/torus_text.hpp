@@ -3,22 +3,16 @@
 
 #include <string>
 
-#include "libdyn/studies/torus_branch.hpp"
-#include "libio/text/parameter_axis.hpp"
-#include "libio/text/record.hpp"
+#include "apps/verbs/torus_call.hpp"
 
 namespace whirl {
 
 /// Why there is no circle, and the ratio near which the motion turns.
 std::string failure_text(const TorusBranch& torus);
 
-/// Entries of the circle, and of those along a parameter.
-/// @param speed  at the first value [rad/s]
-void add_circle(Record& record, const InvariantCircle& circle, double speed);
-void add_walks(Record& record, const TorusBranch& torus, const ParameterAxis& axis);
-
-/// The same for people.
-std::string circle_text(const InvariantCircle& circle, double speed);
-std::string walks_text(const TorusBranch& torus, const ParameterAxis& axis);
+/// What was found, as JSON and for people.
+/// @param resumed  circles that an earlier run had found
+void say_torus(Report& report, const Invocation& call, const Model& model, const TorusCall& asked,
+               const TorusBranch& torus, std::size_t resumed);
 
 }  // namespace whirl

@@ -19,7 +19,7 @@ std::string branch_path(const char* name) {
 }
 
 /// A point of a tree, or a bifurcation.
-struct PointRow {
+struct TreePoint {
   int number;  ///< of its branch, from 1
   const TracedBranch* of;
   std::size_t i;  ///< on its branch
@@ -27,13 +27,13 @@ struct PointRow {
   const BranchPoint& point() const { return of->branch.points[i]; }
   const OrbitMeasure& measure() const { return of->measures[i]; }
 };
-struct BifurcationRow {
+struct TreeBifurcation {
   int number;  ///< of its branch, from 1
   const Bifurcation* at;
 };
 
-std::vector<PointRow> points_of(const BranchTree& tree) {
-  std::vector<PointRow> rows;
+std::vector<TreePoint> points_of(const BranchTree& tree) {
+  std::vector<TreePoint> rows;
   int number = 0;
   for (const TracedBranch& b : tree.branches) {
     ++number;
@@ -42,8 +42,8 @@ std::vector<PointRow> points_of(const BranchTree& tree) {
   return rows;
 }
 
-std::vector<BifurcationRow> bifurcations_of(const BranchTree& tree) {
-  std::vector<BifurcationRow> rows;
+std::vector<TreeBifurcation> bifurcations_of(const BranchTree& tree) {
+  std::vector<TreeBifurcation> rows;
   int number = 0;
   for (const TracedBranch& b : tree.branches) {
     ++number;
@@ -57,7 +57,7 @@ int stability_code(const BranchPoint& p) {
   return p.is_stable() ? 1 : 0;
 }
 
-void write_list(ResultWriter& file, const BranchTree& tree) {
+void write_tree_list(ResultWriter& file, const BranchTree& tree) {
   const RowDatasets rows(file, tree.branches, branch_path("number"));
   rows.numbers("branch");
   rows.one(branch_path("period"), {"", "period [revolutions]"},
@@ -70,9 +70,9 @@ void write_list(ResultWriter& file, const BranchTree& tree) {
 }
 
 /// Where the stations are once a revolution, as a sweep has it: NaN beyond the period.
-void write_sections(const RowDatasets<PointRow>& points, Eigen::Index stations) {
+void write_sections(const RowDatasets<TreePoint>& points, Eigen::Index stations) {
   Eigen::Index longest = 0;
-  for (const PointRow& r : points.rows()) {
+  for (const TreePoint& r : points.rows()) {
     longest = std::max(longest, r.measure().sections.cols());
   }
   if (longest == 0) return;
@@ -80,7 +80,7 @@ void write_sections(const RowDatasets<PointRow>& points, Eigen::Index stations) 
     points.many(
         branch_path(component == 0 ? "poincare_x" : "poincare_y"),
         {"m", component == 0 ? "x at phase 0" : "y at phase 0", {branch_path("station"), ""}},
-        {stations, longest}, [&](const PointRow& r) {
+        {stations, longest}, [&](const TreePoint& r) {
           const Mat& sections = r.measure().sections;
           std::vector<double> values;
           for (Eigen::Index s = 0; s < stations; ++s) {
@@ -93,23 +93,23 @@ void write_sections(const RowDatasets<PointRow>& points, Eigen::Index stations) 
   }
 }
 
-void write_stations(ResultWriter& file, const RowDatasets<PointRow>& points,
+void write_stations(ResultWriter& file, const RowDatasets<TreePoint>& points,
                     const std::vector<std::string>& stations) {
   if (stations.empty()) return;
   file.dataset(branch_path("station"), stations, {"", "station", {""}});
   points.many(branch_path("max_radius"),
               {"m", "largest distance from the axis", {branch_path("station")}},
-              {std::ssize(stations)}, [](const PointRow& r) { return r.measure().radii; });
+              {std::ssize(stations)}, [](const TreePoint& r) { return r.measure().radii; });
   write_sections(points, std::ssize(stations));
 }
 
-void write_contacts(ResultWriter& file, const RowDatasets<PointRow>& points,
+void write_contacts(ResultWriter& file, const RowDatasets<TreePoint>& points,
                     const BranchLayout& layout) {
   if (layout.contacts.empty()) return;
   file.dataset(branch_path("contact"), layout.contacts, {"", "contact", {""}});
   const auto put = [&](const char* name, const char* unit, const char* meaning, auto&& number) {
     points.many(branch_path(name), {unit, meaning, {branch_path("contact")}},
-                {std::ssize(layout.contacts)}, [&](const PointRow& r) {
+                {std::ssize(layout.contacts)}, [&](const TreePoint& r) {
                   std::vector<double> values;
                   for (const ContactMeasure& c : r.point().contacts) values.push_back(number(r, c));
                   return values;
@@ -117,43 +117,43 @@ void write_contacts(ResultWriter& file, const RowDatasets<PointRow>& points,
   };
   using Measure = ContactMeasure;
   put("duty", "", "share of time in touch",
-      [](const PointRow&, const Measure& c) { return c.duty; });
-  put("impacts_per_rev", "", "impacts per revolution", [&](const PointRow& r, const Measure& c) {
+      [](const TreePoint&, const Measure& c) { return c.duty; });
+  put("impacts_per_rev", "", "impacts per revolution", [&](const TreePoint& r, const Measure& c) {
     return c.impacts / layout.period(r.of->branch, r.point());
   });
   put("max_normal", "N", "largest normal force",
-      [](const PointRow&, const Measure& c) { return c.max_normal; });
+      [](const TreePoint&, const Measure& c) { return c.max_normal; });
   put("max_tangential", "N", "largest friction force",
-      [](const PointRow&, const Measure& c) { return c.max_tangential; });
+      [](const TreePoint&, const Measure& c) { return c.max_tangential; });
 }
 
 void write_points(ResultWriter& file, const BranchTree& tree, const BranchNames& names) {
   const BranchLayout& layout = tree.layout;
   const RowDatasets points(file, points_of(tree), branch_path("value"));
-  points.axis({names.unit, names.path}, [](const PointRow& r) { return r.point().value; });
+  points.axis({names.unit, names.path}, [](const TreePoint& r) { return r.point().value; });
   file.attribute(branch_group, "parameter", names.path);
   points.one(branch_path("branch"), {"", "branch of a point"},
-             [](const PointRow& r) { return r.number; });
+             [](const TreePoint& r) { return r.number; });
   points.one(branch_path("stable"), {"", "1 stable, 0 unstable, -1 not known"},
-             [](const PointRow& r) { return stability_code(r.point()); });
+             [](const TreePoint& r) { return stability_code(r.point()); });
   points.one(branch_path("revolutions"), {"", "period [revolutions]"},
-             [&](const PointRow& r) { return layout.period(r.of->branch, r.point()); });
+             [&](const TreePoint& r) { return layout.period(r.of->branch, r.point()); });
   points.one(branch_path("work"), {"J", "work of the unbalance per revolution"},
-             [](const PointRow& r) { return r.measure().work; });
+             [](const TreePoint& r) { return r.measure().work; });
   points.one(branch_path("residual"), {"", "residual of the orbit [length scales]"},
-             [](const PointRow& r) { return r.point().residual; });
+             [](const TreePoint& r) { return r.point().residual; });
   points.many(branch_path("state"),
               {"", "reduced state at phase 0, in the basis of the first value", {""}},
-              {layout.states}, [](const PointRow& r) { return r.of->starts[r.i]; });
+              {layout.states}, [](const TreePoint& r) { return r.of->starts[r.i]; });
   points.complex(branch_path("multiplier"),
                  {"", "Floquet multipliers of the period, the largest first", {""}}, layout.states,
-                 [](const PointRow& r) { return r.point().multipliers; });
+                 [](const TreePoint& r) { return r.point().multipliers; });
   write_stations(file, points, names.stations);
   write_contacts(file, points, layout);
 }
 
 void write_bifurcations(ResultWriter& file, const BranchTree& tree, const BranchNames& names) {
-  using Row = BifurcationRow;
+  using Row = TreeBifurcation;
   const RowDatasets rows(file, bifurcations_of(tree), branch_path("bifurcation"));
   if (rows.rows().empty()) return;
   rows.axis({names.unit, names.path}, [](const Row& r) { return r.at->at.value; });
@@ -174,7 +174,7 @@ void write_bifurcations(ResultWriter& file, const BranchTree& tree, const Branch
 }  // namespace
 
 void write_branches(ResultWriter& file, const BranchTree& tree, const BranchNames& names) {
-  write_list(file, tree);
+  write_tree_list(file, tree);
   write_points(file, tree, names);
   write_bifurcations(file, tree, names);
   write_branch_walk(file, branch_group, tree.branches);

@@ -104,7 +104,7 @@ std::vector<Traced> ended_branches(const ResultReader& file, const std::string& 
 
 /// Contacts of the bifurcations, which are texts.
 template <class Traced>
-void read_contacts(const ResultReader& file, const std::string& group,
+void name_contacts(const ResultReader& file, const std::string& group,
                    std::vector<Traced>& branches) {
   std::vector<std::string> grazing;
   if (file.has(group + "/bifurcation_contact")) {
@@ -149,7 +149,7 @@ std::vector<TracedBranch> read_branch_walk(const ResultReader& file, const std::
     points.check(b.measures);
   }
   walk.finish();
-  read_contacts(file, group, branches);
+  name_contacts(file, group, branches);
   return branches;
 }
 
@@ -165,7 +165,7 @@ std::vector<BifurcationCurve> read_curve_walk(const ResultReader& file, const st
     curves[i].contact = contacts.at(i);
   }
   walk.finish();
-  read_contacts(file, group, curves);
+  name_contacts(file, group, curves);
   return curves;
 }
 
