@@ -101,7 +101,7 @@ std::string heading(const ResultReader& file, const std::string& path, const std
 }
 
 /// A dimension of a dataset.
-struct Dimension {
+struct TableDimension {
   std::string axis;  ///< path; empty: none
   Index size = 0, stride = 1;
 };
@@ -116,14 +116,14 @@ struct TableColumn {
 
 struct CsvTable {
   std::string name;
-  std::vector<Dimension> rows;
+  std::vector<TableDimension> rows;
   std::vector<TableColumn> columns;
 };
 
 /// Splits the dimensions of a dataset into those along rows and those along columns.
-void split(const ResultReader& file, const std::vector<Dimension>& all,
-           std::vector<Dimension>& rows, std::vector<Dimension>& columns) {
-  for (const Dimension& d : all) {
+void split(const ResultReader& file, const std::vector<TableDimension>& all,
+           std::vector<TableDimension>& rows, std::vector<TableDimension>& columns) {
+  for (const TableDimension& d : all) {
     const bool is_row =
         d.axis.empty() ? d.size > most_columns : file.kind(d.axis) == ObjectKind::real;
     (is_row ? rows : columns).push_back(d);
@@ -134,7 +134,7 @@ void split(const ResultReader& file, const std::vector<Dimension>& all,
 }
 
 void add_columns(const ResultReader& file, const std::string& path,
-                 const std::vector<Dimension>& across, const std::vector<Dimension>& rows,
+                 const std::vector<TableDimension>& across, const std::vector<TableDimension>& rows,
                  CsvTable& table) {
   std::vector<std::pair<std::string, std::shared_ptr<const std::vector<std::string>>>> parts;
   const auto part = [&](const std::string& name, std::vector<std::string> values) {
@@ -148,11 +148,11 @@ void add_columns(const ResultReader& file, const std::string& path,
     part("", read_texts(file, path));
   }
   std::vector<Index> strides;
-  for (const Dimension& d : rows) strides.push_back(d.stride);
+  for (const TableDimension& d : rows) strides.push_back(d.stride);
 
   // every combination of what stands along the columns
   std::vector<std::pair<std::string, Index>> places{{"", 0}};
-  for (const Dimension& d : across) {
+  for (const TableDimension& d : across) {
     std::vector<std::string> labels;
     if (!d.axis.empty()) {
       labels = file.kind(d.axis) == ObjectKind::text ? file.strings(d.axis)
@@ -182,7 +182,7 @@ std::string csv_of(const ResultReader& file, const CsvTable& table,
   std::vector<std::vector<std::string>> along;  // values of the rows' axes
   Index count = 1;
   std::vector<Index> first, last;
-  for (const Dimension& d : table.rows) {
+  for (const TableDimension& d : table.rows) {
     const bool is_cut = samples && d.axis == "/trajectory/time";
     first.push_back(is_cut ? samples->first : 0);
     last.push_back(is_cut ? samples->last : d.size - 1);
@@ -249,7 +249,7 @@ std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::pat
     const auto shape = result.shape(path);
     if (shape.empty()) continue;
     const auto axes = real_axes(result, path);
-    std::vector<Dimension> all(shape.size()), rows, across;
+    std::vector<TableDimension> all(shape.size()), rows, across;
     Index stride = 1;
     for (std::size_t i = shape.size(); i-- > 0;) {
       all[i] = {axes[i], shape[i], stride};
@@ -257,7 +257,7 @@ std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::pat
     }
     split(result, all, rows, across);
     std::string key = group, name = group;
-    for (const Dimension& d : rows) {
+    for (const TableDimension& d : rows) {
       key += d.axis.empty() ? fmt::format(" #{}", d.size) : ' ' + d.axis;
       name += '_' + name_of(d.axis.empty() ? path : d.axis);
     }
