@@ -1,9 +1,7 @@
 #include <algorithm>
 
 #include "libdyn/taylor/batch.hpp"
-
-// the same instruction sets as batch.cpp
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
+#include "libdyn/taylor/instruction_sets.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libdyn/taylor/rk4.cpp"
 #include <hwy/foreach_target.h>
