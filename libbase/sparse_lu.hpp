@@ -26,4 +26,23 @@ class SparseLu {
   std::unique_ptr<Factors> factors_;
 };
 
+/// The same of complex matrices, one after the other, whose entries stand at the same places.
+class ComplexSparseLu {
+ public:
+  /// Finds the order of elimination for matrices with entries at these places.
+  explicit ComplexSparseLu(const CSparse& pattern);
+  ~ComplexSparseLu();
+  ComplexSparseLu(ComplexSparseLu&&) noexcept;
+  ComplexSparseLu& operator=(ComplexSparseLu&&) noexcept;
+
+  /// Whether A, on the pattern, has an inverse; only then solve() has an answer.
+  bool factorize(const CSparse& A);
+  /// A^-1 b
+  CVec solve(const CVec& b) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
 }  // namespace whirl

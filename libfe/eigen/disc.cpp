@@ -1,6 +1,5 @@
 #include "libfe/eigen/disc.hpp"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "libbase/dense_complex.hpp"
+#include "libbase/sparse_lu.hpp"
 
 namespace whirl {
 
@@ -28,7 +28,7 @@ constexpr double real_axis = 1e-10;  ///< |Im| of an eigenvalue that is real, ov
 /// (A - s I)^-1 of the state (q, p = q' / scale) for a complex s.
 struct ShiftedInverse {
   const CSparse &M, &D;
-  const Eigen::SparseLU<CSparse>& factor;
+  const ComplexSparseLu& factor;
   Complex s;
   double scale;
 
@@ -166,20 +166,19 @@ Look look_at(const KrylovBasis& basis) {
 /// The three matrices on one common pattern, whose order of elimination is found once.
 struct DiscSolver::State {
   CSparse M, D, K;
-  mutable Eigen::SparseLU<CSparse> factor;
+  ComplexSparseLu factor;
 };
 
-DiscSolver::DiscSolver(Sparse M, const Sparse& D, const Sparse& K)
-    : state_(std::make_unique<State>()) {
+DiscSolver::DiscSolver(Sparse M, const Sparse& D, const Sparse& K) {
   const auto on_pattern = [&](double m, double d, double k) {
     CSparse sum = (m * M + d * D + k * K).eval().cast<Complex>();
     sum.makeCompressed();
     return sum;
   };
-  state_->M = on_pattern(1.0, 0.0, 0.0);
-  state_->D = on_pattern(0.0, 1.0, 0.0);
-  state_->K = on_pattern(0.0, 0.0, 1.0);
-  state_->factor.analyzePattern(state_->K);
+  CSparse stiffness = on_pattern(0.0, 0.0, 1.0);
+  ComplexSparseLu factor(stiffness);
+  state_ = std::make_unique<State>(State{on_pattern(1.0, 0.0, 0.0), on_pattern(0.0, 1.0, 0.0),
+                                         std::move(stiffness), std::move(factor)});
 }
 
 DiscSolver::~DiscSolver() = default;
@@ -190,8 +189,7 @@ DiscModes DiscSolver::around(Complex center, double radius, int count) const {
   State& s = *state_;
   const auto n = s.M.rows();
   DiscModes disc{center, 0.0, CVec(0), CMat(n, 0)};
-  s.factor.factorize(CSparse(center * center * s.M + center * s.D + s.K));
-  if (s.factor.info() != Eigen::Success) return disc;
+  if (!s.factor.factorize(CSparse(center * center * s.M + center * s.D + s.K))) return disc;
   const double scale = std::max(std::abs(center), radius < 1e300 ? 1e-3 * radius : 0.0);
   const ShiftedInverse op{s.M, s.D, s.factor, center, scale > 0.0 ? scale : 1.0};
   KrylovBasis basis(op, 2 * n);

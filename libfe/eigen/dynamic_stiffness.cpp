@@ -1,6 +1,6 @@
 #include "libfe/eigen/dynamic_stiffness.hpp"
 
-#include <Eigen/SparseLU>
+#include "libbase/sparse_lu.hpp"
 
 namespace whirl {
 
@@ -8,7 +8,7 @@ namespace whirl {
 struct DynamicStiffness::State {
   CSparse A;
   Vec M, C, G, K;  // values of each matrix at the entries of A
-  Eigen::SparseLU<CSparse> solver;
+  ComplexSparseLu solver;
 };
 
 namespace {
@@ -22,17 +22,14 @@ Vec values_on(const Sparse& pattern, const Sparse& B) {
 }  // namespace
 
 DynamicStiffness::DynamicStiffness(const Sparse& M, const Sparse& C, const Sparse& G,
-                                   const Sparse& K)
-    : state_(std::make_unique<State>()) {
-  State& s = *state_;
+                                   const Sparse& K) {
   Sparse pattern = K + M + C + G;
   pattern.makeCompressed();
-  s.M = values_on(pattern, M);
-  s.C = values_on(pattern, C);
-  s.G = values_on(pattern, G);
-  s.K = values_on(pattern, K);
-  s.A = pattern.cast<Complex>();
-  s.solver.analyzePattern(s.A);
+  CSparse A = pattern.cast<Complex>();
+  ComplexSparseLu solver(A);
+  state_ = std::make_unique<State>(State{std::move(A), values_on(pattern, M), values_on(pattern, C),
+                                         values_on(pattern, G), values_on(pattern, K),
+                                         std::move(solver)});
 }
 
 DynamicStiffness::~DynamicStiffness() = default;
@@ -45,8 +42,7 @@ std::optional<CVec> DynamicStiffness::solve(double w, double Omega, const CVec& 
   for (Eigen::Index i = 0; i < s.K.size(); ++i) {
     value[i] = {s.K(i) - w * w * s.M(i), w * (s.C(i) + Omega * s.G(i))};
   }
-  s.solver.factorize(s.A);
-  if (s.solver.info() != Eigen::Success) return std::nullopt;
+  if (!s.solver.factorize(s.A)) return std::nullopt;
   CVec q = s.solver.solve(f);
   if (!q.allFinite()) return std::nullopt;
   return q;

@@ -1,8 +1,9 @@
 #include "libfe/eigen/refine.hpp"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
+
+#include "libbase/sparse_lu.hpp"
 
 namespace whirl {
 
@@ -46,8 +47,8 @@ bool Refinement::improve(Complex& lambda, CVec& q, double reach) const {
   for (int i = 0; i < most_steps && error > accurate; ++i) {
     const CSparse Q =
         (lambda * lambda) * M_.cast<Complex>() + lambda * D_.cast<Complex>() + K_.cast<Complex>();
-    const Eigen::SparseLU<CSparse> factor(Q);
-    if (factor.info() != Eigen::Success) break;
+    ComplexSparseLu factor(Q);
+    if (!factor.factorize(Q)) break;
     const CVec x = factor.solve(CVec(2.0 * lambda * (M_ * q) + D_ * q));
     const Complex next = lambda - q.squaredNorm() / q.dot(x);
     const double then = x.allFinite() ? backward_error(next, x) : error;
