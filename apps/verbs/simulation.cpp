@@ -319,7 +319,7 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
   if (!run.has_motion()) return;
   const Recording& r = run.simulation.recording;
   write_result(file, contact_shares(r.contacts, r.revolutions));
-  write_result(file, trajectory_of(run));
+  write_result(file, recorded_motion(run));
   if (!run.stations.empty()) write_result(file, spectra_of(run));
 }
 

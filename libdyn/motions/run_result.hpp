@@ -118,7 +118,7 @@ struct StationMotion {
 };
 
 /// A motion as it was recorded; in group /trajectory.
-struct Trajectory {
+struct RecordedMotion {
   Vec time;         ///< since the start [s]
   Mat coordinates;  ///< reduced ones x samples
   Mat basis;        ///< displacement of all points = basis * coordinates
@@ -128,26 +128,26 @@ struct Trajectory {
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
     return std::tuple{
-        column("time", &Trajectory::time, "s", "time since the start")
+        column("time", &RecordedMotion::time, "s", "time since the start")
             .axis("samples+")
             .within(valid::finite),
-        column("coordinates", &Trajectory::coordinates, "",
+        column("coordinates", &RecordedMotion::coordinates, "",
                "reduced coordinates: displacement = basis * coordinates")
             .along("reduced samples"),
-        column("basis", &Trajectory::basis, "m, rad",
+        column("basis", &RecordedMotion::basis, "m, rad",
                "displacement of the reduced coordinates: x, y, theta_x, theta_y of every node, "
                "then of every body")
             .along("full reduced"),
-        rows(&Trajectory::stations, "stations+").maybe(),
-        column("normal_force", &Trajectory::normal, "N", "normal force")
+        rows(&RecordedMotion::stations, "stations+").maybe(),
+        column("normal_force", &RecordedMotion::normal, "N", "normal force")
             .along("/contacts/name samples")
             .maybe(),
-        column("friction_force", &Trajectory::friction, "N", "friction force along the tangent")
+        column("friction_force", &RecordedMotion::friction, "N", "friction force along the tangent")
             .along("/contacts/name samples")
             .maybe()};
   }
 };
-Trajectory trajectory_of(const Run& run);
+RecordedMotion recorded_motion(const Run& run);
 
 /// Spectrum of a station.
 struct StationSpectrum {
