@@ -31,7 +31,7 @@ double share_of(std::size_t count, const BasinsResult& result) {
   return static_cast<double>(count) / static_cast<double>(ended_starts(result));
 }
 
-std::string percent(double share) {
+std::string as_percent(double share) {
   return fmt::format("{:.2f} %", 100.0 * share);
 }
 
@@ -68,14 +68,14 @@ std::string basins_table(const BasinsResult& result) {
     for (const ContactDoing& c : motion.contacts) {
       regimes += (regimes.empty() ? "" : ", ") + std::string(name_of(c.regime));
     }
-    text.row({std::string(name_of(*motion.kind)), percent(share_of(basin.count, result)),
+    text.row({std::string(name_of(*motion.kind)), as_percent(share_of(basin.count, result)),
               motion.period > 0 ? std::to_string(motion.period) : "-",
               regimes.empty() ? "-" : regimes, fmt::format("{:.4g}", motion.impacts_per_rev()),
               fmt::format("{:+.4f}", motion.largest_exponent()), std::to_string(basin.first + 1)});
     open -= basin.count;
   }
   if (open > 0) {
-    text.row({std::string(name_of(MotionKind::not_settled)), percent(share_of(open, result)), "-",
+    text.row({std::string(name_of(MotionKind::not_settled)), as_percent(share_of(open, result)), "-",
               "-", "-", "-", "-"});
   }
   return text.text();

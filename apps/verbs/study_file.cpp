@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <filesystem>
@@ -114,16 +113,9 @@ StudyFile::StudyFile(const Invocation& call, const std::optional<EarlierEnd>& st
 
 void StudyFile::save() {
   if (!has_file_) return;
-  const auto start = clock::now();
   const auto file = begin_();
   write_(*file);
   file->commit();
-  last_ = clock::now();
-  next_ = last_ + std::max<clock::duration>(least, 20 * (last_ - start));
-}
-
-void StudyFile::save_if_due() {
-  if (clock::now() >= next_) save();
 }
 
 }  // namespace whirl

@@ -1,7 +1,6 @@
 #pragma once
 /// The file of a study, which holds what is done at every moment, and from which the same line goes on.
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,25 +16,20 @@ class StudyFile {
  public:
   /// Makes a file with everything in it but what is computed.
   using Begin = std::function<std::unique_ptr<ResultWriter>()>;
+  /// @param start  where the motions begin, where that is the end of another result
   /// @param write  adds what is computed so far
   /// @param take   takes over what an earlier run has left; not called with --restart
   /// @throws FileError  if the file cannot be written or is of another study
-  /// @param start  where the motions begin, where that is the end of another result
   StudyFile(const Invocation& call, const std::optional<EarlierEnd>& start, Begin begin,
             std::function<void(ResultWriter&)> write,
             const std::function<void(const ResultReader&)>& take);
 
   void save();
-  /// Saves now and then: rarely enough that writing takes no more than a twentieth of the time.
-  void save_if_due();
 
  private:
-  using clock = std::chrono::steady_clock;
-  static constexpr std::chrono::milliseconds least{100};  ///< between two savings
   bool has_file_;
   Begin begin_;
   std::function<void(ResultWriter&)> write_;
-  clock::time_point last_ = clock::now(), next_ = last_ + least;
 };
 
 /// Where --from or the model's [start] ends, if there is one; read once, before the first point.
