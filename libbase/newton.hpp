@@ -56,8 +56,9 @@ struct NewtonSearch {
   /// Why nothing was found, of equations that are defined.
   std::string failure(std::string_view nothing, std::string_view singular) const {
     if (end == NewtonEnd::singular) return fmt::format("{}: {}", nothing, singular);
+    const double last = residuals.empty() ? 0.0 : residuals.back();
     return fmt::format("{}: after {} steps of Newton's method the residual is {:.1e}", nothing,
-                       steps(), residuals.back());
+                       steps(), last);
   }
 };
 

@@ -48,9 +48,9 @@ RunFacts run_facts(const Simulation& simulation) {
           .failure = simulation.integration.diagnosis};
 }
 
-RecordedMotion recorded_motion(const Run& run) {
+MotionRecord recorded_motion(const Run& run) {
   const Recording& r = run.simulation.recording;
-  RecordedMotion t{.coordinates = r.eta, .basis = run.scene.displacement_map()};
+  MotionRecord t{.coordinates = r.eta, .basis = run.scene.displacement_map()};
   t.time.resize(r.eta.cols());
   for (Eigen::Index j = 0; j < t.time.size(); ++j) {
     t.time(j) =

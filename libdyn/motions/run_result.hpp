@@ -118,7 +118,7 @@ struct StationMotion {
 };
 
 /// A motion as it was recorded; in group /trajectory.
-struct RecordedMotion {
+struct MotionRecord {
   Vec time;         ///< since the start [s]
   Mat coordinates;  ///< reduced ones x samples
   Mat basis;        ///< displacement of all points = basis * coordinates
@@ -128,26 +128,26 @@ struct RecordedMotion {
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
     return std::tuple{
-        column("time", &RecordedMotion::time, "s", "time since the start")
+        column("time", &MotionRecord::time, "s", "time since the start")
             .axis("samples+")
             .within(valid::finite),
-        column("coordinates", &RecordedMotion::coordinates, "",
+        column("coordinates", &MotionRecord::coordinates, "",
                "reduced coordinates: displacement = basis * coordinates")
             .along("reduced samples"),
-        column("basis", &RecordedMotion::basis, "m, rad",
+        column("basis", &MotionRecord::basis, "m, rad",
                "displacement of the reduced coordinates: x, y, theta_x, theta_y of every node, "
                "then of every body")
             .along("full reduced"),
-        rows(&RecordedMotion::stations, "stations+").maybe(),
-        column("normal_force", &RecordedMotion::normal, "N", "normal force")
+        rows(&MotionRecord::stations, "stations+").maybe(),
+        column("normal_force", &MotionRecord::normal, "N", "normal force")
             .along("/contacts/name samples")
             .maybe(),
-        column("friction_force", &RecordedMotion::friction, "N", "friction force along the tangent")
+        column("friction_force", &MotionRecord::friction, "N", "friction force along the tangent")
             .along("/contacts/name samples")
             .maybe()};
   }
 };
-RecordedMotion recorded_motion(const Run& run);
+MotionRecord recorded_motion(const Run& run);
 
 /// Spectrum of a station.
 struct StationSpectrum {

@@ -39,7 +39,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<MotionEnd>());
   add(schema_of<RunFacts>());
   add(schema_of<ContactShares>());
-  add(schema_of<RecordedMotion>());
+  add(schema_of<MotionRecord>());
   add(schema_of<StationSpectra>());
   add(schema_of<Identification>());
   add(schema_of<StaticEquilibrium>());
