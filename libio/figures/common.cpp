@@ -137,13 +137,14 @@ Curve circle(const std::string& name, double radius, double x, double y) {
   return c;
 }
 
-Curve line_across(const std::string& name, const Vec2& direction, double distance, double x,
-                  double y) {
-  constexpr double longer = 1.5;  // than the distance, to both sides
+Curve line_across(const std::string& name, const Vec2& direction, double distance, double length,
+                  const Vec2& from) {
+  const Vec2 along(-direction(1), direction(0));
   Curve c{.name = name, .paint = Paint::stator, .dash = Dash::dashed};
-  for (const double side : {-longer, longer}) {
-    c.x.push_back(x + distance * (direction(0) - side * direction(1)));
-    c.y.push_back(y + distance * (direction(1) + side * direction(0)));
+  for (const double side : {-length, length}) {
+    const Vec2 end = from + distance * direction + side * along;
+    c.x.push_back(end(0));
+    c.y.push_back(end(1));
   }
   return c;
 }

@@ -65,9 +65,9 @@ std::vector<Eigen::Index> deflection_peaks(const Mat& magnitude);
 
 /// A circle of 181 points.
 Curve circle(const std::string& name, double radius, double x = 0.0, double y = 0.0);
-/// A stretch of a line that is so far from a point in a direction.
-Curve line_across(const std::string& name, const Vec2& direction, double distance, double x = 0.0,
-                  double y = 0.0);
+/// A line across a direction, so far from a point and so long to both sides.
+Curve line_across(const std::string& name, const Vec2& direction, double distance, double length,
+                  const Vec2& from = Vec2::Zero());
 
 /// What a trajectory says beside its numbers.
 struct Motion {

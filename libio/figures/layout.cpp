@@ -109,7 +109,7 @@ std::vector<Figure> front_view(const ResultView& result) {
                        fmt::format("{} of radius {}", c.at.body, format_length(radius)));
     const auto direction = direction_of(geometry_of(c));
     const auto stator = [&](double distance) {
-      return direction ? figures::line_across("stator", *direction, mm * distance)
+      return direction ? figures::line_across("stator", *direction, mm * distance, mm * radius)
                        : figures::circle("stator", mm * distance);
     };
     Curve inner = stator(radius + gap), outer = stator(1.12 * radius + gap);

@@ -144,7 +144,7 @@ std::optional<Curve> clearance_curve(const Contact& contact, double size, double
   const std::string name = is_fixed ? "clearance" : "clearance, stator at rest";
   const double distance = factor * contact.clearance;
   const Vec2 middle = factor * contact.offset;
-  return direction ? line_across(name, *direction, distance, middle(0), middle(1))
+  return direction ? line_across(name, *direction, distance, factor * size, middle)
                    : circle(name, distance, middle(0), middle(1));
 }
 
