@@ -31,15 +31,15 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 /// What a column means: an entry of a matrix, or the speed.
-struct Column {
+struct NumberColumn {
   std::string name, unit, si_unit;
   Mat2 BearingCoefficients::*matrix = nullptr;  ///< null: the speed
   int row = 0, column = 0;
 };
 
-const std::vector<Column>& known_columns() {
-  static const std::vector<Column> columns = [] {
-    std::vector<Column> all{{"speed", "", "rad/s"}};
+const std::vector<NumberColumn>& known_columns() {
+  static const std::vector<NumberColumn> columns = [] {
+    std::vector<NumberColumn> all{{"speed", "", "rad/s"}};
     const std::tuple<const char*, const char*, Mat2 BearingCoefficients::*> groups[] = {
         {"k", "N/m", &BearingCoefficients::K},
         {"c", "N.s/m", &BearingCoefficients::C},
@@ -61,15 +61,16 @@ const std::vector<Column>& known_columns() {
 using Report = std::function<void(std::string, std::string)>;
 
 /// The columns that the first line names.
-std::vector<Column> named_columns(const std::vector<std::string>& parts, const Report& report) {
+std::vector<NumberColumn> named_columns(const std::vector<std::string>& parts,
+                                        const Report& report) {
   std::vector<std::string> names;
-  for (const Column& c : known_columns()) names.push_back(c.name);
-  std::vector<Column> columns;
+  for (const NumberColumn& c : known_columns()) names.push_back(c.name);
+  std::vector<NumberColumn> columns;
   for (const std::string& part : parts) {
     const auto bracket = part.find('[');
     const std::string name = trimmed(std::string_view(part).substr(0, bracket));
     const auto known = std::find(names.begin(), names.end(), name);
-    Column column;
+    NumberColumn column;
     if (known == names.end()) {
       const auto near = nearest(name, names);
       report(name, near ? fmt::format("unknown column, did you mean \"{}\"?", *near)
@@ -87,7 +88,7 @@ std::vector<Column> named_columns(const std::vector<std::string>& parts, const R
         report(name, fmt::format("the unit [{}] does not fit: {}", column.unit, one.problem));
       }
     }
-    const bool is_double = std::any_of(columns.begin(), columns.end(), [&](const Column& c) {
+    const bool is_double = std::any_of(columns.begin(), columns.end(), [&](const NumberColumn& c) {
       return !c.name.empty() && c.name == column.name;
     });
     if (is_double) report(name, "this column is there already");
@@ -98,7 +99,7 @@ std::vector<Column> named_columns(const std::vector<std::string>& parts, const R
 }
 
 /// Adds the row of a line.
-void add_row(CoefficientTable& table, const std::vector<Column>& columns,
+void add_row(CoefficientTable& table, const std::vector<NumberColumn>& columns,
              const std::vector<std::string>& parts, const Report& report) {
   if (parts.size() != columns.size()) {
     report("", fmt::format("found {} columns, expected {} as in the first line", parts.size(),
@@ -108,7 +109,7 @@ void add_row(CoefficientTable& table, const std::vector<Column>& columns,
   BearingCoefficients row;
   double speed = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const Column& column = columns[i];
+    const NumberColumn& column = columns[i];
     const auto value =
         parse_as(parts[i] + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
     if (!value) {
@@ -133,7 +134,7 @@ CoefficientTable parse_bearing_table(const std::string& text, const std::string&
   CoefficientTable table;
   std::istringstream lines(text);
   std::string line;
-  std::vector<Column> columns;
+  std::vector<NumberColumn> columns;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
     const Report report = [&](std::string key, std::string message) {

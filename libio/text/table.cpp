@@ -19,15 +19,15 @@ std::string times(std::string_view sign, std::size_t count) {
   return text;
 }
 
-struct Column {
+struct ShownColumn {
   std::size_t width = 0;
   bool is_number = true;
 };
 
 using Cells = std::vector<std::string>;
 
-std::vector<Column> columns_of(const Cells& head, const std::vector<Cells>& rows) {
-  std::vector<Column> columns(head.size());
+std::vector<ShownColumn> columns_of(const Cells& head, const std::vector<Cells>& rows) {
+  std::vector<ShownColumn> columns(head.size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
     columns[c].width = display_width(head[c]);
     for (const auto& cells : rows) {
@@ -45,7 +45,7 @@ std::vector<Column> columns_of(const Cells& head, const std::vector<Cells>& rows
 
 /// Some of the columns, with head and rule.
 std::string block(const Cells& head, const std::vector<Cells>& rows,
-                  const std::vector<Column>& columns, const std::vector<std::size_t>& shown) {
+                  const std::vector<ShownColumn>& columns, const std::vector<std::size_t>& shown) {
   const auto lines = [&](const std::vector<std::string>& cells) {
     std::vector<std::vector<std::string>> folded;
     std::size_t height = 1;
@@ -57,7 +57,7 @@ std::string block(const Cells& head, const std::vector<Cells>& rows,
     for (std::size_t i = 0; i < height; ++i) {
       std::string line;
       for (std::size_t k = 0; k < shown.size(); ++k) {
-        const Column& column = columns[shown[k]];
+        const ShownColumn& column = columns[shown[k]];
         const std::string cell = i < folded[k].size() ? folded[k][i] : "";
         const std::string blanks(column.width - std::min(column.width, display_width(cell)), ' ');
         line += std::string(gap, ' ') + (column.is_number ? blanks + cell : cell + blanks);
@@ -69,7 +69,7 @@ std::string block(const Cells& head, const std::vector<Cells>& rows,
   };
   std::string out = lines(head);
   std::vector<std::string> rule;
-  for (const Column& column : columns) rule.push_back(times("─", column.width));
+  for (const ShownColumn& column : columns) rule.push_back(times("─", column.width));
   out += lines(rule);
   for (const auto& cells : rows) out += lines(cells);
   return out;
@@ -82,10 +82,10 @@ std::string Table::text() const {
 }
 
 std::string table_text(const Cells& head, const std::vector<Cells>& rows, std::size_t limit) {
-  std::vector<Column> all = columns_of(head, rows);
+  std::vector<ShownColumn> all = columns_of(head, rows);
   const auto total = [&] {
     std::size_t sum = 0;
-    for (const Column& column : all) sum += gap + column.width;
+    for (const ShownColumn& column : all) sum += gap + column.width;
     return sum;
   };
   // heads of numbers are folded first
@@ -102,8 +102,8 @@ std::string table_text(const Cells& head, const std::vector<Cells>& rows, std::s
   }
   // then texts, the widest one as long as it is far wider than the others
   while (limit > 0 && total() > limit) {
-    Column* widest = nullptr;
-    for (Column& column : all) {
+    ShownColumn* widest = nullptr;
+    for (ShownColumn& column : all) {
       if (column.is_number || column.width <= narrowest) continue;
       if (!widest || column.width > widest->width) widest = &column;
     }
