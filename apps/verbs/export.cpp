@@ -47,16 +47,16 @@ ModelError unknown_format(const std::string& name) {
 }
 
 /// What an export wrote.
-struct Written {
+struct Exported {
   std::vector<fs::path> files;
   std::string text;
 };
 
 /// Series of moments for ParaView, by one of two writers.
-Written export_series(const Invocation& call, const SceneSource& source, const fs::path& stem,
-                      bool is_xdmf) {
+Exported export_series(const Invocation& call, const SceneSource& source, const fs::path& stem,
+                       bool is_xdmf) {
   const std::string ending = is_xdmf ? ".xdmf" : ".pvd";
-  Written written{{}, fmt::format("Written for ParaView (open the {} files)\n\n", ending)};
+  Exported written{{}, fmt::format("Written for ParaView (open the {} files)\n\n", ending)};
   const auto write = [&](const std::string& suffix, const std::vector<VtkFrame>& frames,
                          const std::string& what) {
     const fs::path place = stem.string() + suffix + ending;
@@ -81,21 +81,21 @@ Written export_series(const Invocation& call, const SceneSource& source, const f
   return written;
 }
 
-Written export_csv(const Invocation& call, const SceneSource& source, const fs::path& stem) {
+Exported export_csv(const Invocation& call, const SceneSource& source, const fs::path& stem) {
   if (!source.result) {
     throw ModelError({"--format csv"}, "", "a model holds no tables; take the result of a verb");
   }
   std::optional<MotionSamples> samples;
   if (source.has_motion() && window_of(call).is_given()) samples = source.samples(call, 1e9);
-  Written written{write_csv_tables(*source.result, stem, call.picture_replaces(), samples), ""};
+  Exported written{write_csv_tables(*source.result, stem, call.picture_replaces(), samples), ""};
   if (samples) written.text = fmt::format("  of the motion {}\n", samples->text);
   for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
   if (written.files.empty()) written.text = "There are no tables in this result\n";
   return written;
 }
 
-Written export_mesh(const Invocation& call, const SceneSource& source, const MeshFormat& format,
-                    const fs::path& stem) {
+Exported export_mesh(const Invocation& call, const SceneSource& source, const MeshFormat& format,
+                     const fs::path& stem) {
   std::vector<MeshField> fields;
   std::string told_fields;
   const auto add = [&](const std::string& name, const Mat& motion, const std::string& what) {
@@ -141,9 +141,9 @@ Report run_export(const Invocation& call) {
                      "are of motions, and this file holds none");
   }
   const fs::path stem = without_ending(call.text_or("out", call.file), ending);
-  const Written written = mesh            ? export_mesh(call, source, *mesh, stem)
-                          : name == "csv" ? export_csv(call, source, stem)
-                                          : export_series(call, source, stem, name == "xdmf");
+  const Exported written = mesh            ? export_mesh(call, source, *mesh, stem)
+                           : name == "csv" ? export_csv(call, source, stem)
+                                           : export_series(call, source, stem, name == "xdmf");
   Report report{.record = begin_record(call, source.model), .text = written.text};
   Record list = Record::array();
   for (const fs::path& f : written.files) list.add(f.string());
