@@ -73,11 +73,6 @@ void report_no_values(TableReader& table, const ToldKind& told) {
 
 /// Reports that a bearing is rigid and has coefficients, or neither.
 void check_kind(TableReader& table, const ToldKind& told, bool is_rigid, bool has_values) {
-  const bool is_by_file = !told.key.empty() && told.key != "kind";
-  if (is_by_file && has_any(table, keys_of_kind(AnyBearing{}))) {
-    table.problem(told.key,
-                  fmt::format("found a {} and coefficients, expected one of them", told.key));
-  }
   if (is_rigid && !told.key.empty()) {
     table.problem(told.key,
                   "a rigid bearing has no coefficients of its own; leave out the " + told.key);
@@ -147,6 +142,11 @@ void ModelBuilder::read_bearings() {
     const bool has_values = told && read_kind(table, i, c.coefficients);
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
+    const bool is_by_file = told && !told->key.empty() && told->key != "kind";
+    if (AnyBearing coefficients; is_by_file && read_kind(table, i, coefficients)) {
+      table.problem(told->key,
+                    fmt::format("found a {} and coefficients, expected one of them", told->key));
+    }
     if (told) check_kind(table, *told, c.is_rigid, has_values);
     model_.structure.bearings.push_back(c);
   });
