@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   while (walk.advance()) {
   }
   const Branch& branch = walk.branch();
-  fmt::print("{} orbits; {}\n", branch.points.size(), branch.end);
+  fmt::print("{} orbits; {}\n", branch.points.size(), branch.end_text());
   for (const Bifurcation& b : branch.bifurcations) {
     fmt::print("{} at friction {:.6f}\n", name_of(b.kind), b.at.value);
   }
