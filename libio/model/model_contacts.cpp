@@ -24,9 +24,9 @@ void for_each_member(F&& f) {
   for_each_member<List>(f, std::make_index_sequence<std::variant_size_v<List>>{});
 }
 
-/// Reads a member of a list, whose name a key gives.
+/// Reads a member of a list, whose name a key gives; returns whether there is one of that name.
 template <class List>
-void read_member(TableReader& table, std::string_view key, List& to) {
+bool read_member(TableReader& table, std::string_view key, List& to) {
   std::vector<std::string> names;
   for_each_member<List>([&](const auto& member) { names.emplace_back(member.name); });
   const auto found = table.choice(key, names);
@@ -34,7 +34,7 @@ void read_member(TableReader& table, std::string_view key, List& to) {
     for_each_member<List>([&](const auto& member) {
       std::apply([&](const auto&... field) { (table.node(field.name), ...); }, member.fields());
     });
-    return;
+    return false;
   }
   const std::string name = found.value_or(names.front());
   for_each_member<List>([&](auto member) {
@@ -42,6 +42,7 @@ void read_member(TableReader& table, std::string_view key, List& to) {
     table.read(member);
     to = member;
   });
+  return true;
 }
 /// Keys of members that were not chosen.
 template <class List>
@@ -102,8 +103,9 @@ void ModelBuilder::read_contacts() {
     table.read(contact);
     table.read(contact.friction);
     read_member(table, "law", contact.law);
-    read_member(table, "geometry", contact.geometry);
-    refuse_others(table, "geometry", contact.geometry);
+    if (read_member(table, "geometry", contact.geometry)) {
+      refuse_others(table, "geometry", contact.geometry);
+    }
     contact.offset = center(table);
     check_geometry(contact, table);
     const AnyGeometry geometry = geometry_of(contact);
