@@ -120,8 +120,10 @@ TEST_F(Branches, HaveBordersInThePlaneOfTwoParameters) {
     EXPECT_NEAR(border["points"][0][1], 64e6, 1.0);
     EXPECT_GT(border["points"].size(), 3u);
   }
-  // another point of it is where a branch at that stiffness doubles
-  const json& point = r["borders"][0]["points"].back();
+  // another point of it is where a branch at that stiffness doubles; not the last one, which is so near
+  // to the end of the range that the transient at that end hardly settles
+  const json& points = r["borders"][0]["points"];
+  const json& point = points[points.size() - 2];
   const json again =
       result({"continue", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--speed", "138.4rad/s",
               "--set", "contact.ring.stiffness=" + std::to_string(point[1].get<double>()), "--over",
