@@ -2,7 +2,6 @@
 
 #include "apps/invocation.hpp"
 #include "apps/verb.hpp"
-#include "apps/verbs/branch_point.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"

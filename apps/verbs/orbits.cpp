@@ -7,6 +7,7 @@
 #include "apps/progress.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
+#include "libio/results/result_schema.hpp"
 
 namespace whirl {
 
@@ -79,6 +80,18 @@ std::optional<MotionState> settled_state(const Invocation& call, const Model& mo
   if (transient.outcome == Outcome::stopped_by_observer) return std::nullopt;
   if (transient.outcome == Outcome::reached_end) return transient.state;
   throw NumericalError(transient.diagnosis);
+}
+
+BranchStart branch_start(const Invocation& call) {
+  const std::string option = "--point " + call.text("point");
+  if (!call.has("from")) {
+    throw ModelError({option}, "",
+                     "of which branches? give the result of whirl continue with --from");
+  }
+  const auto file = open_result(call.text("from"));
+  const long number = call.integer("point"), points = count_branch_points(*file);
+  if (number <= points) return read_branch_point(*file, number);
+  throw ModelError({option}, "", fmt::format("expected a number from 1 to {}", points));
 }
 
 }  // namespace whirl

@@ -6,6 +6,7 @@
 #include "apps/invocation.hpp"
 #include "libdyn/studies/found_orbit.hpp"
 #include "libdyn/taylor/batch.hpp"
+#include "libio/results/branch_point.hpp"
 
 namespace whirl {
 
@@ -29,6 +30,11 @@ Trajectory after_transient(const Invocation& call, const Model& model, const Sce
 /// @throws NumericalError  if the motion fails
 std::optional<MotionState> settled_state(const Invocation& call, const Model& model,
                                          const Scene& scene);
+
+/// The point number --point of the file of --from, counted over all branches from 1.
+/// @throws ModelError  if there is no such point
+/// @throws FileError   if the file holds no branches
+BranchStart branch_start(const Invocation& call);
 
 /// Orbits near random starts: --starts.
 Report search_orbits(const Invocation& call, const Model& model);

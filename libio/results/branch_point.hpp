@@ -1,13 +1,14 @@
 #pragma once
-/// A point of a branch that `continue` wrote, to begin an orbit from.
+/// A point of a branch in a result file, to begin an orbit from.
 
 #include <string>
 #include <vector>
 
-#include "apps/invocation.hpp"
 #include "libdyn/system/scene.hpp"
 
 namespace whirl {
+
+class ResultReader;
 
 /// A point of /branch of a result file.
 struct BranchStart {
@@ -17,9 +18,12 @@ struct BranchStart {
   Scene first;                    ///< scene at the first value of the branches
 };
 
-/// The point number --point of the file of --from, counted over all branches from 1.
-/// @throws ModelError  if there is no such point
-/// @throws FileError   if the file holds no branches
-BranchStart branch_start(const Invocation& call);
+/// Points of all branches.
+/// @throws FileError  if the file holds no branches
+long count_branch_points(const ResultReader& file);
+
+/// A point, counted over all branches from 1.
+/// @param file  a result that was checked
+BranchStart read_branch_point(const ResultReader& file, long number);
 
 }  // namespace whirl
