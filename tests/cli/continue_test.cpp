@@ -83,7 +83,7 @@ TEST_F(ContinueStudy, ContinueFollowsPeriodDoublings) {
 // A branch of more than 100 points, with most kinds of bifurcations on the way.
 TEST_F(ContinueStudy, ContinueGoesOnAfterKills) {
   kill_and_compare(
-      {"continue", stator, "--over", "operation.speed=130:136:0.1rad/s", "--at", "136"}, "/branch",
+      {"continue", stator, "--over", "operation.speed=130:136:0.02rad/s", "--at", "136"}, "/branch",
       2, 5);
 }
 
