@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -84,6 +85,11 @@ struct ContactLanes {
         bx(of.pushed_by_x.size(), P(0.0)),
         by(of.pushed_by_y.size(), P(0.0)),
         rub(of.rubs_apart || of.is_plane ? std::make_unique<RubLanes<P>>(of) : nullptr) {
+#ifndef NDEBUG  // a coefficient that is used before it is known makes no number
+    for (P* of_all : {dx, dy, s, r, N, q, tau, slip, sine, cosine2, ax, ay, turn_rate}) {
+      std::fill_n(of_all, P::most_terms, P(std::numeric_limits<double>::quiet_NaN()));
+    }
+#endif
     if (!of.is_plane) return;
     for (int k = 0; k < P::most_terms; ++k) dx[k] = dy[k] = r[k] = P(0.0);
     r[0] = inverse_r = P(1.0);
@@ -241,11 +247,12 @@ struct ContactLanes {
       excess = s[0] - disk->within;
       s[0] = excess + clearance2;
     }
-    if (!with_distance) return;
+    if (!with_distance && !is_evaluated) return;  // the displacement is for forces and slips
     const P along_x = fnma(disk->sine[k], blade_sine, disk->cosine[k] * blade_cosine);
     const P along_y = fma(disk->cosine[k], blade_sine, disk->sine[k] * blade_cosine);
     dx[k] = fma(disk->radius, along_x, disk->ux[k]);
     dy[k] = fma(disk->radius, along_y, disk->uy[k]);
+    if (!with_distance) return;
     if (k == 0) return first_distance();
     P rest = s[k];
     for (int i = 1; i < k; ++i) rest = fnma(r[i], r[k - i], rest);
