@@ -8,6 +8,7 @@
 #include "libdyn/studies/basins.hpp"
 #include "libdyn/studies/classification_result.hpp"
 #include "libdyn/studies/map.hpp"
+#include "libdyn/studies/orbit_result.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libdyn/studies/sweep.hpp"
 #include "libdyn/studies/work_precision_study.hpp"
@@ -48,13 +49,16 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<Campbell>());
   add(schema_of<ResonanceStudy>());
   add(schema_of<WorkPrecisionStudy>());
+  add(schema_of<OrbitResult>());
+  add(schema_of<OrbitSeriesResult>());
   add(schema_of<ClassificationResult>());
   add(schema_of<CriticalSpeeds>());
   add(schema_of<UnbalanceStudy>());
   return all;
 }
 
-std::vector<ResultSet> other_schema() {
+/// The call and the model, which all files have.
+std::vector<ResultSet> call_schema() {
   return {
       {{{"/model", text, "1"}}},
       {{{"/arguments", text, "words+"}}},
@@ -65,11 +69,12 @@ std::vector<ResultSet> other_schema() {
       {{{"/from/displacement", real, "full", finite},
         {"/from/velocity", real, "full", finite},
         {"/from@phase", real, "", finite}}},
-      // periodic motions
-      {{{"/orbit/multiplier", complex, "multipliers"},
-        {"/orbit@period_revolutions", real, "", any, true}}},
-      {{{"/orbit/order", real, "orders"}, {"/orbit/amplitude", complex, "full orders"}}},
-      {{{"/orbit/displacement", real, "full starts"}, {"/orbit/velocity", real, "full starts"}}},
+  };
+}
+
+/// Branches, curves of bifurcations, circles: units of their parameters are known at run time only.
+std::vector<ResultSet> branch_schema() {
+  return {
       {{{"/branch/number", integer, "branches", numbers_of("branches")},
         {"/branch/period", integer, "branches", from_to(0.0, most_revolutions)},
         {"/branch/parent", integer, "branches", from_to(0.0, largest)},
@@ -128,7 +133,12 @@ std::vector<ResultSet> other_schema() {
         {"/torus/end", text, "walks", any, true},
         {"/torus/end_kind", text, "walks", any, true},
         {"/torus/end_reason", text, "walks", any, true}}},
-      // studies of many points
+  };
+}
+
+/// Studies of many points.
+std::vector<ResultSet> studies_schema() {
+  return {
       study_schema<SweepResult>({{"/sweep/axis_1", real, "values+", finite}}),
       study_schema<MapResult>({{"/map/axis_1", real, "first+", finite},
                                {"/map/axis_2", real, "second+", finite},
@@ -144,7 +154,9 @@ std::vector<ResultSet> other_schema() {
 const std::vector<ResultSet>& result_schema() {
   static const std::vector<ResultSet> schema = [] {
     std::vector<ResultSet> all = stated_schema();
-    for (ResultSet& set : other_schema()) all.push_back(std::move(set));
+    for (const auto& more : {call_schema(), branch_schema(), studies_schema()}) {
+      all.insert(all.end(), more.begin(), more.end());
+    }
     return all;
   }();
   return schema;

@@ -1,0 +1,31 @@
+#include "libdyn/studies/orbit_result.hpp"
+
+namespace whirl {
+
+OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit) {
+  const auto n = scene.contacts.coordinates();
+  const Mat map = scene.displacement_map();
+  OrbitResult result{.multipliers = orbit.multipliers,
+                     .exponents = orbit.exponents,
+                     .displacement = Mat(map.rows(), std::ssize(orbit.states)),
+                     .period = static_cast<double>(orbit.period),
+                     .residual = orbit.residual,
+                     .is_stable = orbit.is_stable ? 1 : 0};
+  result.velocity = result.displacement;
+  for (std::size_t i = 0; i < orbit.states.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    result.displacement.col(at) = map * orbit.states[i].head(n);
+    result.velocity.col(at) = map * orbit.states[i].tail(n);
+  }
+  return result;
+}
+
+OrbitResult orbit_result(const Scene& scene, const Cycle& cycle) {
+  OrbitResult result{.multipliers = cycle.multipliers};
+  result.period = cycle.period / scene.contacts.period();
+  result.residual = cycle.residual;
+  result.is_stable = cycle.is_stable() ? 1 : 0;
+  return result;
+}
+
+}  // namespace whirl
