@@ -18,8 +18,7 @@ struct CampbellBranch {
   static constexpr auto columns() {
     return std::tuple{
         column("whirl", &CampbellBranch::whirl, "", "sense of whirl"),
-        column("frequency", &CampbellBranch::frequency, "rad/s",
-               "damped natural frequency, NaN where it does not oscillate")
+        column("frequency", &CampbellBranch::frequency, "rad/s", "damped natural frequency")
             .along("speeds"),
         column("log_decrement", &CampbellBranch::log_decrement, "", "logarithmic decrement")
             .along("speeds")};

@@ -34,8 +34,7 @@ struct Critical {
     using enum Written;
     return std::tuple{
         column("speed", &Critical::speed, "rad/s", "undamped critical speed"),
-        column("damped_speed", &Critical::damped_speed, "rad/s",
-               "damped critical speed, NaN if there is none"),
+        column("damped_speed", &Critical::damped_speed, "rad/s", "damped critical speed"),
         column("damping_ratio", &Critical::damping_ratio, "",
                "damping ratio at the damped critical speed")
             .maybe(),
