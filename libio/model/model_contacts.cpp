@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "libio/model/model_builder.hpp"
 #include "libio/text/nearest.hpp"
@@ -44,18 +47,31 @@ bool read_member(TableReader& table, std::string_view key, List& to) {
   });
   return true;
 }
-/// Keys of members that were not chosen.
+
+/// Keys that only members have which were not chosen: each is told once, with all that have it.
 template <class List>
 void refuse_others(TableReader& table, std::string_view key, const List& chosen) {
+  std::vector<std::pair<std::string_view, std::string>> owners;  // of the keys that are there
+  std::set<std::string_view> own;
   for_each_member<List>([&](const auto& member) {
-    if (member.name == name_of(chosen)) return;
-    const auto refuse = [&](const auto& field) {
-      if (!table.has(field.name)) return;
-      table.node(field.name);
-      table.problem(field.name, fmt::format("goes with {} = \"{}\"", key, member.name));
+    const auto note = [&](std::string_view name) {
+      if (member.name == name_of(chosen)) own.insert(name);
+      if (!table.has(name)) return;
+      const auto known = std::find_if(owners.begin(), owners.end(),
+                                      [&](const auto& owner) { return owner.first == name; });
+      if (known == owners.end()) {
+        owners.emplace_back(name, in_quotes(member.name));
+      } else {
+        known->second += " or " + in_quotes(member.name);
+      }
     };
-    std::apply([&](const auto&... field) { (refuse(field), ...); }, member.fields());
+    std::apply([&](const auto&... field) { (note(field.name), ...); }, member.fields());
   });
+  for (const auto& [name, members] : owners) {
+    if (own.contains(name)) continue;
+    table.node(name);
+    table.problem(name, fmt::format("goes with {} = {}", key, members));
+  }
 }
 
 /// What does not go with a contact's geometry.
