@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "libbase/family.hpp"
 #include "libio/model/model_builder.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
@@ -14,33 +15,32 @@ namespace whirl {
 
 namespace {
 
-/// Calls f with every alternative of a list that has keys of its own.
-template <class List, class F, std::size_t... I>
-void for_each_member(F&& f, std::index_sequence<I...>) {
-  const auto call = [&](auto member) {
-    if constexpr (requires { decltype(member)::fields(); }) f(member);
-  };
-  (call(std::variant_alternative_t<I, List>{}), ...);
-}
+/// Calls f with every member of a family that has keys of its own.
 template <class List, class F>
-void for_each_member(F&& f) {
-  for_each_member<List>(f, std::make_index_sequence<std::variant_size_v<List>>{});
+void for_each_with_keys(const F& f) {
+  for_each_member<List>([&](const auto& member) {
+    if constexpr (requires { member.fields(); }) f(member);
+  });
+}
+template <class Member>
+std::vector<std::string> keys_of_member(const Member&) {
+  return keys_of<Member>();
 }
 
 /// Reads a member of a list, whose name a key gives; returns whether there is one of that name.
 template <class List>
 bool read_member(TableReader& table, std::string_view key, List& to) {
   std::vector<std::string> names;
-  for_each_member<List>([&](const auto& member) { names.emplace_back(member.name); });
+  for_each_with_keys<List>([&](const auto& member) { names.emplace_back(member.name); });
   const auto found = table.choice(key, names);
   if (!found && table.has(key)) {  // one mistake, and not many: the keys of all of them are known
-    for_each_member<List>([&](const auto& member) {
-      std::apply([&](const auto&... field) { (table.node(field.name), ...); }, member.fields());
+    for_each_with_keys<List>([&](const auto& member) {
+      for (const std::string& name : keys_of_member(member)) table.node(name);
     });
     return false;
   }
   const std::string name = found.value_or(names.front());
-  for_each_member<List>([&](auto member) {
+  for_each_with_keys<List>([&](auto member) {
     if (member.name != name) return;
     table.read(member);
     to = member;
@@ -51,12 +51,12 @@ bool read_member(TableReader& table, std::string_view key, List& to) {
 /// Keys that only members have which were not chosen: each is told once, with all that have it.
 template <class List>
 void refuse_others(TableReader& table, std::string_view key, const List& chosen) {
-  std::vector<std::pair<std::string_view, std::string>> owners;  // of the keys that are there
-  std::set<std::string_view> own;
-  for_each_member<List>([&](const auto& member) {
-    const auto note = [&](std::string_view name) {
+  std::vector<std::pair<std::string, std::string>> owners;  // of the keys that are there
+  std::set<std::string> own;
+  for_each_with_keys<List>([&](const auto& member) {
+    for (const std::string& name : keys_of_member(member)) {
       if (member.name == name_of(chosen)) own.insert(name);
-      if (!table.has(name)) return;
+      if (!table.has(name)) continue;
       const auto known = std::find_if(owners.begin(), owners.end(),
                                       [&](const auto& owner) { return owner.first == name; });
       if (known == owners.end()) {
@@ -64,8 +64,7 @@ void refuse_others(TableReader& table, std::string_view key, const List& chosen)
       } else {
         known->second += " or " + in_quotes(member.name);
       }
-    };
-    std::apply([&](const auto&... field) { (note(field.name), ...); }, member.fields());
+    }
   });
   for (const auto& [name, members] : owners) {
     if (own.contains(name)) continue;
