@@ -99,9 +99,10 @@ void run_points(const PointWork<Row>& work, Result& result, const Monitor<Result
       auto finished = queue.take(std::chrono::milliseconds(100));
       if (!finished || !finished->is_whole) return;
       for (std::size_t i = 0; i < finished->piece.size(); ++i) {
-        points[finished->piece[i]] = std::move(finished->rows[i]);
+        std::optional<Row>& point = points[finished->piece[i]];
+        done += point ? 0 : 1;
+        point = std::move(finished->rows[i]);
       }
-      done = done_points(points);
       sizes.learn(finished->piece.size(), finished->seconds);
       if (timer.is_due()) timer.save(save);
       monitor.show(static_cast<long>(done - before), static_cast<long>(points.size() - before));
