@@ -12,21 +12,10 @@
 namespace whirl::torus_branch_test {
 
 constexpr double turn = 2.0 * std::numbers::pi;
-constexpr double angle = 2.4, twist = 0.7;
+constexpr double angle = test::circle_angle, twist = test::circle_twist;
 
-/// z' = z (1 + a - |z|^2) exp(i (angle + twist |z|^2)): the circle |z| = sqrt(a) is turned by
-/// angle + twist a, and its exponent is log(1 - 2 a).
 Flow normal_form(double a) {
-  return test::map_flow(2, [a](const Vec& y, Vec& f, Mat& J) {
-    const double x = y(0), w = y(1), r2 = x * x + w * w, s = 1.0 + a - r2;
-    const double t = angle + twist * r2, c = std::cos(t), d = std::sin(t);
-    const double p = c * x - d * w, q = d * x + c * w;
-    f << s * p, s * q;
-    J << s * c - 2.0 * x * p - s * q * 2.0 * twist * x,
-        -s * d - 2.0 * w * p - s * q * 2.0 * twist * w,
-        s * d - 2.0 * x * q + s * p * 2.0 * twist * x,
-        s * c - 2.0 * w * q + s * p * 2.0 * twist * w;
-  });
+  return test::map_flow(2, [a](const Vec& y, Vec& f, Mat& J) { test::turn_circle(a, y, f, J); });
 }
 
 constexpr double first = 0.1;

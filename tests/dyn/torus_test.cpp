@@ -14,20 +14,15 @@
 namespace whirl::torus_test {
 
 constexpr double turn = 2.0 * std::numbers::pi;
-constexpr double angle = 2.4, twist = 0.7;
+constexpr double angle = test::circle_angle, twist = test::circle_twist;
 
-/// z' = z (1 + a - |z|^2) exp(i (angle + twist |z|^2)), and u' = u / 2 + Re z beside it: the circle
-/// |z| = sqrt(a) is turned by angle + twist a; its exponents are log(1 - 2 a), log(1/2).
+/// A circle of test::turn_circle, and u' = u / 2 + Re z beside it, whose exponent is log(1/2).
 Flow normal_form(double a) {
   return test::map_flow(3, [a](const Vec& y, Vec& f, Mat& J) {
-    const double x = y(0), w = y(1), r2 = x * x + w * w, s = 1.0 + a - r2;
-    const double t = angle + twist * r2, c = std::cos(t), d = std::sin(t);
-    const double p = c * x - d * w, q = d * x + c * w;
-    f << s * p, s * q, 0.5 * y(2) + x;
-    J << s * c - 2.0 * x * p - s * q * 2.0 * twist * x,
-        -s * d - 2.0 * w * p - s * q * 2.0 * twist * w, 0.0,
-        s * d - 2.0 * x * q + s * p * 2.0 * twist * x,
-        s * c - 2.0 * w * q + s * p * 2.0 * twist * w, 0.0, 1.0, 0.0, 0.5;
+    test::turn_circle(a, y, f, J);
+    f(2) = 0.5 * y(2) + y(0);
+    J.topRightCorner(2, 1).setZero();
+    J.bottomRows(1) << 1.0, 0.0, 0.5;
   });
 }
 

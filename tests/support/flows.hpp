@@ -123,4 +123,19 @@ inline std::pair<double, double> harmonic_folds(double zeta, double b, double F)
   return {upper, lower};
 }
 
+/// z' = z (1 + a - |z|^2) exp(i (circle_angle + circle_twist |z|^2)) for the first two coordinates of a
+/// map, z = x + i y: the circle |z| = sqrt(a) is turned by circle_angle + circle_twist a, and its exponent
+/// is log(1 - 2 a).
+constexpr double circle_angle = 2.4, circle_twist = 0.7;
+inline void turn_circle(double a, const Vec& y, Vec& f, Mat& J) {
+  const double x = y(0), w = y(1), r2 = x * x + w * w, s = 1.0 + a - r2;
+  const double t = circle_angle + circle_twist * r2, c = std::cos(t), d = std::sin(t);
+  const double p = c * x - d * w, q = d * x + c * w;
+  f.head(2) << s * p, s * q;
+  J.topLeftCorner(2, 2) << s * c - 2.0 * x * p - s * q * 2.0 * circle_twist * x,
+      -s * d - 2.0 * w * p - s * q * 2.0 * circle_twist * w,
+      s * d - 2.0 * x * q + s * p * 2.0 * circle_twist * x,
+      s * c - 2.0 * w * q + s * p * 2.0 * circle_twist * w;
+}
+
 }  // namespace whirl::test
