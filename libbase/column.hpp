@@ -62,42 +62,24 @@ struct Column {
   bool is_from_one = false;  ///< a number from 0 that is written from 1
   bool is_optional = false;  ///< see maybe()
 
-  constexpr Column along(std::string_view names) const {
-    Column c = *this;
-    c.dimensions = names;
-    return c;
-  }
+  constexpr Column along(std::string_view names) const { return with(&Column::dimensions, names); }
   /// @param name  of its dimension; of a member of a row left out: the rows
   constexpr Column axis(std::string_view name = "") const {
-    Column c = along(name);
-    c.is_axis = true;
-    return c;
+    return along(name).with(&Column::is_axis, true);
   }
-  constexpr Column within(const ValidValues& range) const {
-    Column c = *this;
-    c.values = range;
-    return c;
-  }
-  constexpr Column as(std::string_view name) const {
-    Column c = *this;
-    c.json_key = name;
-    return c;
-  }
-  constexpr Column only(Written place) const {
-    Column c = *this;
-    c.written = place;
-    return c;
-  }
-  constexpr Column from_one() const {
-    Column c = *this;
-    c.is_from_one = true;
-    return c;
-  }
+  constexpr Column within(const ValidValues& range) const { return with(&Column::values, range); }
+  constexpr Column as(std::string_view name) const { return with(&Column::json_key, name); }
+  constexpr Column only(Written place) const { return with(&Column::written, place); }
+  constexpr Column from_one() const { return with(&Column::is_from_one, true); }
   /// Left out of files where it is empty, and files without it are whole; if it is in JSON only, left
   /// out of that.
-  constexpr Column maybe() const {
+  constexpr Column maybe() const { return with(&Column::is_optional, true); }
+
+ private:
+  template <class Value>
+  constexpr Column with(Value Column::*fact, const Value& value) const {
     Column c = *this;
-    c.is_optional = true;
+    c.*fact = value;
     return c;
   }
 };
@@ -120,25 +102,20 @@ struct RowsColumn {
   Written written = Written::everywhere;
 
   constexpr RowsColumn numbered(std::string_view name, std::string_view what) const {
-    RowsColumn c = *this;
-    c.number = name;
-    c.meaning = what;
-    return c;
+    return with(&RowsColumn::number, name).with(&RowsColumn::meaning, what);
   }
   constexpr RowsColumn prefixed(std::string_view text) const {
-    RowsColumn c = *this;
-    c.prefix = text;
-    return c;
+    return with(&RowsColumn::prefix, text);
   }
-  constexpr RowsColumn only(Written place) const {
-    RowsColumn c = *this;
-    c.written = place;
-    return c;
-  }
+  constexpr RowsColumn only(Written place) const { return with(&RowsColumn::written, place); }
   /// As of columns: an empty list has no datasets then.
-  constexpr RowsColumn maybe() const {
+  constexpr RowsColumn maybe() const { return with(&RowsColumn::is_optional, true); }
+
+ private:
+  template <class Value>
+  constexpr RowsColumn with(Value RowsColumn::*fact, const Value& value) const {
     RowsColumn c = *this;
-    c.is_optional = true;
+    c.*fact = value;
     return c;
   }
 };

@@ -124,14 +124,12 @@ Figure figure_of(const WorkPrecisionStudy& bench, const Model& model) {
                      .tolerances = options.tolerances};
   data.subtitle = fmt::format("{:.6g} rpm, one core, {}", model.speed / rpm,
                               tolerance_range(options.tolerances));
-  data.error.assign(options.methods.size() * options.tolerances.size(),
-                    std::numeric_limits<double>::quiet_NaN());
-  data.time = data.error;
-  for (std::size_t i = 0; i < bench.runs.size(); ++i) {
-    if (bench.runs[i].has_failed()) continue;
-    data.error[i] = bench.runs[i].error;
-    data.time[i] = bench.runs[i].time;
-  }
+  const auto by_methods = [](const Mat& table) {
+    const auto numbers = table.transpose().reshaped();
+    return std::vector<double>(numbers.begin(), numbers.end());
+  };
+  data.error = by_methods(bench.errors());
+  data.time = by_methods(bench.times());
   data.revolutions = static_cast<double>(options.revolutions);
   data.reference_error = bench.reference.error;
   data.unit = model.contacts.empty() ? "sizes of the motion" : "clearances";

@@ -27,10 +27,6 @@ void write_points(ResultWriter& file, const Model& model, const Assembler& assem
 /// A number with so many digits behind the point, zero without a sign.
 std::string fixed(double value, int digits);
 
-inline std::string point_label(const NamedPoint& point) {
-  return point.label();
-}
-
 /// Shows frequencies in the unit of --frequency, if it is given.
 void set_frequency_unit(const Invocation& call, ResultView& result);
 

@@ -46,7 +46,7 @@ ContinueCall continue_call(const Invocation& call, const Model& model) {
   for (const NamedPoint& p :
        select_points(asked.at_first, asked.scene->assembler, call.text("stations"))) {
     asked.tree.stations.push_back(p.point);
-    asked.names.stations.push_back(point_label(p));
+    asked.names.stations.push_back(p.label());
   }
   return asked;
 }

@@ -106,9 +106,8 @@ EarlierEnd earlier_end(const std::string& path) {
     throw ModelError({path}, "",
                      "holds no motion to start from; simulate, identify and classify write one");
   }
-  EarlierEnd end{
-      {file.vector("/trajectory/end_displacement"), file.vector("/trajectory/end_velocity")},
-      file.number_attribute("/trajectory", "end_phase")};
+  const auto ended = read_result<MotionEnd>(file);
+  EarlierEnd end{{ended.displacement, ended.velocity}, ended.phase};
   if (!end.state.displacement.allFinite() || !end.state.velocity.allFinite()) {
     throw ModelError(
         {path}, "",
@@ -207,10 +206,10 @@ void add_contacts(Record& record, const std::vector<ContactMeasure>& contacts, l
 std::string contacts_table(const std::vector<ContactMeasure>& contacts, long revolutions) {
   Table table({"contact", "regime", "duty", "impacts/rev", "largest normal [N]", "tangential [N]",
                "mean slip [m/s]"});
-  for (const ContactMeasure& c : contacts) {
-    table.row({c.name, std::string(name_of(c.regime())), fmt::format("{:.4f}", c.duty),
-               fmt::format("{:.3f}", c.impacts / static_cast<double>(revolutions)),
-               force_text(c.max_normal), force_text(c.max_tangential),
+  for (const ContactShare& c : contact_shares(contacts, revolutions).contacts) {
+    table.row({c.name, std::string(name_of(c.regime)), fmt::format("{:.4f}", c.duty),
+               fmt::format("{:.3f}", c.impacts_per_rev), force_text(c.max_normal),
+               force_text(c.max_tangential),
                std::isnan(c.mean_slip) ? "-" : fmt::format("{:.4g}", c.mean_slip)});
   }
   return table.text();
@@ -300,7 +299,7 @@ std::string run_text(const Run& run, const Model& model) {
   const ResponseSpectra& spectra = *run.spectra;
   for (const NamedPoint& p : run.stations) {
     const PointPeaks peaks = point_peaks(spectra, p.point, run.scene.system.Omega);
-    table.row({point_label(p), format_length(motion_of(run, p.point).rowwise().norm().maxCoeff()),
+    table.row({p.label(), format_length(motion_of(run, p.point).rowwise().norm().maxCoeff()),
                peaks_text(peaks.stationary), peaks_text(peaks.rotating)});
   }
   return text + "\n" + table.text();

@@ -59,7 +59,7 @@ std::string add_stations(const Model& model, const Assembler& assembler, const V
     list.add(record_of(at));
     std::string z;
     if (at.node) z = fmt::format("{:.1f}", 1e3 * assembler.mesh().z.at(*at.node - 1));
-    table.row({point_label(p), z, fixed(1e6 * at.x, 3), fixed(1e6 * at.y, 3)});
+    table.row({p.label(), z, fixed(1e6 * at.x, 3), fixed(1e6 * at.y, 3)});
   }
   record.set("stations", list);
   return table.text();

@@ -10,7 +10,8 @@
 #include "apps/verbs/common.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libdyn/motions/run_result.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/result_schema.hpp"
 
@@ -31,13 +32,10 @@ std::vector<std::string> essential(const Call& call) {
 /// Where the motion began that was taken from another file, as it was written into a study.
 bool is_same_start(const ResultReader& file, const EarlierEnd& start) {
   if (!file.has("/from/displacement")) return true;  // of an early version, which did not keep it
-  const auto is_same = [&](const char* path, const Vec& now) {
-    const Vec then = file.vector(path);
-    return then.size() == now.size() && then == now;
-  };
-  return is_same("/from/displacement", start.state.displacement) &&
-         is_same("/from/velocity", start.state.velocity) &&
-         file.number_attribute("/from", "phase") == start.phase;
+  const auto then = read_result<StudyStart>(file);
+  const auto is_same = [](const Vec& a, const Vec& b) { return a.size() == b.size() && a == b; };
+  return is_same(then.displacement, start.state.displacement) &&
+         is_same(then.velocity, start.state.velocity) && then.phase == start.phase;
 }
 
 /// Takes over what an earlier run of the same line has left in its file.
@@ -93,11 +91,7 @@ std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& mod
 
 void write_start(ResultWriter& file, const std::optional<EarlierEnd>& start) {
   if (!start) return;
-  file.dataset("/from/displacement", start->state.displacement,
-               {"m, rad", "displacement that the motions begin with", {""}});
-  file.dataset("/from/velocity", start->state.velocity,
-               {"m/s, rad/s", "velocity that the motions begin with", {""}});
-  file.attribute("/from", "phase", start->phase);
+  write_result(file, StudyStart{start->state.displacement, start->state.velocity, start->phase});
 }
 
 StudyFile::StudyFile(const Invocation& call, const std::optional<EarlierEnd>& start, Begin begin,

@@ -17,16 +17,7 @@ Mat motion_of(const Run& run, const Point& point) {
 ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long revolutions) {
   ContactShares shares;
   for (const ContactMeasure& c : contacts) {
-    shares.contacts.push_back({
-        .name = c.name,
-        .regime = c.regime(),
-        .duty = c.duty,
-        .impacts_per_rev = c.impacts / static_cast<double>(std::max(1L, revolutions)),
-        .max_normal = c.max_normal,
-        .max_tangential = c.max_tangential,
-        .sticking = c.sticking,
-        .mean_slip = c.mean_slip,
-    });
+    shares.contacts.push_back({contact_doing(c, revolutions), c.name, c.mean_slip});
   }
   return shares;
 }

@@ -27,14 +27,9 @@ struct Run {
 /// Motion of a point in a recording, samples x (x, y) [m].
 Mat motion_of(const Run& run, const Point& point);
 
-/// What a contact did, over some revolutions.
-struct ContactShare {
+/// What a contact of a name did.
+struct ContactShare : ContactDoing {
   std::string name;
-  Regime regime = Regime::none;
-  double duty = 0.0;
-  double impacts_per_rev = 0.0;
-  double max_normal = 0.0, max_tangential = 0.0;  ///< of one blade [N]
-  double sticking = 0.0;
   double mean_slip = 0.0;  ///< [m/s]
 
   static constexpr auto columns() {
@@ -79,6 +74,26 @@ struct MotionEnd {
   }
 };
 MotionEnd motion_end(const Scene& scene, const MotionState& state);
+
+/// Where the motions of a study begin, if that is where another one ended; group /from.
+struct StudyStart {
+  Vec displacement, velocity;  ///< full vectors, see DofMap [m, rad], [m/s, rad/s]
+  double phase = 0.0;          ///< [rad]
+
+  static constexpr std::string_view group = "/from";
+  static constexpr auto columns() {
+    return std::tuple{column("displacement", &StudyStart::displacement, "m, rad",
+                             "displacement that the motions begin with")
+                          .along("full")
+                          .within(valid::finite),
+                      column("velocity", &StudyStart::velocity, "m/s, rad/s",
+                             "velocity that the motions begin with")
+                          .along("full")
+                          .within(valid::finite),
+                      column("phase", &StudyStart::phase, "rad", "phase that they begin at")
+                          .within(valid::finite)};
+  }
+};
 
 /// How a motion was computed and recorded; in group /trajectory.
 struct RunFacts {

@@ -20,6 +20,12 @@ struct ReferenceMotion {
   std::string made_by;   ///< in words
   long revolutions = 0;  ///< from the start
 
+  static constexpr auto columns() {
+    return std::tuple{column("made_by", &ReferenceMotion::made_by, "", "how"),
+                      column("error", &ReferenceMotion::error, "", "its own"),
+                      column("growth", &ReferenceMotion::growth, "", "of a small deviation")};
+  }
+
   /// Whether the deviation became as large as the motion: growth then is a lower bound.
   bool is_lost() const { return growth > 1e6; }
 };

@@ -33,13 +33,7 @@ ClassifiedMotion classified(const Classification& found) {
                           .exponents = {found.exponents.begin(), found.exponents.end()},
                           .settles_after = found.settles_after};
   for (const ContactMeasure& m : found.contacts) {
-    motion.contacts.push_back(
-        {.regime = m.regime(),
-         .duty = m.duty,
-         .impacts_per_rev = m.impacts / static_cast<double>(found.revolutions),
-         .sticking = m.sticking,
-         .max_normal = m.max_normal,
-         .max_tangential = m.max_tangential});
+    motion.contacts.push_back(contact_doing(m, found.revolutions));
   }
   return motion;
 }

@@ -14,26 +14,6 @@
 
 namespace whirl {
 
-/// What a contact does in a motion.
-struct ContactDoing {
-  Regime regime = Regime::none;
-  double duty = 0.0;             ///< share of time in touch
-  double impacts_per_rev = 0.0;  ///< times it begins to touch
-  double sticking = 0.0;         ///< share of time
-  double max_normal = 0.0;       ///< [N]
-  double max_tangential = 0.0;   ///< [N]
-
-  static constexpr auto columns() {
-    using C = ContactDoing;
-    return std::tuple{column("regime", &C::regime, "", "regime of a contact"),
-                      column("duty", &C::duty, "", "share of time in touch"),
-                      column("impacts_per_rev", &C::impacts_per_rev, "", "impacts per revolution"),
-                      column("sticking", &C::sticking, "", "share of time sticking"),
-                      column("max_normal", &C::max_normal, "N", "largest normal force"),
-                      column("max_tangential", &C::max_tangential, "N", "largest friction force")};
-  }
-};
-
 /// A motion at a point of a study, as it was classified.
 struct ClassifiedMotion {
   std::optional<MotionKind> kind{};  ///< none: it failed, and nothing but `failure` is known

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libbase/field.hpp"
 #include "libdyn/orbits/cycle.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
@@ -45,7 +46,7 @@ struct ShootingGap {
   std::string failure;                        ///< of shooting; empty: it found one
 };
 
-/// What harmonic balance says of an orbit beside.
+/// What harmonic balance says of an orbit beside; in group /orbit its amplitudes.
 struct OrbitSeries {
   int harmonics = 0;        ///< of the orbit's frequency
   double truncation = 0.0;  ///< what those left out change [length scales]; NaN: not known
@@ -56,6 +57,17 @@ struct OrbitSeries {
   Vec orders{};                                ///< frequency over speed of each amplitude, from 0
   CMat amplitudes{};  ///< of all points: displacement = Re sum amplitude e^(i order phase) [m, rad]
   std::optional<ShootingGap> gap{};  ///< if it is asked for
+
+  static constexpr std::string_view group = "/orbit";
+  static constexpr auto columns() {
+    using S = OrbitSeries;
+    return std::tuple{
+        column("order", &S::orders, "", "frequency over speed").axis("orders"),
+        column("amplitude", &S::amplitudes, "m, rad",
+               "displacement of all points is Re sum amplitude e^(i order phase)")
+            .along("full orders"),
+        column("truncation", &S::truncation, "", "what orders left out change").maybe()};
+  }
 };
 
 /// An orbit, or how far the search for it got.

@@ -42,22 +42,4 @@ OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit);
 /// Of an orbit that repeats as seen from the rotor.
 OrbitResult orbit_result(const Scene& scene, const Cycle& cycle);
 
-/// An orbit as a Fourier series: what harmonic balance adds.
-struct OrbitSeriesResult {
-  Vec orders;               ///< frequency over speed of each amplitude, from 0
-  CMat amplitudes;          ///< full vectors x orders [m, rad]
-  double truncation = 0.0;  ///< what the orders left out change [length scales]; NaN: not known
-
-  static constexpr std::string_view group = "/orbit";
-  static constexpr auto columns() {
-    return std::tuple{
-        column("order", &OrbitSeriesResult::orders, "", "frequency over speed").axis("orders"),
-        column("amplitude", &OrbitSeriesResult::amplitudes, "m, rad",
-               "displacement of all points is Re sum amplitude e^(i order phase)")
-            .along("full orders"),
-        column("truncation", &OrbitSeriesResult::truncation, "", "what orders left out change")
-            .maybe()};
-  }
-};
-
 }  // namespace whirl

@@ -17,18 +17,6 @@ struct WorkPrecisionOptions {
   long discard = 500;     ///< before
 };
 
-/// What a reference motion is worth.
-struct ReferenceFacts {
-  std::string made_by;
-  double error = 0.0, growth = 1.0;  ///< see ReferenceMotion
-
-  static constexpr auto columns() {
-    return std::tuple{column("made_by", &ReferenceFacts::made_by, "", "how"),
-                      column("error", &ReferenceFacts::error, "", "its own"),
-                      column("growth", &ReferenceFacts::growth, "", "of a small deviation")};
-  }
-};
-
 /// Group /bench.
 struct WorkPrecisionStudy {
   WorkPrecisionOptions options;
@@ -42,9 +30,6 @@ struct WorkPrecisionStudy {
   Mat times() const;  ///< [s]
   Mat steps() const;  ///< per revolution
   Mat evaluations() const;
-  ReferenceFacts reference_facts() const {
-    return {reference.made_by, reference.error, reference.growth};
-  }
 
   static constexpr std::string_view group = "/bench";
   static constexpr auto columns() {
@@ -81,7 +66,7 @@ struct WorkPrecisionStudy {
         column("growth", growth, "", "of a small deviation").only(in_file).maybe(),
         column("revolutions", counted, "", "that are measured").only(in_json),
         column("discard", discard, "", "revolutions before them").only(in_json),
-        column("reference", &Study::reference_facts, "", "what errors are measured against")
+        column("reference", &Study::reference, "", "what errors are measured against")
             .only(in_json),
         rows(&Study::runs, "runs").only(in_json)};
   }

@@ -91,4 +91,13 @@ void to_shares(std::vector<ContactMeasure>& times, double whole) {
   }
 }
 
+ContactDoing contact_doing(const ContactMeasure& measure, long revolutions) {
+  return {.regime = measure.regime(),
+          .duty = measure.duty,
+          .impacts_per_rev = measure.impacts / static_cast<double>(std::max(1L, revolutions)),
+          .sticking = measure.sticking,
+          .max_normal = measure.max_normal,
+          .max_tangential = measure.max_tangential};
+}
+
 }  // namespace whirl

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libbase/field.hpp"
 #include "libdyn/system/trajectory.hpp"
 
@@ -33,6 +34,28 @@ struct ContactMeasure {
     return duty >= 1.0 ? Regime::permanent : Regime::intermittent;
   }
 };
+
+/// What a contact does in a motion.
+struct ContactDoing {
+  Regime regime = Regime::none;
+  double duty = 0.0;             ///< share of time in touch
+  double impacts_per_rev = 0.0;  ///< times it begins to touch
+  double sticking = 0.0;         ///< share of time
+  double max_normal = 0.0;       ///< [N]
+  double max_tangential = 0.0;   ///< [N]
+
+  static constexpr auto columns() {
+    using C = ContactDoing;
+    return std::tuple{column("regime", &C::regime, "", "regime of a contact"),
+                      column("duty", &C::duty, "", "share of time in touch"),
+                      column("impacts_per_rev", &C::impacts_per_rev, "", "impacts per revolution"),
+                      column("sticking", &C::sticking, "", "share of time sticking"),
+                      column("max_normal", &C::max_normal, "N", "largest normal force"),
+                      column("max_tangential", &C::max_tangential, "N", "largest friction force")};
+  }
+};
+/// @param revolutions  that the measure is of; impacts of none are those of one
+ContactDoing contact_doing(const ContactMeasure& measure, long revolutions);
 
 /// Turns times in touch and sticking into shares of a whole [s].
 void to_shares(std::vector<ContactMeasure>& times, double whole);

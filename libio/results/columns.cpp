@@ -1,19 +1,17 @@
 #include "libio/results/columns.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace whirl::columns {
 
 std::vector<std::string> dimension_names(std::string_view list) {
   std::vector<std::string> names;
-  for (std::size_t from = 0; from < list.size();) {
-    const std::size_t to = std::min(list.find(' ', from), list.size());
-    std::string_view name = list.substr(from, to - from);
-    if (name.ends_with('+')) name.remove_suffix(1);
-    names.emplace_back(name);
-    from = to + 1;
-  }
+  for (DimensionName& d : dimensions_of(list)) names.push_back(std::move(d.name));
   return names;
+}
+
+ResultEntry entry_of(const std::string& path, const Facts& facts, ObjectKind kind) {
+  return {path, kind, facts.dimensions, facts.values, facts.is_optional, facts.unit, facts.meaning};
 }
 
 void GroupWriter::attribute(const std::string& name, const Cells& cells) {

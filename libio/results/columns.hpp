@@ -57,6 +57,9 @@ Facts number_facts(const RowsColumn<Member>& c) {
           .is_axis = true};
 }
 
+/// What a file is checked against that has a dataset or attribute.
+ResultEntry entry_of(const std::string& path, const Facts& facts, ObjectKind kind);
+
 /// Writes a group of a result file; knows the datasets along its dimensions.
 class GroupWriter {
  public:
@@ -288,8 +291,7 @@ std::vector<ResultSet> schema_of() {
   const std::string group(T::group);
   const auto add = [&](ResultSet& set, const columns::Facts& f, ObjectKind kind,
                        bool is_attribute) {
-    set.entries.push_back({group + (is_attribute ? "@" : "/") + f.name, kind, f.dimensions,
-                           f.values, f.is_optional, f.unit, f.meaning, f.is_axis});
+    set.entries.push_back(columns::entry_of(group + (is_attribute ? "@" : "/") + f.name, f, kind));
   };
   for_each_column<T>([&](const auto& c) {
     if (c.written == Written::in_json) return;

@@ -7,9 +7,7 @@ namespace whirl {
 
 void write_orbit(ResultWriter& file, const Scene& scene, const FoundOrbit& orbit) {
   write_result(file, orbit_result(scene, orbit));
-  if (!orbit.series) return;
-  const OrbitSeries& series = *orbit.series;
-  write_result(file, OrbitSeriesResult{series.orders, series.amplitudes, series.truncation});
+  if (orbit.series) write_result(file, *orbit.series);
 }
 
 void write_rotating_orbit(ResultWriter& file, const Scene& scene, const Cycle& cycle) {

@@ -19,25 +19,6 @@ using enum ObjectKind;
 
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// A dimension of an entry: its name and what it asks for.
-struct DimensionName {
-  std::string name;
-  bool has_elements = false;  ///< at least one
-};
-
-std::vector<DimensionName> dimensions_of(std::string_view sizes) {
-  std::vector<DimensionName> all;
-  for (std::size_t from = 0; from < sizes.size();) {
-    const std::size_t to = std::min(sizes.find(' ', from), sizes.size());
-    DimensionName d{std::string(sizes.substr(from, to - from))};
-    d.has_elements = d.name.ends_with('+');
-    if (d.has_elements) d.name.pop_back();
-    all.push_back(std::move(d));
-    from = to + 1;
-  }
-  return all;
-}
-
 /// Names of object and attribute: "/trajectory" and "period".
 std::pair<std::string, std::string> attribute_of(std::string_view path) {
   const std::size_t at = path.find('@');
@@ -199,6 +180,19 @@ class ResultCheck {
 };
 
 }  // namespace
+
+std::vector<DimensionName> dimensions_of(std::string_view sizes) {
+  std::vector<DimensionName> all;
+  for (std::size_t from = 0; from < sizes.size();) {
+    const std::size_t to = std::min(sizes.find(' ', from), sizes.size());
+    DimensionName d{std::string(sizes.substr(from, to - from))};
+    d.has_elements = d.name.ends_with('+');
+    if (d.has_elements) d.name.pop_back();
+    all.push_back(std::move(d));
+    from = to + 1;
+  }
+  return all;
+}
 
 void check_result(const ResultReader& file) {
   if (!file.has("/model")) {

@@ -37,6 +37,7 @@ std::vector<ResultSet> stated_schema() {
     all.insert(all.end(), sets.begin(), sets.end());
   };
   add(schema_of<PointNames>());
+  add(schema_of<StudyStart>());
   add(schema_of<MotionEnd>());
   add(schema_of<RunFacts>());
   add(schema_of<ContactShares>());
@@ -50,7 +51,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<ResonanceStudy>());
   add(schema_of<WorkPrecisionStudy>());
   add(schema_of<OrbitResult>());
-  add(schema_of<OrbitSeriesResult>());
+  add(schema_of<OrbitSeries>());
   add(schema_of<ClassificationResult>());
   add(schema_of<CriticalSpeeds>());
   add(schema_of<UnbalanceStudy>());
@@ -66,9 +67,6 @@ std::vector<ResultSet> call_schema() {
       {{{"/call/word", text, "call_words"}}},
       {{{"/call/set", text, "call_sets"}}},
       {{{"/call/option", text, "call_options"}}},
-      {{{"/from/displacement", real, "full", finite},
-        {"/from/velocity", real, "full", finite},
-        {"/from@phase", real, "", finite}}},
   };
 }
 

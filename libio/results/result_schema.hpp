@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "libbase/column.hpp"
@@ -27,8 +28,15 @@ struct ResultEntry {
   ValidValues values{};
   bool is_optional = false;  ///< else it is there wherever the first entry of its set is
   std::string unit{}, meaning{};
-  bool is_axis = false;  ///< numbers or names along its dimension
 };
+
+/// A dimension of an entry: its name and what it asks for.
+struct DimensionName {
+  std::string name;
+  bool has_elements = false;  ///< at least one
+};
+/// The dimensions that a list says.
+std::vector<DimensionName> dimensions_of(std::string_view sizes);
 
 /// Entries that a file has together or not at all; the first one says which.
 struct ResultSet {

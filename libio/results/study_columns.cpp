@@ -15,12 +15,13 @@ std::size_t product(std::span<const Eigen::Index> sizes) {
 }  // namespace
 
 Facts done_column() {
-  return {.key = "done",
-          .unit = "",
-          .meaning = "whether a point is computed",
-          .is_integer = true,
-          .is_optional = true,
-          .values = {0.0, 1.0, false}};
+  return {{.name = "done",
+           .unit = "",
+           .meaning = "whether a point is computed",
+           .dimensions = "",
+           .values = valid::from_to(0.0, 1.0),
+           .is_optional = true},
+          true};
 }
 
 StudyWriter::StudyWriter(ResultWriter& file, std::string_view group, const ColumnSizes& sizes)
@@ -66,7 +67,7 @@ void StudyWriter::write_points(const Facts& column, const std::vector<double>& v
     const auto axis = axes_.find(name);
     add(axis == axes_.end() ? Axis{} : axis->second);
   }
-  const std::string place = path(column.key);
+  const std::string place = path(column.name);
   if (column.is_integer) {
     file_.dataset(place, std::vector<int>(values.begin(), values.end()), shape, info);
   } else {
@@ -84,7 +85,7 @@ void StudyWriter::write_done(const std::vector<int>& done) {
 
 std::optional<StoredColumn> read_column(const ResultReader& file, const std::string& group,
                                         const Facts& column, std::size_t points) {
-  const std::string path = group + '/' + column.key;
+  const std::string path = group + '/' + column.name;
   if (column.is_optional && !file.has(path)) return std::nullopt;
   const std::vector<Eigen::Index> shape = file.shape(path);
   const std::size_t behind = dimension_names(column.dimensions).size();
@@ -109,13 +110,10 @@ std::vector<bool> read_done(const ResultReader& file, const std::string& group,
 }
 
 ResultEntry entry_of(const std::string& group, const Facts& column) {
-  return {.path = group + '/' + column.key,
-          .kind = column.is_integer ? ObjectKind::integer : ObjectKind::real,
-          .sizes = column.dimensions.empty() ? "point" : "point " + column.dimensions,
-          .values = column.values,
-          .is_optional = column.is_optional,
-          .unit = column.unit,
-          .meaning = column.meaning};
+  Facts of_points = column;
+  of_points.dimensions = column.dimensions.empty() ? "point" : "point " + column.dimensions;
+  return columns::entry_of(group + '/' + column.name, of_points,
+                           column.is_integer ? ObjectKind::integer : ObjectKind::real);
 }
 
 }  // namespace whirl::study_columns

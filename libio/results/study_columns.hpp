@@ -84,12 +84,10 @@ void take(T& value, std::span<const double> from, std::size_t rows) {
   }
 }
 
-/// What a dataset of points is described by, whatever its type.
-struct Facts {
-  std::string key, unit, meaning;
-  std::string dimensions{};  ///< behind those of the points; of an axis its own
-  bool is_integer = false, is_optional = false;
-  ValidValues values{};
+/// What a dataset of points is described by, whatever its type; its dimensions are those behind the
+/// points, of an axis its own.
+struct Facts : columns::Facts {
+  bool is_integer = false;
   std::string words{};  ///< of codes, as words_attribute; empty: none
 };
 
@@ -126,17 +124,8 @@ void add_words(Facts& facts) {
 
 template <class Value, class Member>
 Facts facts_of(const Column<Member>& c, std::string_view before = "") {
-  Facts facts{.key = std::string(c.key),
-              .unit = std::string(c.unit),
-              .meaning = std::string(c.meaning),
-              .dimensions = std::string(before),
-              .is_integer = is_integer<Value>,
-              .is_optional = c.is_optional,
-              .values = c.values};
-  if (c.dimensions != "point") {
-    if (!before.empty() && !c.dimensions.empty()) facts.dimensions += ' ';
-    facts.dimensions += c.dimensions;
-  }
+  Facts facts{columns::facts_of(c, before), is_integer<Value>};
+  if (c.dimensions == "point") facts.dimensions = before;
   if constexpr (std::is_same_v<Value, bool>) facts.values = {-1.0, 1.0, false};
   if constexpr (CodeOf<Value>::is) add_words<Value>(facts);
   return facts;
@@ -265,7 +254,7 @@ void write_study(ResultWriter& file, const std::vector<ParameterAxis>& parameter
   to.write_parameters(parameters, leads);
   for (const PointColumn<Row>& column : point_columns<Row>()) {
     if constexpr (requires { result.leaves_out(""); }) {
-      if (result.leaves_out(column.facts.key)) continue;
+      if (result.leaves_out(column.facts.name)) continue;
     }
     const std::size_t width = to.width(column.facts);
     std::vector<double> values(width * result.points.size(),
@@ -338,7 +327,6 @@ ResultSet study_schema(const std::vector<ResultEntry>& parameters) {
       ResultEntry entry = entry_of(group, facts_of<Element>(c));
       if constexpr (std::is_convertible_v<Element, std::string>) entry.kind = ObjectKind::text;
       if (c.is_axis) entry.sizes = c.dimensions;
-      entry.is_axis = c.is_axis;
       entries.push_back(entry);
     }
   });

@@ -93,7 +93,7 @@ TEST_F(StudyColumns, GoOnWithAFileFromBeforeAColumn) {
     study_columns::StudyWriter to(file, "/map", {{"exponents", 2}, {"contacts", 1}});
     to.write_parameters(axes, "");
     for (const auto& c : study_columns::point_columns<ClassifiedMotion>()) {
-      if (c.facts.key == key) continue;
+      if (c.facts.name == key) continue;
       to.write_points(c.facts, std::vector<double>(6 * to.width(c.facts), 1.0));
     }
     to.write_done(std::vector<int>(6, 1));
