@@ -9,7 +9,7 @@
 #include "libio/text/format.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::vector<BareSpeed> bare_speeds(const Invocation& call, const std::string& sp
   return found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -6,7 +6,7 @@
 
 #include "apps/invocation.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// A speed that was given as a bare number.
 struct BareSpeed {
@@ -25,4 +25,4 @@ struct BareSpeed {
 /// @param speed  value of --speed, which stands among the sets too; empty: not given
 std::vector<BareSpeed> bare_speeds(const Invocation& call, const std::string& speed);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

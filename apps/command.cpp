@@ -11,7 +11,7 @@
 #include "libio/results/own_file.hpp"
 #include "libio/text/terminal.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -87,4 +87,4 @@ int run_command(const Verb& verb, const std::vector<std::string>& words,
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

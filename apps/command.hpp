@@ -7,7 +7,7 @@
 #include "apps/command_line.hpp"
 #include "apps/verb.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// Runs a verb that takes a file, and prints what it found or why it did not.
 ///
@@ -17,4 +17,4 @@ namespace whirl {
 int run_command(const Verb& verb, const std::vector<std::string>& words,
                 const StoredModel& stored = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -12,7 +12,7 @@
 #include "apps/status.hpp"
 #include "libio/text/nearest.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::variant<CommandLine, int> read_command_line(const Verb& verb,
   return command_of(app, values, call);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -9,7 +9,7 @@
 #include "apps/invocation.hpp"
 #include "apps/verb.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// A model with what was set of it, of a result whose command is run again.
 struct StoredModel {
@@ -33,4 +33,4 @@ std::variant<CommandLine, int> read_command_line(const Verb& verb,
                                                  const std::vector<std::string>& words,
                                                  const StoredModel& stored);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -17,7 +17,7 @@
 #include "libio/text/units.hpp"
 #include "libio/text/value_range.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -162,4 +162,4 @@ std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const 
   return writer;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

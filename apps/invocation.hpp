@@ -12,9 +12,11 @@
 #include "libio/results/replace_file.hpp"
 #include "libio/text/record.hpp"
 
-namespace whirl {
-
+namespace whirl::inline io {
 class ResultWriter;
+}
+
+namespace whirl::inline cli {
 
 /// One call of the program.
 class Invocation {
@@ -74,4 +76,4 @@ struct Report {
   int status = 0;       ///< 0; 3: failed, what was computed is in the report; 130: stopped
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -80,4 +80,4 @@ void print_problems(const ModelError& error, const Invocation& call, const std::
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

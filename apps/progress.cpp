@@ -8,7 +8,7 @@
 #include <csignal>
 #include <cstdio>
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -64,4 +64,4 @@ void Progress::update(long done) {
   std::fflush(stderr);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// From now on the first Ctrl-C asks to stop, and the second one ends the program as usual.
 void install_interrupt_handler();
@@ -26,4 +26,4 @@ class Progress {
   bool has_drawn_ = false;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

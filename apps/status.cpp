@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-namespace whirl {
+namespace whirl::inline cli {
 
 int after_printing(int status) {
   if (std::fflush(stdout) == 0) return status;
@@ -22,4 +22,4 @@ int refused(const FileError& error) {
   return exit_status::wrong_input;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

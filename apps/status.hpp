@@ -3,7 +3,7 @@
 
 #include "libio/results/replace_file.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// Exit statuses that verbs do not decide.
 namespace exit_status {
@@ -18,4 +18,4 @@ int refused(const TakenPlace& error);
 /// Says what is wrong with a file; the status.
 int refused(const FileError& error);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

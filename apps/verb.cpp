@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::string help_of(const OptionSpec& option) {
   return fmt::format("{} ({})", option.help, option.otherwise);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

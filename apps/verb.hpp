@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline cli {
 
 class Invocation;
 struct Report;
@@ -53,4 +53,4 @@ std::optional<OptionSpec> option_named(const Verb& verb, std::string_view name);
 /// What the help says of an option, with its default in parentheses.
 std::string help_of(const OptionSpec& option);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

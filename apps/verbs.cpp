@@ -30,7 +30,7 @@
   schema_verb()
 // clang-format on
 
-namespace whirl {
+namespace whirl::inline cli {
 
 // The list twice: as declarations of functions, each in the file of its verb, and as their calls.
 Verb VERBS;
@@ -40,4 +40,4 @@ const std::vector<Verb>& verbs() {
   return all;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -1,7 +1,7 @@
 #include "apps/version.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 const char* const version = WHIRL_VERSION;
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -1,8 +1,8 @@
 #pragma once
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// Version of the program, from the build.
 extern const char* const version;
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Values that numbers of a dataset or attribute can have.
 struct ValidValues {
@@ -156,4 +156,4 @@ using ColumnValue = std::remove_cvref_t<std::invoke_result_t<Member, const T&>>;
 template <class T, class Member>
 using RowOf = typename ColumnValue<T, Member>::value_type;
 
-}  // namespace whirl
+}  // namespace whirl::inline base

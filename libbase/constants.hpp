@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-namespace whirl {
+namespace whirl::inline base {
 
 constexpr double turn = 2.0 * std::numbers::pi;      ///< once around [rad]
 constexpr double degree = std::numbers::pi / 180.0;  ///< [rad]
@@ -12,4 +12,4 @@ constexpr double rpm = std::numbers::pi / 30.0;      ///< one revolution a minut
 constexpr double hertz = 60.0 * rpm;                 ///< one revolution a second [rad/s]
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-namespace whirl {
+namespace whirl::inline base {
 
 template <class Matrix>
 struct DenseLu<Matrix>::Factors {
@@ -47,4 +47,4 @@ CVec eigenvalues(const Mat& A) {
   return A.eigenvalues();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

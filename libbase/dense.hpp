@@ -7,7 +7,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// P A = L U of a square Mat or CMat, with partial pivoting.
 template <class Matrix>
@@ -55,4 +55,4 @@ Vec least_squares(const Mat& A, const Vec& b);
 /// Eigenvalues of a square matrix.
 CVec eigenvalues(const Mat& A);
 
-}  // namespace whirl
+}  // namespace whirl::inline base

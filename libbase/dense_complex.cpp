@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace whirl {
+namespace whirl::inline base {
 
 std::optional<GeneralModes> general_modes(const CMat& A) {
   if (!A.allFinite()) return std::nullopt;
@@ -11,4 +11,4 @@ std::optional<GeneralModes> general_modes(const CMat& A) {
   return GeneralModes{solver.eigenvalues(), solver.eigenvectors()};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -5,9 +5,9 @@
 
 #include "libbase/dense.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// A v = lambda v; nothing if the iteration does not converge or A is not finite.
 std::optional<GeneralModes> general_modes(const CMat& A);
 
-}  // namespace whirl
+}  // namespace whirl::inline base

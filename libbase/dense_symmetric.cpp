@@ -5,7 +5,7 @@
 
 #include "libbase/dense.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 namespace {
 
@@ -44,4 +44,4 @@ SymmetricModes<CMat> hermitian_modes(const CMat& A) {
   return standard(A);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

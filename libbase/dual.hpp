@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// A value and its derivatives by N variables.
 ///
@@ -49,4 +49,4 @@ struct Dual {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace whirl {
+namespace whirl::inline base {
 
 std::string describe(const Problem& problem) {
   std::string text = problem.where.file;
@@ -30,4 +30,4 @@ ModelError::ModelError(std::vector<Problem> problems)
 ModelError::ModelError(Where where, std::string key, std::string message)
     : ModelError(std::vector<Problem>{{std::move(where), std::move(key), std::move(message)}}) {}
 
-}  // namespace whirl
+}  // namespace whirl::inline base

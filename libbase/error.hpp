@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Place in an input: a file's name (or the command line's words), line and column from 1.
 struct Where {
@@ -52,4 +52,4 @@ class NumericalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Calls f with every member of a family, as it is made, in the order of the list.
 template <class Any, class F>
@@ -45,4 +45,4 @@ std::vector<std::string> keys_of() {
       Struct::fields());
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace whirl {
+namespace whirl::inline base {
 
 enum class Range { any, nonnegative, positive };
 
@@ -55,4 +55,4 @@ constexpr std::string_view name_of(Enum value) {
   return "?";
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -6,7 +6,7 @@
 
 #include "libbase/dense.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 void sort_by_size(CVec& values) {
   std::sort(values.begin(), values.end(), [](const Complex& a, const Complex& b) {
@@ -63,4 +63,4 @@ CVec multipliers_across(const Mat& tangent) {
   return all.head(all.size() - 1);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -5,7 +5,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// The largest first, pairs together.
 void sort_by_size(CVec& multipliers);
@@ -24,4 +24,4 @@ CVec multipliers_of(std::span<const Mat> tangents);
 /// nearest to 1, which is that along the motion.
 CVec multipliers_across(const Mat& tangent);
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace whirl {
+namespace whirl::inline base {
 
 Vec harmonic_functions(double theta, int harmonics) {
   Vec phi(2 * harmonics + 1);
@@ -63,4 +63,4 @@ Periodic::Instant Periodic::at(double theta) const {
   return now;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -3,7 +3,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// 1, cos theta, sin theta, cos 2 theta, sin 2 theta, ... up to some harmonics, 2 H + 1 of them.
 Vec harmonic_functions(double theta, int harmonics);
@@ -40,4 +40,4 @@ struct Periodic {
   Instant at(double theta) const;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -5,7 +5,7 @@
 
 #include "libbase/dense.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 Vec legendre_at(double x, int terms) {
   Vec p(terms);
@@ -60,4 +60,4 @@ Vec chebyshev_points(int points) {
   return s;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -4,7 +4,7 @@
 #include "libbase/linalg.hpp"
 #include "libbase/quadrature.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// P_0 ... P_(terms-1) at -1 <= x <= 1.
 Vec legendre_at(double x, int terms);
@@ -25,4 +25,4 @@ Mat values_to_legendre(const Vec& nodes);
 /// Chebyshev points on [0, 1], both ends included.
 Vec chebyshev_points(int points);
 
-}  // namespace whirl
+}  // namespace whirl::inline base

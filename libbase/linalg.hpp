@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <complex>
 
-namespace whirl {
+namespace whirl::inline base {
 
 using Complex = std::complex<double>;
 using Vec = Eigen::VectorXd;
@@ -18,4 +18,4 @@ using Sparse = Eigen::SparseMatrix<double>;
 using CSparse = Eigen::SparseMatrix<Complex>;
 using Triplet = Eigen::Triplet<double>;
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -3,11 +3,11 @@
 #include <string>
 #include <string_view>
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// A name with what it is the name of, once: "bearing left", but "bearing 1" of "bearing 1".
 inline std::string named(std::string_view kind, const std::string& name) {
   return name.starts_with(kind) ? name : std::string(kind) + " " + name;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -12,7 +12,7 @@
 
 #include "libbase/dense.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// J^-1 r, a step of Newton's method; nothing where J is as good as singular.
 inline std::optional<Vec> newton_step(const Mat& J, const Vec& r) {
@@ -103,4 +103,4 @@ NewtonSearch newton(At& at, Step&& step, Moved&& moved, const NewtonOptions& opt
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Sizes of the pieces that points are cut into, from what they cost so far.
 ///
@@ -56,4 +56,4 @@ class PieceSizes {
   double cost_ = 0.0;      ///< of a point [s]; 0: not known yet
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline base

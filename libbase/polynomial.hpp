@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// g(s) = c_0 + c_1 s + ... + c_degree s^degree on 0 <= s <= 1.
 struct Polynomial {
@@ -86,4 +86,4 @@ inline std::optional<double> first_fall(Polynomial g, bool on_surface) {
   return s;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

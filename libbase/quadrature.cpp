@@ -6,7 +6,7 @@
 
 #include "libbase/legendre.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 namespace {
 
@@ -81,4 +81,4 @@ Mat Quadrature::interpolation(const Vec& at) const {
   return values;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -2,7 +2,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Gauss-Legendre points on [0, 1] and weights, exact to degree 2 points - 1.
 struct GaussRule {
@@ -36,4 +36,4 @@ struct Quadrature {
   Mat interpolation(const Vec& at) const;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -8,7 +8,7 @@
 
 #include "libbase/constants.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Where a function with opposite signs at two places is zero, by Brent's method: inverse quadratic
 /// interpolation and secants, bisection where they would not help.
@@ -142,4 +142,4 @@ Maximum bracketed_maximum(Function&& f, double low, double guess, double high, d
   return {x, fx};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline base {
 
 double section_dimension(const Mat& points) {
   constexpr std::ptrdiff_t near = 8, far = 32;
@@ -31,4 +31,4 @@ double section_dimension(const Mat& points) {
   return 2 * terms < count ? 0.0 : terms * std::log(double{far} / double{near}) / sum;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

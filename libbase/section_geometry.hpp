@@ -2,7 +2,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Dimension of the set that points lie on: 0 for a few points that repeat, 1 for a closed curve as
 /// the sections of a motion with two frequencies make it, more for a torus of three or for chaos.
@@ -16,4 +16,4 @@ namespace whirl {
 /// @source [BadiiPoliti1985], fixed mass
 double section_dimension(const Mat& points);
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace whirl {
+namespace whirl::inline base {
 
 Vec smooth_weights(Eigen::Index count) {
   Vec w(count);
@@ -13,4 +13,4 @@ Vec smooth_weights(Eigen::Index count) {
   return w / w.sum();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

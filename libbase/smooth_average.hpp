@@ -2,7 +2,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Weights w_i ~ exp(-1 / (t_i (1 - t_i))), 0 < t_i < 1, of a smooth average; they sum to 1.
 ///
@@ -13,4 +13,4 @@ namespace whirl {
 /// @source [Das2017]
 Vec smooth_weights(Eigen::Index count);
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -2,7 +2,7 @@
 
 #include <Eigen/SparseLU>
 
-namespace whirl {
+namespace whirl::inline base {
 
 struct SparseLu::Factors {
   Eigen::SparseLU<Sparse> lu;
@@ -23,4 +23,4 @@ Mat SparseLu::solve(const Eigen::Ref<const Mat>& b) const {
   return factors_->lu.solve(b);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -5,7 +5,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// P A Q = L U of a square sparse matrix.
 class SparseLu {
@@ -45,4 +45,4 @@ class ComplexSparseLu {
   std::unique_ptr<Factors> factors_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline base

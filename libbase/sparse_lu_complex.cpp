@@ -4,7 +4,7 @@
 
 #include "libbase/sparse_lu.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 struct ComplexSparseLu::Factors {
   Eigen::SparseLU<CSparse> lu;
@@ -25,4 +25,4 @@ CVec ComplexSparseLu::solve(const CVec& b) const {
   return factors_->lu.solve(b);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
-namespace whirl {
+namespace whirl::inline base {
 
 long smooth_length(long n) {
   for (; n > 1; --n) {
@@ -60,4 +60,4 @@ std::vector<Peak> find_peaks(const Vec& magnitude, double bin, double share, int
   return peaks;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline base

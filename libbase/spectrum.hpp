@@ -5,7 +5,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Spectrum of equally spaced samples under a Hann window.
 struct Spectrum {
@@ -44,4 +44,4 @@ Spectrum hann_spectrum(const CVec& samples, double spacing);
 /// @source [Grandke1983], interpolation of windowed spectra
 std::vector<Peak> find_peaks(const Vec& magnitude, double bin, double share, int most);
 
-}  // namespace whirl
+}  // namespace whirl::inline base

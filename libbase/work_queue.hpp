@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline base {
 
 /// Threads that do pieces of work in the order in which they come.
 ///
@@ -108,4 +108,4 @@ class WorkQueue {
   std::vector<std::jthread> threads_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline base

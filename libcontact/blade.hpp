@@ -4,7 +4,7 @@
 #include "libbase/dense.hpp"
 #include "libcontact/laws/blade_tip.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// Radial shortening c_b of a blade per squared normal force at its tip [m/N^2].
 ///
@@ -40,4 +40,4 @@ inline double blade_shortening(const BladeTip<>& blade, double mu, double Omega)
   return 0.5 * a.col(0).dot(slopes * a.col(0));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

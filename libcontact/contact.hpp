@@ -7,7 +7,7 @@
 #include "libcontact/laws.hpp"
 #include "libfe/structure.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// A place where the rotor may touch a stator, as the model file says it.
 struct Contact {
@@ -32,4 +32,4 @@ inline AnyGeometry geometry_of(const Contact& contact) {
   return own_geometry(contact.law).value_or(contact.geometry);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

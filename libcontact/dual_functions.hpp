@@ -5,7 +5,7 @@
 #include "libcontact/film.hpp"
 #include "libcontact/laws/blade_tip.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 template <int N>
 Dual<N> arc_cotangent(const Dual<N>& a) {
@@ -19,4 +19,4 @@ Dual<N> indentation(const Dual<N>& d, double bend) {
   return {z, d.slopes / (1.0 + 3.0 * bend * z * z)};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

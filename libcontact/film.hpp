@@ -22,7 +22,7 @@
 #include "libbase/field.hpp"
 #include "libcontact/law.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// A plain cylindrical journal bearing.
 struct JournalBearing {
@@ -46,4 +46,4 @@ WHIRL_INLINE double arc_cotangent(double v) {
   return std::atan2(1.0, v);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

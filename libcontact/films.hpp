@@ -5,9 +5,9 @@
 
 #include "libcontact/films/short.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 using AnyFilmLaw = std::variant<  //
     Short>;
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

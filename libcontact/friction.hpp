@@ -6,7 +6,7 @@
 
 #include "libbase/field.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// What the friction force opposes.
 enum class Slip {
@@ -47,4 +47,4 @@ struct Friction {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

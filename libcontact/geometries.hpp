@@ -8,7 +8,7 @@
 #include "libcontact/geometry/ring.hpp"
 #include "libcontact/geometry/stop.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 using AnyGeometry = std::variant<  //
     geometry::Ring,                //
@@ -58,4 +58,4 @@ inline Mat2 projection_of(const AnyGeometry& any) {
   return n ? Mat2(*n * n->transpose()) : Mat2::Identity();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

@@ -30,7 +30,7 @@
 #include "libbase/linalg.hpp"
 #include "libbase/polynomial.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// Motion of the rotor that closes a clearance.
 enum class Closing {
@@ -104,4 +104,4 @@ inline Polynomial beyond_unit_circle(const PathPowers& x, const PathPowers& y) {
   return g;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

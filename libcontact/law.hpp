@@ -22,7 +22,7 @@
 /// Laws are inlined everywhere, so that one source serves every number type and instruction set.
 #define WHIRL_INLINE [[gnu::always_inline]] inline
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// Square root of a depth; zero a little beyond the surface.
 WHIRL_INLINE double depth_root(double d) {
@@ -34,4 +34,4 @@ WHIRL_INLINE auto depth_root(const T& d) {
   return sqrt(d);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

@@ -11,7 +11,7 @@
 #include "libcontact/laws/hertz.hpp"
 #include "libcontact/laws/radial.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 template <class R = double>
 using AnyContactLaw = std::variant<  //
@@ -52,4 +52,4 @@ inline std::optional<AnyGeometry> own_geometry(const AnyContactLaw<>& law) {
       law);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

@@ -5,7 +5,7 @@
 #include "libcontact/films.hpp"
 #include "libfe/structure.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// A journal bearing with its nonlinear oil film, as the model file says it.
 struct OilFilm {
@@ -18,4 +18,4 @@ struct OilFilm {
   Where where{};
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

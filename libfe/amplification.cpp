@@ -6,7 +6,7 @@
 
 #include "libbase/constants.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -86,4 +86,4 @@ SeparationMargin separation_margin(const ResponsePeak& peak, double operating) {
   return margin;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

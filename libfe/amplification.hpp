@@ -6,7 +6,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A peak of a response over speed.
 struct ResponsePeak {
@@ -57,4 +57,4 @@ struct SeparationMargin {
 /// @source [API617], separation margins
 SeparationMargin separation_margin(const ResponsePeak& peak, double operating);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -13,7 +13,7 @@
 #include "libfe/elements/disk.hpp"
 #include "libfe/shaft_elements.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -339,4 +339,4 @@ System assemble(const Structure& structure, double Omega) {
   return Assembler(structure).at(Omega);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

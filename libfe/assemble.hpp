@@ -5,7 +5,7 @@
 #include "libfe/mesh.hpp"
 #include "libfe/structure.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Linear equations of motion at one speed: M q'' + (C + Omega G) q' + K q = f.
 ///
@@ -73,4 +73,4 @@ class Assembler {
 /// Matrices of a structure at a speed [rad/s]; see Assembler::at.
 System assemble(const Structure& structure, double Omega);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -23,7 +23,7 @@
 #include "libfe/bearings/constant.hpp"
 #include "libfe/bearings/table.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 using AnyBearing = std::variant<  //
     ConstantBearing,              //
@@ -51,4 +51,4 @@ inline std::span<const double> told_speeds(const AnyBearing& bearing) {
   return std::visit([](const auto& b) { return b.speeds(); }, bearing);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -6,7 +6,7 @@
 #include "libbase/quadrature.hpp"
 #include "libfe/shaft_elements.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -156,4 +156,4 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
   return line;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

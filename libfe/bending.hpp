@@ -4,7 +4,7 @@
 #include "libbase/column.hpp"
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// What a cut through the shaft shows, position by position.
 ///
@@ -65,4 +65,4 @@ struct BendingLine {
 /// @return  no positions if there is no shaft
 BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& displacement);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

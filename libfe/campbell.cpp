@@ -8,7 +8,7 @@
 #include "libbase/error.hpp"
 #include "libbase/roots.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -219,4 +219,4 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

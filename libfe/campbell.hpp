@@ -7,7 +7,7 @@
 #include "libbase/column.hpp"
 #include "libfe/modes.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// One mode, followed through the speeds by its shape.
 struct CampbellBranch {
@@ -89,4 +89,4 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
 /// MAC of two complex shapes with a weight: |a^H W b|^2 / (a^H W a  b^H W b).
 double mac(const CVec& a, const CVec& b, const Sparse& W);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -12,7 +12,7 @@
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/static.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -170,4 +170,4 @@ std::vector<Critical> critical_speeds(const Assembler& assembler, const Critical
   return criticals;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -8,7 +8,7 @@
 #include "libbase/column.hpp"
 #include "libfe/modes.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 struct CriticalOptions {
   int count = 6;           ///< lowest ones wanted
@@ -79,4 +79,4 @@ std::vector<Critical> critical_speeds(const Assembler& assembler, const Critical
 /// @throws NumericalError  if the eigensolver fails, or the stiffness is not positive definite
 std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -12,7 +12,7 @@
 #include "libbase/roots.hpp"
 #include "libfe/campbell.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -283,4 +283,4 @@ CriticalMap critical_map(const Structure& structure, const CriticalMapOptions& o
   return map;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -7,7 +7,7 @@
 #include "libfe/critical.hpp"
 #include "libfe/shape_branches.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 struct CriticalMapOptions {
   CriticalOptions critical;  ///< count: of the stiffest bearings, all of which the map shows
@@ -63,4 +63,4 @@ struct CriticalMap {
 /// @return  no branches if no bearing has a stiffness
 CriticalMap critical_map(const Structure& structure, const CriticalMapOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -6,7 +6,7 @@
 #include "libbase/linalg.hpp"
 #include "libfe/mesh.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Components of the displacement of a point, in this order.
 enum Component { X = 0, Y = 1, THETA_X = 2, THETA_Y = 3 };
@@ -54,4 +54,4 @@ struct DofMap {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -6,7 +6,7 @@
 
 #include "libbase/names.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 std::vector<ExceededTable> exceeded_tables(const Structure& structure, double lowest,
                                            double highest) {
@@ -29,4 +29,4 @@ std::vector<ExceededTable> exceeded_tables(const Structure& structure, double lo
   return exceeded;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -6,7 +6,7 @@
 
 #include "libfe/structure.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A bearing or link with a table that ends before some of the speeds.
 struct ExceededTable {
@@ -18,4 +18,4 @@ struct ExceededTable {
 std::vector<ExceededTable> exceeded_tables(const Structure& structure, double lowest,
                                            double highest);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

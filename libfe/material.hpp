@@ -5,7 +5,7 @@
 
 #include "libbase/field.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// An isotropic, linear elastic material.
 struct Material {
@@ -29,4 +29,4 @@ struct Material {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -243,4 +243,4 @@ Point resolve(const Station& station, const Structure& structure, const Mesh& me
   return {Point::Kind::node, nearest};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

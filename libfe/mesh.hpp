@@ -5,7 +5,7 @@
 
 #include "libfe/structure.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A point that has displacements: a node of the shaft, a body, or the ground.
 struct Point {
@@ -51,4 +51,4 @@ double shaft_diameter(const Structure& structure, double z);
 /// All stations of a structure, in the order disks, bearings, links, unbalances, others.
 std::vector<const Station*> all_stations(const Structure& structure);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -16,7 +16,7 @@
 #include "libfe/eigen/refine.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -366,4 +366,4 @@ Modes ModeFinder::near(double Omega, double frequency, int count) const {
   return sorted(std::move(found), at_speed, body, std::numeric_limits<int>::max());
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

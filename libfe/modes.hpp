@@ -9,7 +9,7 @@
 #include "libbase/field.hpp"
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Sense of a mode along the whole rotor.
 enum class Whirl { forward, backward, mixed, planar };
@@ -136,4 +136,4 @@ std::vector<Orbit> orbits(const DofMap& dofs, const CVec& shape);
 /// Sense of whirl from orbits: points below a thousandth of the largest are not asked.
 Whirl whirl_of(const std::vector<Orbit>& orbits);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -2,7 +2,7 @@
 
 #include "libbase/quadrature.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
   RotorProperties p;
@@ -35,4 +35,4 @@ RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
   return p;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -2,7 +2,7 @@
 
 #include "libfe/mesh.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// What a rotor weighs: shaft, disks and spinning bodies.
 struct RotorProperties {
@@ -14,4 +14,4 @@ struct RotorProperties {
 /// Integrates along the shaft; exact for cylinders and cones.
 RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -11,7 +11,7 @@
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/modes.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -210,4 +210,4 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   return reduced;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -8,7 +8,7 @@
 #include "libbase/field.hpp"
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 enum class ReductionMethod {
   automatic,       ///< none up to 12 freedoms, modal_residual above
@@ -103,4 +103,4 @@ ReductionError reduction_error(const System& system, const ReducedSystem& reduce
 /// Projects a system on a basis, M-orthonormal after a small eigenproblem.
 ReducedSystem project(const System& system, const Mat& basis);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

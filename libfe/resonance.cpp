@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::vector<InternalResonance> internal_resonances(const Campbell& diagram, int 
   return found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -6,7 +6,7 @@
 
 #include "libfe/campbell.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A speed at which two modes are in p:q resonance as seen from the rotor.
 struct InternalResonance {
@@ -29,4 +29,4 @@ struct InternalResonance {
 /// @source [Shaw2016]
 std::vector<InternalResonance> internal_resonances(const Campbell& diagram, int largest);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -10,7 +10,7 @@
 #include "libbase/roots.hpp"
 #include "libfe/campbell.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -285,4 +285,4 @@ ResponseCurve response_curve(const Assembler& assembler, const std::vector<doubl
   return curve;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

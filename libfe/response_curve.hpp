@@ -8,7 +8,7 @@
 #include "libfe/amplification.hpp"
 #include "libfe/unbalance.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 struct ResponseCurveOptions {
   double phase_step = 4.0;     ///< between neighboring speeds at most [deg]
@@ -55,4 +55,4 @@ struct Resonance {
 /// @throws NumericalError  if an eigensolver fails
 std::vector<Resonance> resonances_between(const Assembler& assembler, double first, double last);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -6,7 +6,7 @@
 
 #include "libbase/field.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A circular section, solid (inner = 0) or hollow.
 struct Section {
@@ -69,4 +69,4 @@ constexpr double shear_coefficient(const ShearCoefficient& how, const Section& s
   return how.value;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -1,6 +1,6 @@
 #include "libfe/shaft_elements.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 Beam beam_of(const MeshElement& element, const Structure& structure, const Mesh& mesh) {
   const Segment& segment = structure.shaft[static_cast<std::size_t>(element.segment)];
@@ -15,4 +15,4 @@ Beam beam_of(const MeshElement& element, const Structure& structure, const Mesh&
           .internal_functions = segment.internal_functions};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

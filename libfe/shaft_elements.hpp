@@ -4,9 +4,9 @@
 #include "libfe/elements/beam.hpp"
 #include "libfe/mesh.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// The beam between two neighboring nodes.
 Beam beam_of(const MeshElement& element, const Structure& structure, const Mesh& mesh);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

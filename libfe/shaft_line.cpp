@@ -5,7 +5,7 @@
 
 #include "libfe/shaft_elements.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -58,4 +58,4 @@ ShaftLine shaft_line(const Assembler& assembler, int parts) {
   return line;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -3,7 +3,7 @@
 
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Places along the shaft, and their deflections as rows of the full vector (see DofMap).
 struct ShaftLine {
@@ -15,4 +15,4 @@ struct ShaftLine {
 /// @param parts  of an element, parts >= 1
 ShaftLine shaft_line(const Assembler& assembler, int parts);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -203,4 +203,4 @@ double share_within(const CVec& shape, const CMat& Q, const Sparse& W) {
   return size > 0.0 ? (Q.adjoint() * Wa).squaredNorm() / size : 0.0;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -7,7 +7,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A number with the shape that belongs to it, such as a critical speed.
 struct ShapedValue {
@@ -55,4 +55,4 @@ ShapeBranches follow_shapes(const std::vector<double>& at, const SolveShapes& so
 /// @param Q  columns with Q^H W Q = I
 double share_within(const CVec& shape, const CMat& Q, const Sparse& W);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

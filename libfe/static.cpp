@@ -6,7 +6,7 @@
 #include "libbase/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -51,4 +51,4 @@ StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -7,7 +7,7 @@
 #include "libbase/column.hpp"
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 struct BearingLoad {
   std::string name;
@@ -52,4 +52,4 @@ StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega);
 /// @throws ModelError  if one is
 void require_supports(const Assembler& assembler, double Omega, std::string_view what);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

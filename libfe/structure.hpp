@@ -11,7 +11,7 @@
 #include "libfe/material.hpp"
 #include "libfe/section.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A place that something is attached to, as it was written.
 struct Station {
@@ -149,4 +149,4 @@ struct Structure {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

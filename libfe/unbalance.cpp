@@ -5,7 +5,7 @@
 #include "libbase/error.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 struct UnbalanceSolver::State {
   const Assembler& assembler;
@@ -73,4 +73,4 @@ UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vect
   return response;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

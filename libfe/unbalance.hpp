@@ -7,7 +7,7 @@
 
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Complex displacements at points over speeds: u(t) = Re(value e^(i Omega t)).
 struct UnbalanceResponse {
@@ -43,4 +43,4 @@ class UnbalanceSolver {
 UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vector<double>& speeds,
                                      const std::vector<Point>& points);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -1,6 +1,6 @@
 # Writes a C++ file with texts in it: cmake -DOUT=FILE.cpp -DNAMES=a,b -DFILES_a=x.js,y.js -DFILES_b=z.css -P embed.cmake
 # Each text is an array of characters, so that no compiler's limit on string literals counts.
-set(code "#include \"libio/page/page_assets.hpp\"\nnamespace whirl {\nnamespace {\n")
+set(code "#include \"libio/page/page_assets.hpp\"\nnamespace whirl::inline io {\nnamespace {\n")
 set(views "")
 string(REPLACE "," ";" names "${NAMES}")
 foreach(name IN LISTS names)
@@ -14,4 +14,4 @@ foreach(name IN LISTS names)
   string(APPEND code "};\n")
   string(APPEND views "const std::string_view page_${name}(reinterpret_cast<const char*>(bytes_${name}), sizeof bytes_${name});\n")
 endforeach()
-file(WRITE "${OUT}" "${code}}  // namespace\n${views}}  // namespace whirl\n")
+file(WRITE "${OUT}" "${code}}  // namespace\n${views}}  // namespace whirl::inline io\n")

@@ -17,7 +17,7 @@
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -232,4 +232,4 @@ Verb animate_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

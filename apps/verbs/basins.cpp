@@ -11,7 +11,7 @@
 #include "apps/verbs/study.hpp"
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -83,4 +83,4 @@ Verb basins_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -7,7 +7,7 @@
 
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::string basins_table(const BasinsResult& result) {
   return text.text();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -6,9 +6,9 @@
 #include "libdyn/studies/basins.hpp"
 #include "libio/text/record.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 Record basins_entries(const BasinsResult& result);
 std::string basins_table(const BasinsResult& result);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -19,7 +19,7 @@
 #include "libio/text/table.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -180,4 +180,4 @@ Verb bench_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

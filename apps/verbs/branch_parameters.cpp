@@ -10,7 +10,7 @@
 #include "libbase/error.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -108,4 +108,4 @@ void write_fixed(ResultWriter& file, const BranchParameters& parameters) {
                  fmt::format("{}", fmt::join(fixed.axis.assignments_of(fixed.range.first), "\n")));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

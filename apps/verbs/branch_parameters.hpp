@@ -10,9 +10,7 @@
 #include "libio/model/model_family.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl {
-
-class ResultWriter;
+namespace whirl::inline cli {
 
 /// A parameter of branches and its range.
 struct BranchParameter {
@@ -49,4 +47,4 @@ BranchParameters branch_parameters(const Invocation& call, const Model& model);
 /// every path; none without a second parameter.
 void write_fixed(ResultWriter& file, const BranchParameters& parameters);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -15,7 +15,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -117,4 +117,4 @@ Verb campbell_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -12,7 +12,7 @@
 #include "libio/text/table.hpp"
 #include "libio/text/terminal.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -78,4 +78,4 @@ Verb check_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

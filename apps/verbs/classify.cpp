@@ -11,7 +11,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -142,4 +142,4 @@ Verb classify_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -11,7 +11,7 @@
 #include "libio/text/table.hpp"
 #include "libio/text/value_range.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 Record begin_record(const Invocation& call, const Model& model) {
   Record record;
@@ -97,4 +97,4 @@ void commit(const Invocation& call, ResultWriter* file, Report& report) {
   report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -10,10 +10,11 @@
 #include "libfe/modes.hpp"
 #include "libio/results/motion_window.hpp"
 
-namespace whirl {
-
-class ResultWriter;
+namespace whirl::inline io {
 struct ResultView;
+}
+
+namespace whirl::inline cli {
 
 /// Record with the entries that all verbs have: model, version, speed_rpm.
 Record begin_record(const Invocation& call, const Model& model);
@@ -39,4 +40,4 @@ void write_notes(ResultWriter& file, const Report& report);
 /// Writes the report's notes into a result file, if there is one, commits it, and says so.
 void commit(const Invocation& call, ResultWriter* file, Report& report);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -5,7 +5,7 @@
 #include "apps/status.hpp"
 #include "apps/verb.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -71,4 +71,4 @@ Verb completion_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -8,7 +8,7 @@
 #include "apps/verbs/study_file.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -107,4 +107,4 @@ Verb continue_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -4,7 +4,7 @@
 #include "apps/verbs/orbits.hpp"
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -51,4 +51,4 @@ ContinueCall continue_call(const Invocation& call, const Model& model) {
   return asked;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -10,7 +10,7 @@
 #include "libio/results/branch_results.hpp"
 #include "libio/results/curve_results.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 struct ContinueCall {
   BranchParameters parameters;
@@ -45,4 +45,4 @@ struct FollowedBranches {
   int status = 0;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

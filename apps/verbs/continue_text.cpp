@@ -8,7 +8,7 @@
 #include "apps/verbs/notes.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -195,4 +195,4 @@ Report continue_report(const Invocation& call, const Model& model, const Continu
   return report;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

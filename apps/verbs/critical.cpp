@@ -14,7 +14,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -84,4 +84,4 @@ Verb critical_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -12,7 +12,7 @@
 #include "libio/results/csv_tables.hpp"
 #include "libio/text/nearest.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -175,4 +175,4 @@ Verb export_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -11,7 +11,7 @@
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -121,4 +121,4 @@ Verb identify_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -10,7 +10,7 @@
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -84,4 +84,4 @@ Verb map_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

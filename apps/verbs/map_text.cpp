@@ -7,7 +7,7 @@
 
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::string map_shares(const MapResult& map, const std::vector<ParameterAxis>& a
   return text + "\n" + contacts.text();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

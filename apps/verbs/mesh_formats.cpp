@@ -8,7 +8,7 @@
 #include "apps/program.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace fs = std::filesystem;
 
@@ -97,4 +97,4 @@ void write_mesh(const fs::path& place, const MeshFormat& format, const RotorMesh
   if (problem) fail(problem.message());
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -6,7 +6,7 @@
 #include "apps/verbs/notes.hpp"
 #include "libio/results/columns.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -45,4 +45,4 @@ Verb modes_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -9,7 +9,7 @@
 #include "libfe/exceeded_tables.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -63,4 +63,4 @@ void note_tables(const Invocation& call, const Model& model, Report& report) {
   note_tables(model, lowest, highest, report);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -3,7 +3,7 @@
 
 #include "apps/invocation.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// Behind the number of a mode that hardly whirls, and what it means.
 constexpr const char* heavy_mark = "*";
@@ -18,4 +18,4 @@ void note_tables(const Model& model, double lowest, double highest, Report& repo
 /// The same for the speed of the model, or for those that --over goes through.
 void note_tables(const Invocation& call, const Model& model, Report& report);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -3,7 +3,7 @@
 
 #include "apps/verb.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 constexpr OptionSpec speeds_option{"speeds", "A:B:STEP", "speeds, such as 0:8000:50rpm"};
 
@@ -44,4 +44,4 @@ constexpr OptionSpec from_revolution_option{"from-revolution", "N",
 constexpr OptionSpec times_option{"times", "A:B",
                                   "instead of revolutions, from A to B [s] of a motion"};
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -13,7 +13,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/results/orbit_results.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -116,4 +116,4 @@ Verb orbit_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -15,7 +15,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -92,4 +92,4 @@ Report search_orbits(const Invocation& call, const Model& model) {
   return report;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -8,7 +8,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::string orbit_text(const FoundOrbit& orbit) {
   return text;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -6,7 +6,7 @@
 #include "libdyn/studies/found_orbit.hpp"
 #include "libio/text/record.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// Entries of the orbit, from `period_revs` to `harmonic_balance`.
 void add_orbit(Record& record, const FoundOrbit& orbit);
@@ -17,4 +17,4 @@ std::string orbit_text(const FoundOrbit& orbit);
 /// `floquet` entry: complex numbers as pairs.
 Record complex_list(const CVec& numbers);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

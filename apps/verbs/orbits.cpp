@@ -9,7 +9,7 @@
 #include "libbase/error.hpp"
 #include "libio/results/result_schema.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -94,4 +94,4 @@ BranchStart branch_start(const Invocation& call) {
   throw ModelError({option}, "", fmt::format("expected a number from 1 to {}", points));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -8,7 +8,7 @@
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/branch_point.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// Where orbits are to be closed, as seen from there: --frame.
 /// @throws ModelError  for other frames than the stationary and the rotating one
@@ -42,4 +42,4 @@ Report search_orbits(const Invocation& call, const Model& model);
 /// An orbit that repeats as seen from the rotor, whose period is any: --frame rotating.
 Report rotating_orbit(const Invocation& call, const Model& model);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -24,7 +24,7 @@
 #include "libio/text/nearest.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -314,4 +314,4 @@ Verb plot_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

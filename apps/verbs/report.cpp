@@ -12,7 +12,7 @@
 #include "libio/page/report_page.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -56,4 +56,4 @@ Verb report_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -6,7 +6,7 @@
 #include "libio/results/call.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -60,4 +60,4 @@ Verb rerun_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

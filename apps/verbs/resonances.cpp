@@ -16,7 +16,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -160,4 +160,4 @@ Verb resonances_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -8,7 +8,7 @@
 
 #include "libio/figures/figures.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 void require_result(const Invocation& call, const std::string& kind) {
   const std::filesystem::path model = call.file;
@@ -34,4 +34,4 @@ void require_result(const Invocation& call, const std::string& kind) {
       call.file, shell_line({"whirl", verb, call.file, "--out", out}), shell_line(then)));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -13,7 +13,7 @@
 #include "libio/results/orbit_results.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -72,4 +72,4 @@ Report rotating_orbit(const Invocation& call, const Model& model) {
   return report;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -9,7 +9,7 @@
 #include "libio/model/model_file.hpp"
 #include "libio/results/result_schema.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -83,4 +83,4 @@ std::string told(int number, const Mode& mode) {
                      name_of(mode.whirl));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -13,7 +13,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// The model or result of a call, as a scene.
 struct SceneSource {
@@ -44,4 +44,4 @@ struct SceneSource {
 /// "mode 1 at 1664.6 rpm, backward"
 std::string told(int number, const Mode& mode);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -7,7 +7,7 @@
 #include "libio/model/model_schema.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -55,4 +55,4 @@ Verb schema_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

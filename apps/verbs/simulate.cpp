@@ -5,7 +5,7 @@
 #include "apps/verbs/simulation.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -40,4 +40,4 @@ Verb simulate_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

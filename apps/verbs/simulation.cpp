@@ -15,7 +15,7 @@
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -322,4 +322,4 @@ void write_run(ResultWriter& file, const Run& run, const Model& model) {
   if (!run.stations.empty()) write_result(file, spectra_of(run));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

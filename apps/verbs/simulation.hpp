@@ -9,9 +9,7 @@
 #include "apps/verb.hpp"
 #include "libdyn/motions/run_result.hpp"
 
-namespace whirl {
-
-class ResultWriter;
+namespace whirl::inline cli {
 
 /// Options of simulate and identify, behind those of one of them.
 std::vector<OptionSpec> integration_options(std::vector<OptionSpec> own = {});
@@ -62,4 +60,4 @@ void write_end(ResultWriter& file, const Model& model, const Scene& scene, const
 /// Groups /trajectory and /contacts, and /spectra of the stations.
 void write_run(ResultWriter& file, const Run& run, const Model& model);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -13,7 +13,7 @@
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -111,4 +111,4 @@ Verb static_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -9,7 +9,7 @@
 #include "libbase/error.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -187,4 +187,4 @@ void add_outcome(const Invocation& call, const StudyOutcome& outcome, Report& re
   if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -20,7 +20,7 @@
 #include "libio/results/study_columns.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// Options of all of them, behind those of one.
 std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);
@@ -128,4 +128,4 @@ StudyRun<Result> run_study(const Invocation& call, const StudySetup& setup, cons
   return {study(monitor, std::move(earlier)), resumed};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

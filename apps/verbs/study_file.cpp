@@ -15,7 +15,7 @@
 #include "libio/results/own_file.hpp"
 #include "libio/results/result_schema.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -112,4 +112,4 @@ void StudyFile::save() {
   file->commit();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -8,7 +8,7 @@
 #include "apps/invocation.hpp"
 #include "apps/verbs/simulation.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// The file of --out of a study: it holds what is done at every moment, and an earlier run of the same
 /// line is gone on with. Without --out it does nothing.
@@ -37,4 +37,4 @@ std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& mod
 /// Group /from of a result file: so that a study does not go on from another start.
 void write_start(ResultWriter& file, const std::optional<EarlierEnd>& start);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -10,7 +10,7 @@
 #include "apps/verbs/study.hpp"
 #include "apps/verbs/sweep_text.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -85,4 +85,4 @@ Verb sweep_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

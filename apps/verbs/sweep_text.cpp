@@ -7,7 +7,7 @@
 
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -82,4 +82,4 @@ std::string sweep_stretches(const SweepWay& way) {
   return text.text();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

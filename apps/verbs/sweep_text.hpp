@@ -7,7 +7,7 @@
 #include "libio/text/parameter_axis.hpp"
 #include "libio/text/record.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// One way of a sweep, in the order in which it went.
 struct SweepWay {
@@ -29,4 +29,4 @@ Record sweep_entries(const SweepWay& way);
 /// Stretches of values with the same motion, for people.
 std::string sweep_stretches(const SweepWay& way);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -11,7 +11,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libio/results/torus_results.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -109,4 +109,4 @@ Verb torus_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -2,7 +2,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 TorusCall torus_call(const Invocation& call, const Model& model) {
   TorusCall asked;
@@ -20,4 +20,4 @@ TorusCall torus_call(const Invocation& call, const Model& model) {
   return asked;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

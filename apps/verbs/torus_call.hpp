@@ -7,7 +7,7 @@
 #include "apps/verbs/branch_parameters.hpp"
 #include "libdyn/studies/torus_branch.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 struct TorusCall {
   std::optional<BranchParameters> parameters{};
@@ -21,4 +21,4 @@ struct TorusCall {
 /// @throws ModelError  for options that are wrong
 TorusCall torus_call(const Invocation& call, const Model& model);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -8,7 +8,7 @@
 #include "libbase/constants.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -124,4 +124,4 @@ void say_torus(Report& report, const Invocation& call, const Model& model, const
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

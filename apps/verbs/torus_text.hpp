@@ -5,7 +5,7 @@
 
 #include "apps/verbs/torus_call.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 /// Why there is no circle, and the ratio near which the motion turns.
 std::string failure_text(const TorusBranch& torus);
@@ -15,4 +15,4 @@ std::string failure_text(const TorusBranch& torus);
 void say_torus(Report& report, const Invocation& call, const Model& model, const TorusCall& asked,
                const TorusBranch& torus, std::size_t resumed);
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -12,7 +12,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline cli {
 
 namespace {
 
@@ -135,4 +135,4 @@ Verb unbalance_verb() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline cli

@@ -5,7 +5,7 @@
 
 #include "libcontact/film.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// Film of a short journal bearing, half of it full of oil.
 ///
@@ -56,4 +56,4 @@ struct Short {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

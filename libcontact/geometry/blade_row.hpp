@@ -4,7 +4,7 @@
 
 #include "libcontact/geometry.hpp"
 
-namespace whirl::geometry {
+namespace whirl::inline contact::geometry {
 
 /// Tips of blades that turn with the rotor, in a circle; one place for each blade.
 ///
@@ -65,4 +65,4 @@ struct BladeRow {
   }
 };
 
-}  // namespace whirl::geometry
+}  // namespace whirl::inline contact::geometry

@@ -2,7 +2,7 @@
 
 #include "libcontact/geometry.hpp"
 
-namespace whirl::geometry {
+namespace whirl::inline contact::geometry {
 
 /// A disk's rim on a plane across the shaft: tilts times its radius against an axial clearance.
 ///
@@ -41,4 +41,4 @@ struct Face {
   }
 };
 
-}  // namespace whirl::geometry
+}  // namespace whirl::inline contact::geometry

@@ -4,7 +4,7 @@
 
 #include "libcontact/geometry.hpp"
 
-namespace whirl::geometry {
+namespace whirl::inline contact::geometry {
 
 /// A circle in a circle: lateral displacement against a radial clearance.
 struct Ring {
@@ -38,4 +38,4 @@ struct Ring {
   }
 };
 
-}  // namespace whirl::geometry
+}  // namespace whirl::inline contact::geometry

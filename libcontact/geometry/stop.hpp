@@ -6,7 +6,7 @@
 #include "libbase/field.hpp"
 #include "libcontact/geometry.hpp"
 
-namespace whirl::geometry {
+namespace whirl::inline contact::geometry {
 
 /// A flat stop, as snubbers and bumpers are: a plane along the shaft, met in one direction.
 ///
@@ -64,4 +64,4 @@ struct Stop {
   }
 };
 
-}  // namespace whirl::geometry
+}  // namespace whirl::inline contact::geometry

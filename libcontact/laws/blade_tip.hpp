@@ -9,7 +9,7 @@
 #include "libcontact/geometry/blade_row.hpp"
 #include "libcontact/law.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// The z of z + bend z^3 = d, in closed form.
 ///
@@ -84,4 +84,4 @@ struct BladeTip {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

@@ -7,7 +7,7 @@
 #include "libcontact/geometry/face.hpp"
 #include "libcontact/law.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// Axial contact of a disk's rim with a plane across the shaft.
 ///
@@ -40,4 +40,4 @@ struct Face {
   WHIRL_INLINE constexpr auto normal(const auto& d, const auto&) const { return k * d; }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

@@ -6,7 +6,7 @@
 #include "libbase/field.hpp"
 #include "libcontact/law.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// Hertz contact of curved elastic surfaces.
 ///
@@ -36,4 +36,4 @@ struct Hertz {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

@@ -6,7 +6,7 @@
 #include "libbase/field.hpp"
 #include "libcontact/law.hpp"
 
-namespace whirl {
+namespace whirl::inline contact {
 
 /// Linear contact with optional damping.
 ///
@@ -39,4 +39,4 @@ struct Radial {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline contact

@@ -6,7 +6,7 @@
 
 #include "libbase/dense.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -140,4 +140,4 @@ std::optional<SwitchedBranch> switch_branch(const FlowAt& flow_at, const Vec& sc
   return next;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

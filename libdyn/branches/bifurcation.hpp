@@ -5,7 +5,7 @@
 
 #include "libdyn/branches/branch_equations.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A function that changes its sign where a bifurcation of a kind is passed; none for grazings.
 ///
@@ -37,4 +37,4 @@ struct SwitchedBranch {
 std::optional<SwitchedBranch> switch_branch(const FlowAt& flow_at, const Vec& scale, int period,
                                             const Bifurcation& at);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

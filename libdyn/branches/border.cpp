@@ -11,7 +11,7 @@
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -245,4 +245,4 @@ double nearest_graze(const Scene& scene, const std::string& contact, std::span<c
   return nearest;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -8,7 +8,7 @@
 #include "libdyn/branches/branch_equations.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Flows over a plane of two parameters; their states are the same throughout.
 struct FlowPlane {
@@ -46,4 +46,4 @@ BranchEquations border_equations(BifurcationKind kind, FlowPlane flows, Vec scal
 /// @return  the smallest in size; 1e3 where no depth has an extremum
 double nearest_graze(const Scene& scene, const std::string& contact, std::span<const Vec> starts);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

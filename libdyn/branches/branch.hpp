@@ -10,7 +10,7 @@
 #include "libbase/field.hpp"
 #include "libdyn/orbits/shooting.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Equations for the unknowns x of a motion at a value of the parameter, as many as unknowns.
 struct BranchEquations {
@@ -102,4 +102,4 @@ struct Branch {
   std::string end_text() const { return end ? end->text : ""; }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -5,7 +5,7 @@
 #include "libbase/error.hpp"
 #include "libbase/floquet.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 BranchEquations shooting_equations(FlowAt flow_at, Vec scale) {
   return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
@@ -79,4 +79,4 @@ Continuation cycle_continuation(const FreeFlowAt& flow_at, const Vec& start, dou
   return {cycle_equations(flow_at, flow.scale), x, options};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

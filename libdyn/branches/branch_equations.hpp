@@ -4,7 +4,7 @@
 #include "libdyn/branches/continuation.hpp"
 #include "libdyn/orbits/cycle.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// The flow at a value of the parameter; its states are the same throughout.
 /// May throw NumericalError where there is none.
@@ -38,4 +38,4 @@ BranchEquations cycle_equations(FreeFlowAt flow_at, Vec scale);
 Continuation cycle_continuation(const FreeFlowAt& flow_at, const Vec& start, double period,
                                 const ContinuationOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

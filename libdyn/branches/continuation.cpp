@@ -10,7 +10,7 @@
 #include "libbase/newton.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -270,4 +270,4 @@ bool Continuation::advance() {
   return false;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

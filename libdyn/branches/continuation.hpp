@@ -5,7 +5,7 @@
 
 #include "libdyn/branches/branch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct ContinuationOptions {
   double low = 0.0, high = 1.0;  ///< range of the parameter, where a branch ends
@@ -106,4 +106,4 @@ class Continuation {
   Vec weights_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -10,7 +10,7 @@
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/branches/continuation.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -250,4 +250,4 @@ bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
   return same_impacts(before.contacts, b.contacts);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

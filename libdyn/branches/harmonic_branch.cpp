@@ -6,7 +6,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/orbits/hill.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -86,4 +86,4 @@ BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int
   }};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

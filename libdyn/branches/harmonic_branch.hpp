@@ -7,7 +7,7 @@
 #include "libdyn/branches/branch.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// The equations of motion at a value of the parameter, with the same places of forces throughout.
 /// May throw NumericalError where there are none.
@@ -31,4 +31,4 @@ Vec harmonic_unknowns(const HarmonicOrbit& orbit, double scale);
 HarmonicOrbit orbit_of_unknowns(const HarmonicProblem& problem, const Vec& x, int period,
                                 double scale);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -12,7 +12,7 @@
 #include "libbase/roots.hpp"
 #include "libbase/smooth_average.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -361,4 +361,4 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 
 #include "libdyn/branches/branch_equations.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A circle x(theta) that the map P of some revolutions turns by a constant angle:
 ///
@@ -66,4 +66,4 @@ Vec circle_unknowns(const InvariantCircle& circle, const Vec& scale);
 /// Circle of unknowns, without exponents.
 InvariantCircle circle_of(const Vec& unknowns, const Vec& scale, int period);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -9,7 +9,7 @@
 #include "libbase/error.hpp"
 #include "libfe/modes.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -240,4 +240,4 @@ void FreeFlight::finish(MotionState& state, long last_revolution) {
   state.revolution = last_revolution;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -6,7 +6,7 @@
 #include "libdyn/flow/linear_flow.hpp"
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Free motion of a system whose contacts are all apart, in closed form.
 ///
@@ -63,4 +63,4 @@ class FreeFlight {
   Vec apart_;  ///< how much a mode leaves the others of its group in its damping time, relative
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

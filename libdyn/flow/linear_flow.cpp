@@ -7,7 +7,7 @@
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -299,4 +299,4 @@ LinearFlow::Rows LinearFlow::rows(int level, double fraction, const Mat& r, Forc
   return out;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 #include "libbase/legendre.hpp"
 #include "libdyn/system/contact_system.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// y' = A y + F (1, cos phase, sin phase) - B f(t), with f a polynomial on each step.
 ///
@@ -103,4 +103,4 @@ double contact_frequency(const ContactSystem& system);
 /// Largest |lambda| of the linear part [rad/s].
 double fastest_mode(const ContactSystem& system);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 
 #include "libdyn/methods/sundials.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -72,4 +72,4 @@ Integration ArkodeDirk::integrate(const ContactSystem& system, MotionState& stat
   return run(true, system, state, revolutions, options, observer);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -4,7 +4,7 @@
 
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// SUNDIALS' ARKODE with Dormand and Prince's explicit pair 5(4), the one of most users' `ode45`,
 /// and its own root finding: an implementation that shares nothing with ours but the equations of
@@ -27,4 +27,4 @@ struct ArkodeDirk {
                                const IntegrationOptions& options, const Observer& observer);
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

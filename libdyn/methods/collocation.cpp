@@ -10,7 +10,7 @@
 #include "libdyn/methods/contact_step.hpp"
 #include "libdyn/system/diagnosis.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -301,4 +301,4 @@ bool prefers_collocation(const ContactSystem& system) {
   return suits_collocation(system) && fastest_mode(system) > 10.0 * contact_frequency(system);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -4,7 +4,7 @@
 
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Exact linear motion with collocation of the contact forces, for stiff and overdamped modes.
 ///
@@ -38,4 +38,4 @@ bool suits_collocation(const ContactSystem& system);
 /// @source ../../docs/methods.md, "Collocation": measured
 bool prefers_collocation(const ContactSystem& system);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

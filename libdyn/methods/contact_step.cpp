@@ -7,7 +7,7 @@
 #include "libbase/dense.hpp"
 #include "libbase/legendre.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -353,4 +353,4 @@ void ContactStep::advance(double fraction, const MotionState& from, Vec& y) {
                                                                     a_, touching_, y);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -9,7 +9,7 @@
 #include "libdyn/flow/linear_flow.hpp"
 #include "libdyn/system/events.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A step size of the ladder longest, longest / 2^(1/2), longest / 2, ...: matrices are shared by
 /// all steps of one size.
@@ -157,4 +157,4 @@ class ContactStep {
   double longest_piece_ = std::numeric_limits<double>::infinity();  ///< of dense output [s]
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -6,7 +6,7 @@
 #include "libbase/legendre.hpp"
 #include "libdyn/methods/contact_step.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -101,4 +101,4 @@ bool ContactStep::dense_piece(const MotionState& from, const Part& part, double 
   return dense_piece(from, {part.level + 1, middle, 0.5 * part.width}, limit, z, half, give);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -4,7 +4,7 @@
 
 #include "libdyn/methods/contact_step.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -163,4 +163,4 @@ std::optional<Event> ContactStep::first_event(const EventWatcher& watcher, doubl
   return earliest;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -8,7 +8,7 @@
 
 #include "libdyn/methods/sundials.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -69,4 +69,4 @@ Integration CvodeBdf::integrate(const ContactSystem& system, MotionState& state,
   return run(CV_BDF, system, state, revolutions, options, observer);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -4,7 +4,7 @@
 
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// SUNDIALS' CVODE with its own root finding: an implementation that shares nothing with the others
 /// but the equations of motion. Each event restarts it at order one. Events are changes of sign
@@ -24,4 +24,4 @@ struct CvodeBdf {
                                const IntegrationOptions& options, const Observer& observer);
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

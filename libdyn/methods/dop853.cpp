@@ -9,7 +9,7 @@
 #include "libdyn/system/diagnosis.hpp"
 #include "libdyn/system/events.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -320,4 +320,4 @@ Integration Dop853::integrate(const ContactSystem& system, MotionState& state, l
   return Run(system, state, options, observer).go(state.revolution + revolutions);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

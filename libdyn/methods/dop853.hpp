@@ -4,7 +4,7 @@
 
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Explicit Runge-Kutta method of order 8 with events.
 ///
@@ -25,4 +25,4 @@ struct Dop853 {
                                const IntegrationOptions& options, const Observer& observer);
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

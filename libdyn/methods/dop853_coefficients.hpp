@@ -8,7 +8,7 @@
 
 #include <array>
 
-namespace whirl::dop853 {
+namespace whirl::inline dyn::dop853 {
 
 constexpr int stages = 12;      ///< of the step
 constexpr int all_stages = 16;  ///< with the interpolant's
@@ -126,4 +126,4 @@ constexpr std::array<std::array<double, 16>, 4> d{{
      -0.39177261675615439165231486172e+2, -0.14972683625798562581422125276e+3},
 }};
 
-}  // namespace whirl::dop853
+}  // namespace whirl::inline dyn::dop853

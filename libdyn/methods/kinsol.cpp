@@ -7,7 +7,7 @@
 
 #include "libdyn/methods/sundials.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -51,4 +51,4 @@ std::optional<Vec> find_root(const Function& f, const Vec& guess, const Vec& sca
   return Vec(values(x.get()));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -6,7 +6,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A root of f near a guess, by Newton's method with line search and differences for the Jacobian.
 ///
@@ -18,4 +18,4 @@ namespace whirl {
 std::optional<Vec> find_root(const std::function<void(const Vec& x, Vec& f)>& f, const Vec& guess,
                              const Vec& scale, double size);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -50,4 +50,4 @@ AnyMethod method_named(std::string_view name) {
                                fmt::join(method_names(), ", ")));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -13,7 +13,7 @@
 #include "libdyn/methods/rk4.hpp"
 #include "libdyn/taylor/taylor.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 using AnyMethod =
     std::variant<Taylor, Collocation, Dop853, CvodeAdams, CvodeBdf, Arkode, ArkodeDirk, Rk4>;
@@ -41,4 +41,4 @@ inline Integration integrate(const AnyMethod& method, const ContactSystem& syste
       method);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

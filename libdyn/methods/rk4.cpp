@@ -5,7 +5,7 @@
 #include "libdyn/system/diagnosis.hpp"
 #include "libdyn/system/equal_steps.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -106,4 +106,4 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

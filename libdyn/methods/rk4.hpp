@@ -4,7 +4,7 @@
 
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// The classical Runge-Kutta method of order 4 with equal steps and no regard to events, as many
 /// published studies of rubbing rotors use it: contacts and the sign of friction are what the state
@@ -31,4 +31,4 @@ struct Rk4 {
                                const IntegrationOptions& options, const Observer& observer);
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

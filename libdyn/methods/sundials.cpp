@@ -10,7 +10,7 @@
 
 #include "libdyn/system/diagnosis.hpp"
 
-namespace whirl::sundials {
+namespace whirl::inline dyn::sundials {
 
 namespace {
 
@@ -195,4 +195,4 @@ Integration Motion::run(const Solver& solver, void* memory, long revolutions,
   return result_;
 }
 
-}  // namespace whirl::sundials
+}  // namespace whirl::inline dyn::sundials

@@ -16,7 +16,7 @@
 #include "libdyn/system/events.hpp"
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl::sundials {
+namespace whirl::inline dyn::sundials {
 
 template <auto release>
 struct Releaser {
@@ -107,4 +107,4 @@ class Motion {
   Integration result_;
 };
 
-}  // namespace whirl::sundials
+}  // namespace whirl::inline dyn::sundials

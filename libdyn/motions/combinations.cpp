@@ -8,7 +8,7 @@
 
 #include "libbase/constants.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -90,4 +90,4 @@ std::string Combination::text() const {
   return text;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

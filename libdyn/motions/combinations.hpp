@@ -8,7 +8,7 @@
 
 #include "libbase/column.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A frequency that is a combination of others:
 ///
@@ -43,4 +43,4 @@ struct Combination {
 std::optional<Combination> combination_of(double f, std::span<const double> others,
                                           double tolerance);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -8,7 +8,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/methods/kinsol.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -109,4 +109,4 @@ Vec equilibrium(const ContactSystem& system) {
   return *found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -3,7 +3,7 @@
 
 #include "libdyn/system/contact_system.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Coordinates eta at which weight, springs and the normal forces of contacts balance, without
 /// unbalance and friction:
@@ -18,4 +18,4 @@ namespace whirl {
 /// @throws NumericalError  if nothing holds the rotor, or if the iteration does not converge
 Vec equilibrium(const ContactSystem& system);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

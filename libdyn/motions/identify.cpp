@@ -7,7 +7,7 @@
 
 #include "libfe/campbell.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -150,4 +150,4 @@ Identification identify(const Model& model, const Scene& scene, const Recording&
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

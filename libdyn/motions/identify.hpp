@@ -10,7 +10,7 @@
 #include "libdyn/motions/response.hpp"
 #include "libfe/modes.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct IdentifyOptions {
   int modes = 8;               ///< compared with
@@ -120,4 +120,4 @@ bool is_forced(double frequency, double Omega, double bin);
 /// rings and blades to lateral displacements, of faces to tilts.
 System stiffened(const Model& model, const Scene& scene);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

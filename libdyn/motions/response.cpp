@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 ResponseSpectra::ResponseSpectra(const Scene& scene, const Recording& recording)
     : map_(scene.displacement_map()), dofs_(scene.reduced.dofs) {
@@ -68,4 +68,4 @@ PointPeaks point_peaks(const ResponseSpectra& spectra, const Point& point, doubl
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

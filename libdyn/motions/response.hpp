@@ -4,7 +4,7 @@
 #include "libbase/spectrum.hpp"
 #include "libdyn/motions/simulate.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Spectra of all reduced coordinates of a recording; those of any point follow by summation.
 class ResponseSpectra {
@@ -51,4 +51,4 @@ struct PointPeaks {
 PointPeaks point_peaks(const ResponseSpectra& spectra, const Point& point, double Omega,
                        double share = 0.01, int most = 12);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 Mat motion_of(const Run& run, const Point& point) {
   const Mat map = run.scene.displacement_map();
@@ -79,4 +79,4 @@ ReductionFacts reduction_facts(const Scene& scene) {
           scene.error.eigenvalue(), scene.error.receptance};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

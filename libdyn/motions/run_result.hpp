@@ -12,7 +12,7 @@
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/stations.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A finished (or failed, or stopped) run.
 struct Run {
@@ -206,4 +206,4 @@ struct ReductionFacts {
 };
 ReductionFacts reduction_facts(const Scene& scene);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -103,4 +103,4 @@ Simulation simulate(const Scene& scene, MotionState start, const SimulationOptio
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

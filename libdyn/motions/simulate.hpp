@@ -7,7 +7,7 @@
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct SimulationOptions {
   long revolutions = 512;  ///< recorded
@@ -42,4 +42,4 @@ struct Simulation {
 /// Integrates a scene from a state. What was recorded before a failure or a stop is kept.
 Simulation simulate(const Scene& scene, MotionState start, const SimulationOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

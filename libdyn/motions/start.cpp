@@ -11,7 +11,7 @@
 #include "libfe/modes.hpp"
 #include "libfe/static.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -107,4 +107,4 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
   return state;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

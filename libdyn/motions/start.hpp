@@ -4,7 +4,7 @@
 #include "libdyn/system/scene.hpp"
 #include "libfe/modes.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// State at the start of a simulation, from the model's [start].
 ///
@@ -20,4 +20,4 @@ int modes_of(const Start& start);
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end,
                         const Modes& modes);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

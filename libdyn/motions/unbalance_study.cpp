@@ -4,7 +4,7 @@
 
 #include "libfe/modes.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -84,4 +84,4 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
   return study;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

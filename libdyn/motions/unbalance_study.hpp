@@ -11,7 +11,7 @@
 #include "libdyn/system/stations.hpp"
 #include "libfe/response_curve.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct UnbalanceOptions {
   std::vector<double> speeds;     ///< ascending [rad/s]
@@ -134,4 +134,4 @@ struct UnbalanceStudy {
 UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
                                const UnbalanceOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

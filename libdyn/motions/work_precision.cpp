@@ -11,7 +11,7 @@
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/pattern.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -198,4 +198,4 @@ TimedRun measure(const Candidate& candidate, double tolerance, const ContactSyst
   return run;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

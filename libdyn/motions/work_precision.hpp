@@ -10,7 +10,7 @@
 #include "libbase/column.hpp"
 #include "libdyn/methods/methods.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// What errors are measured against: where a motion really is after some revolutions.
 struct ReferenceMotion {
@@ -105,4 +105,4 @@ TimedRun measure(const Candidate& candidate, double tolerance, const ContactSyst
                  const MotionState& start, const ReferenceMotion& reference,
                  const TimingOptions& options = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -4,7 +4,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -102,4 +102,4 @@ Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first, double tole
   return flow;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 constexpr double flow_tolerance = 1e-13;  ///< of steps for orbits and their multipliers
 
@@ -41,4 +41,4 @@ class BasisChange {
 Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first,
              double tolerance = flow_tolerance);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

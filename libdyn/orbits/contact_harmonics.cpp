@@ -9,7 +9,7 @@
 #include "libdyn/methods/methods.hpp"
 #include "libdyn/system/contact_ports.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -74,4 +74,4 @@ ContactOrbit find_harmonic_orbit(const ContactSystem& system, const Vec& y,
   return found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

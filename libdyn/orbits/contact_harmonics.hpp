@@ -6,7 +6,7 @@
 #include "libdyn/orbits/harmonic_balance.hpp"
 #include "libdyn/system/contact_measures.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// @param system  must live as long as the problem
 /// @throws NumericalError  if nothing moves
@@ -28,4 +28,4 @@ struct ContactOrbit {
 ContactOrbit find_harmonic_orbit(const ContactSystem& system, const Vec& y,
                                  const HarmonicOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

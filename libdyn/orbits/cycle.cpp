@@ -14,7 +14,7 @@
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -252,4 +252,4 @@ std::optional<double> recurrence(const Scene& scene, const Vec& start, long revo
   return found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

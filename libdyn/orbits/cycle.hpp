@@ -9,7 +9,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/shooting.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// The flow of an equation y' = f(y).
 struct FreeFlow {
@@ -73,4 +73,4 @@ FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first,
 /// it does not come near, or stands still.
 std::optional<double> recurrence(const Scene& scene, const Vec& start, long revolutions);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -10,7 +10,7 @@
 #include "libbase/error.hpp"
 #include "libbase/newton.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -362,4 +362,4 @@ HarmonicOrbit find_harmonic_orbit(const HarmonicProblem& problem, const Mat& sta
   return found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -9,7 +9,7 @@
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/port_forces.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Equations of motion, forces of few displacements apart.
 ///
@@ -139,4 +139,4 @@ int shortest_period(const HarmonicOrbit& orbit);
 /// Largest distance of two motions at forces, whatever their harmonics [m].
 double distance(const Periodic& a, const Periodic& b);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -8,7 +8,7 @@
 
 #include "libbase/floquet.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -301,4 +301,4 @@ HillStability hill_stability(const HarmonicProblem& problem, const HarmonicOrbit
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

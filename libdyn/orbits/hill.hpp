@@ -3,7 +3,7 @@
 
 #include "libdyn/orbits/harmonic_balance.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Floquet exponents and multipliers of an orbit.
 struct HillStability {
@@ -41,4 +41,4 @@ struct HillStability {
 ///         eigenvalues
 HillStability hill_stability(const HarmonicProblem& problem, const HarmonicOrbit& orbit);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

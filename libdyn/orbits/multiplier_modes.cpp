@@ -7,7 +7,7 @@
 #include "libbase/dense.hpp"
 #include "libfe/modes.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -67,4 +67,4 @@ std::vector<MultiplierMode> modes_of_multipliers(const Scene& scene, const Perio
   return found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -6,7 +6,7 @@
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// The mode that the direction of a multiplier is most like.
 struct MultiplierMode {
@@ -25,4 +25,4 @@ struct MultiplierMode {
 /// @return  one for each multiplier
 std::vector<MultiplierMode> modes_of_multipliers(const Scene& scene, const PeriodicOrbit& orbit);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

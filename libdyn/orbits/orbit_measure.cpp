@@ -7,7 +7,7 @@
 #include "libbase/quadrature.hpp"
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -95,4 +95,4 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
   return instants.found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

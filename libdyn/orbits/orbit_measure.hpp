@@ -7,7 +7,7 @@
 #include "libbase/fourier.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct OrbitMeasure {
   std::vector<double> radii;  ///< largest distance of each station from the axis [m]
@@ -26,4 +26,4 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
                            const Periodic& motion);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

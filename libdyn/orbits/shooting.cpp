@@ -10,7 +10,7 @@
 #include "libbase/floquet.hpp"
 #include "libbase/newton.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -169,4 +169,4 @@ int shortest_period(const PeriodicOrbit& orbit, const Vec& scale) {
   return orbit.period;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

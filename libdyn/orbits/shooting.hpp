@@ -9,7 +9,7 @@
 #include "libbase/linalg.hpp"
 #include "libdyn/system/contact_measures.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// What becomes of one start.
 struct Passage {
@@ -83,4 +83,4 @@ Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted = Tangents::ye
 /// Derivative of the gaps by the starts of the segments: A - I of a single one.
 Mat shooting_jacobian(std::span<const Mat> tangents);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

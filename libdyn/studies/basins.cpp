@@ -8,7 +8,7 @@
 
 #include "libbase/random.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -169,4 +169,4 @@ BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

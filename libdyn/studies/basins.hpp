@@ -11,7 +11,7 @@
 #include "libdyn/studies/point_runner.hpp"
 #include "libdyn/studies/study_models.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// What is known of a motion that a start ended in.
 struct Ending {
@@ -116,4 +116,4 @@ struct BasinsResult {
 BasinsResult basins(const StudyModels& models, const BasinsOptions& options,
                     const Monitor<BasinsResult>& monitor = {}, BasinsResult earlier = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

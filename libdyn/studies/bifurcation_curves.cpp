@@ -7,7 +7,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/studies/branch_walk.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -118,4 +118,4 @@ BifurcationCurves follow_bifurcations(const PlaneScenes& scenes, const BranchTre
   return curves;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

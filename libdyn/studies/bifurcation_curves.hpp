@@ -11,7 +11,7 @@
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/parameter_range.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct BifurcationCurveOptions {
   ParameterRange along{};   ///< the parameter of the branches
@@ -54,4 +54,4 @@ BifurcationCurves follow_bifurcations(const PlaneScenes& scenes, const BranchTre
                                       const BifurcationCurveOptions& options,
                                       const Monitor<BifurcationCurves>& monitor);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

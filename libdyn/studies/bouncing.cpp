@@ -9,7 +9,7 @@
 #include "libbase/random.hpp"
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::optional<Bouncing> find_bouncing(
   return std::nullopt;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

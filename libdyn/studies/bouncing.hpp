@@ -10,7 +10,7 @@
 #include "libdyn/orbits/cycle.hpp"
 #include "libfe/resonance.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct BouncingOptions {
   int starts = 16;         ///< at a speed
@@ -43,4 +43,4 @@ std::optional<Bouncing> find_bouncing(
     const std::function<std::shared_ptr<const Scene>(double speed)>& scene_at,
     const Campbell& diagram, const InternalResonance& resonance, const BouncingOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -13,7 +13,7 @@
 #include "libdyn/orbits/cycle.hpp"
 #include "libdyn/studies/branch_walk.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -224,4 +224,4 @@ BranchTree grow_tree(const ParameterScenes& scenes, BranchTree tree,
   return tree;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

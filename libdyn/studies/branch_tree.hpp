@@ -9,7 +9,7 @@
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/parameter_range.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct BranchTreeOptions {
   ParameterRange along{};
@@ -69,4 +69,4 @@ BranchTree begin_tree(const ParameterScenes& scenes, const Vec& start,
 BranchTree grow_tree(const ParameterScenes& scenes, BranchTree tree,
                      const BranchTreeOptions& options, const Monitor<BranchTree>& monitor);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

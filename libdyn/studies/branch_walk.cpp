@@ -1,6 +1,6 @@
 #include "libdyn/studies/branch_walk.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 void add_news(Branch& known, const Branch& walked) {
   const auto from = [](const auto& list, std::size_t begin) {
@@ -14,4 +14,4 @@ void add_news(Branch& known, const Branch& walked) {
   known.end = walked.end;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

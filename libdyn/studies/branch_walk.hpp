@@ -6,7 +6,7 @@
 #include "libdyn/branches/continuation.hpp"
 #include "libdyn/studies/monitor.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Adds to a branch what a walk has found since: no more than that is copied.
 void add_news(Branch& known, const Branch& walked);
@@ -50,4 +50,4 @@ void save_as_it_grows(const Result& result, const Monitor<Result>& monitor,
   save();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

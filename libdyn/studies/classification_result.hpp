@@ -7,7 +7,7 @@
 #include "libbase/column.hpp"
 #include "libdyn/studies/classify.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// What a classification found; group /classify.
 struct ClassificationResult {
@@ -76,4 +76,4 @@ struct ClassificationResult {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

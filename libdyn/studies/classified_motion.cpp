@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 Regime ClassifiedMotion::regime() const {
   Regime strongest = Regime::none;
@@ -49,4 +49,4 @@ StudySystem study_system(const Scene& scene) {
   return system;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -12,7 +12,7 @@
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A motion at a point of a study, as it was classified.
 struct ClassifiedMotion {
@@ -85,4 +85,4 @@ constexpr auto contact_names() {
 /// Names of dimensions, with their sizes.
 using ColumnSizes = std::vector<std::pair<std::string_view, Eigen::Index>>;
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

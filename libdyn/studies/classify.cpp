@@ -11,7 +11,7 @@
 #include "libdyn/studies/proven_orbit.hpp"
 #include "libdyn/taylor/mixed.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -324,4 +324,4 @@ Classification classify(const ContactSystem& system, MotionState start,
   return motion.found;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

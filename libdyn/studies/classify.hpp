@@ -15,7 +15,7 @@
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Files hold these by their numbers: new ones come last.
 enum class MotionKind { equilibrium, periodic, quasi_periodic, chaotic, hyperchaotic, not_settled };
@@ -107,4 +107,4 @@ void average(std::span<Subject> motions, const ClassifyOptions& options);
 Classification classify(const ContactSystem& system, MotionState start,
                         const ClassifyOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

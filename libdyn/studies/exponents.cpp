@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -47,4 +47,4 @@ ExponentEstimate estimate_exponents(const Mat& growths) {
   return estimate;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

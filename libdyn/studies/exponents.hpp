@@ -3,7 +3,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct ExponentEstimate {
   Vec exponents;  ///< descending [1/revolution]
@@ -27,4 +27,4 @@ struct ExponentEstimate {
 /// @source [Benettin1980] for the means
 ExponentEstimate estimate_exponents(const Mat& growths);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -10,7 +10,7 @@
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/hill.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -113,4 +113,4 @@ Cycle find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& s
   return shorten(flow, find_cycle(flow, start, guessed_period(scene, start)));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

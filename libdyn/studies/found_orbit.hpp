@@ -14,7 +14,7 @@
 #include "libdyn/orbits/multiplier_modes.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// How orbits are found.
 enum class OrbitMethod { shooting, harmonic_balance };
@@ -100,4 +100,4 @@ double guessed_period(const Scene& scene, const Vec& start);
 /// @throws NumericalError  as guessed_period
 Cycle find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& start);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

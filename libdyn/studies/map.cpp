@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -34,4 +34,4 @@ MapResult map(const StudyModels& models, const MapOptions& options,
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

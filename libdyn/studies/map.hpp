@@ -7,7 +7,7 @@
 #include "libdyn/studies/point_runner.hpp"
 #include "libdyn/studies/study_models.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct MapOptions {
   ParameterGrid grid{};  ///< of any number of axes
@@ -39,4 +39,4 @@ struct MapResult {
 MapResult map(const StudyModels& models, const MapOptions& options,
               const Monitor<MapResult>& monitor = {}, MapResult earlier = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <functional>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// How a caller follows long work; any member may be empty.
 template <class Result>
@@ -44,4 +44,4 @@ class SaveTimer {
   clock::time_point next_ = clock::now() + least;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -1,6 +1,6 @@
 #include "libdyn/studies/orbit_result.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit) {
   const auto n = scene.contacts.coordinates();
@@ -28,4 +28,4 @@ OrbitResult orbit_result(const Scene& scene, const Cycle& cycle) {
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -4,7 +4,7 @@
 #include "libbase/column.hpp"
 #include "libdyn/studies/found_orbit.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// An orbit's stability, and the motion of all points along it.
 struct OrbitResult {
@@ -42,4 +42,4 @@ OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit);
 /// Of an orbit that repeats as seen from the rotor.
 OrbitResult orbit_result(const Scene& scene, const Cycle& cycle);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 #include "libdyn/studies/basins.hpp"
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -65,4 +65,4 @@ OrbitSearch search_orbits(const Scene& scene, const MotionState& around,
   return search;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -8,7 +8,7 @@
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct OrbitSearchOptions {
   int period = 1;          ///< of the orbits [revolutions]
@@ -38,4 +38,4 @@ struct OrbitSearch {
 OrbitSearch search_orbits(const Scene& scene, const MotionState& around,
                           const OrbitSearchOptions& options, const Monitor<OrbitSearch>& monitor);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

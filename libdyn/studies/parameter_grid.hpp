@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Numbers of points run fastest along the last axis; without axes there is one point.
 struct ParameterGrid {
@@ -35,4 +35,4 @@ struct ParameterGrid {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -8,7 +8,7 @@
 #include "libdyn/branches/continuation.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// The scene at a value of a parameter; may throw NumericalError where there is none.
 using SceneAt = std::function<std::shared_ptr<const Scene>(double value)>;
@@ -41,4 +41,4 @@ struct ParameterRange {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -13,7 +13,7 @@
 #include "libbase/work_queue.hpp"
 #include "libdyn/studies/monitor.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Rows of a study, one per point; empty where a point is not computed.
 template <class Row>
@@ -127,4 +127,4 @@ void run_points(const PointWork<Row>& work, Result& result, const Monitor<Result
   save();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -8,7 +8,7 @@
 #include "libdyn/motions/response.hpp"
 #include "libdyn/motions/simulate.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -94,4 +94,4 @@ Portrait portrait_of(const Scene& scene, const Classification& found, long secti
   return portrait;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -11,7 +11,7 @@
 #include "libdyn/system/scene.hpp"
 #include "libdyn/system/stations.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct PortraitOptions {
   std::vector<NamedPoint> stations{};
@@ -40,4 +40,4 @@ Vec portrait_sectors();
 Portrait portrait_of(const Scene& scene, const Classification& found, long sections,
                      double tolerance, const PortraitOptions& options);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

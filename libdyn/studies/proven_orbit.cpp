@@ -8,7 +8,7 @@
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/mixed.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -105,4 +105,4 @@ bool stands_still(const Subject& s, double tolerance) {
   return t.outcome == Outcome::reached_end && moved < same;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -8,7 +8,7 @@
 
 #include "libdyn/studies/classify.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Largest multiplier of an orbit that attracts; the error of a multiplier is below the rest to one.
 constexpr double largest_attracting = 1.0 - 1e-7;
@@ -42,4 +42,4 @@ void find_orbits(std::vector<OrbitCandidate>& candidates, double tolerance,
 /// @param tolerance  of a step
 bool stands_still(const Subject& motion, double tolerance);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

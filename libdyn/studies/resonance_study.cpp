@@ -6,7 +6,7 @@
 #include "libbase/constants.hpp"
 #include "libdyn/motions/identify.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -87,4 +87,4 @@ ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
   return study;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -12,7 +12,7 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/resonance.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct ResonanceOptions {
   std::vector<double> speeds;  ///< ascending [rad/s]
@@ -95,4 +95,4 @@ ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
                                const ResonanceOptions& options,
                                const Monitor<ResonanceStudy>& monitor = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

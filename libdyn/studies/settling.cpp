@@ -5,7 +5,7 @@
 
 #include "libbase/smooth_average.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 Drift drift_of(const Mat& points) {
   constexpr double repeats = 1e-9;    // spread of sections that are the same
@@ -42,4 +42,4 @@ Drift drift_of(const Mat& points) {
   return drift;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

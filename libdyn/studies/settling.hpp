@@ -3,7 +3,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// How averages over sections change along them.
 struct Drift {
@@ -26,4 +26,4 @@ struct Drift {
 /// @source [Das2017] for the averages, [SanderMeiss2020] for telling order from chaos by them
 Drift drift_of(const Mat& points);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -5,7 +5,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/motions/start.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 StudyModels study_models(std::function<Model(std::span<const double>)> model) {
   return {.member =
@@ -69,4 +69,4 @@ ClassifyOptions stopped_by(const std::function<bool()>& is_stopped, ClassifyOpti
   return options;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -12,7 +12,7 @@
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// The model at a point, made ready for computing.
 struct StudyMember {
@@ -61,4 +61,4 @@ ClassifiedMotion classified(const StudyMotion& motion);
 /// The same options with a watch that stops; empty: none.
 ClassifyOptions stopped_by(const std::function<bool()>& is_stopped, ClassifyOptions options);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -4,7 +4,7 @@
 
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -166,4 +166,4 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 #include "libdyn/studies/portrait.hpp"
 #include "libdyn/studies/study_models.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 enum class SweepStart {
   carried,  ///< each value from the motion at the one before, up and then down
@@ -112,4 +112,4 @@ struct SweepResult {
 SweepResult sweep(const StudyModels& models, const SweepOptions& options,
                   const Monitor<SweepResult>& monitor = {}, SweepResult earlier = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

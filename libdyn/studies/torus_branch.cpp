@@ -8,7 +8,7 @@
 #include "libdyn/studies/branch_walk.hpp"
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -104,4 +104,4 @@ TorusBranch follow_torus(const FlowAt& flow_at, const Vec& scale, TorusBranch to
   return torus;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

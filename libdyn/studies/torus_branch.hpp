@@ -8,7 +8,7 @@
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/parameter_range.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct TorusOptions {
   CircleOptions circle{};
@@ -57,4 +57,4 @@ TorusBranch find_torus(const Scene& scene, const MotionState& start, const Torus
 TorusBranch follow_torus(const FlowAt& flow_at, const Vec& scale, TorusBranch torus,
                          const TorusOptions& options, const Monitor<TorusBranch>& monitor);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -3,7 +3,7 @@
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -67,4 +67,4 @@ WorkPrecisionStudy work_precision_study(const ContactSystem& system, MotionState
   return study;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

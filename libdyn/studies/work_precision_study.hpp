@@ -8,7 +8,7 @@
 #include "libdyn/motions/work_precision.hpp"
 #include "libdyn/studies/monitor.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct WorkPrecisionOptions {
   std::vector<std::string> methods;  ///< as candidate_names
@@ -78,4 +78,4 @@ WorkPrecisionStudy work_precision_study(const ContactSystem& system, MotionState
                                         const WorkPrecisionOptions& options,
                                         const Monitor<WorkPrecisionStudy>& monitor = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

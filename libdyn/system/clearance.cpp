@@ -10,7 +10,7 @@
 #include "libfe/modes.hpp"
 #include "libfe/unbalance.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -103,4 +103,4 @@ std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& as
   return uses;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

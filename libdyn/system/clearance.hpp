@@ -8,7 +8,7 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A range of speeds [rad/s].
 struct SpeedRange {
@@ -47,4 +47,4 @@ struct ClearanceUse {
 std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& assembler,
                                          const std::vector<double>& speeds);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

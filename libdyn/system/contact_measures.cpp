@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -100,4 +100,4 @@ ContactDoing contact_doing(const ContactMeasure& measure, long revolutions) {
           .max_tangential = measure.max_tangential};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -9,7 +9,7 @@
 #include "libbase/field.hpp"
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 enum class Regime { none, intermittent, permanent };
 constexpr auto choices(Regime) {
@@ -78,4 +78,4 @@ class ContactMeter {
   double time_ = 0.0;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

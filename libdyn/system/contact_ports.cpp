@@ -9,7 +9,7 @@
 #include "libcontact/dual_functions.hpp"
 #include "libdyn/system/touch_spans.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -280,4 +280,4 @@ std::string sticks_on(const ContactSystem& system, const Periodic& motion) {
   return {};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -6,7 +6,7 @@
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/port_forces.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// The forces of all contacts and films, one place each; blades of a contact share theirs.
 ///
@@ -26,4 +26,4 @@ std::vector<ContactMeasure> measures_on(const ContactSystem& system, const Perio
 /// Name of a contact that would stick where the motion lets its slip change sign; empty: none would.
 std::string sticks_on(const ContactSystem& system, const Periodic& motion);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

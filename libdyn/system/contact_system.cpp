@@ -8,7 +8,7 @@
 #include "libbase/error.hpp"
 #include "libcontact/blade.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -417,4 +417,4 @@ double distance(const ContactSystem& system, const Vec& a, const Vec& b) {
   return ((a - b).array() / system.state_scale().array()).abs().maxCoeff();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

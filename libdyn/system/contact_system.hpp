@@ -10,7 +10,7 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// What a contact is doing.
 enum class Touch : unsigned char {
@@ -206,4 +206,4 @@ void push(const ReducedContact& contact, const ContactForces& f, double T, Eigen
 double sliding_friction(const ReducedContact& contact, const ContactState& state,
                         const ContactForces& f);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -57,4 +57,4 @@ void fail(Integration& result, const ContactSystem& system, const MotionState& s
   result.diagnosis = diagnosis(system, state, film ? left_bearing_text(*film) : what);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -5,7 +5,7 @@
 
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Says where an integration failed: time, contacts in touch, size of the state.
 std::string diagnosis(const ContactSystem& system, const MotionState& state, std::string_view what);
@@ -18,4 +18,4 @@ std::string left_bearing_text(const ReducedFilm& film);
 void fail(Integration& result, const ContactSystem& system, const MotionState& state,
           Outcome outcome, std::string_view what);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

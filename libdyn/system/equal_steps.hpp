@@ -6,7 +6,7 @@
 
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Number of equal steps over what is left of a revolution, a whole number.
 ///
@@ -24,4 +24,4 @@ inline double equal_steps(double period, double left, const IntegrationOptions& 
   return std::max(1.0, std::ceil(left / longest * (1.0 - 1e-9)));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -6,7 +6,7 @@
 
 #include "libbase/dense.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -246,4 +246,4 @@ void EventWatcher::moved_on() {
   std::fill(is_level_.begin(), is_level_.end(), char{0});
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

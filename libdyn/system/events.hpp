@@ -7,7 +7,7 @@
 #include "libbase/polynomial.hpp"
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// What can end the present state of a contact. Each has a function that is positive until then.
 enum class EventKind : unsigned char {
@@ -72,4 +72,4 @@ class EventWatcher {
   std::vector<double> force_scale_, speed_scale_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

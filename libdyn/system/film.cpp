@@ -1,6 +1,6 @@
 #include "libdyn/system/film.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -28,4 +28,4 @@ Vec2 film_force(const ReducedFilm& film, const double* y, int coordinates) {
   return film.factor * film.rate * Vec2(fx, fy);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

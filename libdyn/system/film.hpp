@@ -6,7 +6,7 @@
 #include "libbase/linalg.hpp"
 #include "libcontact/oil_film.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// An oil film in reduced coordinates eta.
 struct ReducedFilm {
@@ -27,4 +27,4 @@ double eccentricity(const ReducedFilm& film, const double* y, int coordinates);
 /// Force on the journal [N]; no number outside the bearing.
 Vec2 film_force(const ReducedFilm& film, const double* y, int coordinates);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -9,7 +9,7 @@
 #include "libfe/reduce.hpp"
 #include "libfe/structure.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A complex mode at speed, added to the start of a simulation.
 struct WhirlStart {
@@ -54,4 +54,4 @@ struct Model {
   Start start;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

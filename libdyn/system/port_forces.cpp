@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -36,4 +36,4 @@ PortForces smooth_force(
   return forces;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 
 #include "libbase/fourier.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Displacements that a force depends on, and that it acts along: at most so many at one place.
 constexpr int most_ports = 4;
@@ -49,4 +49,4 @@ PortForces smooth_force(
     std::function<bool(double phase, const PortVec& u, const PortVec& rate, PortSample&)> law,
     int number = 8);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

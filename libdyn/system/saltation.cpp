@@ -4,7 +4,7 @@
 
 #include "libbase/dual.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -63,4 +63,4 @@ std::optional<Saltation> saltation(const ContactSystem& system, const Event& eve
   return s;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

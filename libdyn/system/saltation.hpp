@@ -5,7 +5,7 @@
 
 #include "libdyn/system/events.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Deviations after an event are dy + jump (gradient . dy).
 ///
@@ -32,4 +32,4 @@ std::optional<Saltation> saltation(const ContactSystem& system, const Event& eve
                                    const Vec& y, const ContactStates& before,
                                    const ContactStates& after);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

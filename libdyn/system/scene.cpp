@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -98,4 +98,4 @@ FullState full_state(const Scene& scene, const MotionState& state) {
   return {map * state.y.head(n), map * state.y.tail(n)};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -7,7 +7,7 @@
 #include "libdyn/system/trajectory.hpp"
 #include "libfe/reduce.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 struct Scene {
   Assembler assembler;
@@ -60,4 +60,4 @@ struct FullState {
 /// Motion of all points of a state.
 FullState full_state(const Scene& scene, const MotionState& state);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

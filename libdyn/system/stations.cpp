@@ -8,7 +8,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::vector<NamedPoint> select_points(const Model& model, const Assembler& assem
   return chosen;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

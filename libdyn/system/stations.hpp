@@ -8,7 +8,7 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A point with the names of what is there ("left disk", "seal"), joined by " + ".
 struct NamedPoint {
@@ -50,4 +50,4 @@ std::vector<NamedPoint> named_points(const Model& model, const Assembler& assemb
 std::vector<NamedPoint> select_points(const Model& model, const Assembler& assembler,
                                       const std::string& list);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -6,7 +6,7 @@
 #include "libbase/constants.hpp"
 #include "libbase/roots.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -95,4 +95,4 @@ std::vector<ContactPath::Span> ContactPath::spans() const {
   return spans;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

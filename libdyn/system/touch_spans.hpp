@@ -7,7 +7,7 @@
 #include "libbase/fourier.hpp"
 #include "libdyn/system/contact_system.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// A contact on the motion that closes it (and below, where friction acts elsewhere, of that).
 class ContactPath {
@@ -42,4 +42,4 @@ class ContactPath {
   std::vector<ContactForces> grid_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

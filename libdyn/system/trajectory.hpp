@@ -7,7 +7,7 @@
 
 #include "libdyn/system/contact_system.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Where a motion is. Time is a whole number of revolutions and a phase: it never loses digits.
 struct MotionState {
@@ -78,4 +78,4 @@ struct Integration {
   std::string diagnosis;  ///< of a failure: when, which contact, in which state
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

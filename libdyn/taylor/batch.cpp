@@ -11,7 +11,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 const char* name_of_target() {
@@ -19,11 +19,11 @@ const char* name_of_target() {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace whirl {
+namespace whirl::inline dyn {
 HWY_EXPORT(name_of_target);
 
 int order_for(double tolerance) {
@@ -60,5 +60,5 @@ void integrate_single(Trajectory& trajectory, const BatchOptions& options,
 const char* instruction_set() {
   return HWY_DYNAMIC_DISPATCH(name_of_target)();
 }
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 #endif

@@ -9,7 +9,7 @@
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// One trajectory: its equations, where it is, how far it shall go, and what became of it.
 struct Trajectory {
@@ -88,4 +88,4 @@ void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOp
 /// Name of the instruction set that the engine runs on, such as "AVX3".
 const char* instruction_set();
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -11,7 +11,7 @@
 #include "libdyn/taylor/series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Series of u, the displacement of the disk, and of its products with the turning axes
@@ -64,7 +64,7 @@ struct BladeLanes {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

@@ -21,7 +21,7 @@
 #include "libdyn/taylor/rub_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Sets or clears a lane's bit.
@@ -416,7 +416,7 @@ HWY_ATTR inline void extend(BladeLanes<P>& disk, const std::vector<ContactLanes<
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

@@ -10,7 +10,7 @@
 #include "libdyn/taylor/contact_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// A 2 x 2 matrix of series.
@@ -256,7 +256,7 @@ struct ContactSlopes {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

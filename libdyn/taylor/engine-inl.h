@@ -24,7 +24,7 @@
 #include "libdyn/taylor/tangents-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 template <class P>
@@ -353,7 +353,7 @@ HWY_ATTR void Engine<P>::fail(int l, Outcome outcome, const char* what) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

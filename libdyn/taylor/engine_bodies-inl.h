@@ -11,7 +11,7 @@
 #include "libdyn/taylor/engine-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Coefficients x_{k+2} from those up to k + 1, of Pattern::bodies, while friction has no series of
@@ -113,7 +113,7 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

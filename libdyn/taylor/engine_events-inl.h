@@ -10,7 +10,7 @@
 #include "libdyn/taylor/engine-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Notes events that are earlier than what was found before in their lanes.
@@ -268,7 +268,7 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

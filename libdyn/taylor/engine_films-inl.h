@@ -10,7 +10,7 @@
 #include "libdyn/taylor/engine-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Ends a trajectory whose journal is not inside its bearing.
@@ -84,7 +84,7 @@ HWY_ATTR void Engine<P>::add_film_slopes(int k, P* to_a, P* to_b) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

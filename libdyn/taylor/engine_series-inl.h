@@ -10,7 +10,7 @@
 #include "libdyn/taylor/engine-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Coefficients of the load; where it does not turn they are zero from the second on.
@@ -205,7 +205,7 @@ HWY_ATTR void Engine<P>::stick(int k) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

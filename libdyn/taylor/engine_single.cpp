@@ -18,7 +18,7 @@
 #include "libdyn/taylor/engine_tangents-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 void run_single_here(const Pattern& pattern, const BatchOptions& options, std::span<Trajectory> all,
@@ -27,11 +27,11 @@ void run_single_here(const Pattern& pattern, const BatchOptions& options, std::s
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace whirl {
+namespace whirl::inline dyn {
 HWY_EXPORT(run_single_here);
 
 void run_single(const Pattern& pattern, const BatchOptions& options, std::span<Trajectory> all,
@@ -39,5 +39,5 @@ void run_single(const Pattern& pattern, const BatchOptions& options, std::span<T
   HWY_DYNAMIC_DISPATCH(run_single_here)(pattern, options, all, observer);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 #endif

@@ -10,7 +10,7 @@
 #include "libdyn/taylor/engine-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Step at which the last two terms are as large as the tolerance allows.
@@ -299,7 +299,7 @@ HWY_ATTR bool Engine<P>::tell(const Observer& observer, double h) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

@@ -14,7 +14,7 @@
 #include "libdyn/taylor/engine-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 template <class P>
@@ -394,7 +394,7 @@ HWY_ATTR void Engine<P>::unload_tangents(int l, double time, Trajectory& to) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

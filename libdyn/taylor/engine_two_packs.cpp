@@ -18,7 +18,7 @@
 #include "libdyn/taylor/engine_tangents-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 void run_two_packs_here(const Pattern& pattern, const BatchOptions& options,
@@ -27,11 +27,11 @@ void run_two_packs_here(const Pattern& pattern, const BatchOptions& options,
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace whirl {
+namespace whirl::inline dyn {
 HWY_EXPORT(run_two_packs_here);
 
 void run_two_packs(const Pattern& pattern, const BatchOptions& options, std::span<Trajectory> all,
@@ -39,5 +39,5 @@ void run_two_packs(const Pattern& pattern, const BatchOptions& options, std::spa
   HWY_DYNAMIC_DISPATCH(run_two_packs_here)(pattern, options, all, observer);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 #endif

@@ -13,7 +13,7 @@
 #include "libdyn/taylor/pattern.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// eta'' = f0 + fc cos(phase) + fs sin(phase) - [K D] y - ..., with what is not zero in any lane.
@@ -58,7 +58,7 @@ struct EquationLanes {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

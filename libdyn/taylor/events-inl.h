@@ -10,7 +10,7 @@
 #include "libdyn/taylor/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Value and derivative of a polynomial in w, every second of the coefficients up to `last`.
@@ -125,7 +125,7 @@ HWY_ATTR typename P::Mask first_fall(const P* g, int degree, const P& sign, cons
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

@@ -15,7 +15,7 @@
 #include "libdyn/taylor/series_tape-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// The force of a film is force_scale (fx, fy), with fx and fy of the law from
@@ -155,7 +155,7 @@ struct FilmLanes {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

@@ -15,7 +15,7 @@
 #include "libdyn/taylor/series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// indentation() of packs (libcontact/laws/blade_tip.hpp); d >= 0 but for rounding.
@@ -147,7 +147,7 @@ HWY_ATTR void set_law(AnyContactLaw<P>& to, const AnyContactLaw<>& from, int l) 
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

@@ -2,7 +2,7 @@
 
 #include <map>
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -33,4 +33,4 @@ void integrate_mixed(std::vector<Trajectory>& all, const BatchOptions& options) 
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -10,7 +10,7 @@
 #include "libdyn/taylor/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// What coefficients 1 to k - 1 add to coefficient k of products of series; of squares, half of it.
@@ -85,7 +85,7 @@ struct OlderTerms {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

@@ -8,7 +8,7 @@
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/pattern.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// @param observer  called with every step of a single motion; may be null
 void run_two_packs(const Pattern& pattern, const BatchOptions& options, std::span<Trajectory> all,
@@ -18,4 +18,4 @@ void run_one_pack(const Pattern& pattern, const BatchOptions& options, std::span
 void run_single(const Pattern& pattern, const BatchOptions& options, std::span<Trajectory> all,
                 const Observer* observer);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -4,7 +4,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 namespace {
 
@@ -183,4 +183,4 @@ Pattern pattern_of(std::span<const Trajectory> trajectories) {
   return Pattern::of(systems);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -6,7 +6,7 @@
 
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Where the nonzero coefficients of the equations of motion are.
 struct Pattern {
@@ -69,4 +69,4 @@ struct Pattern {
 /// Pattern of the systems of trajectories.
 Pattern pattern_of(std::span<const Trajectory> trajectories);
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

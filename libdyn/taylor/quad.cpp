@@ -13,7 +13,7 @@
 #include "libdyn/taylor/engine_step-inl.h"
 #include "libdyn/taylor/engine_tangents-inl.h"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 void integrate_quad(Trajectory& trajectory, const BatchOptions& options) {
   const Pattern pattern = pattern_of({&trajectory, 1});
@@ -21,4 +21,4 @@ void integrate_quad(Trajectory& trajectory, const BatchOptions& options) {
   std::make_unique<Engine>(pattern, options)->run({&trajectory, 1}, nullptr);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

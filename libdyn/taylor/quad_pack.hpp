@@ -8,7 +8,7 @@
 
 #include "libdyn/taylor/pack-inl.h"
 
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {  // that of the templates, which it specializes
 
 /// One number of 113 bits.
@@ -133,4 +133,4 @@ inline void set_lane(QuadPack& a, int, __float128 value) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -20,7 +20,7 @@
 #include "libdyn/taylor/film_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// The classical Runge-Kutta method as methods/rk4.hpp has it: equal steps, contacts and the sign
@@ -257,7 +257,7 @@ class Rk4Lanes {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

@@ -10,7 +10,7 @@
 #include "libdyn/taylor/rk4-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 void run_rk4(const Pattern& pattern, const IntegrationOptions& options, std::span<Trajectory> all) {
@@ -23,11 +23,11 @@ void run_rk4(const Pattern& pattern, const IntegrationOptions& options, std::spa
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace whirl {
+namespace whirl::inline dyn {
 HWY_EXPORT(run_rk4);
 
 void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOptions& options) {
@@ -35,5 +35,5 @@ void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOp
   HWY_DYNAMIC_DISPATCH(run_rk4)(pattern, options, trajectories);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 #endif

@@ -13,7 +13,7 @@
 #include "libdyn/taylor/pattern.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// The lateral velocity of the slip in all lanes, the coordinates that friction pushes.
@@ -77,7 +77,7 @@ struct RubLanes {
 };
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

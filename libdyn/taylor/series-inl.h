@@ -15,7 +15,7 @@
 #include "libdyn/taylor/pack-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Calls f(i) for i = 0 to Count - 1, written out so that what i indexes can stay in registers; with
@@ -301,7 +301,7 @@ HWY_ATTR void divide(const P* a, const P* b, P* to, int N, const typename P::Mas
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

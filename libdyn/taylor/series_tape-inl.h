@@ -14,7 +14,7 @@
 #include "libdyn/taylor/series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 template <class P>
@@ -263,7 +263,7 @@ Recorded<P> arc_cotangent(Recorded<P> a) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

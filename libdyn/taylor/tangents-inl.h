@@ -13,7 +13,7 @@
 #include "libdyn/taylor/contact_slopes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace whirl {
+namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// Memory of the tangents: nothing unless they are asked for.
@@ -82,7 +82,7 @@ HWY_ATTR inline void add_slope_forces(const SeriesMatrix<P>& m, const P* ux, con
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace whirl
+}  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
 
 #endif  // guard

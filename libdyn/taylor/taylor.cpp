@@ -4,7 +4,7 @@
 
 #include "libdyn/taylor/batch.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 Integration Taylor::integrate(const ContactSystem& system, MotionState& state, long revolutions,
                               const IntegrationOptions& options, const Observer& observer) const {
@@ -16,4 +16,4 @@ Integration Taylor::integrate(const ContactSystem& system, MotionState& state, l
   return {trajectory.outcome, trajectory.cost, std::move(trajectory.diagnosis)};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

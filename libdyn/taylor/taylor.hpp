@@ -4,7 +4,7 @@
 
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl {
+namespace whirl::inline dyn {
 
 /// Taylor series of order 8 to 20 with exact events; one trajectory of the batch engine.
 ///
@@ -22,4 +22,4 @@ struct Taylor {
                         const IntegrationOptions& options, const Observer& observer) const;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline dyn

@@ -5,7 +5,7 @@
 
 #include "libfe/bearings/coefficients.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Coefficients over speed: linear between its rows, constant beyond its ends.
 ///
@@ -28,4 +28,4 @@ struct CoefficientTable {
   }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -2,7 +2,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Linear coefficients of a bearing or link.
 ///
@@ -15,4 +15,4 @@ struct BearingCoefficients {
   Mat2 Ct = Mat2::Zero();  ///< tilt damping [N.m.s/rad]
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -7,7 +7,7 @@
 #include "libbase/field.hpp"
 #include "libfe/bearings/coefficients.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A bearing whose coefficients are the same at every speed.
 struct ConstantBearing {
@@ -41,4 +41,4 @@ inline ConstantBearing constant_bearing(const BearingCoefficients& c) {
   return {c.K, c.C, c.Kt, c.Ct};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

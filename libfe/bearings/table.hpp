@@ -7,7 +7,7 @@
 #include "libbase/field.hpp"
 #include "libfe/bearings/coefficient_table.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A bearing given by a table over speed, whatever the frequency at which its journal whirls.
 struct TableBearing {
@@ -27,4 +27,4 @@ struct TableBearing {
   std::span<const double> speeds() const { return table.speed; }
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -4,7 +4,7 @@
 #include "libbase/error.hpp"
 #include "libfe/eigen/quadratic.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 QuadraticModes dense_quadratic_modes(const Sparse& M, const Sparse& D, const Sparse& K,
                                      double shift) {
@@ -48,4 +48,4 @@ QuadraticModes dense_quadratic_modes(const Sparse& M, const Sparse& D, const Spa
   return modes;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -11,7 +11,7 @@
 #include "libbase/dense_complex.hpp"
 #include "libbase/sparse_lu.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -223,4 +223,4 @@ DiscModes DiscSolver::around(Complex center, double radius, int count) const {
   return disc;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -4,7 +4,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Eigenpairs of (lambda^2 M + lambda D + K) q = 0 in a disc of the complex plane.
 struct DiscModes {
@@ -42,4 +42,4 @@ class DiscSolver {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

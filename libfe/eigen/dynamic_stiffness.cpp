@@ -2,7 +2,7 @@
 
 #include "libbase/sparse_lu.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// The four matrices on one common pattern: assembly at a frequency is one pass over values.
 struct DynamicStiffness::State {
@@ -48,4 +48,4 @@ std::optional<CVec> DynamicStiffness::solve(double w, double Omega, const CVec& 
   return q;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

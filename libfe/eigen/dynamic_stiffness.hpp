@@ -5,7 +5,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Solves (K - w^2 M + i w (C + Omega G)) q = f for many frequencies of one system.
 class DynamicStiffness {
@@ -25,4 +25,4 @@ class DynamicStiffness {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

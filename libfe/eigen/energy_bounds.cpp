@@ -9,7 +9,7 @@
 #include "libbase/dense.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -91,4 +91,4 @@ EnergyBounds energy_bounds(const Sparse& D, const Sparse& K) {
   return bounds;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -4,7 +4,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// How damping and circulation compare with strain energy, for whatever shape q.
 ///
@@ -32,4 +32,4 @@ struct EnergyBounds {
 /// @param D  C + Omega G; only its symmetric part matters
 EnergyBounds energy_bounds(const Sparse& D, const Sparse& K);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -10,7 +10,7 @@
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -90,4 +90,4 @@ HermitianModes largest_hermitian(const Sparse& M, const Sparse& G, double g, con
   return modes;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

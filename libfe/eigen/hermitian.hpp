@@ -2,7 +2,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Largest eigenvalues of (M - i g G) q = nu K q with M, K symmetric, K positive definite, G skew.
 struct HermitianModes {
@@ -15,4 +15,4 @@ struct HermitianModes {
 HermitianModes largest_hermitian(const Sparse& M, const Sparse& G, double g, const Sparse& K,
                                  int count);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -8,7 +8,7 @@
 #include "libbase/error.hpp"
 #include "libfe/eigen/disc.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -227,4 +227,4 @@ QuadraticModes lowest_frequencies(const Sparse& M, const Sparse& D, const Sparse
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

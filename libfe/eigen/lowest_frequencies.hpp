@@ -3,7 +3,7 @@
 #include "libfe/eigen/energy_bounds.hpp"
 #include "libfe/eigen/quadratic.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 struct FrequencySearch {
   int count = 0;        ///< eigenvalues wanted in the sector
@@ -29,4 +29,4 @@ QuadraticModes lowest_frequencies(const Sparse& M, const Sparse& D, const Sparse
 /// sector up to Im lambda = top.
 bool covers_sector(double center, double radius, double top, const FrequencySearch& search);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -4,7 +4,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Eigenpairs of (lambda^2 M + lambda D + K) q = 0. Of conjugate pairs, the one with Im > 0.
 struct QuadraticModes {
@@ -49,4 +49,4 @@ class QuadraticSolver {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -5,7 +5,7 @@
 
 #include "libbase/sparse_lu.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -60,4 +60,4 @@ bool Refinement::improve(Complex& lambda, CVec& q, double reach) const {
   return error <= accurate || balances(lambda, q);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

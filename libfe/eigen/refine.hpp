@@ -2,7 +2,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Improves eigenpairs of (lambda^2 M + lambda D + K) q = 0 that miss the stated accuracy.
 class Refinement {
@@ -29,4 +29,4 @@ class Refinement {
   double size_M_, size_D_, size_K_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -11,7 +11,7 @@
 #include "libfe/eigen/quadratic.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -147,4 +147,4 @@ QuadraticModes QuadraticSolver::lowest(const Sparse& D, int pairs) const {
       fmt::format("the Arnoldi iteration did not find the lowest {} damped modes", pairs));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -12,7 +12,7 @@
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -187,4 +187,4 @@ RealModes lowest_real_modes(const Sparse& K, const Sparse& M, int count) {
   return modes;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

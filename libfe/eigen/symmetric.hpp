@@ -2,7 +2,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Lowest undamped modes, K phi = omega^2 M phi.
 struct RealModes {
@@ -37,4 +37,4 @@ Sparse symmetric_part(const Sparse& A);
 /// Largest entry of A - A^T relative to the largest of A is below 1e-12.
 bool is_symmetric(const Sparse& A);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -8,7 +8,7 @@
 #include "libbase/error.hpp"
 #include "libbase/quadrature.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 namespace {
 
@@ -192,4 +192,4 @@ Mat deflection_functions(const Beam& beam, const Vec& xi) {
   return q.interpolation(xi) * shape_functions(beam, properties(beam, q), q).w;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -4,7 +4,7 @@
 #include "libfe/material.hpp"
 #include "libfe/section.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// A two-node shaft element, cylinder or cone.
 struct Beam {
@@ -60,4 +60,4 @@ ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam);
 /// @source [Przemieniecki1968] ch. 11
 Mat deflection_functions(const Beam& beam, const Vec& xi);
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -3,7 +3,7 @@
 #include "libfe/elements/element.hpp"
 #include "libfe/structure.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Matrices of a body for (x, y, theta_x, theta_y); without tilts only the first two rows count.
 ///
@@ -18,4 +18,4 @@ inline ElementMatrices<4> matrices(const Body& body) {
   return e;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -3,7 +3,7 @@
 #include "libfe/bearings/coefficients.hpp"
 #include "libfe/elements/element.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Matrices of a bearing or link for the freedoms (x, y, theta_x, theta_y) of both its ends.
 inline ElementMatrices<8> matrices(const BearingCoefficients& c) {
@@ -21,4 +21,4 @@ inline ElementMatrices<8> matrices(const BearingCoefficients& c) {
   return e;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

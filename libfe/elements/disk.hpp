@@ -5,7 +5,7 @@
 #include "libfe/elements/element.hpp"
 #include "libfe/structure.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Matrices of a disk for the freedoms (x, y, theta_x, theta_y) of its node.
 ///
@@ -32,4 +32,4 @@ inline void set_inertia_from_shape(Disk& disk, double rho) {
   disk.Id = disk.Ip / 2.0 + disk.m * disk.width * disk.width / 12.0;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

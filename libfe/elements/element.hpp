@@ -2,7 +2,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline fe {
 
 /// Matrices of an element: M q'' + (C + Omega G) q' + (K + Omega H) q = f. Zero until filled.
 ///
@@ -21,4 +21,4 @@ struct ElementMatrices {
         H(Block::Zero(n, n)) {}
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline fe

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -162,4 +162,4 @@ std::vector<double> spread(const std::vector<double>& wanted, double distance, d
   return places;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

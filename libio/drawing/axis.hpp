@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 enum class Scale { linear, logarithmic };
 
@@ -41,4 +41,4 @@ Axis axis_around(const std::vector<double>& values, Scale scale);
 std::vector<double> spread(const std::vector<double>& wanted, double distance, double low,
                            double high);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 
 #include "libbase/constants.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -189,4 +189,4 @@ PanelAxes axes_of(const Panel& panel) {
   return axes;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

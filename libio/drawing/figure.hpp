@@ -9,7 +9,7 @@
 #include "libio/drawing/axis.hpp"
 #include "libio/drawing/svg.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// What a color means; paint_colors says what it looks like on white and on dark pages.
 enum class Paint {
@@ -197,4 +197,4 @@ PanelAxes axes_of(const Panel& panel);
 /// Whether a point has a place on the scales of a panel.
 bool has_place(const Panel& panel, double x, double y);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 #include "libio/drawing/panel_layout.hpp"
 #include "libio/drawing/panel_svg.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -195,4 +195,4 @@ Record style_record() {
   return r.set("dashes", dashes);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

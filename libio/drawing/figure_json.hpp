@@ -8,7 +8,7 @@
 #include "libio/drawing/figure.hpp"
 #include "libio/text/record.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Arrays of a page, each distinct one stored once and referred to by its number.
 ///
@@ -37,4 +37,4 @@ Record color_record();
 /// Distances around panels and dashes of lines, as files have them: Rooms and dashes_of.
 Record style_record();
 
-}  // namespace whirl
+}  // namespace whirl::inline io

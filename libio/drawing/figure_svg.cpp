@@ -8,7 +8,7 @@
 #include "libio/drawing/panel_layout.hpp"
 #include "libio/drawing/panel_svg.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 using namespace figure_style;
 
@@ -294,4 +294,4 @@ std::string svg_of(const Figure& figure) {
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

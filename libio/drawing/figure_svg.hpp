@@ -5,7 +5,7 @@
 
 #include "libio/drawing/figure.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// How large a picture is to be printed.
 struct PictureSize {
@@ -33,4 +33,4 @@ Picture picture_of(const Figure& figure, const PictureSize& size);
 /// The same as large as the figure wants to be.
 std::string svg_of(const Figure& figure);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -10,7 +10,7 @@
 
 #include "libio/drawing/panel_svg.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 using namespace figure_style;
 
@@ -104,4 +104,4 @@ void draw_color_bar(Svg& svg, const PanelFrame& f) {
            cells.title, {small_letters, color_of(Paint::ink), Anchor::middle, -90.0});
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace whirl {
+namespace whirl::inline io {
 
 using namespace figure_style;
 
@@ -217,4 +217,4 @@ std::vector<Tick> ticks_up(const PanelFrame& f) {
   return f.y.ticks(std::max(2, static_cast<int>(f.height / f.rooms->per_label_y)));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -9,7 +9,7 @@
 #include "libio/drawing/figure.hpp"
 #include "libio/drawing/svg.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace figure_style {
 
@@ -73,4 +73,4 @@ bool is_tight(const PanelFrame& frame);
 std::vector<Tick> ticks_along(const PanelFrame& frame);
 std::vector<Tick> ticks_up(const PanelFrame& frame);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 
 #include "libio/drawing/panel_cells.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace figure_style {
 
@@ -342,4 +342,4 @@ void draw_panel(Svg& svg, const PanelFrame& f) {
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

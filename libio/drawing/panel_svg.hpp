@@ -7,7 +7,7 @@
 #include "libio/drawing/panel_layout.hpp"
 #include "libio/drawing/svg.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace figure_style {
 
@@ -21,4 +21,4 @@ std::string dashes_of(Dash dash);
 /// Draws a panel with its axes.
 void draw_panel(Svg& svg, const PanelFrame& frame);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

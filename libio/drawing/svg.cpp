@@ -9,7 +9,7 @@
 #include "libio/results/own_file.hpp"
 #include "libio/text/xml.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -215,4 +215,4 @@ double text_width(std::string_view text, double size) {
   return width;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

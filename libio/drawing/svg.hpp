@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 struct Pixel {
   double x = 0.0, y = 0.0;
@@ -72,4 +72,4 @@ std::string coordinate(double value);
 /// Width of a text in the usual fonts, roughly; exponents are smaller [pixels].
 double text_width(std::string_view text, double size);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
   return text + "\n  ▲ bearing   ◯ contact   ▓ disk\n";
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -5,10 +5,10 @@
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// A side view of the rotor for the terminal: shaft, disks, and what is where below.
 /// @param columns  width of the drawing
 std::string draw_layout(const Model& model, const Assembler& assembler, int columns = 72);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 #include "libio/export/vtk/surfaces.hpp"
 #include "libio/results/own_file.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -185,4 +185,4 @@ std::string vtu_of(const RotorMesh& mesh) {
   return out + "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

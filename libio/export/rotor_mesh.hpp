@@ -9,7 +9,7 @@
 #include "libfe/assemble.hpp"
 #include "libio/export/vtk.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Where all points of a scene are displaced to.
 struct MeshField {
@@ -51,4 +51,4 @@ RotorMesh surface_mesh(const VtkScene& scene, const std::vector<MeshField>& fiel
 /// VTK's format of unstructured grids, as text.
 std::string vtu_of(const RotorMesh& mesh);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -9,7 +9,7 @@
 #include "libbase/linalg.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// A piece of the shaft between two points, a cone or cylinder.
 struct VtkShaftPiece {
@@ -112,4 +112,4 @@ double vtk_fitting_scale(const VtkScene& scene, const std::vector<VtkFrame>& fra
 /// The fitting scale, and at least 1: a motion is never drawn smaller than it is.
 double vtk_deflection_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

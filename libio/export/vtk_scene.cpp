@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -146,4 +146,4 @@ VtkFrame vtk_frame(const Model& model, const Assembler& assembler, double time, 
   return frame;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 #include "libfe/modes.hpp"
 #include "libio/export/vtk.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Shaft with its diameters, disks, spinning bodies, stators of all contacts.
 ///
@@ -26,4 +26,4 @@ std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, cons
 VtkFrame vtk_frame(const Model& model, const Assembler& assembler, double time, const Vec& full,
                    const Vec& normal, const Vec& friction);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -9,7 +9,7 @@
 #include "libio/results/replace_file.hpp"
 #include "libio/text/xml.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace fs = std::filesystem;
 
@@ -104,4 +104,4 @@ std::vector<fs::path> write_xdmf_series(const fs::path& xdmf_path, const VtkScen
   return {xdmf_path, numbers};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 
 #include "libio/export/vtk.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Writes "x.xdmf" and "x_xdmf.h5": the shaft's axis as lines at rest, with point data of every
 /// frame.
@@ -23,4 +23,4 @@ std::vector<std::filesystem::path> write_xdmf_series(const std::filesystem::path
                                                      const std::vector<VtkFrame>& frames,
                                                      Replaces replaces = Replaces::own_pictures);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -3,7 +3,7 @@
 
 #include "libio/figures/common.hpp"
 
-namespace whirl::figures {
+namespace whirl::inline io::figures {
 
 /// A curve of bifurcations, both ways from where it begins.
 struct Border {
@@ -29,4 +29,4 @@ struct BorderPoints {
 std::vector<Curve> border_curves(const BorderPoints& borders, const std::vector<double>& x,
                                  const std::vector<double>& y);
 
-}  // namespace whirl::figures
+}  // namespace whirl::inline io::figures

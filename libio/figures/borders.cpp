@@ -6,7 +6,7 @@
 
 #include "libio/figures/border_lines.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace figures {
 
@@ -181,4 +181,4 @@ FigureKind borders_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

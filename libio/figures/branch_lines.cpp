@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-namespace whirl::figures {
+namespace whirl::inline io::figures {
 
 namespace {
 
@@ -138,4 +138,4 @@ void add_branch_marks(Panel& p, const BranchPoints& b, const std::vector<double>
   }
 }
 
-}  // namespace whirl::figures
+}  // namespace whirl::inline io::figures

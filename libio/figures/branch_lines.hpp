@@ -3,7 +3,7 @@
 
 #include "libio/figures/common.hpp"
 
-namespace whirl::figures {
+namespace whirl::inline io::figures {
 
 /// Points of all branches, one after another, and what happens between them.
 struct BranchPoints {
@@ -41,4 +41,4 @@ void add_branch_lines(Panel& p, const BranchPoints& b, const std::vector<double>
 /// Marks of bifurcations on the lines; small ones for grazings, of which there are many.
 void add_branch_marks(Panel& p, const BranchPoints& b, const std::vector<double>& y);
 
-}  // namespace whirl::figures
+}  // namespace whirl::inline io::figures

@@ -7,7 +7,7 @@
 #include "libio/results/call.hpp"
 #include "libio/text/format.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -130,4 +130,4 @@ FigureKind branches_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

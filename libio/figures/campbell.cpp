@@ -8,7 +8,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/results/columns.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -263,4 +263,4 @@ FigureKind log_decrement_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 
 #include "libio/results/call.hpp"
 
-namespace whirl::figures {
+namespace whirl::inline io::figures {
 
 std::vector<double> row(const Mat& m, Eigen::Index i) {
   std::vector<double> values(static_cast<std::size_t>(m.cols()));
@@ -190,4 +190,4 @@ std::vector<std::string> Motion::notes(double revolutions) const {
   return {fmt::format("The last {:g} revolutions.", revolutions)};
 }
 
-}  // namespace whirl::figures
+}  // namespace whirl::inline io::figures

@@ -5,7 +5,7 @@
 #include "libfe/modes.hpp"
 #include "libio/figures/figures.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace figures {
 
@@ -94,4 +94,4 @@ struct Motion {
 
 }  // namespace figures
 
-}  // namespace whirl
+}  // namespace whirl::inline io

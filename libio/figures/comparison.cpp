@@ -13,7 +13,7 @@
 #include "libio/model/config.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -210,4 +210,4 @@ FigureTable differences(const std::vector<std::string>& texts,
   return t;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

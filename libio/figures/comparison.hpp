@@ -8,7 +8,7 @@
 
 #include "libio/figures/figures.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// What tells results apart in a comparison: names of their files as far as they differ.
 std::vector<std::string> names_of(const std::vector<std::unique_ptr<ResultView>>& results);
@@ -27,4 +27,4 @@ std::optional<Figure> overlay(const std::vector<const Figure*>& figures,
 FigureTable differences(const std::vector<std::string>& texts,
                         const std::vector<std::string>& names);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

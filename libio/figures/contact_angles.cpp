@@ -6,7 +6,7 @@
 #include "libbase/constants.hpp"
 #include "libio/figures/common.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -155,4 +155,4 @@ FigureKind contact_angles_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

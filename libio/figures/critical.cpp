@@ -8,7 +8,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/results/columns.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -135,4 +135,4 @@ FigureKind critical_map_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -42,7 +42,7 @@
   work_precision_kind()
 // clang-format on
 
-namespace whirl {
+namespace whirl::inline io {
 
 // The list twice: as declarations of functions, each in the file of its figures, and as their calls.
 FigureKind KINDS;
@@ -101,4 +101,4 @@ std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result)
   return figures;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

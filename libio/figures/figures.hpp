@@ -15,7 +15,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// An open result file with the model that is stored in it.
 struct ResultView {
@@ -69,4 +69,4 @@ std::string lay_over(std::vector<Figure>& figures, const ResultView& study, cons
 /// Values other than those that are varied in which the models of two results differ, by their paths.
 std::vector<std::string> other_values(const ResultView& study, const ResultView& over);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

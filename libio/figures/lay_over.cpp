@@ -12,7 +12,7 @@
 #include "libio/figures/comparison.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -204,4 +204,4 @@ std::string lay_over(std::vector<Figure>& figures, const ResultView& study, cons
   return "";
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/text/format.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 using namespace figures;
 
@@ -284,4 +284,4 @@ FigureKind layout_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/results/motion_codes.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -338,4 +338,4 @@ FigureKind basins_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -13,7 +13,7 @@
 #include "libio/figures/rotor_backdrop.hpp"
 #include "libio/results/columns.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 using namespace figures;
 
@@ -288,4 +288,4 @@ FigureKind exponents_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/common.hpp"
 
-namespace whirl::figures {
+namespace whirl::inline io::figures {
 
 namespace {
 
@@ -99,4 +99,4 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   }
 }
 
-}  // namespace whirl::figures
+}  // namespace whirl::inline io::figures

@@ -2,7 +2,7 @@
 
 #include "libio/figures/figures.hpp"
 
-namespace whirl::figures {
+namespace whirl::inline io::figures {
 
 /// Draws the rotor faintly behind curves over the position along the shaft [mm]: its outline and
 /// disks, enlarged across the axis, bearings as triangles below and contacts as rings around it.
@@ -13,4 +13,4 @@ namespace whirl::figures {
 /// @param height  of its largest radius, in numbers of the panel's y
 void add_rotor(Panel& panel, const ResultView& result, double axis, double height);
 
-}  // namespace whirl::figures
+}  // namespace whirl::inline io::figures

@@ -11,7 +11,7 @@
 #include "libio/figures/rotor_backdrop.hpp"
 #include "libio/results/columns.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 using namespace figures;
 
@@ -156,4 +156,4 @@ FigureKind static_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/results/motion_codes.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -336,4 +336,4 @@ FigureKind cascade_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 
 #include "libio/figures/common.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -87,4 +87,4 @@ FigureKind torus_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

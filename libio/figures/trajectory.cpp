@@ -6,7 +6,7 @@
 
 #include "libio/figures/common.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -393,4 +393,4 @@ FigureKind contact_forces_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 #include "libfe/amplification.hpp"
 #include "libio/figures/common.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -333,4 +333,4 @@ FigureKind deflection_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

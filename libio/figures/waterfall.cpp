@@ -7,7 +7,7 @@
 #include "libbase/spectrum.hpp"
 #include "libio/figures/common.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -143,4 +143,4 @@ FigureKind waterfall_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 
 #include "libio/figures/common.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 std::string tolerance_text(double tolerance) {
   const int power = static_cast<int>(std::floor(std::log10(tolerance) + 1e-9));
@@ -83,4 +83,4 @@ FigureKind work_precision_kind() {
   };
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -5,7 +5,7 @@
 
 #include "libio/drawing/figure.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// What was measured, for its figure: tolerance by tolerance of method by method.
 struct WorkPrecision {
@@ -27,4 +27,4 @@ std::string tolerance_range(const std::vector<double>& tolerances);
 /// "1e-6", "2.5e-7"
 std::string tolerance_text(double tolerance);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

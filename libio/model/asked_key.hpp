@@ -6,7 +6,7 @@
 
 #include "libbase/field.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// A key that was asked for, and a way in which its value may be written or must be there.
 struct AskedKey {
@@ -33,4 +33,4 @@ struct AskedKey {
   std::string otherwise{};           ///< what holds if it is left out, as it would be written
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -9,7 +9,7 @@
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -157,4 +157,4 @@ CoefficientTable parse_bearing_table(const std::string& text, const std::string&
   return table;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 #include "libbase/error.hpp"
 #include "libfe/bearings/coefficient_table.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Reads bearing coefficients against speed from CSV.
 ///
@@ -19,4 +19,4 @@ namespace whirl {
 CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
                                      std::vector<Problem>& problems);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -11,7 +11,7 @@
 
 #include "libio/text/nearest.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -387,4 +387,4 @@ std::string to_toml(const ConfigNode& root) {
   return out;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// A value of a model file, or a table or array of them.
 struct ConfigNode {
@@ -56,4 +56,4 @@ void set_value(ConfigNode& root, std::string_view assignment);
 /// The tree as TOML.
 std::string to_toml(const ConfigNode& root);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

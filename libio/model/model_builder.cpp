@@ -10,7 +10,7 @@
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -319,4 +319,4 @@ void ModelBuilder::check_movable() {
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

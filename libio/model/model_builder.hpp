@@ -11,9 +11,11 @@
 #include "libio/model/config.hpp"
 #include "libio/model/read_fields.hpp"
 
-namespace whirl {
-
+namespace whirl::inline fe {
 struct Mesh;
+}
+
+namespace whirl::inline io {
 
 /// Builds a model from the tree of a file, collecting all problems.
 class ModelBuilder {
@@ -128,4 +130,4 @@ void ModelBuilder::for_each(const char* array, F f) {
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -9,7 +9,7 @@
 #include "libio/model/bearing_table.hpp"
 #include "libio/model/model_builder.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -183,4 +183,4 @@ void ModelBuilder::read_links() {
   });
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

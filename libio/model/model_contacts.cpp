@@ -11,7 +11,7 @@
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -144,4 +144,4 @@ void ModelBuilder::read_contacts() {
   });
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

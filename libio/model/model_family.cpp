@@ -9,7 +9,7 @@
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -143,4 +143,4 @@ MotionState ModelFamily::start(const Model& member, const Scene& scene,
   return start_state(member, scene, end, known->modes);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -10,7 +10,7 @@
 #include "libdyn/system/scene.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// The text is read once, and for a value only that is made again which it changes: a contact's
 /// stiffness needs no mesh and no reduction, a speed no mesh. Members are to the last bit what
@@ -44,4 +44,4 @@ class ModelFamily {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 
 #include "libio/model/model_builder.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 Model parse_model(const std::string& text, const std::string& name,
                   const std::vector<std::string>& sets, const std::filesystem::path& directory) {
@@ -40,4 +40,4 @@ Model read_model(const std::filesystem::path& path, const std::vector<std::strin
   return parse_model(text.str(), path.string(), sets, path.parent_path());
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 
 #include "libdyn/system/model.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Reads a model file and everything it names (bearing tables).
 ///
@@ -22,4 +22,4 @@ Model parse_model(const std::string& text, const std::string& name = "model",
                   const std::vector<std::string>& sets = {},
                   const std::filesystem::path& directory = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline io

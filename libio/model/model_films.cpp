@@ -4,7 +4,7 @@
 #include "libio/model/model_builder.hpp"
 #include "libio/text/nearest.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// The key `offset`, [x, y] of a circle's centre [m].
 Vec2 ModelBuilder::center(TableReader& table) {
@@ -50,4 +50,4 @@ void ModelBuilder::read_films() {
   });
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -10,7 +10,7 @@
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 std::string parent_path(const std::string& path) {
   const auto dot = path.rfind('.');
@@ -218,4 +218,4 @@ Key model_keys() {
   return root;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

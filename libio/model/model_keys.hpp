@@ -7,7 +7,7 @@
 
 #include "libio/model/asked_key.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Sets of keys of which one is required in a table.
 using Requirements = std::set<std::vector<std::string>>;
@@ -47,4 +47,4 @@ std::string parent_path(const std::string& path);
 /// Name of a key, without the path of its table.
 std::string last_part(const std::string& path);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

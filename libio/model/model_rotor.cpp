@@ -8,7 +8,7 @@
 #include "libio/model/model_builder.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -232,4 +232,4 @@ void ModelBuilder::read_unbalances() {
   });
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 
 #include "libio/model/model_keys.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -263,4 +263,4 @@ Record model_schema() {
   return schema;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

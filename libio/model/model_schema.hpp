@@ -7,7 +7,7 @@
 #include "libbase/field.hpp"
 #include "libio/text/record.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// JSON Schema (draft 7) of a model file: tables, keys, units, ranges, choices, defaults.
 ///
@@ -27,4 +27,4 @@ Record quantity_schema(const std::string& unit, Range range);
 /// Name of a quantity among the definitions of the schema: "positive-tilt-stiffness".
 std::string quantity_definition(const std::string& unit, Range range);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 #include "libio/model/model_schema.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -80,4 +80,4 @@ Record quantity_schema(const std::string& unit, Range range) {
   return schema;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 TableReader::TableReader(const ConfigNode* table, std::string path, std::vector<Problem>& problems,
                          std::vector<AskedKey>* asked)
@@ -249,4 +249,4 @@ void TableReader::finish() {
   report_missing();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -15,7 +15,7 @@
 #include "libio/model/asked_key.hpp"
 #include "libio/model/config.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Reads one table. Keys that are read or accepted are known; `finish` reports all others.
 class TableReader {
@@ -154,4 +154,4 @@ class TableReader {
   std::vector<Missing> missing_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -9,7 +9,7 @@
 #include "libio/figures/comparison.hpp"
 #include "libio/results/call.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::vector<const ResultView*> in_order(const std::vector<std::unique_ptr<Result
   return ordered;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

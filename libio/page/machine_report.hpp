@@ -7,7 +7,7 @@
 
 #include "libio/figures/figures.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// The verb that made a result; empty where it does not say.
 std::string verb_of(const ResultView& result);
@@ -23,4 +23,4 @@ bool is_one_machine(const std::vector<std::unique_ptr<ResultView>>& results);
 /// studies.
 std::vector<const ResultView*> in_order(const std::vector<std::unique_ptr<ResultView>>& results);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

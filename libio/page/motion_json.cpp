@@ -10,7 +10,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/results/columns.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -173,4 +173,4 @@ Record motion_record(const ResultView& result, ArrayStore& arrays) {
   return scene_record(vtk_scene(*result.model, *result.assembler)).set("motions", motions);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

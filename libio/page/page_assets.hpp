@@ -3,11 +3,11 @@
 
 #include <string_view>
 
-namespace whirl {
+namespace whirl::inline io {
 
 extern const std::string_view page_html;    ///< with places for the others
 extern const std::string_view page_style;   ///< CSS
 extern const std::string_view page_script;  ///< JavaScript
 extern const std::string_view page_three;   ///< three.js, minified
 
-}  // namespace whirl
+}  // namespace whirl::inline io

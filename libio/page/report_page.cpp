@@ -16,7 +16,7 @@
 #include "libio/text/format.hpp"
 #include "libio/text/xml.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -307,4 +307,4 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
   return {html, builder.figures};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

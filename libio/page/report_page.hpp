@@ -7,7 +7,7 @@
 
 #include "libio/figures/figures.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 struct ReportPage {
   std::string html;
@@ -25,4 +25,4 @@ struct ReportPage {
 ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
                        const std::string& version);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -2,7 +2,7 @@
 
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 void write_ends(ResultWriter& file, const std::string& group, const std::string& axis,
                 const std::vector<std::optional<BranchEnd>>& ends) {
@@ -35,4 +35,4 @@ std::vector<std::optional<BranchEnd>> read_ends(const ResultReader& file,
   return ends;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

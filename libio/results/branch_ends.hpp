@@ -7,7 +7,7 @@
 
 #include "libdyn/branches/branch.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultReader;
 class ResultWriter;
@@ -20,4 +20,4 @@ void write_ends(ResultWriter& file, const std::string& group, const std::string&
 /// Those ends again. Files of earlier versions have texts alone.
 std::vector<std::optional<BranchEnd>> read_ends(const ResultReader& file, const std::string& group);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

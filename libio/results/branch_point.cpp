@@ -6,7 +6,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 long count_branch_points(const ResultReader& file) {
   if (file.has("/branch/state")) return file.shape("/branch/state").at(0);
@@ -38,4 +38,4 @@ BranchStart read_branch_point(const ResultReader& file, long number) {
                                           model.parent_path()))};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

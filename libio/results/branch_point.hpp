@@ -6,7 +6,7 @@
 
 #include "libdyn/system/scene.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultReader;
 
@@ -26,4 +26,4 @@ long count_branch_points(const ResultReader& file);
 /// @param file  a result that was checked
 BranchStart read_branch_point(const ResultReader& file, long number);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

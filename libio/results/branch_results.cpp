@@ -8,7 +8,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/results/row_datasets.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -190,4 +190,4 @@ BranchTree read_branches(const ResultReader& file, BranchTree empty) {
   return empty;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 
 #include "libdyn/studies/branch_tree.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultReader;
 class ResultWriter;
@@ -25,4 +25,4 @@ void write_branches(ResultWriter& file, const BranchTree& tree, const BranchName
 /// @throws FileError  if the file holds something else
 BranchTree read_branches(const ResultReader& file, BranchTree empty);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/results/packed_branch.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -169,4 +169,4 @@ std::vector<BifurcationCurve> read_curve_walk(const ResultReader& file, const st
   return curves;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 #include "libdyn/studies/bifurcation_curves.hpp"
 #include "libdyn/studies/branch_tree.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultReader;
 class ResultWriter;
@@ -26,4 +26,4 @@ std::vector<TracedBranch> read_branch_walk(const ResultReader& file, const std::
 std::vector<BifurcationCurve> read_curve_walk(const ResultReader& file, const std::string& group,
                                               const BranchLayout& layout);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

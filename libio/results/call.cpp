@@ -6,7 +6,7 @@
 
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -127,4 +127,4 @@ std::string shell_line(const std::vector<std::string>& words) {
   return line;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

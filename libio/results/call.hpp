@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultReader;
 class ResultWriter;
@@ -48,4 +48,4 @@ std::string shell_word(std::string_view word);
 /// Words as a line for a shell.
 std::string shell_line(const std::vector<std::string>& words);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

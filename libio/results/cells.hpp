@@ -10,7 +10,7 @@
 #include "libbase/linalg.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl::columns {
+namespace whirl::inline io::columns {
 
 template <class T>
 concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, Complex>;
@@ -151,4 +151,4 @@ class Taking {
   std::size_t at_ = 0;
 };
 
-}  // namespace whirl::columns
+}  // namespace whirl::inline io::columns

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace whirl::columns {
+namespace whirl::inline io::columns {
 
 std::vector<std::string> dimension_names(std::string_view list) {
   std::vector<std::string> names;
@@ -138,4 +138,4 @@ std::string key_suffix(std::string_view unit) {
   return suffix;
 }
 
-}  // namespace whirl::columns
+}  // namespace whirl::inline io::columns

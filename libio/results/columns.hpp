@@ -14,7 +14,7 @@
 #include "libio/results/result_schema.hpp"
 #include "libio/text/record.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 template <HasColumns T>
 Record record_of(const T& result);
@@ -329,4 +329,4 @@ std::vector<ResultSet> schema_of() {
   return sets;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -10,7 +10,7 @@
 
 #include "libio/results/own_file.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace fs = std::filesystem;
 
@@ -277,4 +277,4 @@ std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::pat
   return files;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Writes the groups of a result as "<stem>_<group>_<rows>.csv".
 ///
@@ -29,4 +29,4 @@ std::vector<std::filesystem::path> write_csv_tables(
     const ResultReader& result, const std::filesystem::path& stem,
     Replaces replaces = Replaces::own_pictures, const std::optional<MotionSamples>& samples = {});
 
-}  // namespace whirl
+}  // namespace whirl::inline io

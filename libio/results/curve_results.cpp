@@ -5,7 +5,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/results/row_datasets.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -74,4 +74,4 @@ BifurcationCurves read_curves(const ResultReader& file, const BranchLayout& layo
   return {.curves = read_curve_walk(file, curve_group, layout)};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

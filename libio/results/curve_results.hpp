@@ -4,7 +4,7 @@
 #include "libdyn/studies/bifurcation_curves.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultReader;
 class ResultWriter;
@@ -24,4 +24,4 @@ void write_curves(ResultWriter& file, const BifurcationCurves& curves, const Cur
 /// @throws FileError  if the file holds something else
 BifurcationCurves read_curves(const ResultReader& file, const BranchLayout& layout);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

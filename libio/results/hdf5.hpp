@@ -9,7 +9,7 @@
 #include "libbase/linalg.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// What stands beside the numbers of a dataset.
 struct DatasetInfo {
@@ -122,4 +122,4 @@ class ResultReader {
   std::int64_t id_ = -1;  ///< HDF5's handle
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline io

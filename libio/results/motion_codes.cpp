@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace whirl {
+namespace whirl::inline io {
 
 MotionCodes::MotionCodes(const ResultReader& file, const std::string& dataset) {
   std::istringstream words(file.has_attribute(dataset, words_attribute)
@@ -22,4 +22,4 @@ std::optional<MotionKind> MotionCodes::kind(double code) const {
   return kinds_[static_cast<std::size_t>(code)];
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 #include "libdyn/studies/classify.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Attribute of a dataset of codes: words separated by commas, the first one of code 0.
 inline constexpr const char* words_attribute = "words";
@@ -47,4 +47,4 @@ class MotionCodes {
   std::vector<std::optional<MotionKind>> kinds_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -99,4 +99,4 @@ MotionSamples samples_of(const MotionWindow& window, const RecordedMotion& motio
   return samples;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

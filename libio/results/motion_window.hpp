@@ -7,7 +7,7 @@
 
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// What was asked for; nothing: the end of the motion.
 struct MotionWindow {
@@ -45,4 +45,4 @@ struct MotionSamples {
 /// @throws ModelError  if the window holds what was not recorded; says what was
 MotionSamples samples_of(const MotionWindow& window, const RecordedMotion& motion, double usual);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -3,7 +3,7 @@
 #include "libdyn/studies/orbit_result.hpp"
 #include "libio/results/columns.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 void write_orbit(ResultWriter& file, const Scene& scene, const FoundOrbit& orbit) {
   write_result(file, orbit_result(scene, orbit));
@@ -14,4 +14,4 @@ void write_rotating_orbit(ResultWriter& file, const Scene& scene, const Cycle& c
   write_result(file, orbit_result(scene, cycle));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

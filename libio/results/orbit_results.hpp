@@ -3,7 +3,7 @@
 
 #include "libdyn/studies/found_orbit.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultWriter;
 
@@ -13,4 +13,4 @@ void write_orbit(ResultWriter& file, const Scene& scene, const FoundOrbit& orbit
 /// The same of an orbit that repeats as seen from the rotor: its multipliers.
 void write_rotating_orbit(ResultWriter& file, const Scene& scene, const Cycle& cycle);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

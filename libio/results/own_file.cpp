@@ -10,7 +10,7 @@
 
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace fs = std::filesystem;
 
@@ -233,4 +233,4 @@ std::string first_line(const fs::path& place) {
   return line;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

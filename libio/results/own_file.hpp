@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace whirl {
+namespace whirl::inline io {
 
 enum class Origin {
   nowhere,  ///< there is no file, or nothing in it
@@ -37,4 +37,4 @@ void mark_as_own(const std::filesystem::path& file);
 /// The first line of a file, without its end; empty if there is none.
 std::string first_line(const std::filesystem::path& file);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

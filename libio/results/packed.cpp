@@ -2,7 +2,7 @@
 
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -29,4 +29,4 @@ Unpacker read_walk(const ResultReader& file, const std::string& group) {
   return walk;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

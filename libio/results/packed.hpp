@@ -10,7 +10,7 @@
 #include "libbase/linalg.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultReader;
 class ResultWriter;
@@ -138,4 +138,4 @@ void write_walk(ResultWriter& file, const std::string& group, const Packer& walk
 /// @throws FileError  if its arrangement is that of another version
 Unpacker read_walk(const ResultReader& file, const std::string& group);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

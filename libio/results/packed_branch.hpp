@@ -4,7 +4,7 @@
 #include "libdyn/branches/branch.hpp"
 #include "libio/results/packed.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// All of a point but the names of its contacts; mean slips are not known of orbits.
 void pack_point(auto& in, auto& point) {
@@ -17,4 +17,4 @@ void pack_point(auto& in, auto& point) {
   }
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

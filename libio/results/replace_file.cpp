@@ -10,7 +10,7 @@
 
 #include "libio/results/own_file.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace fs = std::filesystem;
 
@@ -85,4 +85,4 @@ void replace_file(const fs::path& place, std::string_view text, Replaces what) {
   file.commit();
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

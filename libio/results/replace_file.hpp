@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// A file cannot be read or written; says which one and why.
 class FileError : public std::runtime_error {
@@ -61,4 +61,4 @@ class FileReplacement {
 void replace_file(const std::filesystem::path& place, std::string_view text,
                   Replaces what = Replaces::own_pictures);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -10,7 +10,7 @@
 
 #include "libio/results/result_schema.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -217,4 +217,4 @@ std::unique_ptr<ResultReader> open_result(const std::filesystem::path& path) {
   return file;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -20,7 +20,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/results/study_columns.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -160,4 +160,4 @@ const std::vector<ResultSet>& result_schema() {
   return schema;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -10,7 +10,7 @@
 #include "libbase/column.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Number of the arrangement of result files, their root attribute `format`. It grows when an older
 /// whirl would take a dataset for something else; datasets that are added do not count. Files
@@ -56,4 +56,4 @@ void check_result(const ResultReader& file);
 /// @throws FileError  as ResultReader and check_result
 std::unique_ptr<ResultReader> open_result(const std::filesystem::path& path);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 #include "libbase/constants.hpp"
 #include "libio/results/hdf5.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Writes datasets of rows. The axes of what it is given are those behind that of the rows.
 template <class Row>
@@ -87,4 +87,4 @@ class RowDatasets {
   std::string axis_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace whirl::study_columns {
+namespace whirl::inline io::study_columns {
 
 namespace {
 
@@ -116,4 +116,4 @@ ResultEntry entry_of(const std::string& group, const Facts& column) {
                            column.is_integer ? ObjectKind::integer : ObjectKind::real);
 }
 
-}  // namespace whirl::study_columns
+}  // namespace whirl::inline io::study_columns

@@ -24,7 +24,7 @@
 #include "libio/results/result_schema.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace study_columns {
 
@@ -335,4 +335,4 @@ ResultSet study_schema(const std::vector<ResultEntry>& parameters) {
   return {std::move(entries)};
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -9,7 +9,7 @@
 #include "libio/results/hdf5.hpp"
 #include "libio/results/packed_branch.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -114,4 +114,4 @@ TorusBranch read_torus(const ResultReader& file, Eigen::Index states) {
   return torus;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -4,7 +4,7 @@
 #include "libdyn/studies/torus_branch.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 class ResultReader;
 class ResultWriter;
@@ -19,4 +19,4 @@ void write_torus(ResultWriter& file, const Scene& scene, const ParameterAxis& ax
 /// @throws FileError  if the file holds something else
 TorusBranch read_torus(const ResultReader& file, Eigen::Index states);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

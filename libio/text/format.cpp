@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -85,4 +85,4 @@ std::string format_speed(double value) {
   return number_and_unit(value * 30.0 / std::numbers::pi, "rpm");
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// A value with an engineer's prefix, to four significant digits.
 ///
@@ -27,4 +27,4 @@ std::string format_grouped(double value);
 /// A speed [rad/s], in revolutions per minute: "3650 rpm".
 std::string format_speed(double value);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

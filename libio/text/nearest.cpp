@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
   return std::nullopt;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

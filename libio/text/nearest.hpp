@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// The known word that someone who wrote `word` most likely meant, if one is close enough.
 ///
@@ -14,4 +14,4 @@ namespace whirl {
 /// Else the first known word that it is a part of, as "diameter" of "outer_diameter".
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -4,7 +4,7 @@
 
 #include "libio/text/value_range.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -93,4 +93,4 @@ Parsed<ParameterAxis> parse_axis(std::string_view text, int points) {
   return axis;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

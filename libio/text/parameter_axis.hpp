@@ -6,7 +6,7 @@
 
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// What a study varies in a model, and the values it takes.
 struct ParameterAxis {
@@ -38,4 +38,4 @@ struct ParameterAxis {
 /// @param points  of a range without a step; 0: it must have one
 Parsed<ParameterAxis> parse_axis(std::string_view text, int points);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

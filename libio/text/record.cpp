@@ -8,7 +8,7 @@
 
 #include "libio/text/xml.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -129,4 +129,4 @@ std::string Record::json() const {
   return out + "\n";
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

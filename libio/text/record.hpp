@@ -9,7 +9,7 @@
 
 #include "libbase/linalg.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// An ordered tree of named values: what a verb found, for JSON. Keys carry their unit (_rpm, _m).
 class Record {
@@ -49,4 +49,4 @@ class Record {
   std::variant<std::nullptr_t, bool, std::int64_t, double, std::string, Array, Object> value_;
 };
 
-}  // namespace whirl
+}  // namespace whirl::inline io

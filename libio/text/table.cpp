@@ -6,7 +6,7 @@
 #include "libio/text/table_text.hpp"
 #include "libio/text/terminal.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::string table_text(const Cells& head, const std::vector<Cells>& rows, std::s
   return out;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

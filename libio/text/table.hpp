@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// A table for the terminal: texts to the left, numbers to the right, units in the head.
 class Table {
@@ -24,4 +24,4 @@ class Table {
 /// Columns that a UTF-8 text takes in a terminal (all signs that this project writes are one wide).
 std::size_t display_width(const std::string& text);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

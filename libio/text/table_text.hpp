@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Lines of equal columns; a column is set right if all its cells begin with a digit, sign or dash,
 /// are empty or "·".
@@ -16,4 +16,4 @@ namespace whirl {
 std::string table_text(const std::vector<std::string>& head,
                        const std::vector<std::vector<std::string>>& rows, std::size_t limit);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

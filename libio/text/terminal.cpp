@@ -10,7 +10,7 @@
 
 #include "libio/text/table.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::string folded(const std::string& text, std::size_t columns) {
   return out;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Columns of the terminal: those of the environment's COLUMNS, else those of standard output. 0 where
 /// it is no terminal, as in a pipe: as wide as it takes.
@@ -18,4 +18,4 @@ std::string folded(const std::string& text, std::size_t columns);
 /// Parts of a line at blanks, none wider than so many columns unless it is one word.
 std::vector<std::string> folded_words(const std::string& line, std::size_t columns);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

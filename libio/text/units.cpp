@@ -11,7 +11,7 @@
 
 #include "libio/text/nearest.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -370,4 +370,4 @@ std::string expected_quantity(std::string_view si_unit) {
   return fmt::format("{} {} ({})", is_vowel ? "an" : "a", name, si_unit);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

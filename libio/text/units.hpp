@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Powers of the base units. Angle is one of them, so that 50 Hz and 50 rad/s are not mixed up.
 struct Dimension {
@@ -82,4 +82,4 @@ std::string expected_quantity(std::string_view si_unit);
 /// Text in quotation marks for a message; long texts are cut, control characters become blanks.
 std::string in_quotes(std::string_view text);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace {
 
@@ -112,4 +112,4 @@ std::vector<double> values(const ValueRange& range, int points) {
   return result;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

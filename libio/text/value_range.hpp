@@ -6,7 +6,7 @@
 
 #include "libio/text/units.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// Values of a parameter as the command line gives them, first:last:step or first:last.
 struct ValueRange {
@@ -33,4 +33,4 @@ std::vector<double> values(const ValueRange& range);
 /// @param points  >= 2, or 1 for the first alone
 std::vector<double> values(const ValueRange& range, int points);
 
-}  // namespace whirl
+}  // namespace whirl::inline io

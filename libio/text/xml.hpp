@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace whirl {
+namespace whirl::inline io {
 
 /// How many bytes from the start of a text are one character that XML 1.0 and JSON can hold; 0: none.
 ///
@@ -52,4 +52,4 @@ inline std::string xml_text(std::string_view text) {
   return out;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -17,22 +17,30 @@ struct Include {
   std::string file, name;  // both relative to the repository, or the name of a system header
 };
 
-std::vector<Include> includes() {
-  static const std::regex line_of(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
-  std::vector<Include> all;
+/// A file, and of one of its lines what a pattern matches: its group 1, or all if it has none.
+using Lines = std::vector<std::pair<std::string, std::string>>;
+
+Lines lines_in(const std::string& folder, const std::regex& pattern) {
+  Lines lines;
   const fs::path root = WHIRL_SOURCE_DIR;
-  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn", "libio", "apps"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      const std::string extension = entry.path().extension();
-      if (extension != ".cpp" && extension != ".hpp" && extension != ".h") continue;
-      std::ifstream file(entry.path());
-      std::smatch match;
-      for (std::string line; std::getline(file, line);) {
-        if (std::regex_search(line, match, line_of)) {
-          all.push_back({fs::relative(entry.path(), root).string(), match[1].str()});
-        }
-      }
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".cpp" && extension != ".hpp" && extension != ".h") continue;
+    std::ifstream file(entry.path());
+    std::smatch match;
+    for (std::string line; std::getline(file, line);) {
+      if (!std::regex_search(line, match, pattern)) continue;
+      lines.emplace_back(fs::relative(entry.path(), root).string(), match[match.size() - 1].str());
     }
+  }
+  return lines;
+}
+
+std::vector<Include> includes() {
+  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> all;
+  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn", "libio", "apps"}) {
+    for (const auto& [file, name] : lines_in(folder, pattern)) all.push_back({file, name});
   }
   return all;
 }
@@ -63,18 +71,12 @@ TEST(Architecture, IncludesPointDown) {
 
 TEST(Architecture, EachLibraryHasOneHome) {
   const std::vector<std::pair<std::string, std::string>> homes{
-      {"Spectra/", "libfe/eigen/"},
-      {"Eigen/Sparse(LU|Cholesky)", "lib(base|fe)/"},
-      {"cvode/", "libdyn/methods/cvode"},
-      {"arkode/", "libdyn/methods/"},
-      {"sun", "libdyn/methods/"},
-      {"nvector/", "libdyn/methods/"},
-      {"toml", "libio/model/config"},
-      {"hdf5", "libio/results/hdf5/"},
-      {"H5", "libio/results/hdf5/"},
-      {"zlib", "libio/results/hdf5/"},
-      {"vtk", "libio/export/vtk/"},
-      {"CLI/", "apps/command_line.cpp"},
+      {"Spectra/", "libfe/eigen/"},       {"Eigen/Sparse(LU|Cholesky)", "lib(base|fe)/"},
+      {"cvode/", "libdyn/methods/cvode"}, {"arkode/", "libdyn/methods/"},
+      {"sun", "libdyn/methods/"},         {"nvector/", "libdyn/methods/"},
+      {"toml", "libio/model/config"},     {"hdf5", "libio/results/hdf5/"},
+      {"H5", "libio/results/hdf5/"},      {"zlib", "libio/results/hdf5/"},
+      {"vtk", "libio/export/vtk/"},       {"CLI/", "apps/command_line.cpp"},
       {"hwy/", "libdyn/taylor/"}};
   for (const Include& i : includes()) {
     if (floor_of(i.name) >= 0) continue;
@@ -84,6 +86,25 @@ TEST(Architecture, EachLibraryHasOneHome) {
           << i.file << " includes " << i.name << ", whose home is " << home;
     }
   }
+}
+
+/// Libraries from the ground up with their namespaces, which are inline: `whirl::Model` is a name, too.
+const std::vector<std::pair<std::string, std::string>> namespaces{
+    {"libbase", "base"}, {"libfe", "fe"}, {"libcontact", "contact"},
+    {"libdyn", "dyn"},   {"libio", "io"}, {"apps", "cli"}};
+
+TEST(Architecture, ALibraryDeclaresInItsNamespaceOrInOneBelow) {
+  std::size_t found = 0;
+  for (auto own = namespaces.begin(); own != namespaces.end(); ++own) {
+    for (const auto& [file, line] : lines_in(own->first, std::regex("^namespace whirl.*"))) {
+      ++found;
+      const bool is_known = std::any_of(namespaces.begin(), own + 1, [&](const auto& n) {
+        return std::regex_search(line, std::regex("^namespace whirl::inline " + n.second + "\\b"));
+      });
+      EXPECT_TRUE(is_known) << file << ": " << line;
+    }
+  }
+  EXPECT_GT(found, 400u);
 }
 
 TEST(Architecture, NoFileIsTooLong) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace whirl {
+namespace whirl::inline io {
 
 using Eigen::Vector3d;
 
@@ -207,4 +207,4 @@ double vtk_deflection_scale(const VtkScene& scene, const std::vector<VtkFrame>& 
   return std::max(1.0, vtk_fitting_scale(scene, frames));
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

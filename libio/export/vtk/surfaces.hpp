@@ -5,7 +5,7 @@
 
 #include "libio/export/vtk.hpp"
 
-namespace whirl::vtk {
+namespace whirl::inline io::vtk {
 
 /// Kinds of cells, as "part" numbers them.
 enum Part { shaft, disk, stator, contact_force };
@@ -44,4 +44,4 @@ Placement place(const Vertex& vertex, const VtkScene& scene, const Mat& motion);
 /// Scale of the force lines for the largest force of all frames [m/N].
 double force_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames);
 
-}  // namespace whirl::vtk
+}  // namespace whirl::inline io::vtk

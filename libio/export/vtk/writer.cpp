@@ -25,7 +25,7 @@
 #include "libio/results/replace_file.hpp"
 #include "libio/text/xml.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
@@ -214,4 +214,4 @@ std::vector<fs::path> write_vtk_series(const fs::path& pvd_path, const VtkScene&
   return paths;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -14,7 +14,7 @@
 
 #include "libio/results/replace_file.hpp"
 
-namespace whirl::hdf5 {
+namespace whirl::inline io::hdf5 {
 
 namespace fs = std::filesystem;
 
@@ -94,4 +94,4 @@ Seal seal_of(const fs::path& file) {
   return line == line_of(*end, checksum(in, *end)) ? Seal::whole : Seal::broken;
 }
 
-}  // namespace whirl::hdf5
+}  // namespace whirl::inline io::hdf5

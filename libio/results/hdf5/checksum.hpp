@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace whirl::hdf5 {
+namespace whirl::inline io::hdf5 {
 
 /// What the end of a file says about its content.
 enum class Seal {
@@ -23,4 +23,4 @@ void seal(const std::filesystem::path& file);
 /// @throws FileError  if the file cannot be read
 Seal seal_of(const std::filesystem::path& file);
 
-}  // namespace whirl::hdf5
+}  // namespace whirl::inline io::hdf5

@@ -13,7 +13,7 @@
 #include "libbase/linalg.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl::hdf5 {
+namespace whirl::inline io::hdf5 {
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
@@ -129,4 +129,4 @@ inline std::vector<hsize_t> sizes_of(hid_t space) {
   return sizes;
 }
 
-}  // namespace whirl::hdf5
+}  // namespace whirl::inline io::hdf5

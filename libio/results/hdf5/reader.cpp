@@ -9,7 +9,7 @@
 #include "libio/results/hdf5/handle.hpp"
 #include "libio/results/hdf5/trial.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace fs = std::filesystem;
 using namespace hdf5;
@@ -348,4 +348,4 @@ std::vector<std::string> ResultReader::list(const std::string& group) const {
   return names;
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io

@@ -12,7 +12,7 @@
 
 #include "libio/results/hdf5.hpp"
 
-namespace whirl::hdf5 {
+namespace whirl::inline io::hdf5 {
 
 namespace fs = std::filesystem;
 
@@ -95,4 +95,4 @@ void try_in_child(const fs::path& path) {
                               how_it_ended(status)));
 }
 
-}  // namespace whirl::hdf5
+}  // namespace whirl::inline io::hdf5

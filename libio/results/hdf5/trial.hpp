@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace whirl::hdf5 {
+namespace whirl::inline io::hdf5 {
 
 /// Reads all of a file in a child process first.
 ///
@@ -12,4 +12,4 @@ namespace whirl::hdf5 {
 /// @throws FileError  if the child was ended by a signal or ran too long
 void try_in_child(const std::filesystem::path& file);
 
-}  // namespace whirl::hdf5
+}  // namespace whirl::inline io::hdf5

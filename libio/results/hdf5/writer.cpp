@@ -8,7 +8,7 @@
 #include "libio/results/hdf5/checksum.hpp"
 #include "libio/results/hdf5/handle.hpp"
 
-namespace whirl {
+namespace whirl::inline io {
 
 namespace fs = std::filesystem;
 using namespace hdf5;
@@ -189,4 +189,4 @@ void ResultWriter::dataset(const std::string& path, const std::vector<std::strin
   write(path, text_type(), texts.data(), {std::ssize(texts)}, info);
 }
 
-}  // namespace whirl
+}  // namespace whirl::inline io
