@@ -1,0 +1,68 @@
+#include "libio/texts/row_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libio/text/format.hpp"
+#include "libio/text/units.hpp"
+
+namespace whirl::inline io {
+
+Shown Shown::as(std::string_view other) const {
+  Shown renamed = *this;
+  renamed.heading = other;
+  return renamed;
+}
+
+Shown shown(std::string_view key, std::string_view unit, std::string_view format) {
+  std::string heading(key);
+  std::replace(heading.begin(), heading.end(), '_', ' ');
+  return {key, unit, format, std::move(heading)};
+}
+
+namespace texts {
+
+NumberStyle style_of(const Shown& shown, std::string_view si_unit) {
+  NumberStyle style{.format = std::string(shown.format), .si_unit = std::string(si_unit)};
+  if (shown.unit.empty()) {
+    if (!style.format.empty()) style.unit = si_unit;
+  } else if (shown.unit == "%" && si_unit.empty()) {
+    style.unit = shown.unit;
+    style.divisor = 0.01;
+  } else {
+    const auto one = parse_as("1 " + std::string(shown.unit), si_unit);
+    if (!one) throw std::logic_error(std::string(shown.key) + ": " + one.problem);
+    style.unit = shown.unit;
+    style.divisor = *one;
+  }
+  return style;
+}
+
+std::string heading_of(const Shown& shown, const NumberStyle& style) {
+  if (style.unit.empty()) return shown.heading;
+  return fmt::format("{}{}[{}]", shown.heading, shown.heading.empty() ? "" : " ", style.unit);
+}
+
+std::string number_text(double value, std::string_view format) {
+  constexpr double largest = 1e9;  // beyond it digits behind the point say nothing
+  if (std::isnan(value)) return "-";
+  if (std::abs(value) >= largest && format.ends_with('f')) {
+    return fmt::format(fmt::runtime(format.starts_with('+') ? "{:+.4g}" : "{:.4g}"), value);
+  }
+  std::string text = fmt::format(fmt::runtime(fmt::format("{{:{}}}", format)), value);
+  const bool is_zero = text.find_first_of("123456789ni") == std::string::npos;
+  if (!is_zero || !text.starts_with('-')) return text;
+  return (format.starts_with('+') ? "+" : "") + text.substr(1);
+}
+
+std::string number_text(double value, const NumberStyle& style) {
+  if (!style.format.empty()) return number_text(value / style.divisor, style.format);
+  if (std::isnan(value)) return "-";
+  return format_engineering(value / style.divisor, style.unit.empty() ? style.si_unit : "");
+}
+
+}  // namespace texts
+
+}  // namespace whirl::inline io
