@@ -13,7 +13,7 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
-#include "apps/verbs/scene_source.hpp"
+#include "libio/export/scene_source.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"
 
@@ -146,7 +146,7 @@ void make_gif(const fs::path& name, const fs::path& to, long rate, const fs::pat
 }
 
 Report run_animate(const Invocation& call) {
-  const SceneSource source(call);
+  const SceneSource source = scene_source(call);
   const fs::path out = call.text_or("out", fs::path(call.file).replace_extension(".ogv").string());
   const std::string ending = out.extension();
   if (ending != ".ogv" && ending != ".gif" && ending != ".png") {
@@ -158,7 +158,7 @@ Report run_animate(const Invocation& call) {
   std::vector<VtkFrame> frames;
   std::string title, shown;
   if (number == 0 && source.has_motion()) {
-    const MotionSamples samples = source.samples(call, 4.0);
+    const MotionSamples samples = source.samples(window_of(call), 4.0);
     frames = source.motion(samples, call.integer_or("frames", 120));
     title = source.model.title.empty() ? samples.text : source.model.title;
     shown = ", " + samples.text;

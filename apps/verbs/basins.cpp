@@ -2,31 +2,27 @@
 
 #include <fmt/format.h>
 
-#include "apps/invocation.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/basins_text.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
 #include "libbase/error.hpp"
+#include "libio/texts/basins_text.hpp"
 
 namespace whirl::inline cli {
 
 namespace {
 
-BasinsOptions basins_options(const Invocation& call, const StudySetup& setup) {
-  for (const ParameterAxis& axis : setup.axes()) {
+BasinsOptions basins_options(const Invocation& call, const StudyPoints& points) {
+  for (const ParameterAxis& axis : points.axes()) {
     if (axis.path.starts_with("start.")) continue;
     throw ModelError({"--over " + axis.path}, "",
                      "basins vary the start only, such as start.displaced.1.x; `map` and `sweep` "
                      "vary anything");
   }
-  BasinsOptions options{.grid = setup.grid(),
+  BasinsOptions options{.grid = points.grid(),
                         .size = call.number("size", ""),
                         .seed = static_cast<std::uint64_t>(call.integer("seed", 0)),
-                        .classify = setup.classify(),
-                        .threads = setup.threads()};
+                        .classify = study_classify(call),
+                        .threads = study_threads(call)};
   if (options.is_random()) {
     options.starts = static_cast<std::size_t>(call.integer("starts"));
   } else if (call.has("starts")) {
@@ -37,29 +33,24 @@ BasinsOptions basins_options(const Invocation& call, const StudySetup& setup) {
 }
 
 Report run_basins(const Invocation& call) {
-  const StudySetup setup(call, 0, 2);
-  const StudyModels models = setup.models();
-  const BasinsOptions options = basins_options(call, setup);
-  setup.first();
-  const auto [result, resumed] = run_study<BasinsResult>(
-      call, setup, {"starting", options.points()}, [&](const auto& monitor, BasinsResult earlier) {
+  const StudyPoints points = study_points(call, 0, 2);
+  const StudyModels models = points.models();
+  const BasinsOptions options = basins_options(call, points);
+  points.first();
+  const auto [result, outcome] = run_study<BasinsResult>(
+      call, points, "starting", options.points(),
+      [&](const auto& monitor, BasinsResult earlier) {
         return basins(models, options, monitor, std::move(earlier));
-      });
-  const StudyOutcome outcome = study_outcome(motions_of(result.points), resumed, [](std::size_t i) {
-    return fmt::format("start {}", i + 1);
-  });
+      },
+      [](std::size_t i) { return fmt::format("start {}", i + 1); });
 
-  Report report{.record = begin_record(call, setup.model()), .status = outcome.status};
-  note_tables(call, setup.model(), report);
-  const auto starts = static_cast<long>(result.points.size());
-  report.record.set("starts", starts).set("attractors", basins_entries(result));
-  if (!setup.axes().empty()) report.record.set("axes", setup.axes_record());
-  report.record.set("resumed", static_cast<long>(resumed));
-  const std::string& title = setup.model().title;
-  report.text = "Coexisting motions" + (title.empty() ? "" : ": " + title) +
-                fmt::format("; {} starts\n\n", starts) + basins_table(result);
-  add_outcome(call, outcome, report);
-  return report;
+  const BasinShares shares = basin_shares(result);
+  Record record = record_of(shares);
+  if (!points.axes().empty()) record.set("axes", columns::record_value(points.axes(), 1.0));
+  const Model& model = points.model();
+  const std::string title = "Coexisting motions" + (model.title.empty() ? "" : ": " + model.title);
+  return study_report(call, model, outcome, record,
+                      fmt::format("{}; {} starts\n\n{}", title, shares.starts, text_of(shares)));
 }
 
 }  // namespace

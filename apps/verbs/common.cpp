@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/notes.hpp"
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "apps/progress.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
-#include "libfe/modes.hpp"
+#include "libio/export/scene_source.hpp"
 #include "libio/figures/figures.hpp"
-#include "libio/results/columns.hpp"
-#include "libio/text/table.hpp"
+#include "libio/results/result_schema.hpp"
 #include "libio/text/value_range.hpp"
 
 namespace whirl::inline cli {
@@ -19,40 +22,16 @@ Record begin_record(const Invocation& call, const Model& model) {
   return record;
 }
 
-std::string fixed(double value, int digits) {
-  std::string text = fmt::format("{:.{}f}", value, digits);
-  const bool is_zero = text.find_first_of("123456789ni") == std::string::npos;
-  return is_zero && text.starts_with('-') ? text.substr(1) : text;
+Report begin_report(const Invocation& call, const Model& model, const Record& result) {
+  return {.record = begin_record(call, model).merge(result), .text = ""};
 }
 
-std::string modes_table(const Modes& modes) {
-  Table table(
-      {"mode", "frequency [rpm]", "[Hz]", "log decrement", "damping ratio", "whirl", "kappa"});
-  int number = 0;
-  bool has_heavy = false;
-  for (const Mode& m : modes.oscillatory) {
-    const bool is_heavy = m.damping_ratio() > heavy_damping;
-    has_heavy = has_heavy || is_heavy;
-    table.row({fmt::format("{}{}", ++number, is_heavy ? heavy_mark : ""),
-               fmt::format("{:.1f}", m.frequency() / rpm),
-               fmt::format("{:.3f}", m.frequency() / rpm / 60.0), fixed(m.log_decrement(), 4),
-               fixed(m.damping_ratio(), 5), std::string(name_of(m.whirl)), fixed(m.kappa, 3)});
-  }
-  std::string text = table.text();
-  if (has_heavy) text += heavy_legend;
-  if (!modes.overdamped.empty()) {
-    text += "\n  overdamped [1/s]:";
-    for (const Complex& root : modes.overdamped) text += fmt::format(" {:.4g}", root.real());
-    text += "\n";
-  }
-  if (!modes.rigid_body.empty()) {
-    text += fmt::format("\n  {} rigid-body modes: the rotor is free\n", modes.rigid_body.size());
-  }
-  return text;
-}
-
-void write_points(ResultWriter& file, const Model& model, const Assembler& assembler) {
-  write_result(file, point_names(model, assembler));
+std::function<void(long, long)> progress_of(const Invocation& call, std::string what) {
+  return [shown = std::make_shared<std::optional<Progress>>(), what = std::move(what),
+          shows = call.shows_progress](long done, long total) {
+    if (!*shown) shown->emplace(what, total, shows);
+    (*shown)->update(done);
+  };
 }
 
 void set_frequency_unit(const Invocation& call, ResultView& result) {
@@ -95,6 +74,19 @@ void commit(const Invocation& call, ResultWriter* file, Report& report) {
   write_notes(*file, report);
   file->commit();
   report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+}
+
+void write_file(const Invocation& call, const Model& model, Report& report,
+                const std::function<void(ResultWriter&)>& write) {
+  const auto file = call.result_file(model);
+  if (file) write(*file);
+  commit(call, file.get(), report);
+}
+
+SceneSource scene_source(const Invocation& call) {
+  const std::string ending = std::filesystem::path(call.file).extension();
+  if (ending != ".h5" && ending != ".hdf5") return SceneSource(call.model());
+  return {open_result(call.file), call.file, call.sets};
 }
 
 }  // namespace whirl::inline cli

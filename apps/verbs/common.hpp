@@ -1,43 +1,46 @@
 #pragma once
-/// What several verbs say in the same words.
+/// What several verbs do in the same way.
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "apps/invocation.hpp"
+#include "apps/verbs/notes.hpp"
 #include "libbase/constants.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/modes.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"
+#include "libio/texts/model_text.hpp"
 
 namespace whirl::inline io {
 struct ResultView;
-}
+struct SceneSource;
+}  // namespace whirl::inline io
 
 namespace whirl::inline cli {
 
 /// Record with the entries that all verbs have: model, version, speed_rpm.
 Record begin_record(const Invocation& call, const Model& model);
-
-/// Table of modes for people.
-std::string modes_table(const Modes& modes);
-
-/// Group /points of a result file: nodes and bodies with their positions and names.
-void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);
-
-/// A number with so many digits behind the point, zero without a sign.
-std::string fixed(double value, int digits);
-
-/// Shows frequencies in the unit of --frequency, if it is given.
-void set_frequency_unit(const Invocation& call, ResultView& result);
-
-/// The stretch of a motion that --from-revolution, --revolutions or --times ask for.
-MotionWindow window_of(const Invocation& call);
+/// A report with these, and those of a result.
+Report begin_report(const Invocation& call, const Model& model, const Record& result = {});
 
 /// Writes the report's notes into a result file, where there are any.
 void write_notes(ResultWriter& file, const Report& report);
-
 /// Writes the report's notes into a result file, if there is one, commits it, and says so.
 void commit(const Invocation& call, ResultWriter* file, Report& report);
+/// The same of a file of its own, if --out asks for one, with what is written into it.
+void write_file(const Invocation& call, const Model& model, Report& report,
+                const std::function<void(ResultWriter&)>& write);
+
+/// Shows how far something long is, from the first number on.
+std::function<void(long done, long total)> progress_of(const Invocation& call, std::string what);
+
+/// Shows frequencies in the unit of --frequency, if it is given.
+void set_frequency_unit(const Invocation& call, ResultView& result);
+/// The stretch of a motion that --from-revolution, --revolutions or --times ask for.
+MotionWindow window_of(const Invocation& call);
+/// The model or result of a call, as a scene.
+SceneSource scene_source(const Invocation& call);
 
 }  // namespace whirl::inline cli

@@ -5,7 +5,7 @@
 #include "apps/verbs/continue_text.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
-#include "apps/verbs/study_file.hpp"
+#include "apps/verbs/study.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl::inline cli {
@@ -18,14 +18,8 @@ FollowedBranches follow_branches(const Invocation& call, const Model& model,
   FollowedBranches found{.tree = empty_tree(*asked.scene, asked.tree)};
   const BranchTree* tree = &found.tree;
   const BifurcationCurves* curves = &found.curves;
-  const std::optional<EarlierEnd> start = earlier_start(call, model);
   StudyFile file(
-      call, start,
-      [&] {
-        auto made = call.result_file(model);
-        write_start(*made, start);
-        return made;
-      },
+      study_place(call, model, earlier_start(call, model)), [&] { return call.result_file(model); },
       [&](ResultWriter& to) {
         write_branches(to, *tree, asked.names);
         write_fixed(to, asked.parameters);

@@ -1,72 +1,33 @@
 #include "libfe/critical.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "apps/invocation.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
-#include "apps/verbs/notes.hpp"
 #include "libbase/error.hpp"
-#include "libfe/modes.hpp"
 #include "libio/results/columns.hpp"
-#include "libio/text/table.hpp"
+#include "libio/texts/modes_text.hpp"
 
 namespace whirl::inline cli {
 
 namespace {
 
-std::string criticals_text(const std::vector<Critical>& criticals) {
-  Table table(
-      {"number", "speed [rpm]", "[Hz]", "damped [rpm]", "damping ratio", "whirl", "excitation"});
-  int number = 0;
-  bool has_heavy = false;
-  for (const Critical& c : criticals) {
-    const bool is_met = std::isfinite(c.damped_speed);
-    has_heavy = has_heavy || c.is_heavily_damped();
-    table.row({fmt::format("{}{}", ++number, c.is_heavily_damped() ? heavy_mark : ""),
-               fmt::format("{:.2f}", c.speed / rpm), fmt::format("{:.3f}", c.speed / rpm / 60.0),
-               is_met ? fmt::format("{:.2f}", c.damped_speed / rpm) : "-",
-               is_met ? fixed(c.damping_ratio, 5) : "-", std::string(name_of(c.whirl)),
-               c.excitation()});
-  }
-  return "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" +
-         table.text() + (has_heavy ? heavy_legend : "");
-}
-
 CriticalOptions options_of(const Invocation& call) {
-  CriticalOptions options;
-  options.count = static_cast<int>(call.integer("modes"));
-  options.order = call.number("order", "");
-  if (!(options.order > 0.0))
-    throw ModelError({"--order " + call.text("order")}, "", "expected a number above zero");
-  return options;
+  CriticalOptions options{.count = static_cast<int>(call.integer("modes")),
+                          .order = call.number("order", "")};
+  if (options.order > 0.0) return options;
+  throw ModelError({"--order " + call.text("order")}, "", "expected a number above zero");
 }
 
 Report run_critical(const Invocation& call) {
   const Model model = call.model();
   const CriticalOptions options = options_of(call);
   const CriticalSpeeds found{critical_speeds(Assembler(model.structure), options), options.order};
-
-  Report report{.record = begin_record(call, model)};
-  report.record.merge(record_of(found));
-  report.text = criticals_text(found.criticals);
-  note_left_out(model, report);
-  double lowest = model.speed, highest = model.speed;
-  if (!found.criticals.empty()) {
-    const auto [low, high] =
-        std::minmax_element(found.criticals.begin(), found.criticals.end(),
-                            [](const Critical& a, const Critical& b) { return a.speed < b.speed; });
-    lowest = low->speed;
-    highest = high->speed;
-  }
-  note_tables(model, lowest, highest, report);
-  if (const auto file = call.result_file(model)) {
-    write_result(*file, found);
-    commit(call, file.get(), report);
-  }
+  Report report = begin_report(call, model, record_of(found));
+  report.text = text_of(found);
+  std::vector<double> speeds;
+  for (const Critical& c : found.criticals) speeds.push_back(c.speed);
+  if (speeds.empty()) speeds = {model.speed};
+  note_linear(model, speeds, report);
+  write_file(call, model, report, [&](ResultWriter& file) { write_result(file, found); });
   return report;
 }
 

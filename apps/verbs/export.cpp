@@ -6,8 +6,8 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/mesh_formats.hpp"
 #include "apps/verbs/options.hpp"
-#include "apps/verbs/scene_source.hpp"
 #include "libio/export/rotor_mesh.hpp"
+#include "libio/export/scene_source.hpp"
 #include "libio/export/xdmf.hpp"
 #include "libio/results/csv_tables.hpp"
 #include "libio/text/nearest.hpp"
@@ -68,7 +68,7 @@ Exported export_series(const Invocation& call, const SceneSource& source, const 
     written.text += fmt::format("  {}: {} frames, {}\n", place.string(), frames.size(), what);
   };
   if (source.has_motion()) {
-    const MotionSamples samples = source.samples(call, is_xdmf ? 64.0 : 4.0);
+    const MotionSamples samples = source.samples(window_of(call), is_xdmf ? 64.0 : 4.0);
     write("", source.motion(samples, call.integer_or("frames", is_xdmf ? 100'000 : 128)),
           samples.text);
   }
@@ -86,7 +86,8 @@ Exported export_csv(const Invocation& call, const SceneSource& source, const fs:
     throw ModelError({"--format csv"}, "", "a model holds no tables; take the result of a verb");
   }
   std::optional<MotionSamples> samples;
-  if (source.has_motion() && window_of(call).is_given()) samples = source.samples(call, 1e9);
+  if (source.has_motion() && window_of(call).is_given())
+    samples = source.samples(window_of(call), 1e9);
   Exported written{write_csv_tables(*source.result, stem, call.picture_replaces(), samples), ""};
   if (samples) written.text = fmt::format("  of the motion {}\n", samples->text);
   for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
@@ -103,7 +104,7 @@ Exported export_mesh(const Invocation& call, const SceneSource& source, const Me
     told_fields += fmt::format("    {}: {}\n", name, what);
   };
   if (source.has_motion()) {
-    MotionSamples samples = source.samples(call, 1.0);
+    MotionSamples samples = source.samples(window_of(call), 1.0);
     samples.first = samples.last;
     add("displacement_m", source.motion(samples, 1).back().motion,
         fmt::format("at the end of {}", samples.text));
@@ -134,7 +135,7 @@ Report run_export(const Invocation& call) {
   const std::string name = call.text("format");
   const MeshFormat* mesh = mesh_format(name);
   if (!mesh && name != "vtk" && name != "xdmf" && name != "csv") throw unknown_format(name);
-  const SceneSource source(call);
+  const SceneSource source = scene_source(call);
   const std::string ending = mesh ? std::string(mesh->ending) : name == "vtk" ? ".pvd" : "." + name;
   if (!source.has_motion() && window_of(call).is_given()) {
     throw ModelError({"--revolutions, --from-revolution, --times"}, "",

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "apps/invocation.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
-#include "apps/verbs/notes.hpp"
 #include "libio/results/columns.hpp"
+#include "libio/results/motion_results.hpp"
+#include "libio/texts/modes_text.hpp"
 
 namespace whirl::inline cli {
 
@@ -16,19 +16,14 @@ Report run_modes(const Invocation& call) {
   const System system = assembler.at(model.speed);
   const ModesAtPoints modes(complex_modes(system, static_cast<int>(call.integer("modes"))),
                             system.dofs);
-
-  Report report{.record = begin_record(call, model)};
-  report.record.merge(record_of(modes));
-  report.text =
-      fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, modes_table(modes));
-  note_left_out(model, report);
-  note_tables(model, model.speed, model.speed, report);
-  if (const auto file = call.result_file(model)) {
-    file->attribute("/", "speed", model.speed);
-    write_points(*file, model, assembler);
-    write_result(*file, modes);
-    commit(call, file.get(), report);
-  }
+  Report report = begin_report(call, model, record_of(modes));
+  report.text = fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, text_of(modes));
+  note_linear(model, {model.speed}, report);
+  write_file(call, model, report, [&](ResultWriter& file) {
+    file.attribute("/", "speed", model.speed);
+    write_points(file, model, assembler);
+    write_result(file, modes);
+  });
   return report;
 }
 

@@ -55,7 +55,7 @@ Report stationary_orbit(const Invocation& call, const Model& model,
   Record& r = report.record;
   r.set("frame", "stationary").set("method", call.text("method"));
   add_orbit(r, orbit);
-  add_reduction(r, scene);
+  r.set("reduction", record_of(reduction_facts(scene)));
   if (!orbit.failure.empty()) r.set("failure", orbit.failure);
   report.text = "Periodic orbit" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
                 reduction_text(scene, model);

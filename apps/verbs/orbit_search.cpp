@@ -39,7 +39,7 @@ Record orbits_record(const OrbitSearch& search) {
     r.set("stable", s.orbit.is_stable()).set("period_revs", s.shortest_period);
     r.set("starts", s.starts).set("floquet", complex_list(s.orbit.multipliers));
     r.set("state", s.orbit.states[0]);
-    add_contacts(r, s.orbit.contacts, s.orbit.period);
+    r.merge(record_of(contact_shares(s.orbit.contacts, s.orbit.period)));
     list.add(r);
   }
   return list;
@@ -77,7 +77,7 @@ Report search_orbits(const Invocation& call, const Model& model) {
   Record& r = report.record;
   r.set("frame", "stationary").set("period_revs", options.period).set("starts", search.done);
   r.set("without_orbit", search.failed).set("orbits", orbits_record(search));
-  add_reduction(r, scene);
+  r.set("reduction", record_of(reduction_facts(scene)));
   report.text = fmt::format("Orbits of {} revolution{} from {} random starts{}\n\n", options.period,
                             options.period == 1 ? "" : "s", search.done,
                             model.title.empty() ? "" : ": " + model.title);

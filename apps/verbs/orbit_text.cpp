@@ -6,7 +6,7 @@
 
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libio/text/table.hpp"
+#include "libio/texts/row_table.hpp"
 
 namespace whirl::inline cli {
 
@@ -86,7 +86,7 @@ std::string multipliers_table(const FoundOrbit& orbit) {
                                  fmt::format("{:+.8f}", m.imag()),
                                  fmt::format("{:.8f}", std::abs(m)),
                                  fmt::format("{:+.6f}", rates(i).real()),
-                                 fixed(rates(i).imag() / rpm, 2)};
+                                 texts::number_text(rates(i).imag() / rpm, ".2f")};
     if (!orbit.modes.empty()) {
       const MultiplierMode& mode = orbit.modes[static_cast<std::size_t>(i)];
       row.push_back(mode.mode > 0 ? fmt::format("{} ({:.2f})", mode.mode, mode.mac) : "-");
@@ -118,7 +118,7 @@ void add_orbit(Record& record, const FoundOrbit& orbit) {
   record.set("floquet_modes", modes);
   record.set("stable", orbit.is_good() ? Record(orbit.is_stable) : Record(nullptr));
   record.set("state", orbit.states.front());
-  add_contacts(record, orbit.contacts, orbit.period);
+  record.merge(record_of(contact_shares(orbit.contacts, orbit.period)));
   if (orbit.series) record.set("harmonic_balance", series_record(orbit));
 }
 

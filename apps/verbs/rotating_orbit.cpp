@@ -58,7 +58,7 @@ Report rotating_orbit(const Invocation& call, const Model& model) {
   r.set("floquet", complex_list(cycle.multipliers));
   r.set("stable", cycle.is_good() ? Record(cycle.is_stable()) : Record(nullptr));
   r.set("state", on_it.y);
-  add_reduction(r, *scene);
+  r.set("reduction", record_of(reduction_facts(*scene)));
   if (!cycle.failure.empty()) r.set("failure", cycle.failure);
   report.text = "Periodic orbit in the rotating frame" +
                 (model.title.empty() ? "" : ": " + model.title) + "\n\n" +

@@ -1,9 +1,5 @@
-#include "apps/invocation.hpp"
-#include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
-#include "apps/verbs/notes.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libio/results/hdf5.hpp"
 
 namespace whirl::inline cli {
 
@@ -11,17 +7,11 @@ namespace {
 
 Report run_simulate(const Invocation& call) {
   const Model model = call.model();
+  require_speed(model);
   const auto file = call.result_file(model);
   const Run run = run_simulation(call, model);
-
-  Report report{.record = begin_record(call, model),
-                .failure = run.simulation.integration.diagnosis,
-                .status = status_of(run.simulation.integration.outcome)};
-  note_tables(call, model, report);
-  add_run(report.record, run);
-  add_stations(report.record, run);
-  report.text = "Simulation" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
-                run_text(run, model);
+  Report report = motion_report(call, model, run, "Simulation");
+  report.record.set("stations", columns::record_value(station_summaries(run), 1.0));
   if (file) write_run(*file, run, model);
   commit(call, file.get(), report);
   return report;

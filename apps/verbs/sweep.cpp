@@ -1,26 +1,20 @@
 #include "libdyn/studies/sweep.hpp"
 
-#include <fmt/format.h>
-
-#include "apps/invocation.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
-#include "apps/verbs/sweep_text.hpp"
+#include "libio/texts/sweep_text.hpp"
 
 namespace whirl::inline cli {
 
 namespace {
 
-SweepOptions sweep_options(const Invocation& call, const StudySetup& setup) {
-  SweepOptions options{.values = setup.axes()[0].values,
+SweepOptions sweep_options(const Invocation& call, const StudyPoints& points) {
+  SweepOptions options{.values = points.axes()[0].values,
                        .start = call.has("fresh") ? SweepStart::fresh : SweepStart::carried,
-                       .classify = setup.classify(),
-                       .threads = setup.threads()};
+                       .classify = study_classify(call),
+                       .threads = study_threads(call)};
   options.classify.sections = call.integer("sections");
-  const StudyMember first = setup.first();
+  const StudyMember first = points.first();
   options.portrait = {
       .stations = select_points(first.model, first.scene->assembler, call.text("stations")),
       .spectrum_revolutions = call.integer("spectra", 0)};
@@ -28,38 +22,26 @@ SweepOptions sweep_options(const Invocation& call, const StudySetup& setup) {
 }
 
 Report run_sweep(const Invocation& call) {
-  const StudySetup setup(call, 1, 1);
-  const ParameterAxis& axis = setup.axes()[0];
-  const StudyModels models = setup.models();
-  const SweepOptions options = sweep_options(call, setup);
+  const StudyPoints points = study_points(call, 1, 1);
+  const ParameterAxis& axis = points.axes()[0];
+  const StudyModels models = points.models();
+  const SweepOptions options = sweep_options(call, points);
+  const std::size_t values = axis.values.size();
   const bool is_fresh = options.start == SweepStart::fresh;
-  const std::size_t ways = is_fresh ? 1 : 2;
-  const auto [result, resumed] =
-      run_study<SweepResult>(call, setup, {"sweeping", ways * axis.values.size()},
-                             [&](const auto& monitor, SweepResult earlier) {
-                               return sweep(models, options, monitor, std::move(earlier));
-                             });
-  const StudyOutcome outcome =
-      study_outcome(motions_of(result.points), resumed,
-                    [&](std::size_t i) { return setup.describe(i % axis.values.size()); });
+  const auto [result, outcome] = run_study<SweepResult>(
+      call, points, "sweeping", is_fresh ? values : 2 * values,
+      [&](const auto& monitor, SweepResult earlier) {
+        return sweep(models, options, monitor, std::move(earlier));
+      },
+      [&](std::size_t i) { return points.describe(i % values); });
 
-  Report report{.record = begin_record(call, setup.model()), .status = outcome.status};
-  note_tables(call, setup.model(), report);
-  Record& r = report.record;
-  r.set("parameter", axis.path).set("unit", axis.unit).set("values", axis.values);
-  r.set("up", sweep_entries({result, axis}));
-  r.set("down", is_fresh ? Record::array() : sweep_entries({result, axis, 1}));
-  r.set("resumed", static_cast<long>(resumed));
-  const std::string& title = setup.model().title;
-  report.text = "Sweep" + (title.empty() ? "" : ": " + title) + "\n";
-  for (std::size_t way = 0; way < ways; ++way) {
-    report.text += is_fresh   ? "\n  every value from the start of the model\n"
-                   : way == 0 ? "\n  up\n"
-                              : "\n  down\n";
-    report.text += sweep_stretches({result, axis, way});
-  }
-  add_outcome(call, outcome, report);
-  return report;
+  Record record = record_of(axis);
+  const auto entries = [&](std::size_t way) {
+    return columns::record_value(SweepWay{result, axis.values, way}.entries(), 1.0);
+  };
+  record.set("up", entries(0)).set("down", is_fresh ? Record::array() : entries(1));
+  return study_report(call, points.model(), outcome, record,
+                      headline("Sweep", points.model()) + text_of(result, axis));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "apps/verbs/study_file.hpp"
+#include "apps/verbs/study.hpp"
 #include "apps/verbs/torus_text.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libio/results/torus_results.hpp"
@@ -34,14 +34,12 @@ Report run_torus(const Invocation& call) {
   const TorusCall asked = torus_call(call, model);
   Report report{.record = begin_record(call, model)};
   note_tables(call, model, report);
-  const std::optional<EarlierEnd> start = earlier_start(call, model);
   TorusBranch torus;
   const TorusBranch* known = &torus;
   StudyFile file(
-      call, start,
+      study_place(call, model, earlier_start(call, model)),
       [&] {
         auto made = call.result_file(model);
-        write_start(*made, start);
         write_notes(*made, report);
         return made;
       },

@@ -1,8 +1,23 @@
 #include "libdyn/motions/run_result.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace whirl::inline dyn {
+
+namespace {
+
+std::vector<FrequencyPeak> finite_peaks(const std::vector<Peak>& peaks) {
+  std::vector<FrequencyPeak> finite;
+  for (const Peak& p : peaks) {
+    if (std::isfinite(p.frequency) && std::isfinite(p.amplitude)) {
+      finite.push_back({p.frequency, p.amplitude});
+    }
+  }
+  return finite;
+}
+
+}  // namespace
 
 Mat motion_of(const Run& run, const Point& point) {
   const Mat map = run.scene.displacement_map();
@@ -77,6 +92,31 @@ StationSpectra spectra_of(const Run& run) {
 ReductionFacts reduction_facts(const Scene& scene) {
   return {static_cast<int>(scene.reduced.size()), static_cast<int>(scene.system.size()),
           scene.error.eigenvalue(), scene.error.receptance};
+}
+
+RunSummary run_summary(const Run& run) {
+  const Simulation& s = run.simulation;
+  const Cost& cost = s.integration.cost;
+  return {.revolutions = s.recording.revolutions,
+          .contacts = contact_shares(s.recording.contacts, s.recording.revolutions).contacts,
+          .reduction = reduction_facts(run.scene),
+          .cost = {cost.steps, cost.evaluations, cost.events, s.wall, run.method},
+          .failure = s.integration.diagnosis};
+}
+
+std::vector<StationSummary> station_summaries(const Run& run) {
+  std::vector<StationSummary> summaries;
+  if (!run.has_motion()) return summaries;
+  for (const NamedPoint& p : run.stations) {
+    const PointPeaks peaks = point_peaks(*run.spectra, p.point, run.scene.system.Omega);
+    summaries.push_back({.node = p.node() > 0 ? std::optional(p.node()) : std::nullopt,
+                         .name = p.name,
+                         .label = p.label(),
+                         .max_radius = motion_of(run, p.point).rowwise().norm().maxCoeff(),
+                         .peaks = finite_peaks(peaks.stationary),
+                         .peaks_rotating = finite_peaks(peaks.rotating)});
+  }
+  return summaries;
 }
 
 }  // namespace whirl::inline dyn

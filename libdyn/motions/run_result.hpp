@@ -3,6 +3,7 @@
 /// contacts did, its spectra.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -205,5 +206,73 @@ struct ReductionFacts {
   }
 };
 ReductionFacts reduction_facts(const Scene& scene);
+
+/// What an integration took.
+struct RunCost {
+  long steps = 0, evaluations = 0, events = 0;
+  double wall = 0.0;  ///< [s]
+  std::string method;
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("steps", &RunCost::steps, "", "steps"),
+        column("evaluations", &RunCost::evaluations, "", "of the equations of motion"),
+        column("events", &RunCost::events, "", "begins and ends of contacts"),
+        column("wall", &RunCost::wall, "s", "duration"),
+        column("method", &RunCost::method, "", "integrator")};
+  }
+};
+
+/// What there is to tell of a run as a whole.
+struct RunSummary {
+  long revolutions = 0;  ///< recorded
+  std::vector<ContactShare> contacts;
+  ReductionFacts reduction;
+  RunCost cost;
+  std::string failure;  ///< empty: none
+
+  static constexpr auto columns() {
+    using S = RunSummary;
+    return std::tuple{
+        column("revolutions", &S::revolutions, "", "revolutions that are recorded"),
+        rows(&S::contacts, "contacts"),
+        column("reduction", &S::reduction, "", "how the rotor was reduced"),
+        column("cost", &S::cost, "", "what the integration took"),
+        column("failure", &S::failure, "", "why it ended early").only(Written::in_json).maybe()};
+  }
+};
+RunSummary run_summary(const Run& run);
+
+/// A circle that turns with a signed frequency.
+struct FrequencyPeak {
+  double frequency = 0.0;  ///< [rad/s]
+  double amplitude = 0.0;  ///< radius [m]
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("frequency", &FrequencyPeak::frequency, "rad/s", "signed frequency, forward > 0"),
+        column("amplitude", &FrequencyPeak::amplitude, "m", "radius of the circle")};
+  }
+};
+
+/// How a station moved.
+struct StationSummary {
+  std::optional<int> node;  ///< from 1; nothing: a body
+  std::string name, label;
+  double max_radius = 0.0;                           ///< [m]
+  std::vector<FrequencyPeak> peaks, peaks_rotating;  ///< strongest first; as seen from the rotor
+
+  static constexpr auto columns() {
+    using S = StationSummary;
+    return std::tuple{column("node", &S::node, "", "number of the node"),
+                      column("name", &S::name, "", "what is there"),
+                      column("max_radius", &S::max_radius, "m", "largest distance from the axis"),
+                      column("peaks", &S::peaks, "", "strongest lines of the spectrum"),
+                      column("peaks_rotating", &S::peaks_rotating, "", "seen from the rotor")};
+  }
+};
+/// Of all stations of a run; none without a motion. Of a motion that grew beyond all bounds there are
+/// no peaks.
+std::vector<StationSummary> station_summaries(const Run& run);
 
 }  // namespace whirl::inline dyn

@@ -107,4 +107,11 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
   return state;
 }
 
+MotionState start_state(const Model& model, const Scene& scene,
+                        const std::optional<EarlierEnd>& earlier) {
+  MotionState state = start_state(model, scene, earlier ? &earlier->state : nullptr);
+  if (earlier) state.phase = earlier->phase;
+  return state;
+}
+
 }  // namespace whirl::inline dyn

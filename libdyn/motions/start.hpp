@@ -1,6 +1,8 @@
 #pragma once
 /// Where a motion begins.
 
+#include <optional>
+
 #include "libdyn/system/scene.hpp"
 #include "libfe/modes.hpp"
 
@@ -12,6 +14,16 @@ namespace whirl::inline dyn {
 /// @throws ModelError  if the start asks for a mode that does not exist, or for a file that is
 ///                     not given
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end);
+
+/// The end of an earlier motion; a stopped one ends within a turn.
+struct EarlierEnd {
+  FullState state;
+  double phase = 0.0;  ///< [rad]
+};
+
+/// The same at the phase at which the earlier motion ended; nothing: there is none.
+MotionState start_state(const Model& model, const Scene& scene,
+                        const std::optional<EarlierEnd>& earlier);
 
 /// How many of the lowest modes a start asks for, 0 for none.
 int modes_of(const Start& start);

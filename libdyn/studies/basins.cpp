@@ -146,6 +146,29 @@ ColumnSizes BasinsResult::sizes() const {
           {"states", system.states}};
 }
 
+BasinShares basin_shares(const BasinsResult& result) {
+  BasinShares shares{.starts = std::ssize(result.points)};
+  const auto ended = static_cast<double>(
+      std::count_if(result.points.begin(), result.points.end(),
+                    [](const auto& p) { return p && !p->motion.has_failed(); }));
+  std::size_t settled = 0;
+  for (const Basin& basin : result.basins) {
+    const BasinsPoint& first = *result.points[basin.first];
+    Attractor a{summary_of(first.motion)};
+    a.number = std::ssize(shares.attractors);
+    a.share = static_cast<double>(basin.count) / ended;
+    a.impacts_per_rev = first.motion.impacts_per_rev();
+    for (const ContactDoing& c : first.motion.contacts) a.regimes.push_back(c.regime);
+    a.start = {static_cast<long>(basin.first) + 1, first.start};
+    shares.attractors.push_back(std::move(a));
+    settled += basin.count;
+  }
+  std::stable_sort(shares.attractors.begin(), shares.attractors.end(),
+                   [](const Attractor& a, const Attractor& b) { return a.share > b.share; });
+  if (ended > 0.0) shares.unsettled = 1.0 - static_cast<double>(settled) / ended;
+  return shares;
+}
+
 BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
                     const Monitor<BasinsResult>& monitor, BasinsResult earlier) {
   BasinsOptions options = wanted;

@@ -106,6 +106,56 @@ struct BasinsResult {
   }
 };
 
+/// The first start that ended in a motion.
+struct FirstStart {
+  long number = 0;  ///< from 1
+  FullState state{};
+
+  static constexpr auto columns() {
+    using S = FirstStart;
+    constexpr auto displacement = [](const S& s) { return s.state.displacement; };
+    constexpr auto velocity = [](const S& s) { return s.state.velocity; };
+    return std::tuple{
+        column("number", &S::number, "", "number of the start"),
+        column("displacement", displacement, "m, rad", "displacement there").as("displacement"),
+        column("velocity", velocity, "m/s, rad/s", "velocity there").as("velocity")};
+  }
+};
+
+/// A motion that starts ended in, and how many did.
+struct Attractor : MotionSummary {
+  long number = 0;     ///< from 0, in the order of first starts
+  double share = 0.0;  ///< of the starts that did not fail
+  double impacts_per_rev = 0.0;
+  std::vector<Regime> regimes{};  ///< of the contacts
+  FirstStart start{};
+
+  static constexpr auto columns() {
+    using A = Attractor;
+    return std::tuple{column("number", &A::number, "", "number of the motion"),
+                      column("motion", &A::motion, "", "kind of motion"),
+                      column("share", &A::share, "", "of the starts that did not fail"),
+                      column("period_revs", &A::period, "", "period [revolutions]"),
+                      column("regime", &A::regime, "", "the strongest of all contacts"),
+                      column("impacts_per_rev", &A::impacts_per_rev, "", "impacts per revolution"),
+                      column("lyapunov_max", &A::largest_exponent, "", "largest exponent"),
+                      column("start", &A::start, "", "the first one that ended there")};
+  }
+};
+
+/// What the starts of a study ended in.
+struct BasinShares {
+  long starts = 0;
+  std::vector<Attractor> attractors;  ///< the largest share first
+  double unsettled = 0.0;             ///< share of motions that did not settle
+
+  static constexpr auto columns() {
+    return std::tuple{column("starts", &BasinShares::starts, "", "starts"),
+                      rows(&BasinShares::attractors, "attractors")};
+  }
+};
+BasinShares basin_shares(const BasinsResult& result);
+
 /// Finds the motions that many starts of one model end in.
 ///
 /// @param earlier  what another call with the same models and options has found: its points stay as

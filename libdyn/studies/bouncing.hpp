@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libdyn/orbits/cycle.hpp"
 #include "libfe/resonance.hpp"
 
@@ -26,6 +27,14 @@ struct Bouncing {
   double turns = 0.0;  ///< its period [revolutions]
   Cycle cycle;
   std::array<int, 2> lines{};  ///< their orders of 2 pi / period, the higher first
+
+  bool is_stable() const { return cycle.is_stable(); }
+
+  static constexpr auto columns() {
+    return std::tuple{column("speed", &Bouncing::speed, "rad/s", "where it was found"),
+                      column("period_revs", &Bouncing::turns, "", "period [revolutions]"),
+                      column("stable", &Bouncing::is_stable, "", "whether it attracts")};
+  }
 };
 
 /// The two strongest lines of what a contact's station does over a closed motion, seen from the

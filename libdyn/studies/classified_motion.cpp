@@ -21,6 +21,14 @@ double ClassifiedMotion::largest_exponent() const {
   return exponents.empty() ? std::numeric_limits<double>::quiet_NaN() : exponents[0];
 }
 
+MotionSummary summary_of(const ClassifiedMotion& motion) {
+  if (motion.has_failed()) return {};
+  MotionSummary summary{.motion = motion.kind, .regime = motion.regime()};
+  if (motion.period > 0) summary.period = motion.period;
+  if (!motion.exponents.empty()) summary.largest_exponent = motion.largest_exponent();
+  return summary;
+}
+
 ClassifiedMotion classified(const Classification& found) {
   if (!found.is_good()) return {.failure = found.diagnosis};
   ClassifiedMotion motion{.kind = found.kind,

@@ -61,6 +61,24 @@ struct ClassifiedMotion {
   }
 };
 
+/// A motion in short; of one that failed, or is not known, nothing.
+struct MotionSummary {
+  std::optional<MotionKind> motion;
+  std::optional<int> period;  ///< of a periodic motion [revolutions]
+  std::optional<Regime> regime;
+  std::optional<double> largest_exponent;  ///< [1/revolution]
+
+  static constexpr auto columns() {
+    using S = MotionSummary;
+    return std::tuple{column("motion", &S::motion, "", "kind of motion"),
+                      column("period_revs", &S::period, "", "period [revolutions]"),
+                      column("regime", &S::regime, "", "the strongest of all contacts"),
+                      column("lyapunov_max", &S::largest_exponent, "",
+                             "largest Lyapunov exponent [1/revolution]")};
+  }
+};
+MotionSummary summary_of(const ClassifiedMotion& motion);
+
 /// What there is to keep of a motion.
 ClassifiedMotion classified(const Classification& found);
 

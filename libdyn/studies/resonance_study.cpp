@@ -57,7 +57,8 @@ std::shared_ptr<const Scene> scene_at_speed(const Model& model, double speed) {
 ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
                                const ResonanceOptions& options,
                                const Monitor<ResonanceStudy>& monitor) {
-  ResonanceStudy study{.diagram = campbell(assembler, options.speeds, options.modes)};
+  ResonanceStudy study{.diagram = campbell(assembler, options.speeds, options.modes),
+                       .is_confirmed = options.confirms};
   const ModeFinder finder(assembler);
   for (const InternalResonance& r : internal_resonances(study.diagram, options.largest)) {
     ResonancePlace place{r, {}, {}};

@@ -78,6 +78,7 @@ struct ResonancePlace : InternalResonance {
 struct ResonanceStudy {
   Campbell diagram;
   std::vector<ResonancePlace> places;  ///< ascending speed
+  bool is_confirmed = false;           ///< bouncing motions were looked for
   bool is_whole = true;                ///< false: it was stopped
 
   static constexpr std::string_view group = "/resonances";

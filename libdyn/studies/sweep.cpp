@@ -1,5 +1,8 @@
 #include "libdyn/studies/sweep.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "libdyn/taylor/batch.hpp"
@@ -121,6 +124,21 @@ ColumnSizes SweepResult::sizes() const {
 bool SweepResult::leaves_out(std::string_view column) const {
   if (column == "contact_angle") return spectrum_revolutions == 0 || system.contacts.empty();
   return spectrum_revolutions == 0 && (column == "max_radius" || column == "spectrum");
+}
+
+std::vector<SweepEntry> SweepWay::entries() const {
+  std::vector<SweepEntry> entries;
+  for (std::size_t k = 0; k < size(); ++k) {
+    const std::optional<SweepPoint>& p = point(k);
+    if (!p) continue;
+    SweepEntry entry{summary_of(p->motion), values[index(k)], {}, p->motion.impacts_per_rev()};
+    if (const Mat& x = p->portrait.poincare_x; x.rows() > 0) {
+      std::copy_if(x.row(0).begin(), x.row(0).end(), std::back_inserter(entry.poincare),
+                   [](double section) { return std::isfinite(section); });
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
 }
 
 SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,

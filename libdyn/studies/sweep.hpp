@@ -98,6 +98,39 @@ struct SweepResult {
   }
 };
 
+/// A value of a sweep, in short.
+struct SweepEntry : MotionSummary {
+  double value = 0.0;            ///< of the parameter [SI]
+  std::vector<double> poincare;  ///< x at phase 0 of the first station [m]
+  double impacts_per_rev = 0.0;
+
+  static constexpr auto columns() {
+    using E = SweepEntry;
+    return std::tuple{column("value", &E::value, "", "of the parameter"),
+                      column("motion", &E::motion, "", "kind of motion"),
+                      column("period_revs", &E::period, "", "period [revolutions]"),
+                      column("poincare", &E::poincare, "m", "x at phase 0"),
+                      column("lyapunov_max", &E::largest_exponent, "", "largest exponent"),
+                      column("impacts_per_rev", &E::impacts_per_rev, "", "impacts per revolution")};
+  }
+};
+
+/// One way of a sweep, in the order in which it went.
+struct SweepWay {
+  const SweepResult& sweep;
+  const std::vector<double>& values;
+  std::size_t way = 0;  ///< 1: down
+
+  std::size_t size() const { return values.size(); }
+  /// Number of the value that was the k-th.
+  std::size_t index(std::size_t k) const { return way == 1 ? size() - 1 - k : k; }
+  const std::optional<SweepPoint>& point(std::size_t k) const {
+    return sweep.points[way * size() + index(k)];
+  }
+  /// The values that are computed.
+  std::vector<SweepEntry> entries() const;
+};
+
 /// Classifies and portrays the motions along the values of one parameter.
 ///
 /// Carried, a motion that is not proven goes on for the measured revolutions before the next value

@@ -1,5 +1,7 @@
 #include "libdyn/studies/work_precision_study.hpp"
 
+#include <algorithm>
+
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 
@@ -8,6 +10,17 @@ namespace whirl::inline dyn {
 namespace {
 
 constexpr double settling = 1e-10;  ///< tolerance of the transient
+
+/// The options with the methods that suit, and with what is left of a revolution discarded.
+WorkPrecisionOptions whole(WorkPrecisionOptions options, const ContactSystem& system,
+                           const MotionState& start) {
+  if (start.phase > 0.0) options.discard = std::max(1L, options.discard);
+  if (!options.methods.empty()) return options;
+  for (const std::string_view name : candidate_names()) {
+    if (name != Collocation::name || suits_collocation(system)) options.methods.emplace_back(name);
+  }
+  return options;
+}
 
 }  // namespace
 
@@ -43,11 +56,12 @@ Mat WorkPrecisionStudy::evaluations() const {
 WorkPrecisionStudy work_precision_study(const ContactSystem& system, MotionState start,
                                         const WorkPrecisionOptions& options,
                                         const Monitor<WorkPrecisionStudy>& monitor) {
-  WorkPrecisionStudy study{.options = options};
-  const auto count = static_cast<long>(options.methods.size() * options.tolerances.size());
+  WorkPrecisionStudy study{.options = whole(options, system, start)};
+  const std::vector<std::string>& methods = study.options.methods;
+  const auto count = static_cast<long>(methods.size() * options.tolerances.size());
   // it is stopped within the transient, and between runs, which an observer would slow down
   const Integration transient =
-      integrate(AnyMethod{}, system, start, options.discard, {.tolerance = settling},
+      integrate(AnyMethod{}, system, start, study.options.discard, {.tolerance = settling},
                 [&](const Step&) { return !monitor.stops(); });
   study.is_whole = transient.outcome != Outcome::stopped_by_observer;
   if (!study.is_whole) return study;
@@ -55,7 +69,7 @@ WorkPrecisionStudy work_precision_study(const ContactSystem& system, MotionState
     throw NumericalError("the transient failed: " + transient.diagnosis);
   }
   study.reference = reference_motion(system, start, options.revolutions);
-  for (const std::string& method : options.methods) {
+  for (const std::string& method : methods) {
     const Candidate measured = candidate(system, method);
     for (const double tolerance : options.tolerances) {
       monitor.show(1 + std::ssize(study.runs), count + 1);

@@ -11,7 +11,7 @@
 namespace whirl::inline dyn {
 
 struct WorkPrecisionOptions {
-  std::vector<std::string> methods;  ///< as candidate_names
+  std::vector<std::string> methods;  ///< as candidate_names; empty: all that suit the system
   std::vector<double> tolerances;
   long revolutions = 20;  ///< that are measured
   long discard = 500;     ///< before

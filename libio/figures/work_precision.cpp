@@ -6,18 +6,33 @@
 #include <cmath>
 
 #include "libio/figures/common.hpp"
+#include "libio/text/format.hpp"
 
 namespace whirl::inline io {
-
-std::string tolerance_text(double tolerance) {
-  const int power = static_cast<int>(std::floor(std::log10(tolerance) + 1e-9));
-  return fmt::format("{:.4g}e{}", tolerance / std::pow(10.0, power), power);
-}
 
 std::string tolerance_range(const std::vector<double>& tolerances) {
   if (tolerances.empty()) return "";
   const auto [least, largest] = std::minmax_element(tolerances.begin(), tolerances.end());
-  return fmt::format("tolerances from {} to {}", tolerance_text(*largest), tolerance_text(*least));
+  return fmt::format("tolerances from {} to {}", format_tolerance(*largest),
+                     format_tolerance(*least));
+}
+
+WorkPrecision work_precision_of(const WorkPrecisionStudy& study, const Model& model) {
+  const WorkPrecisionOptions& options = study.options;
+  const auto by_methods = [](const Mat& table) {
+    const auto numbers = table.transpose().reshaped();
+    return std::vector<double>(numbers.begin(), numbers.end());
+  };
+  return {.title = model.title.empty() ? "Speed against error" : model.title,
+          .subtitle = fmt::format("{:.6g} rpm, one core, {}", model.speed / rpm,
+                                  tolerance_range(options.tolerances)),
+          .methods = options.methods,
+          .tolerances = options.tolerances,
+          .error = by_methods(study.errors()),
+          .time = by_methods(study.times()),
+          .revolutions = static_cast<double>(options.revolutions),
+          .reference_error = study.reference.error,
+          .unit = model.contacts.empty() ? "sizes of the motion" : "clearances"};
 }
 
 Figure work_precision_figure(const WorkPrecision& data) {
@@ -41,7 +56,7 @@ Figure work_precision_figure(const WorkPrecision& data) {
       c.x.push_back(std::max(data.error[k], data.reference_error));
       c.y.push_back(1e9 * data.time[k]);
       c.hover.push_back(
-          fmt::format("{} at {}", data.methods[i], tolerance_text(data.tolerances[j])));
+          fmt::format("{} at {}", data.methods[i], format_tolerance(data.tolerances[j])));
     }
     if (!c.x.empty()) p.curves.push_back(std::move(c));
   }

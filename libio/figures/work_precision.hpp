@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "libdyn/studies/work_precision_study.hpp"
+#include "libdyn/system/model.hpp"
 #include "libio/drawing/figure.hpp"
 
 namespace whirl::inline io {
@@ -18,13 +20,13 @@ struct WorkPrecision {
   std::string unit;  ///< of errors: "clearances"
 };
 
+/// What a study of a model has measured.
+WorkPrecision work_precision_of(const WorkPrecisionStudy& study, const Model& model);
+
 /// Time over error of every method, both logarithmic, its name at the end of its line.
 Figure work_precision_figure(const WorkPrecision& data);
 
 /// "tolerances from 1e-4 to 1e-12"
 std::string tolerance_range(const std::vector<double>& tolerances);
-
-/// "1e-6", "2.5e-7"
-std::string tolerance_text(double tolerance);
 
 }  // namespace whirl::inline io

@@ -40,4 +40,11 @@ Model read_model(const std::filesystem::path& path, const std::vector<std::strin
   return parse_model(text.str(), path.string(), sets, path.parent_path());
 }
 
+void require_speed(const Model& model) {
+  if (model.has_speed) return;
+  throw ModelError({}, "operation.speed",
+                   "missing, expected a speed (rad/s): write [operation] speed = "
+                   "\"3000 rpm\", or use --speed 3000rpm");
+}
+
 }  // namespace whirl::inline io

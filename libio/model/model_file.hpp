@@ -15,6 +15,10 @@ namespace whirl::inline io {
 /// @throws ModelError  with every problem of the file
 Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets = {});
 
+/// Checks that a model has an operating speed.
+/// @throws ModelError  if it has none
+void require_speed(const Model& model);
+
 /// The same from a text, for tests and for models stored in results.
 /// @param name       for messages
 /// @param directory  where files that the model names are looked for

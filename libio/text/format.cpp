@@ -81,6 +81,11 @@ std::string format_grouped(double value) {
   return (value < 0.0 ? "-" : "") + text;
 }
 
+std::string format_tolerance(double tolerance) {
+  const int power = static_cast<int>(std::floor(std::log10(tolerance) + 1e-9));
+  return fmt::format("{:.4g}e{}", tolerance / std::pow(10.0, power), power);
+}
+
 std::string format_speed(double value) {
   return number_and_unit(value * 30.0 / std::numbers::pi, "rpm");
 }

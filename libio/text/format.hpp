@@ -24,6 +24,9 @@ std::string format_length(double value);
 /// thousands: "3000", "28 648".
 std::string format_grouped(double value);
 
+/// "1e-6", "2.5e-7"
+std::string format_tolerance(double tolerance);
+
 /// A speed [rad/s], in revolutions per minute: "3650 rpm".
 std::string format_speed(double value);
 

@@ -19,6 +19,8 @@ std::string si_unit(const Dimension& dimension) {
   return "";
 }
 
+}  // namespace
+
 std::vector<std::string> split(std::string_view text, char at) {
   std::vector<std::string> parts;
   for (std::size_t place; (place = text.find(at)) != std::string_view::npos;) {
@@ -28,8 +30,6 @@ std::vector<std::string> split(std::string_view text, char at) {
   parts.emplace_back(text);
   return parts;
 }
-
-}  // namespace
 
 std::vector<std::string> ParameterAxis::paths() const {
   return split(path, ',');

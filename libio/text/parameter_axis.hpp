@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
@@ -28,6 +29,13 @@ struct ParameterAxis {
   std::vector<std::string> assignments(std::size_t index) const {
     return assignments_of(values[index]);
   }
+
+  static constexpr auto columns() {
+    using A = ParameterAxis;
+    return std::tuple{column("parameter", &A::path, "", "path of the value in the model"),
+                      column("unit", &A::unit, "", "SI unit of the values"),
+                      column("values", &A::values, "", "that it takes")};
+  }
 };
 
 /// Reads what --over says: PATH=first:last:step (or PATH,PATH,...=first:last:step), PATH=first:last with a number of points, or
@@ -37,5 +45,8 @@ struct ParameterAxis {
 ///
 /// @param points  of a range without a step; 0: it must have one
 Parsed<ParameterAxis> parse_axis(std::string_view text, int points);
+
+/// Parts of a text between a sign; one more than there are signs.
+std::vector<std::string> split(std::string_view text, char at);
 
 }  // namespace whirl::inline io

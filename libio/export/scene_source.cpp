@@ -1,34 +1,24 @@
-#include "apps/verbs/scene_source.hpp"
+#include "libio/export/scene_source.hpp"
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
-#include "apps/verbs/common.hpp"
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/result_schema.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
-namespace {
+SceneSource::SceneSource(Model of)
+    : model(std::move(of)), assembler(model.structure), scene(vtk_scene(model, assembler)) {}
 
-bool is_result(const std::string& file) {
-  return std::filesystem::path(file).extension() == ".h5" ||
-         std::filesystem::path(file).extension() == ".hdf5";
+SceneSource::SceneSource(std::unique_ptr<ResultReader> of, const std::string& name,
+                         const std::vector<std::string>& sets)
+    : SceneSource(parse_model(of->strings("/model").at(0), name, sets)) {
+  result = std::move(of);
 }
 
-}  // namespace
-
-SceneSource::SceneSource(const Invocation& call)
-    : result(is_result(call.file) ? open_result(call.file) : nullptr),
-      model(result ? parse_model(result->strings("/model").at(0), call.file, call.sets)
-                   : call.model()),
-      assembler(model.structure),
-      scene(vtk_scene(model, assembler)) {}
-
-MotionSamples SceneSource::samples(const Invocation& call, double usual) const {
-  const MotionWindow window = window_of(call);
+MotionSamples SceneSource::samples(const MotionWindow& window, double usual) const {
   MotionSamples samples = samples_of(window, recorded_motion(*result), usual);
   // of the last revolutions both ends are the same phase: a film that is played in a loop shows one
   const bool is_end = !window.from_revolution && !window.times;
@@ -83,4 +73,4 @@ std::string told(int number, const Mode& mode) {
                      name_of(mode.whirl));
 }
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io

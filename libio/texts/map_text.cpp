@@ -1,4 +1,4 @@
-#include "apps/verbs/map_text.hpp"
+#include "libio/texts/map_text.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "libio/text/table.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 namespace {
 
@@ -82,8 +82,6 @@ std::string sign_of(const MapPoint& point) {
   return point->period > 0 && point->period < 10 ? std::to_string(point->period) : "p";
 }
 
-}  // namespace
-
 std::string map_picture(const MapResult& map, const std::vector<ParameterAxis>& axes) {
   constexpr std::size_t most_columns = 88, most_rows = 24;
   const ParameterAxis &across = axes[0], &up = axes[1];
@@ -151,4 +149,10 @@ std::string map_shares(const MapResult& map, const std::vector<ParameterAxis>& a
   return text + "\n" + contacts.text();
 }
 
-}  // namespace whirl::inline cli
+}  // namespace
+
+std::string text_of(const MapResult& map, const std::vector<ParameterAxis>& axes) {
+  return map_picture(map, axes) + "\n" + map_shares(map, axes);
+}
+
+}  // namespace whirl::inline io

@@ -6,30 +6,32 @@
 #include <string>
 #include <vector>
 
-#include "apps/invocation.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/modes.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
-/// The model or result of a call, as a scene.
+/// A model, or a result with its model, as a scene.
 struct SceneSource {
   std::unique_ptr<ResultReader> result;  ///< none: a model
   Model model;
   Assembler assembler;
   VtkScene scene;
 
-  explicit SceneSource(const Invocation& call);
+  explicit SceneSource(Model of);
+  /// @param sets  of its model, beside those that it was made with
+  SceneSource(std::unique_ptr<ResultReader> of, const std::string& name,
+              const std::vector<std::string>& sets);
 
   bool has_motion() const { return result && result->has("/trajectory/coordinates"); }
   bool has_modes() const { return !result || result->has("/modes"); }
 
-  /// Which samples of the motion a call asks for: the last revolutions, so many if it does not say.
+  /// Which samples of the motion a window asks for: the last revolutions, so many if it does not say.
   /// @throws ModelError  if they were not recorded
-  MotionSamples samples(const Invocation& call, double usual) const;
+  MotionSamples samples(const MotionWindow& window, double usual) const;
 
   /// Those samples, evenly thinned to a number of frames.
   /// @throws ModelError  if the motion is of another rotor than the model as set
@@ -44,4 +46,4 @@ struct SceneSource {
 /// "mode 1 at 1664.6 rpm, backward"
 std::string told(int number, const Mode& mode);
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io

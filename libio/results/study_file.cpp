@@ -1,4 +1,4 @@
-#include "apps/verbs/study_file.hpp"
+#include "libio/results/study_file.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -7,15 +7,13 @@
 #include <charconv>
 #include <filesystem>
 
-#include "apps/verbs/common.hpp"
-#include "apps/version.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/result_schema.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 namespace {
 
@@ -39,26 +37,24 @@ bool is_same_start(const ResultReader& file, const EarlierEnd& start) {
 }
 
 /// Takes over what an earlier run of the same line has left in its file.
-void resume(const Invocation& call, const std::optional<EarlierEnd>& start,
-            const std::function<void(const ResultReader&)>& take) {
-  const std::string& place = call.given.at("out");
-  const ResultReader earlier(place);
+void resume(const StudyPlace& place, const std::function<void(const ResultReader&)>& take) {
+  const ResultReader earlier(place.file);
   const auto refuse = [&](const std::string& why) {
     throw FileError(
-        fmt::format("{} {}; take another name, or --restart to replace it", place, why));
+        fmt::format("{} {}; take another name, or --restart to replace it", place.file, why));
   };
   if (!earlier.has("/arguments") || !earlier.has("/model")) refuse("is no study of whirl");
-  if (essential(read_call(earlier)) != essential(call.parts())) {
+  if (essential(read_call(earlier)) != essential(place.call)) {
     refuse("holds another study: " + earlier.string_attribute("/", "command"));
   }
-  if (earlier.strings("/model").at(0) != call.model().source) {
+  if (earlier.strings("/model").at(0) != place.model) {
     refuse("holds this study of a model that has changed since");
   }
-  if (start && !is_same_start(earlier, *start)) {
-    refuse(fmt::format("holds this study from another start: {} has changed since",
-                       call.text_or("from", call.model().start.file)));
+  if (place.start && !is_same_start(earlier, *place.start)) {
+    refuse(
+        fmt::format("holds this study from another start: {} has changed since", place.start_file));
   }
-  if (earlier.string_attribute("/", "whirl_version") != version) {
+  if (earlier.string_attribute("/", "whirl_version") != place.version) {
     refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
   }
   check_result(earlier);
@@ -84,32 +80,23 @@ void remove_leftovers(const std::filesystem::path& place) {
 
 }  // namespace
 
-std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& model) {
-  if (!call.has("from") && model.start.from != StartFrom::file) return std::nullopt;
-  return earlier_end(call.text_or("from", model.start.file));
-}
-
-void write_start(ResultWriter& file, const std::optional<EarlierEnd>& start) {
-  if (!start) return;
-  write_result(file, StudyStart{start->state.displacement, start->state.velocity, start->phase});
-}
-
-StudyFile::StudyFile(const Invocation& call, const std::optional<EarlierEnd>& start, Begin begin,
-                     std::function<void(ResultWriter&)> write,
+StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWriter&)> write,
                      const std::function<void(const ResultReader&)>& take)
-    : has_file_(call.has("out")), begin_(std::move(begin)), write_(std::move(write)) {
-  if (!has_file_) return;
-  const std::string& place = call.given.at("out");
-  remove_leftovers(place);
+    : place_(std::move(place)), begin_(std::move(begin)), write_(std::move(write)) {
+  if (place_.file.empty()) return;
+  remove_leftovers(place_.file);
   begin_();  // says at once what cannot be written
-  if (!call.has("restart") && origin_of(place) == Origin::result) resume(call, start, take);
+  if (!place_.restarts && origin_of(place_.file) == Origin::result) resume(place_, take);
 }
 
 void StudyFile::save() {
-  if (!has_file_) return;
+  if (place_.file.empty()) return;
   const auto file = begin_();
+  if (const auto& start = place_.start) {
+    write_result(*file, StudyStart{start->state.displacement, start->state.velocity, start->phase});
+  }
   write_(*file);
   file->commit();
 }
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io

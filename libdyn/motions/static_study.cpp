@@ -1,0 +1,26 @@
+#include "libdyn/motions/static_study.hpp"
+
+#include "libdyn/system/stations.hpp"
+
+namespace whirl::inline dyn {
+
+StaticStudy static_study(const Model& model, const Assembler& assembler) {
+  StaticStudy study{.at_rest = static_equilibrium(assembler, model.speed),
+                    .has_gravity = model.structure.gravity != 0.0};
+  const Vec& displacement = study.at_rest.displacement;
+  study.line = bending_line(assembler, model.speed, displacement);
+  const DofMap dofs = assembler.uncondensed(model.speed).dofs;
+  for (const NamedPoint& p : named_points(model, assembler)) {
+    RestingStation at{.name = p.name, .label = p.label()};
+    at.x = displacement(dofs.full_index(p.point, X));
+    at.y = displacement(dofs.full_index(p.point, Y));
+    if (p.node() > 0) {
+      at.node = p.node();
+      at.z = assembler.mesh().z.at(p.node() - 1);
+    }
+    study.stations.push_back(std::move(at));
+  }
+  return study;
+}
+
+}  // namespace whirl::inline dyn

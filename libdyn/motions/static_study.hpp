@@ -1,0 +1,51 @@
+#pragma once
+/// A rotor at rest under gravity as a result: its sag, what its bearings carry, how its shaft bends.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libdyn/system/model.hpp"
+#include "libfe/assemble.hpp"
+#include "libfe/bending.hpp"
+#include "libfe/static.hpp"
+
+namespace whirl::inline dyn {
+
+/// A place of the rotor at rest.
+struct RestingStation {
+  std::optional<int> node;  ///< from 1; nothing: a body
+  std::string name, label;
+  double x = 0.0, y = 0.0;  ///< [m]
+  double z = 0.0;           ///< of a node, along the shaft [m]
+
+  static constexpr auto columns() {
+    return std::tuple{column("node", &RestingStation::node, "", "number of the node"),
+                      column("name", &RestingStation::name, "", "what is there"),
+                      column("x", &RestingStation::x, "m", "displacement"),
+                      column("y", &RestingStation::y, "m", "displacement")};
+  }
+};
+
+/// Its parts are groups of a file by themselves.
+struct StaticStudy {
+  std::vector<RestingStation> stations;  ///< all named places
+  StaticEquilibrium at_rest;
+  BendingLine line;
+  bool has_gravity = true;
+
+  static constexpr auto columns() {
+    using S = StaticStudy;
+    return std::tuple{rows(&S::stations, "stations"),
+                      rows(
+                          [](const S& s) -> const auto& { return s.at_rest.bearings; }, "bearings"),
+                      column("shaft", &S::line, "", "how the shaft bends")};
+  }
+};
+
+/// The equilibrium of a model at its speed.
+/// @throws ModelError  as static_equilibrium
+StaticStudy static_study(const Model& model, const Assembler& assembler);
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+
+#include "libbase/column.hpp"
+#include "libdyn/system/model.hpp"
+
+namespace whirl::inline dyn {
+
+/// What a model has and weighs.
+struct ModelFacts {
+  double mass = 0.0;    ///< of the rotor [kg]
+  double length = 0.0;  ///< of the shaft [m]
+  int nodes = 0;
+  int freedoms = 0, condensed_freedoms = 0;
+  long contacts = 0;
+  std::optional<double> center_of_mass{};  ///< along the shaft [m]; nothing: there is no shaft
+  double polar_inertia = 0.0;              ///< [kg.m^2]
+
+  static constexpr auto columns() {
+    using F = ModelFacts;
+    return std::tuple{
+        column("mass", &F::mass, "kg", "mass of the rotor"),
+        column("length", &F::length, "m", "length of the shaft"),
+        column("nodes", &F::nodes, "", "nodes"),
+        column("dofs", &F::freedoms, "", "degrees of freedom"),
+        column("condensed_dofs", &F::condensed_freedoms, "", "of them without inertia"),
+        column("contacts", &F::contacts, "", "contacts"),
+        column("center_of_mass", &F::center_of_mass, "m", "along the shaft"),
+        column("polar_inertia", &F::polar_inertia, "kg.m^2", "polar moment of inertia")
+            .as("polar_inertia_kg_m2")};
+  }
+};
+
+/// Facts of a model at its speed.
+ModelFacts model_facts(const Model& model, const Assembler& assembler);
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,36 @@
+#pragma once
+/// Motions and where they end, to a result file and back.
+
+#include <optional>
+#include <string>
+
+#include "libdyn/motions/run_result.hpp"
+#include "libdyn/motions/start.hpp"
+#include "libdyn/studies/resonance_study.hpp"
+
+namespace whirl::inline io {
+
+class ResultWriter;
+
+/// Group /points: nodes and bodies with their positions and names.
+void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);
+
+/// Speed, group /points, and where a motion ended, for others to go on, in group /trajectory.
+void write_end(ResultWriter& file, const Model& model, const Scene& scene, const MotionState& end);
+
+/// Groups /trajectory and /contacts, and /spectra of the stations.
+void write_run(ResultWriter& file, const Run& run, const Model& model);
+
+/// Groups /campbell and /resonances; a motion that bounces is the end of the result, so that others
+/// begin there.
+void write_resonances(ResultWriter& file, const Model& model, const Assembler& assembler,
+                      const ResonanceStudy& study);
+
+/// Where the motion of a result ended.
+/// @throws FileError, ModelError  if there is none in the file
+EarlierEnd earlier_end(const std::string& path);
+
+/// The same if a model's [start] is such a result.
+std::optional<EarlierEnd> earlier_end(const Start& start);
+
+}  // namespace whirl::inline io

@@ -1,0 +1,59 @@
+#include "libio/texts/identification_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libio/texts/row_table.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// What a peak is beside the mode of its shape: forced, a combination, or that mode, shifted.
+std::string shift_text(const IdentifiedPeak& p, double Omega, double bin) {
+  constexpr double far = 0.1;  // of a mode's frequency: a peak beyond is not that mode's own
+  if (is_forced(p.frequency, Omega, bin)) return "forced (1X)";
+  const std::string shift = fmt::format("{:+.1f} %", 100.0 * p.shift);
+  if (!p.combination) return shift;
+  const std::string made_of = p.combination->text();
+  return std::abs(p.shift) > far ? made_of : shift + ", " + made_of;
+}
+
+/// "2F 1664": number, sense and frequency [rpm] of a mode.
+std::string mode_heading(const Mode& m, std::size_t number) {
+  const std::string_view whirl = name_of(m.whirl);
+  return fmt::format("{}{} {:.0f}", number, static_cast<char>(std::toupper(whirl.front())),
+                     m.frequency() / rpm);
+}
+
+}  // namespace
+
+std::string text_of(const Identification& found, double Omega) {
+  TableColumns<IdentifiedPeak> columns{shown("frequency", "rpm", "+.1f").as("peak"),
+                                       {"from the rotor",
+                                        [=](const IdentifiedPeak& p) {
+                                          return texts::number_text((p.frequency - Omega) / rpm,
+                                                                    "+.1f");
+                                        }},
+                                       shown("amplitude").as("radius")};
+  for (std::size_t i = 0; i < found.modes.size(); ++i) {
+    columns.push_back({mode_heading(found.modes[i], i + 1), [i](const IdentifiedPeak& p) {
+                         return p.mac[i] < 0.005 ? "·" : fmt::format("{:.2f}", p.mac[i]);
+                       }});
+  }
+  columns.push_back({"best", [](const IdentifiedPeak& p) {
+                       return p.mac.empty() ? "-" : fmt::format("mode {}", p.mode + 1);
+                     }});
+  columns.push_back(
+      {"shift", [&](const IdentifiedPeak& p) { return shift_text(p, Omega, found.bin); }});
+  std::string text = table_of(found.peaks, columns);
+  if (const auto& r = found.resonance) {
+    text += fmt::format("\n  seen from the rotor {:.1f} : {:.1f} rpm = {}:{} within {:.2g} %\n",
+                        r->high / rpm, r->low / rpm, r->p, r->q, 100.0 * r->error);
+  }
+  return text;
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,81 @@
+#include "libio/texts/model_text.hpp"
+
+#include <fmt/format.h>
+
+#include "libbase/constants.hpp"
+#include "libbase/names.hpp"
+#include "libfe/exceeded_tables.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/table.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// Names of contacts or films, each with what it is: "contact seal, contact ring"; empty for none.
+std::string names_of(const auto& members, const char* kind) {
+  std::string names;
+  for (const auto& member : members) {
+    names += (names.empty() ? "" : ", ") + named(kind, member.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string headline(std::string_view what, const Model& model) {
+  return std::string(what) + (model.title.empty() ? "" : ": " + model.title) + "\n";
+}
+
+std::string text_of(const ModelFacts& facts, const Model& model) {
+  const Structure& s = model.structure;
+  Table table({"what", "value"});
+  table.row({"mass of the rotor", format_engineering(facts.mass, "kg")});
+  if (facts.center_of_mass) {
+    table.row({"length", format_length(facts.length)});
+    table.row({"center of mass at", format_length(*facts.center_of_mass)});
+  }
+  table.row({"polar moment of inertia", format_engineering(facts.polar_inertia, "kg.m^2")});
+  table.row({"nodes, bodies", fmt::format("{}, {}", facts.nodes, s.bodies.size())});
+  table.row({"freedoms", facts.condensed_freedoms > 0
+                             ? fmt::format("{}, of which {} without inertia are condensed",
+                                           facts.freedoms, facts.condensed_freedoms)
+                             : fmt::format("{}", facts.freedoms)});
+  table.row({"disks, bearings, links",
+             fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
+  if (!model.films.empty()) table.row({"oil films", fmt::format("{}", model.films.size())});
+  table.row({"contacts", fmt::format("{}", model.contacts.size())});
+  table.row({"operating speed", model.has_speed ? format_speed(model.speed) : "not given"});
+  return table.text();
+}
+
+std::string left_out_note(const Model& model) {
+  const std::string contacts = names_of(model.contacts, "contact");
+  const std::string films = names_of(model.films, "oil film");
+  if (contacts.empty() && films.empty()) return "";
+  return fmt::format(
+      "left out: {}{}{}{}", contacts, contacts.empty() || films.empty() ? "" : ", ", films,
+      films.empty()
+          ? ""
+          : " (oil films have no linear coefficients here: nothing holds the rotor there)");
+}
+
+std::vector<std::string> table_notes(const Structure& structure, double lowest, double highest) {
+  std::vector<std::string> notes;
+  for (const ExceededTable& table : exceeded_tables(structure, lowest, highest)) {
+    std::string beyond;
+    if (lowest < table.first) {
+      beyond = fmt::format("below (asked: {:.6g} rpm)", lowest / rpm);
+    }
+    if (highest > table.last) {
+      beyond +=
+          fmt::format("{}above (asked: {:.6g} rpm)", beyond.empty() ? "" : " and ", highest / rpm);
+    }
+    notes.push_back(
+        fmt::format("the table of {} goes from {:.6g} to {:.6g} rpm; its ends are held constant {}",
+                    table.name, table.first / rpm, table.last / rpm, beyond));
+  }
+  return notes;
+}
+
+}  // namespace whirl::inline io

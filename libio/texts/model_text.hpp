@@ -1,0 +1,24 @@
+#pragma once
+/// A model for people: what it is, and what analyses leave out of it.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libdyn/system/model_facts.hpp"
+
+namespace whirl::inline io {
+
+/// "Sweep: two-disk rotor", the first line of what a verb says of a model.
+std::string headline(std::string_view what, const Model& model);
+
+/// Table of what a model has.
+std::string text_of(const ModelFacts& facts, const Model& model);
+
+/// Which contacts and oil films a linear analysis leaves out; empty: none.
+std::string left_out_note(const Model& model);
+
+/// Which bearing tables are held constant at their ends for speeds in a range [rad/s].
+std::vector<std::string> table_notes(const Structure& structure, double lowest, double highest);
+
+}  // namespace whirl::inline io

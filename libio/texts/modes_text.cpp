@@ -1,0 +1,141 @@
+#include "libio/texts/modes_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libbase/constants.hpp"
+#include "libio/texts/row_table.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// Behind the number of a mode that hardly whirls, and what it means.
+constexpr const char* heavy_mark = "*";
+constexpr const char* heavy_legend =
+    "\n  *: heavily damped, a damping ratio above 0.5; a mode of the bearings in most cases\n";
+
+/// The number of a mode or critical speed, with its mark.
+constexpr auto marked_number = [](const auto& m, int number) {
+  return std::to_string(number) + (m.is_heavily_damped() ? heavy_mark : "");
+};
+
+std::string legend_of(const auto& modes) {
+  const bool has_heavy =
+      std::any_of(modes.begin(), modes.end(), [](const auto& m) { return m.is_heavily_damped(); });
+  return has_heavy ? heavy_legend : "";
+}
+
+/// Logarithmic decrement of a mode that counts as heavily damped.
+const double heavy_decrement =
+    2.0 * std::numbers::pi * heavy_damping / std::sqrt(1.0 - heavy_damping * heavy_damping);
+
+std::string mark_of(double log_decrement) {
+  return log_decrement > heavy_decrement ? heavy_mark : "";
+}
+
+/// Every so many speeds of a diagram, the first and the last among them.
+struct SomeSpeeds {
+  std::vector<std::size_t> shown;
+  std::string which;  ///< in words
+
+  explicit SomeSpeeds(std::size_t size) {
+    constexpr std::size_t most = 21;
+    const std::size_t stride = std::max<std::size_t>(1, size / (most - 1));
+    for (std::size_t i = 0; i < size; i += stride) shown.push_back(i);
+    if (shown.back() + 1 < size) shown.push_back(size - 1);
+    which = stride == 1
+                ? "all speeds"
+                : fmt::format("every {} of {} speeds and the last; --json and --out have all",
+                              stride == 2   ? "second"
+                              : stride == 3 ? "third"
+                                            : fmt::format("{}th", stride),
+                              size);
+  }
+};
+
+std::string crossings_text(const Campbell& diagram) {
+  std::string text;
+  if (diagram.crossings.empty()) {
+    text += "\n  No branch meets the line frequency = speed in this range.\n";
+  } else {
+    text += "\n  critical speeds (frequency = speed) [rpm]:";
+    for (const Crossing& c : diagram.crossings) {
+      text += fmt::format(" {:.1f} ({})", c.speed / rpm, c.branch + 1);
+    }
+    text += "\n";
+  }
+  for (const CampbellGap& gap : diagram.gaps) {
+    text += fmt::format("\n  not computed at {:.1f} rpm: {}\n", gap.speed / rpm, gap.why);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const Modes& modes) {
+  std::string text = table_of(modes.oscillatory, {{"mode", marked_number},
+                                                  shown("frequency", "rpm", ".1f"),
+                                                  shown("frequency", "Hz", ".3f").as(""),
+                                                  shown("log_decrement", "", ".4f"),
+                                                  shown("damping_ratio", "", ".5f"),
+                                                  shown("whirl"),
+                                                  shown("kappa", "", ".3f")}) +
+                     legend_of(modes.oscillatory);
+  if (!modes.overdamped.empty()) {
+    text += "\n  overdamped [1/s]:";
+    for (const Complex& root : modes.overdamped) text += fmt::format(" {:.4g}", root.real());
+    text += "\n";
+  }
+  if (!modes.rigid_body.empty()) {
+    text += fmt::format("\n  {} rigid-body modes: the rotor is free\n", modes.rigid_body.size());
+  }
+  return text;
+}
+
+std::string text_of(const CriticalSpeeds& found) {
+  return "Critical speeds: undamped, and where the damped frequency meets the excitation\n\n" +
+         table_of(found.criticals, {{"number", marked_number},
+                                    shown("speed", "rpm", ".2f"),
+                                    shown("speed", "Hz", ".3f").as(""),
+                                    shown("damped_speed", "rpm", ".2f").as("damped"),
+                                    shown("damping_ratio", "", ".5f"),
+                                    shown("whirl"),
+                                    shown("excitation")}) +
+         legend_of(found.criticals);
+}
+
+std::string text_of(const Campbell& diagram) {
+  const SomeSpeeds speeds(diagram.speeds.size());
+  TableColumns<std::size_t> frequencies{{"speed [rpm]", [&](std::size_t i) {
+                                           return fmt::format("{:.1f}", diagram.speeds[i] / rpm);
+                                         }}};
+  TableColumns<std::size_t> decrements = frequencies;
+  for (const CampbellBranch& b : diagram.branches) {
+    const std::string name = fmt::format("{} {}", frequencies.size(), name_of(b.whirl));
+    frequencies.push_back({name + " [rpm]", [&](std::size_t i) {
+                             return texts::number_text(b.frequency[i] / rpm, ".1f") +
+                                    mark_of(b.log_decrement[i]);
+                           }});
+    decrements.push_back({name, [&](std::size_t i) {
+                            return texts::number_text(b.log_decrement[i], ".4f") +
+                                   mark_of(b.log_decrement[i]);
+                          }});
+  }
+  bool has_heavy = false;
+  for (const std::size_t i : speeds.shown) {
+    for (const CampbellBranch& b : diagram.branches) {
+      has_heavy = has_heavy || b.log_decrement[i] > heavy_decrement;
+    }
+  }
+  return fmt::format(
+      "Campbell diagram: damped natural frequencies over speed ({})\n\n{}\nLogarithmic "
+      "decrements, stable above zero\n\n{}{}{}",
+      speeds.which, table_of(speeds.shown, frequencies), table_of(speeds.shown, decrements),
+      has_heavy ? heavy_legend : "", crossings_text(diagram));
+}
+
+}  // namespace whirl::inline io

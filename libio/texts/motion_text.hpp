@@ -1,0 +1,20 @@
+#pragma once
+/// Motions for people: how the rotor was reduced, what was integrated, what contacts and stations do.
+
+#include <string>
+#include <vector>
+
+#include "libdyn/motions/run_result.hpp"
+
+namespace whirl::inline io {
+
+/// What contacts did over so many revolutions.
+std::string contacts_table(const std::vector<ContactMeasure>& contacts, long revolutions);
+
+/// A line on the reduction, and a warning where its error is above the model's tolerance.
+std::string reduction_text(const Scene& scene, const Model& model);
+
+/// What was integrated, how, at what cost, and what contacts and stations did.
+std::string text_of(const Run& run, const Model& model);
+
+}  // namespace whirl::inline io

@@ -1,0 +1,59 @@
+#include "libio/texts/resonance_text.hpp"
+
+#include <fmt/format.h>
+
+#include "libbase/constants.hpp"
+#include "libio/texts/row_table.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// Sizes of the orbits of both modes in the contacts: "0.10 0.32 | 0.95 0.04".
+std::string sizes_text(const ResonancePlace& place) {
+  std::string fast, slow;
+  for (const ContactOrbits& c : place.contacts) {
+    fast += fmt::format("{}{:.2f}", fast.empty() ? "" : " ", c.fast);
+    slow += fmt::format("{}{:.2f}", slow.empty() ? "" : " ", c.slow);
+  }
+  return fast + " | " + slow;
+}
+
+std::string bouncing_text(const ResonancePlace& place) {
+  const std::optional<Bouncing>& b = place.bouncing;
+  if (!b) return "none found";
+  return fmt::format("{} at {:.1f} rpm, {:.4f} revolutions", b->is_stable() ? "stable" : "unstable",
+                     b->speed / rpm, b->turns);
+}
+
+std::string seen_from_rotor(const ResonancePlace& r) {
+  return fmt::format("{:.1f}, {:.1f}", r.p * r.frequency / rpm, r.q * r.frequency / rpm);
+}
+
+}  // namespace
+
+std::string text_of(const ResonanceStudy& study) {
+  if (study.places.empty()) return "  none between these speeds\n";
+  const auto branch = [&](int number) {
+    return fmt::format("{} {}", number + 1,
+                       name_of(study.diagram.branches[static_cast<std::size_t>(number)].whirl));
+  };
+  TableColumns<ResonancePlace> columns{
+      shown("speed", "rpm", ".1f"),
+      {"ratio", [](const ResonancePlace& r) { return fmt::format("{}:{}", r.p, r.q); }},
+      {"faster mode", [&](const ResonancePlace& r) { return branch(r.fast); }},
+      {"slower mode", [&](const ResonancePlace& r) { return branch(r.slow); }},
+      {"seen from the rotor [rpm]", seen_from_rotor}};
+  const std::vector<ContactOrbits>& contacts = study.places.front().contacts;
+  if (!contacts.empty()) columns.push_back({"at the contacts", sizes_text});
+  if (study.is_confirmed) columns.push_back({"bouncing", bouncing_text});
+  std::string text = table_of(study.places, columns), names;
+  for (const ContactOrbits& c : contacts) names += (names.empty() ? "" : ", ") + c.name;
+  if (names.empty()) return text;
+  return text +
+         fmt::format(
+             "\n  at the contacts ({}): orbits of both modes by their largest on the rotor\n",
+             names);
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,118 @@
+#include "libio/texts/unbalance_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libio/texts/row_table.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+std::string percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.1f} %", 100.0 * share) : std::string("-");
+}
+
+/// A peak's margin to the operating speed.
+std::string margin_text(const StationPeak& peak) {
+  if (!peak.separation) return "-";
+  return fmt::format("{} {}", percent(peak.separation->actual), *peak.side());
+}
+
+/// The margin that is required.
+std::string required_text(const StationPeak& peak) {
+  if (!peak.separation || !peak.is_kept()) return "-";
+  const SeparationMargin& m = *peak.separation;
+  if (m.required == 0.0) return "none";
+  return fmt::format("{}, {}", percent(m.required), m.is_kept() ? "kept" : "NOT KEPT");
+}
+
+std::string peaks_text(const UnbalanceStudy& study, const Model& model) {
+  if (study.peaks.empty()) return "";
+  const auto factor = [](const StationPeak& p) {
+    const double value = p.amplification();
+    return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-";
+  };
+  const auto place = [&](const StationPeak& p) {
+    return study.stations[static_cast<std::size_t>(p.row)].label;
+  };
+  const bool is_told = std::all_of(study.peaks.begin(), study.peaks.end(),
+                                   [](const auto& p) { return std::isfinite(p.amplification()); });
+  const std::string margin = model.has_speed && model.speed > 0.0
+                                 ? fmt::format("margin to {:.6g} rpm", model.speed / rpm)
+                                 : "margin";
+  return "\nPeaks of the largest response: amplification factors and separation margins after API "
+         "617\n\n" +
+         table_of(study.peaks, {shown("speed", "rpm", ".1f").as("peak"),
+                                {"largest at", place},
+                                shown("amplitude", "um", ".3f").as(""),
+                                {"amplification", factor},
+                                {margin, margin_text},
+                                {"required", required_text}}) +
+         (is_told
+              ? ""
+              : "\n  -: the response does not fall to 0.707 of this peak between these speeds\n");
+}
+
+std::string range_text(const std::vector<double>& speeds) {
+  if (speeds.size() == 1) return fmt::format("at {:.6g} rpm", speeds[0] / rpm);
+  return fmt::format("{} speeds from {:.6g} to {:.6g} rpm", speeds.size(), speeds.front() / rpm,
+                     speeds.back() / rpm);
+}
+
+/// A clearance that the response goes beyond.
+std::string beyond_text(const ClearanceUse& use) {
+  std::string ranges;
+  for (const SpeedRange& range : use.beyond) {
+    ranges += fmt::format("{}{:.1f} to {:.1f}", ranges.empty() ? "" : ", ", range.first / rpm,
+                          range.last / rpm);
+  }
+  return fmt::format(
+      "the response goes beyond the clearance of {} ({:.4g} mm) at {} rpm, up to {:.4g} mm, "
+      "{:.3g} times the clearance, at {:.1f} rpm: there it touches, and this response is not its "
+      "motion",
+      use.name, 1e3 * use.clearance, ranges, 1e3 * use.largest, use.largest / use.clearance,
+      use.at / rpm);
+}
+
+}  // namespace
+
+std::string text_of(const UnbalanceStudy& study, const Model& model) {
+  const auto largest = [&](int number) -> const auto& {
+    return study.largest[static_cast<std::size_t>(number) - 1];
+  };
+  const std::string stations = table_of(
+      study.stations,
+      {shown("station"),
+       {"largest [um]", [&](const StationResponse&,
+                            int i) { return fmt::format("{:.3f}", 1e6 * largest(i).amplitude); }},
+       {"at [rpm]", [&](const StationResponse&,
+                        int i) { return fmt::format("{:.1f}", largest(i).speed / rpm); }},
+       {"at the highest speed [um]", [](const StationResponse& s) {
+          return fmt::format("{:.3f}", 1e6 * s.major(s.major.size() - 1));
+        }}});
+  return fmt::format("Unbalance response, {} (major semi-axes)\n\n{}{}{}", range_text(study.speeds),
+                     stations, peaks_text(study, model),
+                     model.structure.unbalances.empty() ? "\n  The model has no unbalance.\n" : "");
+}
+
+std::vector<std::string> notes_of(const UnbalanceStudy& study) {
+  std::vector<std::string> notes;
+  for (const ClearanceUse& use : study.clearances) {
+    if (!use.beyond.empty()) notes.push_back(beyond_text(use));
+  }
+  for (const double Omega : study.unbounded) {
+    notes.push_back(fmt::format(
+        "the response is unbounded at {:.2f} rpm, a resonance without damping", Omega / rpm));
+  }
+  if (!study.failure.empty()) {
+    notes.push_back(fmt::format(
+        "the modes of this rotor were not found ({}): narrow peaks may be missing", study.failure));
+  }
+  return notes;
+}
+
+}  // namespace whirl::inline io
