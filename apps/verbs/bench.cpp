@@ -14,7 +14,7 @@ namespace whirl::inline cli {
 
 namespace {
 
-WorkPrecisionOptions options_of(const Invocation& call) {
+WorkPrecisionOptions bench_options(const Invocation& call) {
   WorkPrecisionOptions options{.revolutions = call.integer("revolutions"),
                                .discard = call.integer("discard", 0)};
   if (call.has("methods")) options.methods = split(call.text("methods"), ',');
@@ -33,7 +33,7 @@ Report run_bench(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);
-  const WorkPrecisionOptions options = options_of(call);
+  const WorkPrecisionOptions options = bench_options(call);
   const Scene scene = make_scene(model);
   install_interrupt_handler();
   const WorkPrecisionStudy study = work_precision_study(

@@ -8,7 +8,7 @@ namespace whirl::inline cli {
 
 namespace {
 
-ClassifyOptions options_of(const Invocation& call) {
+ClassifyOptions classify_options(const Invocation& call) {
   ClassifyOptions options{.discard = call.integer("discard", 0),
                           .revolutions = call.integer("revolutions"),
                           .tolerance = tolerance_of(call)};
@@ -25,7 +25,7 @@ Report run_classify(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);
-  const ClassifyOptions options = options_of(call);
+  const ClassifyOptions options = classify_options(call);
   const Scene scene = make_scene(model);
   install_interrupt_handler();
   const Classification c = classify(scene.contacts, starting_state(call, model, scene), options);

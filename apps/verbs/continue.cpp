@@ -1,70 +1,83 @@
-#include <optional>
-
-#include "apps/progress.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/continue_text.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
-#include "apps/verbs/study.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libbase/error.hpp"
+#include "libio/model/branch_setup.hpp"
+#include "libio/results/branch_results.hpp"
+#include "libio/results/columns.hpp"
+#include "libio/texts/branches_text.hpp"
 
 namespace whirl::inline cli {
 
 namespace {
 
-/// The study with its file: begun, gone on with, or only read.
-FollowedBranches follow_branches(const Invocation& call, const Model& model,
-                                 const ContinueCall& asked) {
-  FollowedBranches found{.tree = empty_tree(*asked.scene, asked.tree)};
-  const BranchTree* tree = &found.tree;
-  const BifurcationCurves* curves = &found.curves;
-  StudyFile file(
-      study_place(call, model, earlier_start(call, model)), [&] { return call.result_file(model); },
-      [&](ResultWriter& to) {
-        write_branches(to, *tree, asked.names);
-        write_fixed(to, asked.parameters);
-        if (asked.parameters.across) write_curves(to, *curves, asked.curve_axes());
-      },
-      [&](const ResultReader& earlier) {
-        found.tree = read_branches(earlier, found.tree);
-        found.curves = read_curves(earlier, found.tree.layout);
-      });
-  found.resumed = found.tree.points();
-  found.status = 130;
-  if (found.resumed == 0) {
-    const auto state = settled_state(call, asked.at_first, *asked.scene);
-    if (!state) return found;
-    found.tree = begin_tree(asked.scenes(), state->y, asked.tree);
+/// @throws ModelError  for options that are wrong, or do not go together
+BranchSetup asked_branches(const Invocation& call, const Model& model) {
+  const auto refuse = [](const char* option, const char* why) {
+    throw ModelError({option}, "", why);
+  };
+  BranchTreeOptions tree{.frame = orbit_frame(call)};
+  const bool is_rotating = tree.frame == OrbitFrame::rotating;
+  if (is_rotating && (call.has("switch") || call.has("period"))) {
+    refuse("--frame rotating", "expected neither --period nor --switch beside it");
   }
-  install_interrupt_handler();
-  Progress progress("points of branches", asked.tree.most_points, call.shows_progress);
-  const auto show = [&](long done, long) { progress.update(done); };
-  found.tree = grow_tree(
-      asked.scenes(), found.tree, asked.tree,
-      {.progress = show, .is_stopped = is_interrupted, .save = [&](const BranchTree& so_far) {
-         tree = &so_far;
-         file.save();
-       }});
-  tree = &found.tree;
-  if (!found.tree.is_complete()) return found;
-  if (asked.parameters.across) {
-    found.curves =
-        follow_bifurcations(asked.plane(), found.tree, found.curves, asked.curve_options(),
-                            {.progress = show,
-                             .is_stopped = is_interrupted,
-                             .save = [&](const BifurcationCurves& so_far) {
-                               curves = &so_far;
-                               file.save();
-                             }});
+  const BranchParameters parameters = asked_parameters(call, model);
+  const bool has_curves = parameters.across.has_value();
+  if (is_rotating && has_curves) refuse("--frame rotating", "expected one --over beside it");
+  tree.period = static_cast<int>(call.integer("period"));
+  tree.most_points = static_cast<int>(call.integer("most"));
+  tree.generations = static_cast<int>(call.integer("switch", 0));
+  tree.method = orbit_method(call);
+  if (tree.method == OrbitMethod::harmonic_balance) {
+    constexpr auto only_shooting = "goes with --method shooting only";
+    if (tree.generations > 0) refuse("--switch", only_shooting);
+    if (is_rotating) refuse("--frame rotating", only_shooting);
+    if (has_curves) refuse("--over", only_shooting);
   }
-  found.status = found.curves.is_complete() ? 0 : 130;
-  return found;
+  tree.harmonics = harmonics_of(call, tree.period);
+  return branch_setup(parameters, tree, call.text("stations"));
 }
 
 Report run_continue(const Invocation& call) {
   const Model model = call.model();
-  const ContinueCall asked = continue_call(call, model);
-  return continue_report(call, model, asked, follow_branches(call, model, asked));
+  const BranchSetup asked = asked_branches(call, model);
+  Report report =
+      orbit_report(call, model, "Periodic orbits along " + asked.parameters.along.axis.path);
+  long resumed = 0;
+  const BranchStudy empty{.tree = empty_tree(*asked.scene, asked.tree)};
+  const KeptStudy<BranchStudy> kept{
+      .points = "points of branches",
+      .write =
+          [&](ResultWriter& to, const BranchStudy& study) {
+            write_branches(to, study.tree, asked.result(study.tree));
+            if (asked.has_curves()) write_curves(to, study.curves, asked.result(study.curves));
+          },
+      .read =
+          [&](const ResultReader& from) {
+            BranchStudy study{.tree = read_branches(from, empty.tree)};
+            study.curves = read_curves(from, study.tree.layout);
+            resumed = study.tree.points();
+            return study;
+          },
+      .run =
+          [&](const BranchStudy& begun, const Monitor<BranchStudy>& monitor) {
+            const auto settled = [&]() -> std::optional<Vec> {
+              const auto state = settled_state(after_transient(call, asked.at_first, *asked.scene));
+              return state ? std::optional(state->y) : std::nullopt;
+            };
+            return follow_branches(asked.scenes(), begun, settled, asked.options(), monitor);
+          }};
+  const BranchStudy found = run_kept(call, model, report, kept, empty);
+  report.status = found.is_complete() ? 0 : 130;
+  const BranchResult branches = asked.result(found.tree);
+  report.record.merge(record_of(branches)).set("resumed", resumed);
+  report.text += text_of(branches);
+  if (asked.has_curves()) {
+    const CurveResult curves = asked.result(found.curves);
+    report.record.merge(record_of(curves));
+    report.text += text_of(curves);
+  }
+  add_kept(call, "points", resumed, report);
+  return report;
 }
 
 }  // namespace

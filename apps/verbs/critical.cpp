@@ -10,7 +10,7 @@ namespace whirl::inline cli {
 
 namespace {
 
-CriticalOptions options_of(const Invocation& call) {
+CriticalOptions critical_options(const Invocation& call) {
   CriticalOptions options{.count = static_cast<int>(call.integer("modes")),
                           .order = call.number("order", "")};
   if (options.order > 0.0) return options;
@@ -19,7 +19,7 @@ CriticalOptions options_of(const Invocation& call) {
 
 Report run_critical(const Invocation& call) {
   const Model model = call.model();
-  const CriticalOptions options = options_of(call);
+  const CriticalOptions options = critical_options(call);
   const CriticalSpeeds found{critical_speeds(Assembler(model.structure), options), options.order};
   Report report = begin_report(call, model, record_of(found));
   report.text = text_of(found);

@@ -1,17 +1,10 @@
-#include <optional>
-
-#include "apps/invocation.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"
-#include "apps/verbs/orbit_text.hpp"
 #include "apps/verbs/orbits.hpp"
-#include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/orbits/contact_flow.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/results/branch_point.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/orbit_results.hpp"
+#include "libio/texts/orbit_text.hpp"
 
 namespace whirl::inline cli {
 
@@ -25,48 +18,24 @@ OrbitOptions orbit_options(const Invocation& call, const std::optional<BranchSta
   return options;
 }
 
-/// The orbit near where a motion has come; why there is none if that did not get there.
-FoundOrbit orbit_after(const Trajectory& transient, const Scene& scene,
-                       const OrbitOptions& options) {
-  if (status_of(transient.outcome) == 0) return find_orbit_near(scene, transient.state.y, options);
-  return {
-      .period = options.period,
-      .shortest_period = options.period,
-      .states = {transient.state.y},
-      .failure = transient.diagnosis.empty() ? "stopped in the transient" : transient.diagnosis};
-}
-
 Report stationary_orbit(const Invocation& call, const Model& model,
                         const std::optional<BranchStart>& point) {
   const OrbitOptions options = orbit_options(call, point);
-  const auto file = call.result_file(model);
   const Scene scene = make_scene(model);
   // an unstable orbit is not to be left before it is looked for
   const Trajectory transient =
-      point ? Trajectory{.system = &scene.contacts,
-                         .state = {.y = BasisChange(scene, point->first).to(point->state)}}
+      point ? Trajectory{.system = &scene.contacts, .state = point->in(scene)}
             : after_transient(call, model, scene);
-  const FoundOrbit orbit = orbit_after(transient, scene, options);
+  const FoundOrbit orbit = find_orbit_after(transient, scene, options);
   const int status = status_of(transient.outcome);
-  Report report{.record = begin_record(call, model),
-                .failure = orbit.failure,
-                .status = status == 0 && !orbit.is_good() ? 3 : status};
-  note_tables(call, model, report);
-  Record& r = report.record;
-  r.set("frame", "stationary").set("method", call.text("method"));
-  add_orbit(r, orbit);
-  r.set("reduction", record_of(reduction_facts(scene)));
-  if (!orbit.failure.empty()) r.set("failure", orbit.failure);
-  report.text = "Periodic orbit" + (model.title.empty() ? "" : ": " + model.title) + "\n\n" +
-                reduction_text(scene, model);
-  if (orbit.is_good()) report.text += orbit_text(orbit);
-  if (file) {
-    MotionState on_it;
-    on_it.y = orbit.states.front();
-    write_end(*file, model, scene, on_it);
-    if (orbit.is_good()) write_orbit(*file, scene, orbit);
-  }
-  commit(call, file.get(), report);
+  Report report = orbit_report(call, model, "Periodic orbit");
+  report.failure = orbit.failure;
+  report.status = status == 0 && !orbit.is_good() ? 3 : status;
+  report.record.set("frame", "stationary").set("method", call.text("method"));
+  report.record.merge(record_of(orbit));
+  report.record.set("reduction", record_of(reduction_facts(scene)));
+  report.text += "\n" + reduction_text(scene, model) + text_of(orbit);
+  write_file(call, model, report, [&](ResultWriter& to) { write_orbit(to, model, scene, orbit); });
   return report;
 }
 
@@ -74,7 +43,11 @@ Report run_orbit(const Invocation& given) {
   std::optional<BranchStart> point;
   Invocation call = given;
   if (call.has("point")) {
-    point = branch_start(call);
+    if (!call.has("from")) {
+      throw ModelError({"--point " + call.text("point")}, "",
+                       "of which branches? give the result of whirl continue with --from");
+    }
+    point = read_branch_point(call.text("from"), call.integer("point"));
     call.sets.insert(call.sets.end(), point->sets.begin(), point->sets.end());
   }
   const Model model = call.model();

@@ -2,12 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "apps/progress.hpp"
-#include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libio/results/result_schema.hpp"
 
 namespace whirl::inline cli {
 
@@ -53,45 +48,36 @@ int harmonics_of(const Invocation& call, int period) {
   return static_cast<int>(harmonics);
 }
 
+BranchParameters asked_parameters(const Invocation& call, const Model& model) {
+  return branch_parameters(model, call.over, call.text("at"),
+                           static_cast<int>(call.integer("points", 2)));
+}
+
 Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene) {
   const long discard = call.has("from") && !call.has("discard") ? 0 : call.integer("discard", 0);
-  const double tolerance = call.number("tolerance", "");
-  require_tolerance(tolerance, "--tolerance " + call.text("tolerance"));
-  Trajectory transient{.system = &scene.contacts, .state = starting_state(call, model, scene)};
-  if (scene.contacts.coordinates() == 0) {
-    throw NumericalError("nothing moves: the system has no freedoms");
-  }
-  // an orbit is shot from phase 0: what is left of a revolution is gone through first
-  transient.revolutions = transient.state.phase > 0.0 ? std::max(1L, discard) : discard;
-  Progress progress("going through the transient", transient.revolutions, call.shows_progress);
+  const double tolerance = tolerance_of(call);
   install_interrupt_handler();
-  if (transient.revolutions > 0) {
-    integrate_single(transient, {.tolerance = tolerance, .watch = [&](long done) {
-                                   progress.update(done);
-                                   return !is_interrupted();
-                                 }});
-  }
-  return transient;
+  return run_transient(scene, starting_state(call, model, scene),
+                       {.revolutions = discard,
+                        .tolerance = tolerance,
+                        .progress = progress_of(call, "going through the transient"),
+                        .is_stopped = is_interrupted});
 }
 
-std::optional<MotionState> settled_state(const Invocation& call, const Model& model,
-                                         const Scene& scene) {
-  const Trajectory transient = after_transient(call, model, scene);
-  if (transient.outcome == Outcome::stopped_by_observer) return std::nullopt;
-  if (transient.outcome == Outcome::reached_end) return transient.state;
-  throw NumericalError(transient.diagnosis);
+Report orbit_report(const Invocation& call, const Model& model, const std::string& what) {
+  Report report = begin_report(call, model);
+  report.text = headline(what, model);
+  note_tables(call, model, report);
+  return report;
 }
 
-BranchStart branch_start(const Invocation& call) {
-  const std::string option = "--point " + call.text("point");
-  if (!call.has("from")) {
-    throw ModelError({option}, "",
-                     "of which branches? give the result of whirl continue with --from");
+void add_kept(const Invocation& call, const std::string& points, long resumed, Report& report) {
+  if (resumed > 0) report.text += fmt::format("\n  {} {} were there already\n", resumed, points);
+  if (report.status == 130) {
+    report.text +=
+        fmt::format("\n  stopped{}\n", call.has("out") ? "; the same line goes on from there" : "");
   }
-  const auto file = open_result(call.text("from"));
-  const long number = call.integer("point"), points = count_branch_points(*file);
-  if (number <= points) return read_branch_point(*file, number);
-  throw ModelError({option}, "", fmt::format("expected a number from 1 to {}", points));
+  if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
 }
 
 }  // namespace whirl::inline cli

@@ -1,12 +1,13 @@
 #pragma once
-/// What orbit, continue and torus share: options, and where they begin.
+/// What orbit, continue and torus share: options, where they begin, and the file that they go on from.
 
-#include <optional>
+#include <functional>
+#include <string>
 
-#include "apps/invocation.hpp"
+#include "apps/verbs/study.hpp"
+#include "libdyn/motions/transient.hpp"
 #include "libdyn/studies/found_orbit.hpp"
-#include "libdyn/taylor/batch.hpp"
-#include "libio/results/branch_point.hpp"
+#include "libio/model/branch_parameters.hpp"
 
 namespace whirl::inline cli {
 
@@ -22,19 +23,52 @@ OrbitMethod orbit_method(const Invocation& call);
 /// @throws ModelError  if the speed itself, harmonic number `period`, is not among them
 int harmonics_of(const Invocation& call, int period);
 
-/// The motion after --discard revolutions from the model's start, or from --from (there left out: 0),
-/// at phase 0; its outcome says whether it got there.
+/// What --over, --at and --points say.
+/// @throws ModelError  as branch_parameters
+BranchParameters asked_parameters(const Invocation& call, const Model& model);
+
+/// The motion after --discard revolutions from the model's start, or from --from (there left out: 0).
 Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene);
 
-/// The state there; nothing: it was stopped before.
-/// @throws NumericalError  if the motion fails
-std::optional<MotionState> settled_state(const Invocation& call, const Model& model,
-                                         const Scene& scene);
+/// A report with its headline, and with the notes on the model.
+Report orbit_report(const Invocation& call, const Model& model, const std::string& what);
 
-/// The point number --point of the file of --from, counted over all branches from 1.
-/// @throws ModelError  if there is no such point
-/// @throws FileError   if the file holds no branches
-BranchStart branch_start(const Invocation& call);
+/// A study along a parameter, whose file holds what is done at every moment.
+template <class Study>
+struct KeptStudy {
+  std::string points;  ///< what its points are called
+  std::function<void(ResultWriter&, const Study&)> write;
+  /// What an earlier run of the same line has left.
+  std::function<Study(const ResultReader&)> read;
+  std::function<Study(Study begun, const Monitor<Study>&)> run;
+};
+
+/// Runs it, from what the file of --out has already.
+/// @param report  its notes go into the file
+template <class Study>
+Study run_kept(const Invocation& call, const Model& model, const Report& report,
+               const KeptStudy<Study>& kept, Study begun) {
+  const Study* so_far = &begun;
+  StudyFile file(
+      study_place(call, model, earlier_start(call, model)),
+      [&] {
+        auto made = call.result_file(model);
+        write_notes(*made, report);
+        return made;
+      },
+      [&](ResultWriter& to) { kept.write(to, *so_far); },
+      [&](const ResultReader& earlier) { begun = kept.read(earlier); });
+  install_interrupt_handler();
+  return kept.run(begun, {.progress = progress_of(call, kept.points),
+                          .is_stopped = is_interrupted,
+                          .save = [&](const Study& study) {
+                            so_far = &study;
+                            file.save();
+                          }});
+}
+
+/// Says what was there already, that it was stopped, and where the result is.
+void add_kept(const Invocation& call, const std::string& points, long resumed, Report& report);
 
 /// Orbits near random starts: --starts.
 Report search_orbits(const Invocation& call, const Model& model);

@@ -12,7 +12,7 @@ namespace whirl::inline cli {
 
 namespace {
 
-ResonanceOptions options_of(const Invocation& call, const Model& model) {
+ResonanceOptions resonance_options(const Invocation& call, const Model& model) {
   ResonanceOptions options{
       .speeds = call.speeds(model),
       .modes = static_cast<int>(call.integer("modes")),
@@ -40,7 +40,7 @@ Record places_record(const ResonanceStudy& study) {
 Report run_resonances(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
-  const ResonanceOptions options = options_of(call, model);
+  const ResonanceOptions options = resonance_options(call, model);
   const auto file = call.result_file(model);
   if (options.confirms) install_interrupt_handler();
   const ResonanceStudy study =

@@ -7,7 +7,6 @@
 
 #include "apps/verbs/options.hpp"
 #include "apps/version.hpp"
-#include "libbase/error.hpp"
 #include "libio/texts/study_text.hpp"
 
 namespace whirl::inline cli {
@@ -26,21 +25,7 @@ std::vector<OptionSpec> study_options(std::vector<OptionSpec> own) {
 
 StudyPoints study_points(const Invocation& call, std::size_t least, std::size_t most) {
   Model model = call.model();
-  std::vector<ParameterAxis> axes;
-  const int count = static_cast<int>(call.integer_or("points", 0, 2));
-  for (const std::string& text : call.over) {
-    const auto axis = parse_axis(text, count);
-    if (!axis) throw ModelError({"--over " + text}, "", axis.problem);
-    axes.push_back(*axis);
-  }
-  if (axes.size() < least || axes.size() > most) {
-    const std::string right =
-        least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
-    throw ModelError({"--over"}, "",
-                     fmt::format("found {} of them, expected {}: --over PATH=first:last:step, "
-                                 "such as --over operation.speed=100:200:1rad/s",
-                                 axes.size(), right));
-  }
+  auto axes = parse_axes(call.over, static_cast<int>(call.integer_or("points", 0, 2)), least, most);
   auto earlier = earlier_start(call, model);
   if (call.has("from")) model.start.whirl.clear();  // it goes on as it was
   return {std::move(model), std::move(axes), std::move(earlier)};

@@ -1,82 +1,64 @@
-#include "apps/invocation.hpp"
-#include "apps/progress.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/notes.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
-#include "apps/verbs/simulation.hpp"
-#include "apps/verbs/study.hpp"
-#include "apps/verbs/torus_text.hpp"
-#include "libdyn/orbits/contact_flow.hpp"
+#include "libio/model/branch_setup.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/torus_results.hpp"
+#include "libio/texts/torus_text.hpp"
 
 namespace whirl::inline cli {
 
 namespace {
 
-TorusBranch followed_torus(const Invocation& call, const TorusCall& asked, const TorusBranch& begun,
-                           const std::function<void(const TorusBranch&)>& save) {
-  install_interrupt_handler();
-  Progress progress("circles", asked.options.most_points, call.shows_progress);
-  const FlowAt flow_at = [&](double value) {
-    return flow_of(asked.parameters->scene(value), *asked.scene);
-  };
-  return follow_torus(flow_at, asked.scene->contacts.state_scale(), begun, asked.options,
-                      {.progress = [&](long done, long) { progress.update(done); },
-                       .is_stopped = is_interrupted,
-                       .save = save});
+/// @throws ModelError  for options that are wrong
+TorusSetup asked_torus(const Invocation& call, const Model& model) {
+  const TorusOptions options{.circle = {.period = static_cast<int>(call.integer("period")),
+                                        .harmonics = static_cast<int>(call.integer("harmonics"))},
+                             .sections = call.integer("revolutions", 200),
+                             .most_points = static_cast<int>(call.integer("most"))};
+  if (call.over.empty()) return torus_setup(model, std::nullopt, options);
+  return torus_setup(model, asked_parameters(call, model), options);
 }
 
 Report run_torus(const Invocation& call) {
   const Model model = call.model();
   require_speed(model);
-  const TorusCall asked = torus_call(call, model);
-  Report report{.record = begin_record(call, model)};
-  note_tables(call, model, report);
-  TorusBranch torus;
-  const TorusBranch* known = &torus;
-  StudyFile file(
-      study_place(call, model, earlier_start(call, model)),
-      [&] {
-        auto made = call.result_file(model);
-        write_notes(*made, report);
-        return made;
-      },
-      [&](ResultWriter& to) {
-        MotionState on_it;
-        on_it.y = known->circle.points.col(0);
-        write_end(to, asked.at_first, *asked.scene, on_it);
-        write_torus(to, *asked.scene, asked.axis(), *known);
-      },
-      [&](const ResultReader& earlier) {
-        torus = read_torus(earlier, asked.scene->contacts.size());
-      });
-  const std::size_t resumed = torus.points().size();
-  const bool is_begun = torus.circle.points.size() > 0;
-  if (!is_begun) {
-    const auto state = settled_state(call, asked.at_first, *asked.scene);
-    if (!state) {
-      report.failure = "stopped in the transient";
-      report.status = 130;
-      return report;
-    }
-    torus = find_torus(*asked.scene, *state, asked.options);
+  const TorusSetup asked = asked_torus(call, model);
+  Report report = orbit_report(call, model, "Quasi-periodic motion");
+  long resumed = 0;
+  const KeptStudy<TorusBranch> kept{
+      .points = "circles",
+      .write =
+          [&](ResultWriter& to, const TorusBranch& torus) {
+            write_end(to, asked.at_first, *asked.scene, torus.circle.points.col(0));
+            write_torus(to, torus, asked.result(torus));
+          },
+      .read =
+          [&](const ResultReader& from) {
+            TorusBranch torus = read_torus(from, asked.scene->contacts.size());
+            resumed = std::ssize(torus.points());
+            return torus;
+          },
+      .run =
+          [&](TorusBranch begun, const Monitor<TorusBranch>& monitor) {
+            const auto settled = [&] {
+              return settled_state(after_transient(call, asked.at_first, *asked.scene));
+            };
+            return grow_torus(asked.scenes(), std::move(begun), settled, asked.options, monitor);
+          }};
+  const TorusBranch torus = run_kept(call, model, report, kept, {});
+  if (torus.circle.points.size() == 0) {
+    report.text.clear();
+    report.failure = "stopped in the transient";
+    report.status = 130;
+    return report;
   }
-  if (torus.circle.is_good()) {
-    if (!is_begun) file.save();
-    torus = followed_torus(call, asked, torus, [&](const TorusBranch& so_far) {
-      known = &so_far;
-      file.save();
-    });
-    known = &torus;
-    if (!torus.is_complete) report.status = 130;
-  } else {
-    report.failure = failure_text(torus);
-    report.status = 3;
-  }
-
-  say_torus(report, call, model, asked, torus, resumed);
+  const TorusResult result = asked.result(torus);
+  report.failure = result.failure;
+  report.status = !result.is_good ? 3 : torus.is_complete ? 0 : 130;
+  report.record.merge(record_of(result));
+  if (!torus.walks.empty()) report.record.set("resumed", resumed);
+  report.text += "\n" + text_of(result);
+  if (result.is_good) add_kept(call, "circles", resumed, report);
   return report;
 }
 

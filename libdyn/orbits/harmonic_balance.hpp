@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libbase/dense.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/port_forces.hpp"
@@ -111,6 +112,13 @@ struct HarmonicOrbit {
   struct Level {
     int harmonics = 0, steps = 0;
     double change = 0.0;
+
+    static constexpr auto columns() {
+      return std::tuple{
+          column("harmonics", &Level::harmonics, "", "that were tried"),
+          column("steps", &Level::steps, "", "of Newton's method"),
+          column("change", &Level::change, "", "from the one before [length scales]")};
+    }
   };
   std::vector<Level> levels;
   /// Estimated error of displacements by the harmonics left out [length scales]; NaN if not known.

@@ -1,8 +1,10 @@
 #pragma once
 /// Which modes of the rotor the Floquet multipliers of an orbit belong to.
 
+#include <optional>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/system/scene.hpp"
 
@@ -12,6 +14,15 @@ namespace whirl::inline dyn {
 struct MultiplierMode {
   int mode = 0;      ///< number from 1, as `modes` lists them; 0: there is none
   double mac = 0.0;  ///< how much: 1 the same, as without contact
+
+  static constexpr auto columns() {
+    using M = MultiplierMode;
+    return std::tuple{
+        column(
+            "mode", [](const M& m) { return m.mode > 0 ? std::optional(m.mode) : std::nullopt; },
+            "", "number of the mode; null: there is none"),
+        column("mac", &M::mac, "", "how much the multiplier is like it")};
+  }
 };
 
 /// Compares the eigenvectors of an orbit's tangent with the complex modes of the rotor alone, as

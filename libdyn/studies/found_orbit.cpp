@@ -38,19 +38,22 @@ ShootingGap gap_of(const Scene& scene, const FoundOrbit& orbit) {
   const ContactSystem& system = scene.contacts;
   const auto n = system.coordinates();
   const PeriodicOrbit shot = find_orbit(flow_of(system), orbit.states, {.period = orbit.period});
-  ShootingGap found{.residual = shot.residual, .failure = shot.failure};
-  if (!shot.is_good()) return found;
+  if (!shot.is_good()) return {.failure = shot.failure};
+  double displacement = 0.0, velocity = 0.0, multiplier = 0.0;
   for (std::size_t i = 0; i < orbit.states.size(); ++i) {
     const Vec gap =
         (orbit.states[i] - shot.states[i]).cwiseQuotient(system.state_scale()).cwiseAbs();
-    found.displacement = std::max(found.displacement, gap.head(n).maxCoeff());
-    found.velocity = std::max(found.velocity, gap.tail(n).maxCoeff());
+    displacement = std::max(displacement, gap.head(n).maxCoeff());
+    velocity = std::max(velocity, gap.tail(n).maxCoeff());
   }
   for (const Complex& m : orbit.multipliers) {
     const Vec gap = (shot.multipliers.array() - m).abs();
-    found.multiplier = std::max(found.multiplier, gap.minCoeff());
+    multiplier = std::max(multiplier, gap.minCoeff());
   }
-  return found;
+  return {.displacement = displacement,
+          .velocity = velocity,
+          .multiplier = multiplier,
+          .residual = shot.residual};
 }
 
 /// Amplitudes of all points.
@@ -95,9 +98,37 @@ FoundOrbit find_by_harmonic_balance(const Scene& scene, const Vec& start,
 
 }  // namespace
 
+std::optional<bool> FoundOrbit::stability() const {
+  return is_good() ? std::optional(is_stable) : std::nullopt;
+}
+
+std::vector<ContactShare> FoundOrbit::contact_shares() const {
+  return whirl::contact_shares(contacts, period).contacts;
+}
+
+long RotatingOrbit::steps() const {
+  return std::max(1L, std::ssize(residuals)) - 1;
+}
+
+std::optional<bool> RotatingOrbit::stability() const {
+  return is_good() ? std::optional(is_stable()) : std::nullopt;
+}
+
 FoundOrbit find_orbit_near(const Scene& scene, const Vec& start, const OrbitOptions& options) {
   return options.method == OrbitMethod::shooting ? find_by_shooting(scene, start, options.period)
                                                  : find_by_harmonic_balance(scene, start, options);
+}
+
+FoundOrbit find_orbit_after(const Trajectory& transient, const Scene& scene,
+                            const OrbitOptions& options) {
+  if (transient.outcome == Outcome::reached_end) {
+    return find_orbit_near(scene, transient.state.y, options);
+  }
+  return {
+      .period = options.period,
+      .shortest_period = options.period,
+      .states = {transient.state.y},
+      .failure = transient.diagnosis.empty() ? "stopped in the transient" : transient.diagnosis};
 }
 
 double guessed_period(const Scene& scene, const Vec& start) {
@@ -109,8 +140,9 @@ double guessed_period(const Scene& scene, const Vec& start) {
                   most_recurrence));
 }
 
-Cycle find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& start) {
-  return shorten(flow, find_cycle(flow, start, guessed_period(scene, start)));
+RotatingOrbit find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& start) {
+  const Cycle cycle = shorten(flow, find_cycle(flow, start, guessed_period(scene, start)));
+  return {cycle, cycle.period / scene.contacts.period()};
 }
 
 }  // namespace whirl::inline dyn

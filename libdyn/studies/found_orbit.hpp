@@ -9,10 +9,12 @@
 
 #include "libbase/column.hpp"
 #include "libbase/field.hpp"
+#include "libdyn/motions/run_result.hpp"
 #include "libdyn/orbits/cycle.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
 #include "libdyn/orbits/multiplier_modes.hpp"
 #include "libdyn/system/scene.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
 
@@ -40,10 +42,20 @@ struct OrbitOptions {
 
 /// How far an orbit of harmonic balance is from the one that shooting finds from the same states.
 struct ShootingGap {
-  double displacement = 0.0, velocity = 0.0;  ///< at the starts of revolutions [length scales]
-  double multiplier = 0.0;                    ///< of each, from the nearest of shooting
-  double residual = 0.0;                      ///< of shooting [length scales]
-  std::string failure;                        ///< of shooting; empty: it found one
+  std::string failure;  ///< of shooting; empty: it found one, and all else is known
+  std::optional<double> displacement{}, velocity{};  ///< where revolutions start [length scales]
+  std::optional<double> multiplier{};                ///< of each, from the nearest of shooting
+  std::optional<double> residual{};                  ///< of shooting [length scales]
+
+  static constexpr auto columns() {
+    using G = ShootingGap;
+    return std::tuple{
+        column("failure", &G::failure, "", "of shooting").only(Written::in_json).maybe(),
+        column("displacement", &G::displacement, "", "[length scales]").maybe(),
+        column("velocity", &G::velocity, "", "[length scales]").maybe(),
+        column("multiplier", &G::multiplier, "", "largest distance of one").maybe(),
+        column("residual", &G::residual, "", "of shooting [length scales]").maybe()};
+  }
 };
 
 /// What harmonic balance says of an orbit beside; in group /orbit its amplitudes.
@@ -51,8 +63,8 @@ struct OrbitSeries {
   int harmonics = 0;        ///< of the orbit's frequency
   double truncation = 0.0;  ///< what those left out change [length scales]; NaN: not known
   std::vector<HarmonicOrbit::Level> levels{};  ///< on the way
-  int missing_multipliers = 0;                 ///< too small to be told
-  int averaged_multipliers = 0;                ///< of modes too fast for the harmonics
+  std::optional<int> missing_multipliers{};    ///< too small to be told; nothing: no orbit
+  std::optional<int> averaged_multipliers{};   ///< of modes too fast for the harmonics
   std::string stability_failure{};             ///< empty: the multipliers are known
   Vec orders{};                                ///< frequency over speed of each amplitude, from 0
   CMat amplitudes{};  ///< of all points: displacement = Re sum amplitude e^(i order phase) [m, rad]
@@ -61,12 +73,24 @@ struct OrbitSeries {
   static constexpr std::string_view group = "/orbit";
   static constexpr auto columns() {
     using S = OrbitSeries;
+    using enum Written;
     return std::tuple{
-        column("order", &S::orders, "", "frequency over speed").axis("orders"),
+        column("order", &S::orders, "", "frequency over speed").axis("orders").only(in_file),
         column("amplitude", &S::amplitudes, "m, rad",
                "displacement of all points is Re sum amplitude e^(i order phase)")
-            .along("full orders"),
-        column("truncation", &S::truncation, "", "what orders left out change").maybe()};
+            .along("full orders")
+            .only(in_file),
+        column("harmonics", &S::harmonics, "", "of the orbit's frequency").only(in_json),
+        column("truncation", &S::truncation, "", "what orders left out change").maybe(),
+        rows(&S::levels, "levels").only(in_json),
+        column("multipliers_left_out", &S::missing_multipliers, "", "too small to be told")
+            .only(in_json)
+            .maybe(),
+        column("multipliers_of_means", &S::averaged_multipliers, "",
+               "of modes too fast for the harmonics")
+            .only(in_json)
+            .maybe(),
+        column("shooting", &S::gap, "", "how far it is from shooting").only(in_json).maybe()};
   }
 };
 
@@ -86,10 +110,55 @@ struct FoundOrbit {
   std::optional<OrbitSeries> series{};     ///< of harmonic balance
 
   bool is_good() const { return failure.empty(); }
+  std::optional<bool> stability() const;  ///< nothing: there is no orbit
+  const Vec& state() const { return states.front(); }
+  std::vector<ContactShare> contact_shares() const;
+
+  static constexpr auto columns() {
+    using O = FoundOrbit;
+    return std::tuple{
+        column("period_revs", &O::period, "", "revolutions"),
+        column("shortest_period_revs", &O::shortest_period, "", "after which it repeats"),
+        column("residual", &O::residual, "", "[length scales]"),
+        column("steps", &O::steps, "", "of Newton's method"),
+        column("floquet", &O::multipliers, "", "multipliers of the period, the largest first"),
+        column("exponents", &O::exponents, "1/s", "log(multiplier) / period"),
+        rows(&O::modes, "floquet_modes"),
+        column("stable", &O::stability, "", "null: there is no orbit"),
+        column("state", &O::state, "", "reduced, at phase 0"),
+        rows(&O::contact_shares, "contacts"),
+        column("harmonic_balance", &O::series, "", "what it says beside").maybe(),
+        column("failure", &O::failure, "", "why there is none").only(Written::in_json).maybe()};
+  }
+};
+
+/// An orbit that repeats as seen from the rotor.
+struct RotatingOrbit : Cycle {
+  double revolutions = 0.0;  ///< of its period
+
+  long steps() const;                     ///< of Newton's method
+  std::optional<bool> stability() const;  ///< nothing: there is no orbit
+
+  static constexpr auto columns() {
+    using O = RotatingOrbit;
+    return std::tuple{
+        column("period_revs", &O::revolutions, "", "revolutions"),
+        column("period", &O::period, "s", "as a time"),
+        column("residual", &O::residual, "", "[length scales]"),
+        column("steps", &O::steps, "", "of Newton's method"),
+        column("floquet", &O::multipliers, "", "multipliers of the period, the largest first"),
+        column("stable", &O::stability, "", "null: there is no orbit"),
+        column("state", &O::state, "", "reduced, at phase 0"),
+        column("failure", &O::failure, "", "why there is none").only(Written::in_json).maybe()};
+  }
 };
 
 /// The orbit near a state at phase 0, with its stability.
 FoundOrbit find_orbit_near(const Scene& scene, const Vec& start, const OrbitOptions& options);
+
+/// The same near where a motion has come; if that did not get there, why there is none.
+FoundOrbit find_orbit_after(const Trajectory& transient, const Scene& scene,
+                            const OrbitOptions& options);
 
 /// Time after which a motion from a start comes back as seen from the rotor [s].
 /// @throws NumericalError  if it does not
@@ -98,6 +167,6 @@ double guessed_period(const Scene& scene, const Vec& start);
 /// The orbit near a start that repeats as seen from the rotor, after the shortest period it has.
 /// @param flow  of the scene as seen from there
 /// @throws NumericalError  as guessed_period
-Cycle find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& start);
+RotatingOrbit find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& start);
 
 }  // namespace whirl::inline dyn

@@ -35,6 +35,16 @@ std::optional<PeriodicOrbit> orbit_near(const Scene& scene, const Flow& flow,
 
 }  // namespace
 
+double SearchedOrbit::impacts() const {
+  double all = 0.0;
+  for (const ContactMeasure& c : orbit.contacts) all += c.impacts;
+  return all;
+}
+
+std::vector<ContactShare> SearchedOrbit::contact_shares() const {
+  return whirl::contact_shares(orbit.contacts, orbit.period).contacts;
+}
+
 OrbitSearch search_orbits(const Scene& scene, const MotionState& around,
                           const OrbitSearchOptions& options, const Monitor<OrbitSearch>& monitor) {
   const Flow flow = flow_of(scene.contacts);

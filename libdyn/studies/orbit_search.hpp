@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "libbase/column.hpp"
+#include "libdyn/motions/run_result.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/system/scene.hpp"
@@ -23,12 +25,37 @@ struct SearchedOrbit {
   PeriodicOrbit orbit{};
   int shortest_period = 1;  ///< [revolutions]
   long starts = 1;
+
+  bool is_stable() const { return orbit.is_stable(); }
+  double impacts() const;  ///< of all contacts in the period of the search
+  std::vector<ContactShare> contact_shares() const;
+
+  static constexpr auto columns() {
+    using S = SearchedOrbit;
+    return std::tuple{column("stable", &S::is_stable, "", "whether it attracts"),
+                      column("period_revs", &S::shortest_period, "", "revolutions"),
+                      column("starts", &S::starts, "", "that led there"),
+                      column(
+                          "floquet", [](const S& s) -> const CVec& { return s.orbit.multipliers; },
+                          "", "multipliers of the period, the largest first"),
+                      column(
+                          "state", [](const S& s) -> const Vec& { return s.orbit.states[0]; }, "",
+                          "reduced, at phase 0"),
+                      rows(&S::contact_shares, "contacts")};
+  }
 };
 
 struct OrbitSearch {
   std::vector<SearchedOrbit> orbits{};  ///< stable ones first, then those that most starts led to
   long done = 0;                        ///< starts
   long failed = 0;                      ///< of these, that led to no orbit
+
+  static constexpr auto columns() {
+    using S = OrbitSearch;
+    return std::tuple{column("starts", &S::done, "", "that were tried"),
+                      column("without_orbit", &S::failed, "", "of these, that led to none"),
+                      rows(&S::orbits, "orbits")};
+  }
 };
 
 /// Newton's method from random starts, each after some revolutions. Orbits are the same where their

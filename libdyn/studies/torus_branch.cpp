@@ -104,4 +104,18 @@ TorusBranch follow_torus(const FlowAt& flow_at, const Vec& scale, TorusBranch to
   return torus;
 }
 
+TorusBranch grow_torus(const ParameterScenes& scenes, TorusBranch torus,
+                       const std::function<std::optional<MotionState>()>& settled,
+                       const TorusOptions& options, const Monitor<TorusBranch>& monitor) {
+  if (torus.circle.points.size() == 0) {
+    const std::optional<MotionState> start = settled();
+    if (!start) return torus;
+    torus = find_torus(*scenes.first, *start, options);
+    if (!torus.circle.is_good()) return torus;
+    if (monitor.save) monitor.save(torus);
+  }
+  const FlowAt flow_at = [&](double value) { return flow_of(scenes.at(value), *scenes.first); };
+  return follow_torus(flow_at, scenes.first->contacts.state_scale(), torus, options, monitor);
+}
+
 }  // namespace whirl::inline dyn

@@ -1,6 +1,7 @@
 #pragma once
 /// A quasi-periodic motion as an invariant circle, and that circle along a parameter.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -56,5 +57,14 @@ TorusBranch find_torus(const Scene& scene, const MotionState& start, const Torus
 /// @param monitor  told the circles of a walk
 TorusBranch follow_torus(const FlowAt& flow_at, const Vec& scale, TorusBranch torus,
                          const TorusOptions& options, const Monitor<TorusBranch>& monitor);
+
+/// Both, one after the other.
+///
+/// @param scenes   the first one that of the circle; others are asked for along the parameter only
+/// @param torus    what there is already; without points: nothing
+/// @param settled  a motion on the circle, asked where there is none yet; nothing: stop
+TorusBranch grow_torus(const ParameterScenes& scenes, TorusBranch torus,
+                       const std::function<std::optional<MotionState>()>& settled,
+                       const TorusOptions& options, const Monitor<TorusBranch>& monitor);
 
 }  // namespace whirl::inline dyn

@@ -1,6 +1,7 @@
 #pragma once
 /// A point of a branch in a result file, to begin an orbit from.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -8,22 +9,20 @@
 
 namespace whirl::inline io {
 
-class ResultReader;
-
 /// A point of /branch of a result file.
 struct BranchStart {
   std::vector<std::string> sets;  ///< PATH=VALUE of the parameter there
   int period = 1;                 ///< of its branch [revolutions]
   Vec state;                      ///< reduced, at phase 0, in the basis of `first`
   Scene first;                    ///< scene at the first value of the branches
+
+  /// The state in the basis of another scene.
+  MotionState in(const Scene& scene) const;
 };
 
-/// Points of all branches.
-/// @throws FileError  if the file holds no branches
-long count_branch_points(const ResultReader& file);
-
 /// A point, counted over all branches from 1.
-/// @param file  a result that was checked
-BranchStart read_branch_point(const ResultReader& file, long number);
+/// @throws FileError   as open_result, and if the file holds no branches
+/// @throws ModelError  if there is no such point
+BranchStart read_branch_point(const std::filesystem::path& path, long number);
 
 }  // namespace whirl::inline io

@@ -1,28 +1,30 @@
 #pragma once
-/// Branches of periodic orbits in a result file.
+/// Branches of periodic orbits, and curves of their bifurcations, in a result file.
 
-#include <string>
-#include <vector>
-
-#include "libdyn/studies/branch_tree.hpp"
+#include "libdyn/studies/branch_result.hpp"
+#include "libdyn/studies/curve_result.hpp"
 
 namespace whirl::inline io {
 
 class ResultReader;
 class ResultWriter;
 
-/// What a file says of branches beside their numbers.
-struct BranchNames {
-  std::string path, unit;             ///< of the parameter
-  std::vector<std::string> stations;  ///< that their amplitudes are of
-};
-
 /// Group /branch: all points and bifurcations, and what the walk goes on from.
-void write_branches(ResultWriter& file, const BranchTree& tree, const BranchNames& names);
+/// @param result  of the tree
+void write_branches(ResultWriter& file, const BranchTree& tree, BranchResult result);
 
 /// The same branches again, bit by bit.
 /// @param empty  a tree of the same layout, whatever its harmonics
 /// @throws FileError  if the file holds something else
 BranchTree read_branches(const ResultReader& file, BranchTree empty);
+
+/// Group /border: curves of bifurcations along a second parameter; nothing without curves.
+/// @param result  of the curves
+void write_curves(ResultWriter& file, const BifurcationCurves& curves, CurveResult result);
+
+/// The same curves again, bit by bit; none where there are none.
+/// @param layout  of the branches that they go through
+/// @throws FileError  if the file holds something else
+BifurcationCurves read_curves(const ResultReader& file, const BranchLayout& layout);
 
 }  // namespace whirl::inline io

@@ -16,7 +16,7 @@ template <class T>
 concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, Complex>;
 template <class T>
 concept Text = std::convertible_to<T, std::string_view>;
-/// A std::optional; nothing is null in JSON, and stands in no file.
+/// A std::optional; nothing is null in JSON. In files it can be an attribute that may be missing.
 template <class T>
 concept Maybe = requires(T t) {
   t.has_value();
@@ -79,6 +79,9 @@ constexpr int rank_of() {
 /// Whether a file can hold it; what cannot be is for JSON only.
 template <class T>
 constexpr bool fits_files = !Maybe<T> && kind_of<T>() != ObjectKind::other;
+/// Whether it can be an attribute that may be missing.
+template <class T>
+constexpr bool fits_attributes = Maybe<T>&& rank_of<T>() == 0 && kind_of<T>() != ObjectKind::other;
 
 template <class T>
 std::vector<Eigen::Index> extents_of(const T& value) {

@@ -28,6 +28,11 @@ void GroupWriter::attribute(const std::string& name, const Cells& cells) {
 DatasetInfo GroupWriter::info_of(const Facts& facts, std::span<const Eigen::Index> shape) {
   const std::vector<std::string> names = dimension_names(facts.dimensions);
   DatasetInfo info{facts.unit, facts.meaning, {}};
+  if (facts.unit == unit_of_parameter && parameter_of_) {
+    const ParameterName name = parameter_of_(facts.name);
+    info.units = name.unit;
+    info.long_name = name.path;
+  }
   for (const std::string& name : names) {
     const auto axis = axes_.find(name);
     const bool has_axis = !facts.is_axis && axis != axes_.end();
@@ -124,8 +129,13 @@ std::optional<Cells> read_cells(const ResultReader& file, const std::string& pat
   return cells;
 }
 
+ParameterName read_parameter(const ResultReader& file, const std::string& path) {
+  if (!file.has(path)) return {};
+  return {file.string_attribute(path, "long_name"), file.string_attribute(path, "units")};
+}
+
 std::string key_suffix(std::string_view unit) {
-  if (unit.empty()) return "";
+  if (unit.empty() || unit == unit_of_parameter) return "";
   if (unit == "rad/s") return "_rpm";
   std::string suffix = "_";
   for (const char c : unit) {

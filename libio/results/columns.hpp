@@ -2,6 +2,7 @@
 /// Results by their columns (libbase/column.hpp): into a result file and back, as JSON, and as what a
 /// file is checked against.
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "libbase/column.hpp"
 #include "libbase/constants.hpp"
+#include "libbase/parameter_name.hpp"
 #include "libio/results/cells.hpp"
 #include "libio/results/result_schema.hpp"
 #include "libio/text/record.hpp"
@@ -63,7 +65,11 @@ ResultEntry entry_of(const std::string& path, const Facts& facts, ObjectKind kin
 /// Writes a group of a result file; knows the datasets along its dimensions.
 class GroupWriter {
  public:
-  GroupWriter(ResultWriter& file, std::string_view group) : file_(file), group_(group) {}
+  using ParameterOf = std::function<ParameterName(std::string_view dataset)>;
+
+  /// @param parameter_of  says what the parameter of a dataset is; may be empty
+  GroupWriter(ResultWriter& file, std::string_view group, ParameterOf parameter_of)
+      : file_(file), group_(group), parameter_of_(std::move(parameter_of)) {}
 
   void attribute(const std::string& name, const Cells& cells);
   void dataset(const Facts& facts, Cells cells);
@@ -81,6 +87,7 @@ class GroupWriter {
 
   ResultWriter& file_;
   std::string group_;
+  ParameterOf parameter_of_;
   std::map<std::string, Axis, std::less<>> axes_;
 };
 
@@ -89,6 +96,9 @@ std::vector<std::string> dimension_names(std::string_view list);
 
 /// Reads a dataset of a kind, or an attribute, "group@name"; nothing where a file is without it.
 std::optional<Cells> read_cells(const ResultReader& file, const std::string& path, ObjectKind kind);
+
+/// What a dataset of a parameter says of itself; nothing where a file is without it.
+ParameterName read_parameter(const ResultReader& file, const std::string& path);
 
 template <class Member>
 constexpr bool is_read = std::is_member_object_pointer_v<Member>;
@@ -140,6 +150,12 @@ void write_column(GroupWriter& group, const T& result, const Column<Member>& c) 
     } else {
       group.dataset(facts_of(c), std::move(cells));
     }
+  } else if constexpr (fits_attributes<Value>) {
+    const auto& value = std::invoke(c.member, result);
+    if (!c.is_optional || !value) return;
+    Cells cells{.kind = kind_of<Value>()};
+    put(cells, *value, c.is_from_one ? 1 : 0);
+    group.attribute(std::string(c.key), cells);
   }
 }
 
@@ -181,6 +197,11 @@ void read_column(const ResultReader& file, const std::string& group, T& result,
     const char* below = rank_of<Value>() == 0 ? "@" : "/";
     const auto cells = read_cells(file, group + below + std::string(c.key), kind_of<Value>());
     if (cells) Taking(*cells).take(result.*c.member, cells->shape, c.is_from_one ? 1 : 0);
+  } else if constexpr (is_read<Member> && fits_attributes<ColumnValue<T, Member>>) {
+    using Value = ColumnValue<T, Member>;
+    if (c.written == Written::in_json || !c.is_optional) return;
+    const auto cells = read_cells(file, group + "@" + std::string(c.key), kind_of<Value>());
+    if (cells) Taking(*cells).take((result.*c.member).emplace(), {}, c.is_from_one ? 1 : 0);
   }
 }
 
@@ -241,7 +262,11 @@ std::string json_key(const Column<Member>& c) {
 /// @throws FileError  as ResultWriter
 template <HasGroup T>
 void write_result(ResultWriter& file, const T& result) {
-  columns::GroupWriter group(file, T::group);
+  columns::GroupWriter::ParameterOf parameter_of;
+  if constexpr (HasParameters<T>) {
+    parameter_of = [&](std::string_view dataset) { return T::parameter_of(result, dataset); };
+  }
+  columns::GroupWriter group(file, T::group, parameter_of);
   for_each_column<T>([&](const auto& c) { columns::write_column(group, result, c); });
 }
 
@@ -250,8 +275,26 @@ void write_result(ResultWriter& file, const T& result) {
 template <HasGroup T>
 T read_result(const ResultReader& file) {
   T result{};
-  for_each_column<T>(
-      [&](const auto& c) { columns::read_column(file, std::string(T::group), result, c); });
+  const std::string group(T::group);
+  const auto read_parameter = [&](const auto& c, std::string_view prefix) {
+    if constexpr (HasParameters<T>) {
+      if (c.unit != unit_of_parameter || c.written == Written::in_json) return;
+      const std::string name = columns::facts_of(c, "", prefix).name;
+      T::parameter_of(result, name) = columns::read_parameter(file, group + "/" + name);
+    }
+  };
+  for_each_column<T>([&](const auto& c) {
+    columns::read_column(file, group, result, c);
+    if constexpr (is_rows_column<std::remove_cvref_t<decltype(c)>>) {
+      for_each_column<RowOf<T, decltype(c.member)>>([&](const auto& of_row) {
+        if constexpr (!is_rows_column<std::remove_cvref_t<decltype(of_row)>>) {
+          read_parameter(of_row, c.prefix);
+        }
+      });
+    } else {
+      read_parameter(c, "");
+    }
+  });
   return result;
 }
 
@@ -275,6 +318,9 @@ Record record_of(const T& result) {
       record.set(columns::dimension_names(c.dimension).front(), std::move(list));
     } else {
       const std::string key = columns::json_key(c);
+      if constexpr (columns::Maybe<std::remove_cvref_t<decltype(value)>>) {
+        if (c.is_optional && !value) return;
+      }
       record.set(key, columns::record_value(value, key.ends_with("_rpm") ? rpm : 1.0,
                                             c.is_from_one ? 1 : 0));
     }
@@ -283,27 +329,50 @@ Record record_of(const T& result) {
 }
 
 /// What a file is checked against that holds a result: what is never missing in one set; datasets
-/// that may be, a set of all along one dimension; then rows that may be. These need the first set.
+/// that may be, a set of all along one dimension; of rows a set of all along the same ones, which
+/// needs the datasets that say these; then rows that may be. All of these need the first set.
 template <HasGroup T>
 std::vector<ResultSet> schema_of() {
   std::vector<ResultSet> sets(1);
-  std::map<std::string, std::size_t> optional_sets;  // by their first dimension
+  std::map<std::string, std::size_t> optional_sets;  // by their first dimension; of rows by all
+  std::map<std::string, std::string> axes;           // by their dimension
   const std::string group(T::group);
-  const auto add = [&](ResultSet& set, const columns::Facts& f, ObjectKind kind,
+  const auto add = [&](std::size_t set, const columns::Facts& f, ObjectKind kind,
                        bool is_attribute) {
-    set.entries.push_back(columns::entry_of(group + (is_attribute ? "@" : "/") + f.name, f, kind));
+    const std::string path = group + (is_attribute ? "@" : "/") + f.name;
+    sets[set].entries.push_back(columns::entry_of(path, f, kind));
+    if (f.is_axis) axes[columns::dimension_names(f.dimensions).at(0)] = path;
+  };
+  const auto add_optional = [&](const std::string& dimensions) {
+    const auto [known, is_new] = optional_sets.try_emplace(dimensions, sets.size());
+    if (is_new) sets.push_back({});
+    return known->second;
+  };
+  const auto add_optional_of_row = [&](columns::Facts f, ObjectKind kind) {
+    const std::size_t set = add_optional(f.dimensions);
+    f.is_optional = false;
+    add(set, f, kind, false);
+    if (sets[set].entries.size() > 1) return;
+    for (const std::string& name : columns::dimension_names(f.dimensions)) {
+      if (axes.contains(name)) sets[set].needs.push_back(axes.at(name));
+    }
   };
   for_each_column<T>([&](const auto& c) {
     if (c.written == Written::in_json) return;
     if constexpr (is_rows_column<std::remove_cvref_t<decltype(c)>>) {
       using Row = RowOf<T, decltype(c.member)>;
       if (c.is_optional) sets.push_back({});
-      ResultSet& set = c.is_optional ? sets.back() : sets.front();
+      const std::size_t set = c.is_optional ? sets.size() - 1 : 0;
       if (!c.number.empty()) add(set, columns::number_facts(c), ObjectKind::integer, false);
       columns::for_each_in_row<Row>([&](const auto& column) {
         if (column.written == Written::in_json) return;
-        add(set, columns::facts_of(column, c.dimension, c.prefix),
-            columns::kind_of<ColumnValue<Row, decltype(column.member)>>(), false);
+        const columns::Facts f = columns::facts_of(column, c.dimension, c.prefix);
+        const auto kind = columns::kind_of<ColumnValue<Row, decltype(column.member)>>();
+        if (f.is_optional && !column.dimensions.empty() && !f.is_axis) {
+          add_optional_of_row(f, kind);
+        } else {
+          add(set, f, kind, false);
+        }
       });
     } else {
       using Value = ColumnValue<T, decltype(c.member)>;
@@ -311,18 +380,19 @@ std::vector<ResultSet> schema_of() {
       const bool is_attribute = columns::rank_of<Value>() == 0;
       std::size_t set = 0;
       if (c.is_optional && !is_attribute) {
-        const std::string along = columns::dimension_names(c.dimensions).at(0);
-        set = optional_sets.try_emplace(along, sets.size()).first->second;
-        if (set == sets.size()) sets.push_back({});
+        set = add_optional(columns::dimension_names(c.dimensions).at(0));
         facts.is_optional = false;
       }
-      add(sets[set], facts, columns::kind_of<Value>(), is_attribute);
+      add(set, facts, columns::kind_of<Value>(), is_attribute);
     }
   });
   if (sets.front().entries.empty()) {
     sets.erase(sets.begin());
     return sets;
   }
+  // the first entry says whether a set is there: it is never missing
+  std::ranges::stable_partition(sets.front().entries,
+                                [](const ResultEntry& e) { return !e.is_optional; });
   for (std::size_t i = 1; i < sets.size(); ++i) {
     sets[i].needs.push_back(sets.front().entries.front().path);
   }

@@ -19,6 +19,12 @@ void write_end(ResultWriter& file, const Model& model, const Scene& scene,
   write_result(file, motion_end(scene, state));
 }
 
+void write_end(ResultWriter& file, const Model& model, const Scene& scene, const Vec& state) {
+  MotionState end;
+  end.y = state;
+  write_end(file, model, scene, end);
+}
+
 void write_run(ResultWriter& file, const Run& run, const Model& model) {
   write_end(file, model, run.scene, run.simulation.end);
   write_result(file, run_facts(run.simulation));

@@ -17,6 +17,8 @@ void write_points(ResultWriter& file, const Model& model, const Assembler& assem
 
 /// Speed, group /points, and where a motion ended, for others to go on, in group /trajectory.
 void write_end(ResultWriter& file, const Model& model, const Scene& scene, const MotionState& end);
+/// The same of a reduced state at phase 0, on an orbit for instance.
+void write_end(ResultWriter& file, const Model& model, const Scene& scene, const Vec& state);
 
 /// Groups /trajectory and /contacts, and /spectra of the stations.
 void write_run(ResultWriter& file, const Run& run, const Model& model);

@@ -1,16 +1,21 @@
 #pragma once
-/// A periodic orbit in a result file.
+/// Periodic orbits in a result file.
 
 #include "libdyn/studies/found_orbit.hpp"
+#include "libdyn/studies/orbit_search.hpp"
 
 namespace whirl::inline io {
 
 class ResultWriter;
 
-/// Group /orbit: its multipliers, and the motion of all points.
-void write_orbit(ResultWriter& file, const Scene& scene, const FoundOrbit& orbit);
-
-/// The same of an orbit that repeats as seen from the rotor: its multipliers.
-void write_rotating_orbit(ResultWriter& file, const Scene& scene, const Cycle& cycle);
+/// A motion on an orbit, so that others begin there; of one that was found group /orbit: its multipliers,
+/// and the motion of all points, the latter not of the rotating frame.
+void write_orbit(ResultWriter& file, const Model& model, const Scene& scene,
+                 const FoundOrbit& orbit);
+void write_orbit(ResultWriter& file, const Model& model, const Scene& scene,
+                 const RotatingOrbit& orbit);
+/// The motion alone.
+void write_orbit(ResultWriter& file, const Model& model, const Scene& scene,
+                 const SearchedOrbit& orbit);
 
 }  // namespace whirl::inline io

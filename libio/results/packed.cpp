@@ -10,17 +10,19 @@ namespace {
 /// the number are of the first one.
 constexpr int walk_format = 1;
 
-}  // namespace
-
-void write_walk(ResultWriter& file, const std::string& group, const Packer& walk) {
-  const std::string path = group + "/walk";
-  file.dataset(path, walk.numbers(), {"", "what the walk goes on from", {""}});
-  file.attribute(path, "format", walk_format);
+std::string walk_of(std::string_view group) {
+  return std::string(group) + "/walk";
 }
 
-Unpacker read_walk(const ResultReader& file, const std::string& group) {
-  const std::string path = group + "/walk";
-  Unpacker walk(path, file.numbers(path));
+}  // namespace
+
+void write_walk_format(ResultWriter& file, std::string_view group) {
+  file.attribute(walk_of(group), "format", walk_format);
+}
+
+Unpacker read_walk(const ResultReader& file, std::string_view group, std::vector<double> numbers) {
+  const std::string path = walk_of(group);
+  Unpacker walk(path, std::move(numbers));
   const double format =
       file.has_attribute(path, "format") ? file.number_attribute(path, "format") : 1.0;
   if (format != walk_format) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -133,9 +134,10 @@ class Unpacker {
   std::size_t next_ = 0;
 };
 
-/// Dataset `walk` of a group: what a study goes on from.
-void write_walk(ResultWriter& file, const std::string& group, const Packer& walk);
+/// Marks dataset `walk` of a group, what a study goes on from, with its arrangement.
+void write_walk_format(ResultWriter& file, std::string_view group);
+/// @param numbers  of that dataset
 /// @throws FileError  if its arrangement is that of another version
-Unpacker read_walk(const ResultReader& file, const std::string& group);
+Unpacker read_walk(const ResultReader& file, std::string_view group, std::vector<double> numbers);
 
 }  // namespace whirl::inline io

@@ -1,8 +1,7 @@
 #pragma once
 /// Invariant circles in a result file.
 
-#include "libdyn/studies/torus_branch.hpp"
-#include "libio/text/parameter_axis.hpp"
+#include "libdyn/studies/torus_result.hpp"
 
 namespace whirl::inline io {
 
@@ -10,9 +9,8 @@ class ResultReader;
 class ResultWriter;
 
 /// Group /torus: the circle, those along the parameter, and what the walk goes on from.
-/// @param axis  of the parameter; does not count without walks
-void write_torus(ResultWriter& file, const Scene& scene, const ParameterAxis& axis,
-                 const TorusBranch& torus);
+/// @param result  of the torus
+void write_torus(ResultWriter& file, const TorusBranch& torus, TorusResult result);
 
 /// The same again, bit by bit; a circle without points where the file holds nothing to go on from.
 /// @param states  of the circle's points

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "libbase/error.hpp"
 #include "libio/text/value_range.hpp"
 
 namespace whirl::inline io {
@@ -41,6 +42,10 @@ std::vector<std::string> ParameterAxis::assignments_of(double value) const {
     all.push_back(fmt::format("{}={:.17g}{}{}", one, value, unit.empty() ? "" : " ", unit));
   }
   return all;
+}
+
+std::string label_of(const ParameterName& name) {
+  return name.path + (name.unit.empty() ? "" : " [" + name.unit + "]");
 }
 
 Parsed<ParameterAxis> parse_axis(std::string_view text, int points) {
@@ -91,6 +96,24 @@ Parsed<ParameterAxis> parse_axis(std::string_view text, int points) {
     axis.values.push_back(value->value);
   }
   return axis;
+}
+
+std::vector<ParameterAxis> parse_axes(const std::vector<std::string>& texts, int points,
+                                      std::size_t least, std::size_t most) {
+  std::vector<ParameterAxis> axes;
+  for (const std::string& text : texts) {
+    const auto axis = parse_axis(text, points);
+    if (!axis) throw ModelError({"--over " + text}, "", axis.problem);
+    axes.push_back(*axis);
+  }
+  if (least <= axes.size() && axes.size() <= most) return axes;
+  const std::string right =
+      least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+  throw ModelError(
+      {"--over"}, "",
+      fmt::format("found {} of them, expected {}: --over PATH=first:last:step, such as "
+                  "--over operation.speed=100:200:1rad/s",
+                  axes.size(), right));
 }
 
 }  // namespace whirl::inline io

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "libbase/column.hpp"
+#include "libbase/parameter_name.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
@@ -20,6 +21,8 @@ struct ParameterAxis {
   double shown(std::size_t index) const { return values[index] / shown_scale; }
   /// "operation.speed [rpm]"
   std::string title() const { return shown_unit.empty() ? path : path + " [" + shown_unit + "]"; }
+
+  ParameterName name() const { return {path, unit}; }
 
   /// Its paths, one by one.
   std::vector<std::string> paths() const;
@@ -38,6 +41,9 @@ struct ParameterAxis {
   }
 };
 
+/// "operation.speed [rad/s]"
+std::string label_of(const ParameterName& name);
+
 /// Reads what --over says: PATH=first:last:step (or PATH,PATH,...=first:last:step), PATH=first:last with a number of points, or
 /// PATH=value,value,...
 ///
@@ -45,6 +51,12 @@ struct ParameterAxis {
 ///
 /// @param points  of a range without a step; 0: it must have one
 Parsed<ParameterAxis> parse_axis(std::string_view text, int points);
+
+/// Reads all of them.
+/// @param least, most  how many are right
+/// @throws ModelError  naming the one that is wrong, or saying how many there should be
+std::vector<ParameterAxis> parse_axes(const std::vector<std::string>& texts, int points,
+                                      std::size_t least, std::size_t most);
 
 /// Parts of a text between a sign; one more than there are signs.
 std::vector<std::string> split(std::string_view text, char at);

@@ -27,6 +27,8 @@ class Plot : public Pictures {
     to.dataset("/model", std::vector<std::string>{rubbing}, {"", "model", {""}});
     to.attribute("/model", "path", "rub.toml");
     to.dataset("/arguments", std::vector<std::string>{"whirl"}, {"", "command line", {""}});
+    to.dataset("/torus/angle", std::vector<double>{0.0}, {"rad", "angle", {""}});
+    to.dataset("/torus/displacement", Mat(Mat::Zero(1, 4)), {"m, rad", "displacement", {"", ""}});
     to.dataset("/torus/value", std::vector<double>{100.0, 110.0, 120.0},
                {"rad/s", "operation.speed", {""}});
     for (const auto& [name, values] :

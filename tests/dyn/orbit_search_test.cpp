@@ -59,8 +59,8 @@ TEST(FoundOrbit, IsTheSameByBothMethods) {
   const ShootingGap& gap = *series.series->gap;
   EXPECT_TRUE(gap.failure.empty()) << gap.failure;
   constexpr double truncated = 1e-5;  // tolerance of the series [length scales]
-  EXPECT_LT(gap.displacement, truncated);
-  EXPECT_LT(gap.multiplier, 1e-3);
+  EXPECT_LT(gap.displacement.value(), truncated);
+  EXPECT_LT(gap.multiplier.value(), 1e-3);
   EXPECT_LT((series.states[0] - shot.states[0])
                 .cwiseQuotient(scene.contacts.state_scale())
                 .head(scene.contacts.coordinates())

@@ -2,7 +2,7 @@
 
 #include "libio/results/branch_results.hpp"
 
-#include "libio/results/curve_results.hpp"
+#include "libio/results/columns.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::branch_results_test {
@@ -41,13 +41,15 @@ BranchTree example() {
   return tree;
 }
 
-const BranchNames names{.path = "contact.ring.friction", .unit = "", .stations = {"rotor"}};
+void write(const std::filesystem::path& path, const BranchTree& tree) {
+  ResultWriter out(path, Replaces::anything);
+  write_branches(out, tree, branch_result(tree, {"bearing.left.stiffness", "N/m"}, {"rotor"}));
+  out.commit();
+}
 
 TEST_F(BranchResults, AreTheSameAgain) {
   const BranchTree tree = example();
-  ResultWriter out(path, Replaces::anything);
-  write_branches(out, tree, names);
-  out.commit();
+  write(path, tree);
   const ResultReader in(path);
   EXPECT_EQ(in.number_attribute("/branch", "complete"), 0.0);
   EXPECT_EQ(in.shape("/branch/poincare_x"), (std::vector<Eigen::Index>{3, 1, 2}));
@@ -82,9 +84,8 @@ TEST_F(BranchResults, CurvesAreTheSameAgain) {
                     .branch_number = 3,
                     .direction = -1.0,
                     .branch = {.period = 1, .points = {point(5.0, 4)}}}};
-  const CurveAxes axes{{.path = "a"}, {.low = 0.0, .high = 2.0}, {.path = "b"}};
   ResultWriter out(path, Replaces::anything);
-  write_curves(out, curves, axes);
+  write_curves(out, curves, curve_result(curves, {"a", "N"}, {.low = 0.0, .high = 2.0}, {"b", ""}));
   out.commit();
   const ResultReader in(path);
   EXPECT_EQ(in.numbers("/border/first")[0], 2.0 * point(5.0, 4).z(2));
@@ -97,12 +98,33 @@ TEST_F(BranchResults, CurvesAreTheSameAgain) {
   EXPECT_EQ(again.curves[0].branch.points[0].z, curves.curves[0].branch.points[0].z);
 }
 
+// What the parameter is and its unit are those of the call, and come back; so does what a row says.
+TEST_F(BranchResults, KnowTheirParameters) {
+  write(path, example());
+  const ResultReader in(path);
+  EXPECT_EQ(in.string_attribute("/branch/value", "units"), "N/m");
+  EXPECT_EQ(in.string_attribute("/branch/value", "long_name"), "bearing.left.stiffness");
+  EXPECT_EQ(in.string_attribute("/branch/bifurcation", "units"), "N/m");
+  EXPECT_EQ(in.axes("/branch/max_radius"),
+            (std::vector<std::string>{"/branch/value", "/branch/station"}));
+  EXPECT_FALSE(in.has_attribute("/branch", "harmonics"));
+  const auto again = read_result<BranchResult>(in);
+  EXPECT_EQ(again.parameter.path, "bearing.left.stiffness");
+  EXPECT_EQ(again.parameter.unit, "N/m");
+  EXPECT_FALSE(again.harmonics);
+  ASSERT_EQ(again.points.size(), 3u);
+  EXPECT_EQ(again.points[1].sections_y, (Mat{{0.3, 0.4}}));
+  EXPECT_EQ(again.points[2].known_multipliers(),
+            example().branches[0].branch.points[0].multipliers);
+  EXPECT_EQ(again.points[0].impacts, std::vector<double>{7.0 * 0.1});
+  EXPECT_EQ(record_of(again.branches[1]).json(),
+            "{\"period_revs\": 2, \"parent\": 1, \"end\": \"\", \"end_kind\": null}\n");
+}
+
 // A walk of other sizes than the model has, or of a later version, is refused.
 TEST_F(BranchResults, TellWhatDoesNotFit) {
   const auto problem = [&](const BranchTree& written, const BranchLayout& asked) {
-    ResultWriter out(path, Replaces::anything);
-    write_branches(out, written, names);
-    out.commit();
+    write(path, written);
     return problem_of([&] { read_branches(ResultReader(path), {.layout = asked}); });
   };
   const BranchTree tree = example();

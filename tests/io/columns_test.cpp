@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::columns_test {
@@ -152,6 +154,75 @@ TEST(ColumnsInSchema, StateKindsSizesAndWhatMayBeMissing) {
   EXPECT_EQ(entry("/thing/item").values.counts, "items");
   EXPECT_EQ(sets[1].entries[0].path, "/thing/extra");
   EXPECT_EQ(sets[1].needs, std::vector<std::string>{"/thing/place"});
+}
+
+struct Place {
+  double value = 0.0;
+  std::string reason;
+  int partner = 0;
+  std::vector<double> over;
+
+  static constexpr auto columns() {
+    return std::tuple{column("value", &Place::value, unit_of_parameter, "the parameter's").axis(),
+                      column("reason", &Place::reason, "", "a text"),
+                      column("partner", &Place::partner, "", "a number"),
+                      column("over", &Place::over, "N", "over names").along("names").maybe()};
+  }
+};
+
+struct Walk {
+  ParameterName parameter;
+  std::optional<int> count;
+  std::vector<std::string> names;
+  std::vector<Place> places;
+
+  static constexpr std::string_view group = "/walk";
+  static auto& parameter_of(auto& result, std::string_view) { return result.parameter; }
+  static constexpr auto columns() {
+    return std::tuple{column("count", &Walk::count, "", "may be nothing").maybe(),
+                      column("name", &Walk::names, "", "names").axis("names+").maybe(),
+                      rows(&Walk::places, "places")};
+  }
+};
+
+TEST_F(Columns, NameParametersThatOnlyACallKnows) {
+  ResultWriter out(path, Replaces::anything);
+  write_result(out, Walk{{"operation.speed", "rad/s"}, {}, {}, {{2.0, "", 0, {}}}});
+  out.commit();
+  const ResultReader file(path);
+  EXPECT_EQ(file.string_attribute("/walk/value", "units"), "rad/s");
+  EXPECT_EQ(file.string_attribute("/walk/value", "long_name"), "operation.speed");
+  EXPECT_FALSE(file.has_attribute("/walk", "count"));
+  EXPECT_FALSE(file.has("/walk/over"));
+  const auto after = read_result<Walk>(file);
+  EXPECT_EQ(after.parameter.path, "operation.speed");
+  EXPECT_EQ(after.parameter.unit, "rad/s");
+  EXPECT_FALSE(after.count);
+}
+
+TEST_F(Columns, BringBackAnOptionalNumber) {
+  ResultWriter out(path, Replaces::anything);
+  write_result(out, Walk{{}, 3, {"a"}, {{2.0, "", 0, {5.0}}}});
+  out.commit();
+  const auto after = read_result<Walk>(ResultReader(path));
+  EXPECT_EQ(after.count, 3);
+  EXPECT_EQ(after.places.at(0).over, std::vector<double>{5.0});
+}
+
+TEST(ColumnsInJson, LeaveOutANumberThatIsNothing) {
+  EXPECT_EQ(record_of(Walk{}).json().find("count"), std::string::npos);
+  EXPECT_NE(record_of(Walk{{}, 3, {}, {}}).json().find("\"count\": 3"), std::string::npos);
+  const std::string json = record_of(Walk{{}, {}, {}, {{2.0, "", 0, {}}}}).json();
+  EXPECT_NE(json.find("\"value\": 2"), std::string::npos) << json;  // without a unit in its key
+}
+
+// What rows may lack asks for the names that it goes along.
+TEST(ColumnsInSchema, LetRowsLackWhatGoesAlongAMissingAxis) {
+  const std::vector<ResultSet> sets = schema_of<Walk>();
+  ASSERT_EQ(sets.size(), 3u);
+  EXPECT_EQ(sets[2].entries.at(0).path, "/walk/over");
+  EXPECT_EQ(sets[2].entries.at(0).sizes, "places names");
+  EXPECT_NE(std::ranges::find(sets[2].needs, "/walk/name"), sets[2].needs.end());
 }
 
 }  // namespace whirl::columns_test

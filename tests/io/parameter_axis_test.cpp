@@ -6,6 +6,8 @@
 
 #include <numbers>
 
+#include "libbase/error.hpp"
+
 namespace whirl::parameter_axis_test {
 
 TEST(ParameterAxis, TakesRangesAndLists) {
@@ -56,6 +58,22 @@ TEST(ParameterAxis, SaysWhatIsWrong) {
   EXPECT_NE(problem("a=1 kg,2 m").find("different dimensions"), std::string::npos);
   EXPECT_NE(problem("a=1kg:2m:1m").find("another dimension"), std::string::npos);
   EXPECT_NE(problem("a=1:2:1kg^7").find("in SI without a unit"), std::string::npos);
+}
+
+TEST(ParameterAxis, SeveralAreAsManyAsAreRight) {
+  const std::vector<std::string> two{"gravity=9,9.81", "operation.speed=1:2:1rad/s"};
+  EXPECT_EQ(parse_axes(two, 0, 2, 3).at(1).values, (std::vector<double>{1.0, 2.0}));
+  const auto problem_of = [&](std::size_t least, std::size_t most) -> std::string {
+    try {
+      parse_axes(two, 0, least, most);
+    } catch (const ModelError& error) {
+      return error.problems().at(0).message;
+    }
+    return "";
+  };
+  EXPECT_TRUE(problem_of(1, 1).starts_with("found 2 of them, expected 1: "));
+  EXPECT_TRUE(problem_of(3, 4).starts_with("found 2 of them, expected 3 to 4: "));
+  EXPECT_THROW(parse_axes({"gravity=x"}, 0, 1, 1), ModelError);
 }
 
 }  // namespace whirl::parameter_axis_test

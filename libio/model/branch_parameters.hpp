@@ -1,16 +1,16 @@
 #pragma once
-/// What branches are followed over: --over, once or twice, and --at.
+/// What branches are followed over, as a command line says it: --over, once or twice, and --at.
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "apps/invocation.hpp"
 #include "libdyn/studies/parameter_range.hpp"
 #include "libio/model/model_family.hpp"
 #include "libio/text/parameter_axis.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 /// A parameter of branches and its range.
 struct BranchParameter {
@@ -32,6 +32,8 @@ struct BranchParameters {
   }
   /// @throws NumericalError  where there is no such model
   std::shared_ptr<const Scene> scene(double first, double second) const;
+  /// The value of the second parameter, as --set takes it, a line for every path; empty: there is none.
+  std::string fixed() const;
 
  private:
   std::vector<double> values(double first, double second) const {
@@ -39,12 +41,11 @@ struct BranchParameters {
   }
 };
 
-/// From --over, once or twice, and --at.
-/// @throws ModelError  for values that do not fit
-BranchParameters branch_parameters(const Invocation& call, const Model& model);
+/// @param over    what --over says, once or twice
+/// @param at      what --at says, with a comma for both; empty: the first values
+/// @param points  of a range without a step
+/// @throws ModelError  for values that do not fit, and for models without an operating speed
+BranchParameters branch_parameters(const Model& model, const std::vector<std::string>& over,
+                                   std::string at, int points);
 
-/// Attribute `fixed` of /branch: the value of the second parameter, as --set takes it, a line for
-/// every path; none without a second parameter.
-void write_fixed(ResultWriter& file, const BranchParameters& parameters);
-
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io

@@ -1,47 +1,24 @@
-#include "apps/verbs/orbit_text.hpp"
+#include "libio/texts/orbit_text.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/simulation.hpp"
+#include "libbase/constants.hpp"
+#include "libio/text/table.hpp"
+#include "libio/texts/motion_text.hpp"
 #include "libio/texts/row_table.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 namespace {
-
-Record gap_record(const ShootingGap& gap) {
-  Record r;
-  if (!gap.failure.empty()) return r.set("failure", gap.failure);
-  r.set("displacement", gap.displacement).set("velocity", gap.velocity);
-  r.set("multiplier", gap.multiplier).set("residual", gap.residual);
-  return r;
-}
-
-Record series_record(const FoundOrbit& orbit) {
-  const OrbitSeries& series = *orbit.series;
-  Record r, levels = Record::array();
-  for (const HarmonicOrbit::Level& level : series.levels) {
-    Record l;
-    l.set("harmonics", level.harmonics).set("steps", level.steps).set("change", level.change);
-    levels.add(l);
-  }
-  r.set("harmonics", series.harmonics).set("truncation", series.truncation).set("levels", levels);
-  if (!orbit.is_good()) return r;
-  r.set("multipliers_left_out", series.missing_multipliers);
-  r.set("multipliers_of_means", series.averaged_multipliers);
-  if (series.gap) r.set("shooting", gap_record(*series.gap));
-  return r;
-}
 
 std::string gap_text(const ShootingGap& gap) {
   if (!gap.failure.empty()) return "\n  shooting from there: " + gap.failure;
   return fmt::format(
       "\n  from shooting it differs by {:.1e} in displacements, {:.1e} in velocities (length "
       "scales, and those times the speed), {:.1e} in multipliers",
-      gap.displacement, gap.velocity, gap.multiplier);
+      *gap.displacement, *gap.velocity, *gap.multiplier);
 }
 
 std::string series_text(const FoundOrbit& orbit) {
@@ -55,15 +32,19 @@ std::string series_text(const FoundOrbit& orbit) {
                             series.truncation)
               : std::string(", what those left out change is not known");
   if (!series.stability_failure.empty()) text += "\n  stability: " + series.stability_failure;
-  if (series.averaged_multipliers > 0) {
-    text +=
-        fmt::format("\n  {} multipliers of modes too fast for the harmonics are from mean forces",
-                    series.averaged_multipliers);
+  if (const int count = series.averaged_multipliers.value_or(0); count > 0) {
+    text += fmt::format(
+        "\n  {} multipliers of modes too fast for the harmonics are from mean forces", count);
   }
-  if (series.missing_multipliers > 0) {
-    text += fmt::format("\n  {} multipliers below 1e-4 are left out", series.missing_multipliers);
+  if (const int count = series.missing_multipliers.value_or(0); count > 0) {
+    text += fmt::format("\n  {} multipliers below 1e-4 are left out", count);
   }
   return series.gap ? text + gap_text(*series.gap) : text;
+}
+
+/// "+0.500000 -0.250000 i"
+std::string pair_text(const Complex& m) {
+  return fmt::format("{:+.6f} {:+.6f} i", m.real(), m.imag());
 }
 
 /// How the orbit was found, and how well.
@@ -98,31 +79,8 @@ std::string multipliers_table(const FoundOrbit& orbit) {
 
 }  // namespace
 
-Record complex_list(const CVec& numbers) {
-  Record list = Record::array();
-  for (const Complex& z : numbers) list.add(z);
-  return list;
-}
-
-void add_orbit(Record& record, const FoundOrbit& orbit) {
-  record.set("period_revs", orbit.period).set("shortest_period_revs", orbit.shortest_period);
-  record.set("residual", orbit.residual).set("steps", orbit.steps);
-  record.set("floquet", complex_list(orbit.multipliers));
-  record.set("exponents_1_s", complex_list(orbit.exponents));
-  Record modes = Record::array();
-  for (const MultiplierMode& m : orbit.modes) {
-    Record mode;
-    mode.set("mode", m.mode > 0 ? Record(m.mode) : Record(nullptr)).set("mac", m.mac);
-    modes.add(mode);
-  }
-  record.set("floquet_modes", modes);
-  record.set("stable", orbit.is_good() ? Record(orbit.is_stable) : Record(nullptr));
-  record.set("state", orbit.states.front());
-  record.merge(record_of(contact_shares(orbit.contacts, orbit.period)));
-  if (orbit.series) record.set("harmonic_balance", series_record(orbit));
-}
-
-std::string orbit_text(const FoundOrbit& orbit) {
+std::string text_of(const FoundOrbit& orbit) {
+  if (!orbit.is_good()) return "";
   const int period = orbit.period;
   double impacts = 0.0;
   for (const ContactMeasure& c : orbit.contacts) impacts += c.impacts;
@@ -134,8 +92,38 @@ std::string orbit_text(const FoundOrbit& orbit) {
                         orbit.shortest_period);
   }
   text += "\n" + multipliers_table(orbit);
-  if (!orbit.contacts.empty()) text += "\n" + contacts_table(orbit.contacts, period);
-  return text;
+  return orbit.contacts.empty() ? text : text + "\n" + contacts_table(orbit.contacts, period);
 }
 
-}  // namespace whirl::inline cli
+std::string text_of(const RotatingOrbit& orbit) {
+  if (!orbit.is_good()) return "";
+  Table table({"multiplier", "real", "imaginary", "size"});
+  for (Eigen::Index i = 0; i < orbit.multipliers.size(); ++i) {
+    const Complex m = orbit.multipliers(i);
+    table.row({std::to_string(i + 1), fmt::format("{:+.8f}", m.real()),
+               fmt::format("{:+.8f}", m.imag()), fmt::format("{:.8f}", std::abs(m))});
+  }
+  return fmt::format(
+             "  {} orbit of {:.9g} revolutions, {:.6g} rpm seen from the rotor; residual {:.1e} "
+             "length scales after {} steps of Newton's method\n\n",
+             orbit.is_stable() ? "stable" : "unstable", orbit.revolutions,
+             turn / orbit.period / rpm, orbit.residual, orbit.steps()) +
+         table.text();
+}
+
+std::string text_of(const OrbitSearch& search) {
+  using S = SearchedOrbit;
+  const std::string table = table_of(
+      search.orbits,
+      {row_number("orbit"),
+       {"", [](const S& s) { return s.is_stable() ? "stable" : "unstable"; }},
+       shown("period_revs").as("repeats after"),
+       {"impacts",
+        [](const S& s) { return fmt::format("{:.0f}/{}", s.impacts(), s.orbit.period); }},
+       {"largest multiplier", [](const S& s) { return pair_text(s.orbit.multipliers(0)); }},
+       shown("starts").as("of starts")});
+  return (search.orbits.empty() ? "" : table + "\n") +
+         fmt::format("  {} starts led to none\n", search.failed);
+}
+
+}  // namespace whirl::inline io

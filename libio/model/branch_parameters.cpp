@@ -1,4 +1,4 @@
-#include "apps/verbs/branch_parameters.hpp"
+#include "libio/model/branch_parameters.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/verbs/simulation.hpp"
 #include "libbase/error.hpp"
-#include "libio/results/hdf5.hpp"
+#include "libio/model/model_file.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 namespace {
 
@@ -67,27 +66,32 @@ std::shared_ptr<const Scene> BranchParameters::scene(double first, double second
   }
 }
 
-BranchParameters branch_parameters(const Invocation& call, const Model& model) {
-  if (call.over.empty() || call.over.size() > 2) {
+std::string BranchParameters::fixed() const {
+  if (!across) return "";
+  return fmt::format("{}", fmt::join(across->axis.assignments_of(across->range.first), "\n"));
+}
+
+BranchParameters branch_parameters(const Model& model, const std::vector<std::string>& over,
+                                   std::string at, int points) {
+  if (over.empty() || over.size() > 2) {
     throw ModelError(
         {"--over"}, "",
         fmt::format("found {} of them, expected one, or two for borders: --over "
                     "PATH=first:last:step, such as --over contact.ring.friction=0:0.15:0.002",
-                    call.over.size()));
+                    over.size()));
   }
-  std::string at = call.text("at"), second_at;
+  std::string second_at;
   if (const auto comma = at.find(','); comma != std::string::npos) {
+    if (over.size() == 1) {
+      throw ModelError({"--at " + at}, "", "expected one value for one --over");
+    }
     second_at = at.substr(comma + 1);
     at.resize(comma);
-    if (call.over.size() == 1) {
-      throw ModelError({"--at " + call.text("at")}, "", "expected one value for one --over");
-    }
   }
-  const int points = static_cast<int>(call.integer("points", 2));
-  BranchParameters p{.along = parameter_of(call.over[0], at, points)};
+  BranchParameters p{.along = parameter_of(over[0], at, points)};
   std::vector<ParameterAxis> axes{p.along.axis};
-  if (call.over.size() == 2) {
-    p.across = parameter_of(call.over[1], second_at, points);
+  if (over.size() == 2) {
+    p.across = parameter_of(over[1], second_at, points);
     axes.push_back(p.across->axis);
   }
   p.family = std::make_shared<const ModelFamily>(model, std::move(axes));
@@ -95,17 +99,11 @@ BranchParameters branch_parameters(const Invocation& call, const Model& model) {
   for (const double first : {along.low, along.high, along.first}) {
     require_speed(p.model(first));
     if (!p.across) continue;
-    for (const double second : {p.across->range.low, p.across->range.high})
+    for (const double second : {p.across->range.low, p.across->range.high}) {
       require_speed(p.model(first, second));
+    }
   }
   return p;
 }
 
-void write_fixed(ResultWriter& file, const BranchParameters& parameters) {
-  if (!parameters.across) return;
-  const BranchParameter& fixed = *parameters.across;
-  file.attribute("/branch", "fixed",
-                 fmt::format("{}", fmt::join(fixed.axis.assignments_of(fixed.range.first), "\n")));
-}
-
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io

@@ -1,0 +1,34 @@
+#include "libdyn/motions/transient.hpp"
+
+#include <algorithm>
+
+#include "libbase/error.hpp"
+
+namespace whirl::inline dyn {
+
+Trajectory run_transient(const Scene& scene, const MotionState& start,
+                         const TransientOptions& options) {
+  if (scene.contacts.coordinates() == 0) {
+    throw NumericalError("nothing moves: the system has no freedoms");
+  }
+  const long least = start.phase > 0.0 ? 1 : 0;
+  Trajectory transient{.system = &scene.contacts,
+                       .state = start,
+                       .revolutions = std::max(least, options.revolutions)};
+  if (transient.revolutions == 0) return transient;
+  integrate_single(transient, {.tolerance = options.tolerance, .watch = [&](long done) {
+                                 if (options.progress) {
+                                   options.progress(done, transient.revolutions);
+                                 }
+                                 return !options.is_stopped || !options.is_stopped();
+                               }});
+  return transient;
+}
+
+std::optional<MotionState> settled_state(const Trajectory& transient) {
+  if (transient.outcome == Outcome::stopped_by_observer) return std::nullopt;
+  if (transient.outcome == Outcome::reached_end) return transient.state;
+  throw NumericalError(transient.diagnosis);
+}
+
+}  // namespace whirl::inline dyn

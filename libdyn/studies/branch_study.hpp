@@ -1,0 +1,39 @@
+#pragma once
+/// Branches along a parameter, and the curves of their bifurcations along a second one, together.
+
+#include <functional>
+#include <optional>
+
+#include "libdyn/studies/bifurcation_curves.hpp"
+
+namespace whirl::inline dyn {
+
+struct BranchStudy {
+  BranchTree tree{};
+  BifurcationCurves curves{};
+
+  /// Nothing is left to be walked.
+  bool is_complete() const { return tree.is_complete() && curves.is_complete(); }
+};
+
+struct BranchStudyOptions {
+  BranchTreeOptions tree{};
+  std::optional<BifurcationCurveOptions> curves{};  ///< nothing: branches alone
+};
+
+/// The scenes of the branches, and those of the plane that their bifurcations are followed in.
+struct BranchScenes {
+  ParameterScenes along;
+  PlaneScenes plane;
+};
+
+/// Follows branches, and then the curves of their bifurcations.
+///
+/// @param study    what there is already, which is gone on with, bit by bit; may be an empty_tree
+/// @param settled  a state near the first orbit, asked where there is no branch; nothing: stop
+/// @throws NumericalError  if there is no first orbit
+BranchStudy follow_branches(const BranchScenes& scenes, BranchStudy study,
+                            const std::function<std::optional<Vec>()>& settled,
+                            const BranchStudyOptions& options, const Monitor<BranchStudy>& monitor);
+
+}  // namespace whirl::inline dyn

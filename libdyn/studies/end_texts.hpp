@@ -1,0 +1,51 @@
+#pragma once
+/// Why branches end, as results say it (libbase/column.hpp).
+
+#include <optional>
+#include <string>
+
+#include "libbase/column.hpp"
+#include "libdyn/branches/branch.hpp"
+
+namespace whirl::inline dyn {
+
+/// The end of a branch; all of it is empty while the branch goes on.
+struct EndTexts {
+  std::string end, end_kind, end_reason;
+
+  EndTexts() = default;
+  explicit EndTexts(const Branch& branch) {
+    if (!branch.end) return;
+    end = branch.end->text;
+    end_kind = name_of(branch.end->kind);
+    end_reason = branch.end->reason;
+  }
+
+  /// Files of earlier versions have the sentence alone.
+  std::optional<BranchEnd> branch_end() const {
+    if (end.empty()) return std::nullopt;
+    BranchEnd found{.kind = EndKind::untold, .text = end, .reason = end_reason};
+    for (const auto& [name, kind] : choices(EndKind{})) {
+      if (end_kind == name) found.kind = kind;
+    }
+    return found;
+  }
+
+  std::optional<std::string> kind() const {
+    return end_kind.empty() ? std::nullopt : std::optional(end_kind);
+  }
+
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("end", &EndTexts::end, "", "why it ends"),
+        column("end_kind", &EndTexts::end_kind, "", "what makes it end").only(in_file).maybe(),
+        column("end_kind", &EndTexts::kind, "", "null: it goes on").only(in_json),
+
+        column("end_reason", &EndTexts::end_reason, "", "what fails where no orbit is found")
+            .only(Written::in_file)
+            .maybe()};
+  }
+};
+
+}  // namespace whirl::inline dyn
