@@ -14,7 +14,7 @@ namespace whirl::inline io {
 namespace {
 
 /// A bifurcation, and of a grazing its contact: "grazing of ring".
-std::string kind_text(BifurcationKind kind, const std::string& contact) {
+std::string bifurcation_text(BifurcationKind kind, const std::string& contact) {
   const bool is_grazing = kind == BifurcationKind::grazing;
   return std::string(name_of(kind)) + (is_grazing ? " of " + contact : "");
 }
@@ -32,16 +32,16 @@ std::string bifurcations_table(const BranchResult& result, int branch) {
                        [&](const BranchBifurcation& x) { return x.branch == branch; });
   if (on_it.empty()) return "";
   using B = BranchBifurcation;
-  return "\n" +
-         table_of(on_it, {{"bifurcation", [](const B& x) { return kind_text(x.kind, x.contact); }},
-                          {label_of(result.parameter),
-                           [](const B& x) { return fmt::format("{:.9g}", x.value); }},
-                          shown("bifurcation_after").as("after point"),
-                          {"multiplier", multiplier_text}});
+  return "\n" + table_of(on_it, {{"bifurcation",
+                                  [](const B& x) { return bifurcation_text(x.kind, x.contact); }},
+                                 {label_of(result.parameter),
+                                  [](const B& x) { return fmt::format("{:.9g}", x.value); }},
+                                 shown("bifurcation_after").as("after point"),
+                                 {"multiplier", multiplier_text}});
 }
 
 /// The range of a number over orbits.
-std::string period_text(std::span<const BranchOrbit> orbits) {
+std::string periods_text(std::span<const BranchOrbit> orbits) {
   const auto [least, most] = std::ranges::minmax(orbits, {}, &BranchOrbit::revolutions);
   return least.revolutions == most.revolutions
              ? fmt::format("{:.6g}", least.revolutions)
@@ -56,7 +56,7 @@ std::string branch_text(const BranchResult& result, const BranchRow& branch) {
   return fmt::format(
              "\n  branch {}: period {}, {} points, {} of them stable; from {:.8g} to {:.8g}{}\n  "
              "it ends: {}\n",
-             branch.number, period_text(orbits), orbits.size(),
+             branch.number, periods_text(orbits), orbits.size(),
              std::ranges::count(orbits, 1, &BranchOrbit::stability), orbits.front().value,
              orbits.back().value,
              branch.parent > 0 ? fmt::format("; begins on branch {}", branch.parent) : "",
@@ -65,7 +65,7 @@ std::string branch_text(const BranchResult& result, const BranchRow& branch) {
 }
 
 /// "0.1 to 0.15" of the ends of a curve.
-std::string range_text(const Mat& points, Eigen::Index parameter) {
+std::string curve_range(const Mat& points, Eigen::Index parameter) {
   return fmt::format("{:.6g} to {:.6g}", points(0, parameter),
                      points(points.rows() - 1, parameter));
 }
@@ -85,14 +85,14 @@ std::string text_of(const CurveResult& result) {
   if (result.curves.empty()) return "\n  no border: there is no bifurcation to follow\n";
   using C = CurveRow;
   return "\n  borders in the plane of both parameters\n\n" +
-         table_of(
-             result.curves,
-             {{"border", [](const C& c) { return kind_text(c.kind, c.contact); }},
-              shown("branch").as("of branch"),
-              {"points", [](const C& c) { return std::to_string(c.points.rows()); }},
-              {label_of(result.first), [](const C& c) { return range_text(c.points, 0); }},
-              {"at " + label_of(result.second), [](const C& c) { return range_text(c.points, 1); }},
-              shown("end").as("it ends")});
+         table_of(result.curves,
+                  {{"border", [](const C& c) { return bifurcation_text(c.kind, c.contact); }},
+                   shown("branch").as("of branch"),
+                   {"points", [](const C& c) { return std::to_string(c.points.rows()); }},
+                   {label_of(result.first), [](const C& c) { return curve_range(c.points, 0); }},
+                   {"at " + label_of(result.second),
+                    [](const C& c) { return curve_range(c.points, 1); }},
+                   shown("end").as("it ends")});
 }
 
 }  // namespace whirl::inline io
