@@ -38,8 +38,8 @@ Report run_basins(const Invocation& call) {
   const BasinsOptions options = basins_options(call, points);
   points.first();
   const auto [result, outcome] = run_study<BasinsResult>(
-      call, points, "starting", options.points(),
-      [&](const auto& monitor, BasinsResult earlier) {
+      study_keeping(call, points.model(), points.earlier(), "starting"), points, options.points(),
+      [&](BasinsResult earlier, const auto& monitor) {
         return basins(models, options, monitor, std::move(earlier));
       },
       [](std::size_t i) { return fmt::format("start {}", i + 1); });

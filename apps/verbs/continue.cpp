@@ -45,7 +45,6 @@ Report run_continue(const Invocation& call) {
   long resumed = 0;
   const BranchStudy empty{.tree = empty_tree(*asked.scene, asked.tree)};
   const KeptStudy<BranchStudy> kept{
-      .points = "points of branches",
       .write =
           [&](ResultWriter& to, const BranchStudy& study) {
             write_branches(to, study.tree, asked.result(study.tree));
@@ -66,7 +65,9 @@ Report run_continue(const Invocation& call) {
             };
             return follow_branches(asked.scenes(), begun, settled, asked.options(), monitor);
           }};
-  const BranchStudy found = run_kept(call, model, report, kept, empty);
+  const BranchStudy found = run_kept(
+      study_keeping(call, model, earlier_start(call, model), "points of branches", report.notes),
+      kept, empty);
   report.status = found.is_complete() ? 0 : 130;
   const BranchResult branches = asked.result(found.tree);
   report.record.merge(record_of(branches)).set("resumed", resumed);

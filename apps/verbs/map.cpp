@@ -18,8 +18,9 @@ Report run_map(const Invocation& call) {
   const MapOptions options{
       .grid = points.grid(), .classify = study_classify(call), .threads = study_threads(call)};
   const auto [result, outcome] = run_study<MapResult>(
-      call, points, "mapping", options.grid.points(),
-      [&](const auto& monitor, MapResult earlier) {
+      study_keeping(call, points.model(), points.earlier(), "mapping"), points,
+      options.grid.points(),
+      [&](MapResult earlier, const auto& monitor) {
         return map(models, options, monitor, std::move(earlier));
       },
       [&](std::size_t i) { return points.describe(i); });

@@ -1,7 +1,6 @@
 #pragma once
-/// What orbit, continue and torus share: options, where they begin, and the file that they go on from.
+/// What orbit, continue and torus share: options, and where they begin.
 
-#include <functional>
 #include <string>
 
 #include "apps/verbs/study.hpp"
@@ -32,40 +31,6 @@ Trajectory after_transient(const Invocation& call, const Model& model, const Sce
 
 /// A report with its headline, and with the notes on the model.
 Report orbit_report(const Invocation& call, const Model& model, const std::string& what);
-
-/// A study along a parameter, whose file holds what is done at every moment.
-template <class Study>
-struct KeptStudy {
-  std::string points;  ///< what its points are called
-  std::function<void(ResultWriter&, const Study&)> write;
-  /// What an earlier run of the same line has left.
-  std::function<Study(const ResultReader&)> read;
-  std::function<Study(Study begun, const Monitor<Study>&)> run;
-};
-
-/// Runs it, from what the file of --out has already.
-/// @param report  its notes go into the file
-template <class Study>
-Study run_kept(const Invocation& call, const Model& model, const Report& report,
-               const KeptStudy<Study>& kept, Study begun) {
-  const Study* so_far = &begun;
-  StudyFile file(
-      study_place(call, model, earlier_start(call, model)),
-      [&] {
-        auto made = call.result_file(model);
-        write_notes(*made, report);
-        return made;
-      },
-      [&](ResultWriter& to) { kept.write(to, *so_far); },
-      [&](const ResultReader& earlier) { begun = kept.read(earlier); });
-  install_interrupt_handler();
-  return kept.run(begun, {.progress = progress_of(call, kept.points),
-                          .is_stopped = is_interrupted,
-                          .save = [&](const Study& study) {
-                            so_far = &study;
-                            file.save();
-                          }});
-}
 
 /// Says what was there already, that it was stopped, and where the result is.
 void add_kept(const Invocation& call, const std::string& points, long resumed, Report& report);

@@ -27,16 +27,6 @@ ResonanceOptions resonance_options(const Invocation& call, const Model& model) {
   return options;
 }
 
-Record places_record(const ResonanceStudy& study) {
-  Record list = Record::array();
-  for (const ResonancePlace& place : study.places) {
-    Record entry = record_of(place);
-    if (study.is_confirmed) entry.set("bouncing", columns::record_value(place.bouncing, 1.0));
-    list.add(entry);
-  }
-  return list;
-}
-
 Report run_resonances(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
@@ -47,9 +37,8 @@ Report run_resonances(const Invocation& call) {
       resonance_study(model, assembler, options,
                       {.progress = progress_of(call, "looking for bouncing motions"),
                        .is_stopped = is_interrupted});
-  Report report = begin_report(call, model);
+  Report report = begin_report(call, model, record_of(study));
   report.status = study.is_whole ? 0 : 130;
-  report.record.set("resonances", places_record(study));
   report.text = headline("Internal resonances seen from the rotor", model) + "\n" + text_of(study) +
                 (study.is_whole ? "" : "\n  stopped\n");
   if (options.confirms) {

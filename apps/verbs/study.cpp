@@ -43,15 +43,25 @@ int study_threads(const Invocation& call) {
   return static_cast<int>(call.integer_or("threads", processors));
 }
 
-StudyPlace study_place(const Invocation& call, const Model& model,
-                       std::optional<EarlierEnd> start) {
-  return {.file = call.text("out"),
-          .restarts = call.has("restart"),
-          .call = call.parts(),
-          .model = model.source,
-          .version = version,
-          .start_file = start_of(call, model).file,
-          .start = std::move(start)};
+StudyKeeping study_keeping(const Invocation& call, const Model& model,
+                           std::optional<EarlierEnd> start, std::string what,
+                           std::vector<std::string> notes) {
+  install_interrupt_handler();
+  return {.place = {.file = call.text("out"),
+                    .restarts = call.has("restart"),
+                    .call = call.parts(),
+                    .model = model.source,
+                    .version = version,
+                    .start_file = start_of(call, model).file,
+                    .start = std::move(start)},
+          .begin =
+              [&call, &model, report = Report{.notes = std::move(notes)}] {
+                auto file = call.result_file(model);
+                write_notes(*file, report);
+                return file;
+              },
+          .progress = progress_of(call, std::move(what)),
+          .is_stopped = is_interrupted};
 }
 
 Report study_report(const Invocation& call, const Model& model, const StudyOutcome& outcome,

@@ -29,8 +29,9 @@ Report run_sweep(const Invocation& call) {
   const std::size_t values = axis.values.size();
   const bool is_fresh = options.start == SweepStart::fresh;
   const auto [result, outcome] = run_study<SweepResult>(
-      call, points, "sweeping", is_fresh ? values : 2 * values,
-      [&](const auto& monitor, SweepResult earlier) {
+      study_keeping(call, points.model(), points.earlier(), "sweeping"), points,
+      is_fresh ? values : 2 * values,
+      [&](SweepResult earlier, const auto& monitor) {
         return sweep(models, options, monitor, std::move(earlier));
       },
       [&](std::size_t i) { return points.describe(i % values); });

@@ -26,7 +26,6 @@ Report run_torus(const Invocation& call) {
   Report report = orbit_report(call, model, "Quasi-periodic motion");
   long resumed = 0;
   const KeptStudy<TorusBranch> kept{
-      .points = "circles",
       .write =
           [&](ResultWriter& to, const TorusBranch& torus) {
             write_end(to, asked.at_first, *asked.scene, torus.circle.points.col(0));
@@ -45,7 +44,8 @@ Report run_torus(const Invocation& call) {
             };
             return grow_torus(asked.scenes(), std::move(begun), settled, asked.options, monitor);
           }};
-  const TorusBranch torus = run_kept(call, model, report, kept, {});
+  const TorusBranch torus = run_kept(
+      study_keeping(call, model, earlier_start(call, model), "circles", report.notes), kept);
   if (torus.circle.points.size() == 0) {
     report.text.clear();
     report.failure = "stopped in the transient";

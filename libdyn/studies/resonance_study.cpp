@@ -61,7 +61,7 @@ ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
                        .is_confirmed = options.confirms};
   const ModeFinder finder(assembler);
   for (const InternalResonance& r : internal_resonances(study.diagram, options.largest)) {
-    ResonancePlace place{r, {}, {}};
+    ResonancePlace place{r, {}, {}, options.confirms};
     const Modes modes = finder.at(r.speed, options.modes + 2);
     const System system = finder.system(r.speed);
     const auto nearest = [&](int branch, double seen) {

@@ -38,6 +38,7 @@ struct ContactOrbits {
 struct ResonancePlace : InternalResonance {
   std::vector<ContactOrbits> contacts;
   std::optional<Bouncing> bouncing;
+  bool is_confirmed = false;  ///< it was looked for
 
   double bouncing_speed() const;   ///< NaN: none was found, or looked for [rad/s]
   double bouncing_period() const;  ///< likewise [revolutions]
@@ -46,6 +47,9 @@ struct ResonancePlace : InternalResonance {
   static constexpr auto columns() {
     using enum Written;
     constexpr double most_order = 1e6;
+    constexpr auto found = [](const ResonancePlace& r) {
+      return r.is_confirmed ? std::make_optional(r.bouncing) : std::nullopt;
+    };
     return std::tuple{
         column("speed", &ResonancePlace::speed, "rad/s", "speed of the resonance").axis(),
         column("p", &ResonancePlace::p, "", "of the ratio p:q, of the faster mode")
@@ -61,6 +65,9 @@ struct ResonancePlace : InternalResonance {
         column("frequency", &ResonancePlace::frequency, "rad/s",
                "of both modes over p and q, seen from the rotor"),
         rows(&ResonancePlace::contacts, "contacts").only(in_json),
+        column("bouncing", found, "", "a bouncing motion, where it was looked for")
+            .only(in_json)
+            .maybe(),
         column("bouncing_speed", &ResonancePlace::bouncing_speed, "rad/s",
                "where a bouncing motion was found")
             .only(in_file),
@@ -83,7 +90,7 @@ struct ResonanceStudy {
 
   static constexpr std::string_view group = "/resonances";
   static constexpr auto columns() {
-    return std::tuple{rows(&ResonanceStudy::places, "resonances").maybe().only(Written::in_file)};
+    return std::tuple{rows(&ResonanceStudy::places, "resonances").maybe()};
   }
 };
 
