@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "apps/invocation.hpp"
-#include "apps/program.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
+#include "libbase/program.hpp"
 #include "libio/export/scene_source.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"

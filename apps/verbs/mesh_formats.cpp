@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "apps/program.hpp"
+#include "libbase/program.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline cli {

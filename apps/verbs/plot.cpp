@@ -10,13 +10,13 @@
 #include <regex>
 
 #include "apps/invocation.hpp"
-#include "apps/program.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
 #include "libbase/error.hpp"
+#include "libbase/program.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/figures.hpp"
 #include "libio/results/own_file.hpp"

@@ -1,4 +1,4 @@
-#include "apps/program.hpp"
+#include "libbase/program.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <fstream>
 
-namespace whirl::inline cli {
+namespace whirl::inline base {
 
 std::optional<int> run_program(std::vector<std::string> words,
                                const std::filesystem::path& output) {
@@ -44,4 +44,4 @@ std::string last_words(const std::filesystem::path& output) {
   return !error.empty() ? error : !last.empty() ? last : "it does not say why";
 }
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline base

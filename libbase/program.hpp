@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace whirl::inline cli {
+namespace whirl::inline base {
 
 /// Runs a program that is looked for as a shell would, without a shell, and waits for it.
 ///
@@ -20,4 +20,4 @@ std::optional<int> run_program(std::vector<std::string> words,
 /// @param output  what it printed
 std::string last_words(const std::filesystem::path& output);
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline base
