@@ -1,4 +1,4 @@
-#include "apps/verbs/mesh_formats.hpp"
+#include "libio/export/mesh_formats.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include "libbase/program.hpp"
 #include "libio/results/replace_file.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 namespace fs = std::filesystem;
 
@@ -97,4 +97,4 @@ void write_mesh(const fs::path& place, const MeshFormat& format, const RotorMesh
   if (problem) fail(problem.message());
 }
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io

@@ -8,7 +8,7 @@
 
 #include "libio/export/rotor_mesh.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 /// A format that a mesh of the rotor is written in.
 struct MeshFormat {
@@ -29,4 +29,4 @@ const MeshFormat* mesh_format(std::string_view name);
 void write_mesh(const std::filesystem::path& place, const MeshFormat& format, const RotorMesh& mesh,
                 Replaces replaces);
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io
