@@ -10,13 +10,7 @@
 #include "libbase/constants.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libio/results/hdf5.hpp"
-#include "libio/results/motion_window.hpp"
 #include "libio/texts/model_text.hpp"
-
-namespace whirl::inline io {
-struct ResultView;
-struct SceneSource;
-}  // namespace whirl::inline io
 
 namespace whirl::inline cli {
 
@@ -35,12 +29,5 @@ void write_file(const Invocation& call, const Model& model, Report& report,
 
 /// Shows how far something long is, from the first number on.
 std::function<void(long done, long total)> progress_of(const Invocation& call, std::string what);
-
-/// Shows frequencies in the unit of --frequency, if it is given.
-void set_frequency_unit(const Invocation& call, ResultView& result);
-/// The stretch of a motion that --from-revolution, --revolutions or --times ask for.
-MotionWindow window_of(const Invocation& call);
-/// The model or result of a call, as a scene.
-SceneSource scene_source(const Invocation& call);
 
 }  // namespace whirl::inline cli

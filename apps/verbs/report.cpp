@@ -4,7 +4,6 @@
 
 #include "apps/invocation.hpp"
 #include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/result_input.hpp"
 #include "apps/version.hpp"
@@ -31,10 +30,8 @@ Report run_report(const Invocation& call) {
   }
   replace_file(out, page.html, call.picture_replaces());
   Report report;
-  Record files = Record::array();
-  files.add(out);
   report.record.set("model", call.file).set("version", version).set("figures", page.figures);
-  report.record.set("files", files);
+  report.record.set("files", file_list({out}));
   report.text = fmt::format("  {}: {} figures, {:.1f} MB; open it in a browser\n", out,
                             page.figures, 1e-6 * static_cast<double>(page.html.size()));
   return report;

@@ -2,36 +2,69 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <map>
-#include <vector>
-
-#include "libio/figures/figures.hpp"
+#include "libio/figures/choice.hpp"
+#include "libio/model/model_file.hpp"
+#include "libio/results/result_schema.hpp"
 
 namespace whirl::inline cli {
 
+namespace fs = std::filesystem;
+
 void require_result(const Invocation& call, const std::string& kind) {
-  const std::filesystem::path model = call.file;
-  if (model.extension() != ".toml" || !std::filesystem::is_regular_file(model)) return;
-  // results have a group by the name of the verb, with these exceptions
-  const std::map<std::string, std::string> others{{"trajectory", "simulate"},
-                                                  {"spectra", "simulate"},
-                                                  {"mac", "identify"},
-                                                  {"branch", "continue"},
-                                                  {"border", "continue"}};
-  std::string verb = "simulate";
-  for (const FigureKind& k : figure_kinds()) {
-    if (k.name != kind || k.needs.empty()) continue;
-    const std::string_view path = k.needs.front();
-    verb = path.substr(1, path.find('/', 1) - 1);
-    if (const auto other = others.find(verb); other != others.end()) verb = other->second;
-  }
-  const std::string out = std::filesystem::path(model).replace_extension(".h5").string();
+  const fs::path model = call.file;
+  if (model.extension() != ".toml" || !fs::is_regular_file(model)) return;
+  const std::string out = fs::path(model).replace_extension(".h5").string();
   std::vector<std::string> then{"whirl", call.verb, out};
   if (!kind.empty()) then.push_back(kind);
   throw FileError(fmt::format(
       "cannot open {}: not an HDF5 file but a model; compute a result first, such as\n  {}\n  {}",
-      call.file, shell_line({"whirl", verb, call.file, "--out", out}), shell_line(then)));
+      call.file, shell_line({"whirl", verb_for(kind), call.file, "--out", out}), shell_line(then)));
+}
+
+void set_frequency_unit(const Invocation& call, ResultView& result) {
+  const auto unit = frequency_unit(call.text("frequency"));
+  if (!unit) throw wrong_option(call, "frequency", "expected Hz, cpm or rad/s");
+  result.frequency = *unit;
+}
+
+MotionWindow window_of(const Invocation& call) {
+  MotionWindow window;
+  if (call.has("times")) {
+    for (const char* other : {"from-revolution", "revolutions"}) {
+      if (!call.has(other)) continue;
+      throw wrong_option(call, "times", fmt::format("does not go with --{}", other));
+    }
+    window.times = parsed_option(call, "times", parse_times);
+  }
+  if (call.has("from-revolution")) {
+    window.from_revolution = static_cast<double>(call.integer("from-revolution", 0));
+  }
+  if (call.has("revolutions")) {
+    window.revolutions = static_cast<double>(call.integer("revolutions"));
+  }
+  return window;
+}
+
+SceneSource scene_source(const Invocation& call) {
+  const fs::path ending = fs::path(call.file).extension();
+  if (ending != ".h5" && ending != ".hdf5") return SceneSource(call.model());
+  auto result = open_result(call.file);
+  Model model = parse_model(result->strings("/model").at(0), call.file, call.sets);
+  return SceneSource(std::move(model), std::move(result));
+}
+
+std::optional<long> number_given(const Invocation& call, const std::string& option) {
+  return call.has(option) ? std::optional(call.integer(option)) : std::nullopt;
+}
+
+ModelError wrong_option(const Invocation& call, const std::string& option, std::string problem) {
+  return ModelError({fmt::format("--{} {}", option, call.text(option))}, "", std::move(problem));
+}
+
+Record file_list(const std::vector<fs::path>& files) {
+  Record list = Record::array();
+  for (const fs::path& file : files) list.add(file.string());
+  return list;
 }
 
 }  // namespace whirl::inline cli

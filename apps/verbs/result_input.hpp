@@ -1,8 +1,15 @@
 #pragma once
+/// What verbs take that draw, export and report what is there, and the files that they write.
 
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/invocation.hpp"
+#include "libbase/error.hpp"
+#include "libio/export/scene_source.hpp"
+#include "libio/figures/figures.hpp"
 
 namespace whirl::inline cli {
 
@@ -10,5 +17,32 @@ namespace whirl::inline cli {
 /// @param kind  of the figure that is wanted; empty: any
 /// @throws FileError  if the call's file is TOML by its name, and no HDF5 file
 void require_result(const Invocation& call, const std::string& kind);
+
+/// Shows frequencies in the unit of --frequency, if it is given.
+void set_frequency_unit(const Invocation& call, ResultView& result);
+
+/// The stretch of a motion that --from-revolution, --revolutions or --times ask for.
+MotionWindow window_of(const Invocation& call);
+
+/// The model or result of a call, as a scene.
+SceneSource scene_source(const Invocation& call);
+
+/// Value of an option that asks for a number; nothing where it is left out.
+std::optional<long> number_given(const Invocation& call, const std::string& option);
+
+/// An option that means nothing.
+/// @param problem  what would be right
+ModelError wrong_option(const Invocation& call, const std::string& option, std::string problem);
+
+/// Value of an option as a function reads it that gives a Parsed.
+template <class Parse>
+auto parsed_option(const Invocation& call, const std::string& option, const Parse& parse) {
+  const auto value = parse(call.text(option));
+  if (!value) throw wrong_option(call, option, value.problem);
+  return *value;
+}
+
+/// Files that were written, for JSON.
+Record file_list(const std::vector<std::filesystem::path>& files);
 
 }  // namespace whirl::inline cli

@@ -2,55 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libio/model/model_file.hpp"
-#include "libio/results/result_schema.hpp"
+#include "libdyn/motions/run_result.hpp"
+#include "libio/results/columns.hpp"
 
 namespace whirl::inline io {
 
-SceneSource::SceneSource(Model of)
-    : model(std::move(of)), assembler(model.structure), scene(vtk_scene(model, assembler)) {}
-
-SceneSource::SceneSource(std::unique_ptr<ResultReader> of, const std::string& name,
-                         const std::vector<std::string>& sets)
-    : SceneSource(parse_model(of->strings("/model").at(0), name, sets)) {
-  result = std::move(of);
-}
+SceneSource::SceneSource(Model of_model, std::unique_ptr<ResultReader> of)
+    : result(std::move(of)),
+      model(std::move(of_model)),
+      assembler(model.structure),
+      scene(vtk_scene(model, assembler)) {}
 
 MotionSamples SceneSource::samples(const MotionWindow& window, double usual) const {
   MotionSamples samples = samples_of(window, recorded_motion(*result), usual);
-  // of the last revolutions both ends are the same phase: a film that is played in a loop shows one
+  // both ends of the last revolutions are the same phase, of which a video in a loop shows one
   const bool is_end = !window.from_revolution && !window.times;
   if (is_end && samples.first > 0) ++samples.first;
   return samples;
 }
 
 std::vector<VtkFrame> SceneSource::motion(const MotionSamples& samples, long most) const {
-  const Mat basis = result->matrix("/trajectory/basis");
-  const Mat coordinates = result->matrix("/trajectory/coordinates");
-  const Vec time = result->vector("/trajectory/time");
+  const auto recorded = read_result<MotionRecord>(*result);
   const auto count = samples.size();
   const auto frames = std::min<Eigen::Index>(count, most);
   const auto contacts = static_cast<Eigen::Index>(model.contacts.size());
-  Mat normal = Mat::Zero(contacts, time.size()), friction = normal;
-  if (result->has("/trajectory/normal_force")) {
-    normal = result->matrix("/trajectory/normal_force");
-    friction = result->matrix("/trajectory/friction_force");
-  }
+  Mat normal = Mat::Zero(contacts, recorded.time.size()), friction = normal;
+  if (recorded.normal.size() > 0) normal = recorded.normal, friction = recorded.friction;
   const int freedoms = assembler.uncondensed(0.0).dofs.full_size;
-  if (basis.rows() != freedoms || normal.rows() != contacts) {
+  if (recorded.basis.rows() != freedoms || normal.rows() != contacts) {
     throw ModelError(
         {}, "",
         fmt::format(
             "the motion is of another rotor ({} freedoms, {} contacts) than the model as set "
             "({}, {}): leave out --set",
-            basis.rows(), normal.rows(), freedoms, contacts));
+            recorded.basis.rows(), normal.rows(), freedoms, contacts));
   }
   std::vector<VtkFrame> list;
   for (Eigen::Index k = 0; k < frames; ++k) {
     const auto j = samples.first + k * count / frames;
-    list.push_back(vtk_frame(model, assembler, time(j), basis * coordinates.col(j), normal.col(j),
+    list.push_back(vtk_frame(model, assembler, recorded.time(j),
+                             recorded.basis * recorded.coordinates.col(j), normal.col(j),
                              friction.col(j)));
   }
   return list;

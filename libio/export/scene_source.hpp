@@ -14,22 +14,21 @@
 
 namespace whirl::inline io {
 
-/// A model, or a result with its model, as a scene.
+/// A model or a result, as a scene.
 struct SceneSource {
   std::unique_ptr<ResultReader> result;  ///< none: a model
   Model model;
   Assembler assembler;
   VtkScene scene;
 
-  explicit SceneSource(Model of);
-  /// @param sets  of its model, beside those that it was made with
-  SceneSource(std::unique_ptr<ResultReader> of, const std::string& name,
-              const std::vector<std::string>& sets);
+  /// @param of  the result that the model is of; none: the model alone
+  explicit SceneSource(Model of_model, std::unique_ptr<ResultReader> of = nullptr);
 
   bool has_motion() const { return result && result->has("/trajectory/coordinates"); }
   bool has_modes() const { return !result || result->has("/modes"); }
 
-  /// Which samples of the motion a window asks for: the last revolutions, so many if it does not say.
+  /// The samples of a stretch of the motion.
+  /// @param usual        revolutions at the end that are meant where the window leaves that open
   /// @throws ModelError  if they were not recorded
   MotionSamples samples(const MotionWindow& window, double usual) const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/error.hpp"
+#include "libio/text/value_range.hpp"
 
 namespace whirl::inline io {
 
@@ -67,6 +68,14 @@ std::pair<double, double> asked_for(const MotionWindow& window, const RecordedRa
 }
 
 }  // namespace
+
+Parsed<std::pair<double, double>> parse_times(std::string_view text) {
+  using Times = std::pair<double, double>;
+  const auto range = parse_range(text, "s");
+  if (!range) return Parsed<Times>::failed(range.problem);
+  if (range->step) return Parsed<Times>::failed("expected two times, first:last");
+  return Times{range->first, range->last};
+}
 
 RecordedMotion recorded_motion(const ResultReader& file) {
   const double samples = file.number_attribute("/trajectory", "samples_per_revolution");

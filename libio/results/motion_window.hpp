@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "libio/results/hdf5.hpp"
+#include "libio/text/units.hpp"
 
 namespace whirl::inline io {
 
@@ -17,6 +18,9 @@ struct MotionWindow {
 
   bool is_given() const { return from_revolution || revolutions || times; }
 };
+
+/// Reads two times, first:last [s].
+Parsed<std::pair<double, double>> parse_times(std::string_view text);
 
 /// A motion as it was recorded, at equal spacings.
 struct RecordedMotion {

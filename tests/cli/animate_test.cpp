@@ -1,4 +1,4 @@
-// animate: films and pictures, drawn without a screen.
+// animate: videos and pictures, drawn without a screen.
 
 #include "tests/cli/program.hpp"
 
@@ -16,15 +16,15 @@ class Animate : public Program {
   }
 };
 
-// A film is in the format that its name says and has many pictures; pictures have the size asked
+// A video is in the format that its name says and has many pictures; pictures have the size asked
 // for, and a rotor that moves: each differs from the one before.
-TEST_F(Animate, DrawsFilmsAndPicturesWithoutAScreen) {
+TEST_F(Animate, DrawsVideosAndPicturesWithoutAScreen) {
   if (!can_animate()) GTEST_SKIP() << "needs VTK's rendering and xvfb-run (xvfb, xauth)";
-  const Outcome film = without_display("animate " + disks +
+  const Outcome video = without_display("animate " + disks +
                                        " --out m.ogv --mode 2 --frames 6 "
                                        "--size 320x240");
-  ASSERT_EQ(film.status, 0) << film.err;
-  EXPECT_TRUE(has(film.out, "m.ogv: 6 frames, mode 2 at ")) << film.out;
+  ASSERT_EQ(video.status, 0) << video.err;
+  EXPECT_TRUE(has(video.out, "m.ogv: 6 frames, mode 2 at ")) << video.out;
   EXPECT_EQ(content(folder / "m.ogv").substr(0, 4), "OggS");
 
   ASSERT_EQ(whirl({"simulate", disks, "--revolutions", "4", "--discard", "1", "--out", "run.h5",
@@ -48,12 +48,12 @@ TEST_F(Animate, DrawsFilmsAndPicturesWithoutAScreen) {
 // 1 / rate.
 TEST_F(Animate, DrawsGifs) {
   if (!can_animate()) GTEST_SKIP() << "needs VTK's rendering and xvfb-run (xvfb, xauth)";
-  const Outcome film = without_display("animate " + disks +
+  const Outcome video = without_display("animate " + disks +
                                        " --out m.gif --mode 1 --frames 5 --size 320x240 --rate 20");
-  if (film.status == 2 && has(film.err, "neither is there")) {
+  if (video.status == 2 && has(video.err, "neither is there")) {
     GTEST_SKIP() << "needs ffmpeg or imagemagick";
   }
-  ASSERT_EQ(film.status, 0) << film.err;
+  ASSERT_EQ(video.status, 0) << video.err;
   EXPECT_EQ(files(), std::vector<std::string>{"m.gif"});
   const std::string gif = content(folder / "m.gif");
   const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(gif.at(at)); };
@@ -80,7 +80,7 @@ TEST_F(Animate, DrawsGifs) {
     ++at;
   }
   EXPECT_EQ(without_display("animate " + disks + " --out m.gif --frames 2 --size 64x64").status, 0)
-      << "an older film is replaced";
+      << "an older video is replaced";
   EXPECT_EQ(pictures, 5);
   EXPECT_EQ(centiseconds, 25);
   EXPECT_TRUE(loops);
@@ -96,7 +96,7 @@ TEST_F(Animate, TellsWhatIsMissing) {
   EXPECT_EQ(wrong_display.status, 2);
   EXPECT_TRUE(has(wrong_display.err, "cannot draw")) << wrong_display.err;
   for (const auto& [words, message] : std::vector<std::pair<std::string, std::string>>{
-           {"--out m.mp4", "expected a film .ogv or .gif, or pictures .png"},
+           {"--out m.mp4", "expected a video .ogv or .gif, or pictures .png"},
            {"--out m.ogv --size big", "expected WIDTHxHEIGHT"},
            {"--out m.ogv --size 1x1", "expected WIDTHxHEIGHT"},
            {"--out m.ogv --mode 4711", "there is no such mode"},

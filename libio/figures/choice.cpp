@@ -1,0 +1,118 @@
+#include "libio/figures/choice.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "libbase/error.hpp"
+#include "libio/text/nearest.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// The kind of a name; wrong names are told with what there is.
+const FigureKind& kind_of(const std::string& name, const ResultView& result) {
+  std::vector<std::string> known, here;
+  for (const FigureKind& kind : figure_kinds()) {
+    known.emplace_back(kind.name);
+    if (is_in(kind, result)) here.emplace_back(kind.name);
+  }
+  const auto found = std::find(known.begin(), known.end(), name);
+  if (found == known.end()) {
+    const auto near = nearest(name, known);
+    throw ModelError(
+        {name}, "",
+        near ? fmt::format("unknown kind of figure, did you mean \"{}\"?", *near)
+             : fmt::format("unknown kind of figure, there are {}", fmt::join(known, ", ")));
+  }
+  const FigureKind& kind = figure_kinds()[static_cast<std::size_t>(found - known.begin())];
+  if (is_in(kind, result)) return kind;
+  throw ModelError(
+      {name}, "",
+      fmt::format("the result does not hold what this figure needs; it can be "
+                  "drawn as {}",
+                  here.empty() ? "nothing" : fmt::format("{}", fmt::join(here, ", "))));
+}
+
+/// @throws ModelError  for a kind that shows no motion in time
+void require_window(const FigureKind& kind) {
+  if (kind.takes_window) return;
+  std::vector<std::string_view> names;
+  for (const FigureKind& other : figure_kinds()) {
+    if (other.takes_window) names.push_back(other.name);
+  }
+  throw ModelError({"--revolutions, --from-revolution, --times"}, "",
+                   fmt::format("are of motions in time: {}", fmt::join(names, ", ")));
+}
+
+Figure& variant_of(std::vector<Figure>& figures, const std::string& name) {
+  if (name.empty()) return figures.front();
+  std::vector<std::string> names;
+  for (Figure& f : figures) {
+    if (f.variant == name) return f;
+    names.push_back(f.variant);
+  }
+  for (Figure& f : figures) {  // "ring" of "7 ring"
+    if (f.variant.find(name) != std::string::npos) return f;
+  }
+  throw ModelError({"--which " + name}, "",
+                   fmt::format("there is no such figure; there are {}", fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+DrawableKinds drawable_kinds(const ResultView& result) {
+  DrawableKinds all;
+  for (const FigureKind& kind : figure_kinds()) {
+    try {
+      const std::vector<Figure> figures = figures_of(kind, result);
+      if (figures.empty()) continue;
+      DrawableKind drawable{std::string(kind.name), std::string(kind.summary), {}};
+      for (const Figure& f : figures) {
+        if (!f.variant.empty()) drawable.variants.push_back(f.variant);
+      }
+      all.kinds.push_back(std::move(drawable));
+    } catch (const std::exception& error) {  // what fails of one does not cost the others
+      all.problems.push_back(fmt::format("{} cannot be drawn: {}", kind.name, error.what()));
+    }
+  }
+  return all;
+}
+
+Figure chosen_figure(const ResultView& result, const FigureChoice& choice) {
+  const FigureKind& kind = kind_of(choice.kind, result);
+  if (result.window.is_given()) require_window(kind);
+  std::vector<Figure> figures = figures_of(kind, result);
+  if (figures.empty()) {
+    throw ModelError({choice.kind}, "", "there is nothing to draw in this result");
+  }
+  if (!choice.with.empty()) {
+    const std::string problem = lay_over(figures, result, ResultView(choice.with),
+                                         std::filesystem::path(choice.with).filename());
+    if (!problem.empty()) throw ModelError({"--with " + choice.with}, "", problem);
+  }
+  return std::move(variant_of(figures, choice.variant));
+}
+
+std::string verb_for(std::string_view kind) {
+  // results have a group by the name of the verb, with these exceptions
+  static const std::map<std::string_view, std::string_view> others{{"trajectory", "simulate"},
+                                                                   {"spectra", "simulate"},
+                                                                   {"mac", "identify"},
+                                                                   {"branch", "continue"},
+                                                                   {"border", "continue"}};
+  for (const FigureKind& k : figure_kinds()) {
+    if (k.name != kind || k.needs.empty()) continue;
+    const std::string_view path = k.needs.front();
+    const std::string_view group = path.substr(1, path.find('/', 1) - 1);
+    const auto other = others.find(group);
+    return std::string(other != others.end() ? other->second : group);
+  }
+  return "simulate";
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,48 @@
+#pragma once
+/// What a result can be drawn as, and choosing one of it.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libio/drawing/figure_svg.hpp"
+#include "libio/figures/figures.hpp"
+
+namespace whirl::inline io {
+
+/// A kind of figure that a result can be drawn as.
+struct DrawableKind {
+  std::string name, summary;
+  std::vector<std::string> variants;  ///< stations, contacts or planes; empty: there is one figure
+
+  static constexpr auto columns() {
+    return std::tuple{column("kind", &DrawableKind::name, "", "kind"),
+                      column("variants", &DrawableKind::variants, "", "of several of a kind")};
+  }
+};
+
+/// All that a result can be drawn as.
+struct DrawableKinds {
+  std::vector<DrawableKind> kinds;
+  std::vector<std::string> problems;  ///< of kinds that cannot be drawn, a sentence each
+
+  static constexpr auto columns() { return std::tuple{rows(&DrawableKinds::kinds, "kinds")}; }
+};
+DrawableKinds drawable_kinds(const ResultView& result);
+
+/// A figure of a result that was asked for.
+struct FigureChoice {
+  std::string kind;
+  std::string variant{};  ///< or a part of its name; empty: the first
+  std::string with{};     ///< a result to be laid over it; empty: none
+};
+
+/// The chosen figure, the stretch of a motion being that of the result.
+/// @throws ModelError  naming what there is, if it cannot be drawn so
+Figure chosen_figure(const ResultView& result, const FigureChoice& choice);
+
+/// The verb whose results can be drawn as a kind; of a name that is none, "simulate".
+std::string verb_for(std::string_view kind);
+
+}  // namespace whirl::inline io
