@@ -62,7 +62,6 @@ struct StationPeak : ResponsePeak {
   std::string name;
   std::optional<SeparationMargin> separation;  ///< nothing: the model has no operating speed
 
-  int station() const { return static_cast<int>(row) + 1; }
   std::vector<double> half_power() const { return {below, above}; }
   std::optional<double> margin() const {
     return separation ? std::optional(separation->actual) : std::nullopt;
@@ -79,8 +78,9 @@ struct StationPeak : ResponsePeak {
         column("speed", &StationPeak::speed, "rad/s", "speed of a peak")
             .axis()
             .within(valid::finite),
-        column("station", &StationPeak::station, "", "number of the station, from 1")
+        column("station", &StationPeak::row, "", "number of the station, from 1")
             .within(valid::numbers_of("stations"))
+            .from_one()
             .only(in_file),
         column("node", &StationPeak::node, "", "where it is largest").only(in_json),
         column("name", &StationPeak::name, "", "where it is largest").only(in_json),

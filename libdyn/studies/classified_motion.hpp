@@ -94,8 +94,7 @@ StudySystem study_system(const Scene& scene);
 template <class Result>
 constexpr auto contact_names() {
   return column(
-             "contact", [](const Result& r) -> const auto& { return r.system.contacts; }, "",
-             "contact")
+             "contact", [](auto& r) -> auto& { return r.system.contacts; }, "", "contact")
       .axis("contacts")
       .maybe();
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "libio/figures/common.hpp"
-#include "libio/results/columns.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -17,12 +17,12 @@ using namespace figures;
 /// What both figures draw: branches over speed.
 struct Branches {
   explicit Branches(const ResultView& result)
-      : diagram(read_result<Campbell>(result.file)),
+      : diagram(result_of<Campbell>(result)),
         speed(scaled(diagram.speeds, 1.0 / rpm)),
         unit(result.frequency),
         frequency(matrix(&CampbellBranch::frequency) * unit.factor),
         decrement(matrix(&CampbellBranch::log_decrement)) {}
-  Campbell diagram;
+  const Campbell& diagram;
   std::vector<double> speed;  ///< [rpm]
   DisplayUnit unit;           ///< of frequencies
   Mat frequency, decrement;   ///< branches x speeds [unit], [-]
@@ -248,7 +248,7 @@ FigureKind campbell_kind() {
       .name = "campbell",
       .title = "Campbell",
       .summary = "natural frequencies over speed, with the critical speeds",
-      .needs = {"/campbell/frequency"},
+      .needs = {dataset_of<Campbell>(&CampbellBranch::frequency)},
       .make = campbell_figures,
   };
 }
@@ -258,7 +258,7 @@ FigureKind log_decrement_kind() {
       .name = "log_decrement",
       .title = "Log decrement",
       .summary = "logarithmic decrements over speed, with the limit of stability",
-      .needs = {"/campbell/log_decrement"},
+      .needs = {dataset_of<Campbell>(&CampbellBranch::log_decrement)},
       .make = log_decrement_figures,
   };
 }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "libio/figures/result_of.hpp"
 #include "libio/results/call.hpp"
+#include "libio/results/study_columns.hpp"
 
 namespace whirl::inline io::figures {
 
@@ -16,13 +18,16 @@ std::vector<double> row(const Mat& m, Eigen::Index i) {
   return values;
 }
 
-std::vector<double> row(const Mat& m, Eigen::Index i, const MotionSamples& samples) {
-  const Eigen::RowVectorXd values = m.row(i).segment(samples.first, samples.size());
-  return {values.begin(), values.end()};
-}
-
 std::vector<double> numbers(const Vec& v) {
   return {v.begin(), v.end()};
+}
+
+std::vector<double> numbers(const Vec& v, const MotionSamples& samples) {
+  return numbers(v.segment(samples.first, samples.size()));
+}
+
+double largest_displacement(const StationMotion& motion) {
+  return std::max(motion.x.cwiseAbs().maxCoeff(), motion.y.cwiseAbs().maxCoeff());
 }
 
 double speed_of(const ResultView& result) {
@@ -53,16 +58,31 @@ std::string with_unit(const std::string& what, const DisplayUnit& unit) {
   return unit.name.empty() ? what : fmt::format("{} [{}]", what, unit.name);
 }
 
-ShownAxis shown_axis(const ResultView& result, const std::string& path) {
-  ShownAxis axis;
-  axis.values = numbers(result.file.vector(path));
-  axis.path = result.file.string_attribute(path, "long_name");
-  axis.si_unit = result.file.string_attribute(path, "units");
+namespace {
+
+ShownAxis shown(StoredParameter parameter) {
+  ShownAxis axis{.path = std::move(parameter.path),
+                 .values = std::move(parameter.values),
+                 .si_unit = std::move(parameter.unit)};
   const DisplayUnit unit = unit_for(largest_of(axis.values), axis.si_unit);
   axis.title = with_unit(axis.path, unit);
   axis.factor = 1.0 / unit.factor;
   axis.values = scaled(std::move(axis.values), unit.factor);
   return axis;
+}
+
+}  // namespace
+
+ShownAxis shown_axis(const ResultView& result, const std::string& path) {
+  return shown(stored_parameter(result.file, path));
+}
+
+std::vector<ShownAxis> shown_axes(const ResultView& result, std::string_view group) {
+  std::vector<ShownAxis> axes;
+  for (StoredParameter& p : stored_parameters(result.file, group)) {
+    axes.push_back(shown(std::move(p)));
+  }
+  return axes;
 }
 
 std::string command_on_model(const ResultView& result, const std::string& verb,
@@ -112,11 +132,14 @@ std::vector<std::size_t> stations_by_interest(const ResultView& result,
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (contact_at(result, names[i]) >= 0) interest[i] = 2;
   }
-  if (result.file.has("/trajectory/x") && result.file.strings("/trajectory/station") == names) {
+  if (!names.empty() && recorded_stations(result) == names) {
+    const std::vector<StationMotion>& stations = result_of<MotionRecord>(result).stations;
     constexpr double still = 1e-9;  // of the largest motion
-    const Vec most = (result.file.matrix("/trajectory/x").cwiseAbs().rowwise().maxCoeff() +
-                      result.file.matrix("/trajectory/y").cwiseAbs().rowwise().maxCoeff())
-                         .eval();
+    Vec most(std::ssize(stations));
+    for (std::size_t i = 0; i < stations.size(); ++i) {
+      most(static_cast<Eigen::Index>(i)) =
+          stations[i].x.cwiseAbs().maxCoeff() + stations[i].y.cwiseAbs().maxCoeff();
+    }
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (most(static_cast<Eigen::Index>(i)) <= still * most.maxCoeff()) interest[i] = 0;
     }
@@ -149,17 +172,21 @@ Curve line_across(const std::string& name, const Vec2& direction, double distanc
   return c;
 }
 
+std::vector<std::string> recorded_stations(const ResultView& result) {
+  std::vector<std::string> names;
+  for (const StationMotion& s : result_of<MotionRecord>(result).stations) {
+    names.push_back(s.station);
+  }
+  return names;
+}
+
 Motion::Motion(const ResultView& result)
-    : time(result.file.vector("/trajectory/time")), window(result.window) {
-  const auto number = [&](const char* name) {
-    return result.file.number_attribute("/trajectory", name);
-  };
-  period = number("period");
-  per_revolution =
-      std::max<Eigen::Index>(1, static_cast<Eigen::Index>(number("samples_per_revolution")));
+    : RecordedMotion(recorded_motion(result.file)),
+      record(result_of<MotionRecord>(result)),
+      stations(recorded_stations(result)),
+      window(result.window) {
   const double speed = speed_of(result);
   spins = std::isfinite(speed) && speed > 0.0;
-  stations = result.file.strings("/trajectory/station");
 }
 
 double Motion::phase(Eigen::Index i) const {
@@ -173,7 +200,7 @@ bool Motion::ends_revolution(Eigen::Index i) const {
 }
 
 MotionSamples Motion::shown(double revolutions) const {
-  return samples_of(window, {time, period, per_revolution, spins}, revolutions);
+  return samples_of(window, *this, revolutions);
 }
 
 MotionSamples Motion::drawn(double revolutions) const {

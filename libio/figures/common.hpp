@@ -2,6 +2,7 @@
 /// What kinds of figures share.
 
 #include "libbase/constants.hpp"
+#include "libdyn/motions/run_result.hpp"
 #include "libfe/modes.hpp"
 #include "libio/figures/figures.hpp"
 
@@ -12,9 +13,11 @@ namespace figures {
 constexpr double mm = 1e3;  ///< [1/m]
 
 std::vector<double> row(const Mat& m, Eigen::Index i);
-/// The samples of a row.
-std::vector<double> row(const Mat& m, Eigen::Index i, const MotionSamples& samples);
 std::vector<double> numbers(const Vec& v);
+/// The samples of a motion's numbers.
+std::vector<double> numbers(const Vec& v, const MotionSamples& samples);
+/// The largest displacement of a station along x or y [m].
+double largest_displacement(const StationMotion& motion);
 
 /// "4430 rpm"; empty for a result without a speed.
 std::string speed_text(const ResultView& result);
@@ -38,6 +41,8 @@ struct ShownAxis {
   std::string si_unit{};
 };
 ShownAxis shown_axis(const ResultView& result, const std::string& path);
+/// Those of a study.
+std::vector<ShownAxis> shown_axes(const ResultView& result, std::string_view group);
 
 /// A line for a shell that calls a verb on the model of a result, with what was set of it, and with
 /// some of the options of the result's own call.
@@ -69,15 +74,16 @@ Curve circle(const std::string& name, double radius, double x = 0.0, double y = 
 Curve line_across(const std::string& name, const Vec2& direction, double distance, double length,
                   const Vec2& from = Vec2::Zero());
 
-/// What a trajectory says beside its numbers.
-struct Motion {
-  explicit Motion(const ResultView& result);
-  Vec time;  ///< [s]
-  double period = 0.0;
-  Eigen::Index per_revolution = 1;  ///< samples
-  bool spins = false;
-  std::vector<std::string> stations;
+/// Names of the stations that the motion of a result was recorded at; none without a motion.
+std::vector<std::string> recorded_stations(const ResultView& result);
 
+/// A motion of a result, and which stretch of it is drawn.
+struct Motion : RecordedMotion {
+  /// @throws FileError  for a result without a motion
+  explicit Motion(const ResultView& result);
+
+  const MotionRecord& record;
+  std::vector<std::string> stations;  ///< their names
   MotionWindow window;
 
   /// What is seen at first, so many of the last revolutions if nothing else was asked for.

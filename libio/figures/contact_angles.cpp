@@ -5,6 +5,7 @@
 
 #include "libbase/constants.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -50,40 +51,36 @@ struct Touches {
   std::vector<double> angle, force, time;
 };
 
-Touches touches_of(const ResultView& result, std::size_t contact, const Mat& basis,
-                   const Mat& coordinates, const Mat& normal, const Vec& time) {
+Touches touches_of(const ResultView& result, std::size_t contact, const MotionRecord& m) {
   const DofMap dofs = result.assembler->uncondensed(0.0).dofs;
   const Contact& c = result.model->contacts[contact];
   const Point at = result.assembler->point(c.at), against = result.assembler->point(c.against);
-  Mat U = Mat::Zero(2, basis.cols());
+  Mat U = Mat::Zero(2, m.basis.cols());
   for (const int k : {X, Y}) {
-    if (const int i = dofs.full_index(at, k); i >= 0) U.row(k) += basis.row(i);
-    if (const int i = dofs.full_index(against, k); i >= 0) U.row(k) -= basis.row(i);
+    if (const int i = dofs.full_index(at, k); i >= 0) U.row(k) += m.basis.row(i);
+    if (const int i = dofs.full_index(against, k); i >= 0) U.row(k) -= m.basis.row(i);
   }
   Touches t;
-  for (Eigen::Index j = 0; j < coordinates.cols(); ++j) {
-    const double n = normal(static_cast<Eigen::Index>(contact), j);
+  for (Eigen::Index j = 0; j < m.coordinates.cols(); ++j) {
+    const double n = m.normal(static_cast<Eigen::Index>(contact), j);
     if (n <= 0.0) continue;
-    const Vec2 d = U * coordinates.col(j) - c.offset;
+    const Vec2 d = U * m.coordinates.col(j) - c.offset;
     t.angle.push_back(std::atan2(d(1), d(0)));
     t.force.push_back(n);
-    t.time.push_back(time(j));
+    t.time.push_back(m.time(j));
   }
   return t;
 }
 
 std::vector<Figure> contact_angle_figures(const ResultView& result) {
-  const Mat basis = result.file.matrix("/trajectory/basis");
-  const Mat coordinates = result.file.matrix("/trajectory/coordinates");
-  const Mat normal = result.file.matrix("/trajectory/normal_force");
-  const Vec time = result.file.vector("/trajectory/time");
+  const auto& motion = result_of<MotionRecord>(result);
   const auto contacts = result.model->contacts.size();
-  if (static_cast<std::size_t>(normal.rows()) != contacts ||
-      basis.rows() != result.assembler->uncondensed(0.0).dofs.full_size)
+  if (static_cast<std::size_t>(motion.normal.rows()) != contacts ||
+      motion.basis.rows() != result.assembler->uncondensed(0.0).dofs.full_size)
     return {};
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < contacts; ++i) {
-    const Touches t = touches_of(result, i, basis, coordinates, normal, time);
+    const Touches t = touches_of(result, i, motion);
     if (t.angle.empty()) continue;
     const std::string name = result.model->contacts[i].name;
     Figure f{.variant = name, .width = 900.0, .height = 480.0};
@@ -136,7 +133,7 @@ std::vector<Figure> contact_angle_figures(const ResultView& result) {
     }
     f.panels = {std::move(forces), std::move(rose)};
     f.notes = {fmt::format("In touch {:.1f} % of the recorded time.",
-                           100.0 * whole / static_cast<double>(time.size()))};
+                           100.0 * whole / static_cast<double>(motion.time.size()))};
     figures.push_back(std::move(f));
   }
   return figures;
@@ -149,7 +146,8 @@ FigureKind contact_angles_kind() {
       .name = "contact_angles",
       .title = "Contact angles",
       .summary = "where around the stator it touches, and how hard",
-      .needs = {"/trajectory/normal_force", "/trajectory/coordinates"},
+      .needs = {dataset_of<MotionRecord>(&MotionRecord::normal),
+                dataset_of<MotionRecord>(&MotionRecord::coordinates)},
       .needs_model = true,
       .make = contact_angle_figures,
   };

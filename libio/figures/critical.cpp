@@ -6,7 +6,7 @@
 
 #include "libfe/critical_map.hpp"
 #include "libio/figures/common.hpp"
-#include "libio/results/columns.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -87,7 +87,7 @@ FigureTable table_of(const std::vector<Critical>& criticals) {
 }
 
 std::vector<Figure> critical_figures(const ResultView& result) {
-  const auto found = read_result<CriticalSpeeds>(result.file);
+  const auto& found = result_of<CriticalSpeeds>(result);
   if (found.criticals.empty()) return {};
   const CriticalOptions options{.count = static_cast<int>(found.criticals.size()),
                                 .order = found.order};
@@ -129,7 +129,7 @@ FigureKind critical_map_kind() {
       .name = "critical_map",
       .title = "Critical speeds",
       .summary = "critical speeds over the stiffness of the bearings",
-      .needs = {"/critical/speed"},
+      .needs = {dataset_of<CriticalSpeeds>(&Critical::speed)},
       .needs_model = true,
       .make = critical_figures,
   };

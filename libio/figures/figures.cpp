@@ -85,9 +85,8 @@ const std::vector<FigureKind>& figure_kinds() {
 
 bool is_in(const FigureKind& kind, const ResultView& result) {
   if (kind.needs_model && !result.assembler) return false;
-  return std::all_of(kind.needs.begin(), kind.needs.end(), [&](std::string_view dataset) {
-    return result.file.has(std::string(dataset));
-  });
+  return std::all_of(kind.needs.begin(), kind.needs.end(),
+                     [&](const std::string& dataset) { return result.file.has(dataset); });
 }
 
 std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result) {

@@ -3,9 +3,12 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <typeindex>
+#include <unordered_map>
 #include <vector>
 
 #include "libbase/constants.hpp"
@@ -31,6 +34,8 @@ struct ResultView {
   std::string problem;  ///< why there is no model, such as a bearing table that is gone
   DisplayUnit frequency{"Hz", 1.0 / hertz};  ///< of frequency axes; speeds are in rpm
   MotionWindow window;  ///< of motions that are drawn in time; left open: their end
+  /// Results that were read of the file, by their types: see result_of.hpp.
+  mutable std::unordered_map<std::type_index, std::shared_ptr<const void>> known{};
 };
 
 /// A unit for frequency axes: "Hz", "cpm" or "rad/s"; nothing for other names.
@@ -41,7 +46,7 @@ struct FigureKind {
   std::string_view name;
   std::string_view title;  ///< "Bode", above its card on a page
   std::string_view summary;
-  std::vector<std::string_view> needs{};  ///< datasets; without all of them there is no figure
+  std::vector<std::string> needs{};  ///< datasets, see dataset_of(); it draws nothing without one
   bool needs_model = false;
   std::vector<Figure> (*make)(const ResultView&) =
       nullptr;                ///< the most telling one first; may be none

@@ -7,9 +7,12 @@
 #include <array>
 #include <cmath>
 
+#include "libdyn/studies/map.hpp"
+#include "libdyn/studies/sweep.hpp"
 #include "libio/figures/border_lines.hpp"
 #include "libio/figures/branch_lines.hpp"
 #include "libio/figures/comparison.hpp"
+#include "libio/results/study_columns.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
@@ -83,7 +86,7 @@ std::string branches_over(std::vector<Figure>& figures, const ResultView& study,
   if (!over.file.has("/branch/max_radius")) {
     return "expected branches of whirl continue over a bifurcation diagram";
   }
-  const ShownAxis axis = shown_axis(study, "/sweep/axis_1");
+  const ShownAxis axis = shown_axes(study, SweepResult::group).at(0);
   BranchPoints b(over);
   if (b.axis.path != axis.path) {
     return fmt::format("its branches run along {}, the sweep along {}", b.axis.path, axis.path);
@@ -111,8 +114,9 @@ std::string borders_over(std::vector<Figure>& figures, const ResultView& study,
   if (!over.file.has("/border/second")) {
     return "expected borders over a map, of whirl continue with two --over";
   }
-  if (study.file.has("/map/axis_3")) return "borders go over maps of two values, not of three";
-  const ShownAxis x = shown_axis(study, "/map/axis_1"), y = shown_axis(study, "/map/axis_2");
+  const std::vector<ShownAxis> axes = shown_axes(study, MapResult::group);
+  if (axes.size() > 2) return "borders go over maps of two values, not of three";
+  const ShownAxis &x = axes.at(0), &y = axes.at(1);
   const BorderPoints b(over);
   const bool is_same = b.first.path == x.path && b.second.path == y.path,
              is_turned = b.first.path == y.path && b.second.path == x.path;
@@ -141,11 +145,16 @@ bool is_same_value(const std::string& a, const std::string& b) {
 
 /// Parameters of a study or continuation, each path for itself.
 std::vector<std::string> varied(const ResultView& result) {
+  std::vector<StoredParameter> parameters = stored_parameters(result.file, SweepResult::group);
+  for (StoredParameter& p : stored_parameters(result.file, MapResult::group)) {
+    parameters.push_back(std::move(p));
+  }
+  for (const char* dataset : {"/branch/value", "/border/second"}) {
+    if (result.file.has(dataset)) parameters.push_back(stored_parameter(result.file, dataset));
+  }
   std::vector<std::string> paths;
-  for (const char* dataset : {"/sweep/axis_1", "/map/axis_1", "/map/axis_2", "/map/axis_3",
-                              "/branch/value", "/border/second"}) {
-    if (!result.file.has(dataset)) continue;
-    const std::string all = result.file.string_attribute(dataset, "long_name");
+  for (const StoredParameter& p : parameters) {
+    const std::string& all = p.path;
     for (std::size_t from = 0; from <= all.size();) {
       const std::size_t to = std::min(all.find(',', from), all.size());
       paths.push_back(all.substr(from, to - from));

@@ -1,10 +1,13 @@
+#include "libdyn/studies/map.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "libdyn/studies/basins.hpp"
 #include "libio/figures/common.hpp"
-#include "libio/results/motion_codes.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -14,9 +17,10 @@ using namespace figures;
 
 /// The planes of a study of two or three parameters.
 struct Planes {
-  Planes(const ResultView& result, const std::string& group)
-      : x(shown_axis(result, group + "/axis_1")), y(shown_axis(result, group + "/axis_2")) {
-    if (result.file.has(group + "/axis_3")) z = shown_axis(result, group + "/axis_3");
+  /// @param axes  two or three
+  explicit Planes(std::vector<ShownAxis> axes)
+      : x(std::move(axes.at(0))), y(std::move(axes.at(1))) {
+    if (axes.size() > 2) z = std::move(axes[2]);
   }
   ShownAxis x, y, z;
   std::size_t count() const { return std::max<std::size_t>(1, z.values.size()); }
@@ -128,26 +132,21 @@ const std::vector<Category>& motions() {
 }
 
 /// Which of motions() it is.
-double motion_number(std::optional<MotionKind> kind, double period) {
+double motion_number(std::optional<MotionKind> kind, int period) {
   if (!kind) return static_cast<double>(motions().size() - 1);
   const auto number = static_cast<int>(*kind), periodic = static_cast<int>(MotionKind::periodic);
   if (number < periodic) return number;
   if (number > periodic) return number + told_periods;
-  return periodic + (period >= 1.0 && period <= told_periods ? period - 1.0 : told_periods);
+  return periodic + (period >= 1 && period <= told_periods ? period - 1 : told_periods);
 }
 
 std::vector<Figure> map_figures(const ResultView& result) {
-  const Planes planes(result, "/map");
-  const auto motion = result.file.numbers("/map/motion"),
-             period = result.file.numbers("/map/period");
-  const MotionCodes codes(result.file, "/map/motion");
-  const std::vector<double> done =
-      result.file.has("/map/done") ? result.file.numbers("/map/done") : std::vector<double>{};
+  const Planes planes(shown_axes(result, MapResult::group));
+  const auto& points = study_of<MapResult>(result).points;
   std::vector<Figure> figures;
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {
     Cells cells = planes.cells(plane, [&](std::size_t i) {
-      if (!done.empty() && done[i] == 0.0) return std::nan("");
-      return motion_number(codes.kind(motion[i]), period[i]);
+      return points[i] ? motion_number(points[i]->kind, points[i]->period) : std::nan("");
     });
     keep_used(cells, motions());
     cells.title = "motion";
@@ -157,13 +156,13 @@ std::vector<Figure> map_figures(const ResultView& result) {
 }
 
 std::vector<Figure> exponent_map_figures(const ResultView& result) {
-  const Planes planes(result, "/map");
-  const auto exponents = result.file.numbers("/map/exponent");
-  const auto width = static_cast<std::size_t>(result.file.shape("/map/exponent").back());
+  const Planes planes(shown_axes(result, MapResult::group));
+  const auto& points = study_of<MapResult>(result).points;
   std::vector<Figure> figures;
-  if (width == 0) return figures;
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {
-    Cells cells = planes.cells(plane, [&](std::size_t i) { return exponents[i * width]; });
+    Cells cells = planes.cells(plane, [&](std::size_t i) {
+      return points[i] ? points[i]->largest_exponent() : std::nan("");
+    });
     cells.map = ColorMap::diverging;
     cells.title = "largest exponent [1/rev]";
     double high = 0.0;
@@ -177,9 +176,9 @@ std::vector<Figure> exponent_map_figures(const ResultView& result) {
 }
 
 std::vector<Figure> regime_map_figures(const ResultView& result) {
-  const Planes planes(result, "/map");
-  const auto regimes = result.file.numbers("/map/regime");
-  const auto contacts = result.file.strings("/map/contact");
+  const Planes planes(shown_axes(result, MapResult::group));
+  const auto& study = study_of<MapResult>(result);
+  const std::vector<std::string>& contacts = study.system.contacts;
   static const std::vector<Category> all{{"no contact", Paint::rest},
                                          {"intermittent", Paint::chaotic},
                                          {"permanent", Paint::period_3}};
@@ -187,8 +186,9 @@ std::vector<Figure> regime_map_figures(const ResultView& result) {
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       Cells cells = planes.cells(plane, [&](std::size_t i) {
-        const double code = regimes[i * contacts.size() + c];
-        return code >= 0.0 && code <= 2.0 ? code : std::nan("");
+        const auto& point = study.points[i];
+        const bool is_known = point && c < point->contacts.size();
+        return is_known ? static_cast<double>(point->contacts[c].regime) : std::nan("");
       });
       keep_used(cells, all);
       cells.title = contacts[c];
@@ -204,11 +204,8 @@ constexpr double not_motions = 2.0;  ///< categories before the motions: not set
 
 /// Motions that starts lead to, each described by the first start that led there.
 /// @param attractor  numbers of categories
-std::vector<Category> basin_categories(const ResultView& result,
+std::vector<Category> basin_categories(const PointRows<BasinsPoint>& points,
                                        const std::vector<double>& attractor) {
-  const auto motion = result.file.numbers("/basins/motion"),
-             period = result.file.numbers("/basins/period");
-  const MotionCodes codes(result.file, "/basins/motion");
   double count = 0.0;
   for (const double a : attractor) count = std::max(count, a - not_motions + 1.0);
   std::vector<Category> all{{"not settled", Paint::not_settled}, {"failed", Paint::failed}};
@@ -217,46 +214,53 @@ std::vector<Category> basin_categories(const ResultView& result,
         std::find(attractor.begin(), attractor.end(), number - 1.0 + not_motions) -
         attractor.begin());
     if (first == attractor.size()) continue;
-    const auto kind =
-        static_cast<std::size_t>(motion_number(codes.kind(motion[first]), period[first]));
+    const ClassifiedMotion motion = points[first] ? points[first]->motion : ClassifiedMotion{};
+    const auto kind = static_cast<std::size_t>(motion_number(motion.kind, motion.period));
     all.push_back({fmt::format("{}: {}", number, motions()[kind].name),
                    series_paint(static_cast<std::size_t>(number - 1))});
   }
   return all;
 }
 
+/// Displacements at the starts [m, rad], a row per start; NaN where there is none.
+Mat starts_of(const PointRows<BasinsPoint>& points) {
+  Eigen::Index width = 0;
+  for (const auto& p : points) width = std::max(width, p ? p->start.displacement.size() : 0);
+  Mat starts = Mat::Constant(std::ssize(points), width, std::nan(""));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i] || points[i]->start.displacement.size() != width) continue;
+    starts.row(static_cast<Eigen::Index>(i)) = points[i]->start.displacement;
+  }
+  return starts;
+}
+
 /// The column of x [m] of the place where starts are spread the most; y is in the next one.
-std::size_t widest_place(const std::vector<double>& start, std::size_t width) {
-  std::size_t widest = 0;
+Eigen::Index widest_place(const Mat& starts) {
+  Eigen::Index widest = 0;
   double spread = -1.0;
-  for (std::size_t k = 0; k + 1 < width; k += 2) {
+  for (Eigen::Index k = 0; k + 1 < starts.cols(); k += 2) {
     double low = INFINITY, high = -INFINITY;
-    for (std::size_t i = k; i < start.size(); i += width) {
-      low = std::min(low, start[i]);
-      high = std::max(high, start[i]);
+    for (Eigen::Index i = 0; i < starts.rows(); ++i) {
+      low = std::min(low, starts(i, k));
+      high = std::max(high, starts(i, k));
     }
-    const bool is_place = width % 4 != 0 || k % 4 == 0;  // not a tilt
+    const bool is_place = starts.cols() % 4 != 0 || k % 4 == 0;  // not a tilt
     if (is_place && high - low > spread) spread = high - low, widest = k;
   }
   return widest;
 }
 
 /// Random starts, by the motion that they lead to.
-Figure starts_figure(const ResultView& result, const std::vector<double>& attractor,
+Figure starts_figure(const Mat& starts, const std::vector<double>& attractor,
                      const std::vector<Category>& all) {
-  const auto start = result.file.numbers("/basins/start_displacement");
-  const auto width =
-      static_cast<std::size_t>(result.file.shape("/basins/start_displacement").back());
-  const std::size_t widest = widest_place(start, width);
+  const Eigen::Index widest = widest_place(starts);
+  const Mat place = starts.middleCols(widest, 2);  // x, y
   Figure f{.width = 640.0, .height = 600.0};
   f.subtitle = fmt::format("{} random starts and the motions that they lead to", attractor.size());
   Panel p;
   p.has_equal_scales = true;
   double largest = 0.0;
-  for (std::size_t i = 0; i < attractor.size(); ++i) {
-    largest = std::max(
-        {largest, std::abs(start[i * width + widest]), std::abs(start[i * width + widest + 1])});
-  }
+  for (const double v : place.reshaped()) largest = std::max(largest, std::abs(v));
   const DisplayUnit unit = unit_for(largest, "m");
   p.x.title = with_unit("x at the start", unit);
   p.y.title = with_unit("y at the start", unit);
@@ -267,8 +271,9 @@ Figure starts_figure(const ResultView& result, const std::vector<double>& attrac
     c.size = 6.0;
     for (std::size_t i = 0; i < attractor.size(); ++i) {
       if (std::max(0.0, attractor[i]) != static_cast<double>(a)) continue;
-      c.x.push_back(unit.factor * start[i * width + widest]);
-      c.y.push_back(unit.factor * start[i * width + widest + 1]);
+      const auto row = static_cast<Eigen::Index>(i);
+      c.x.push_back(unit.factor * place(row, 0));
+      c.y.push_back(unit.factor * place(row, 1));
       c.hover.push_back(fmt::format("start {}, {}", i + 1, all[a].name));
     }
     if (c.x.empty()) continue;
@@ -282,11 +287,13 @@ Figure starts_figure(const ResultView& result, const std::vector<double>& attrac
 }
 
 std::vector<Figure> basin_figures(const ResultView& result) {
-  auto attractor = result.file.numbers("/basins/attractor");  // from 0; -2: not settled, -1: failed
-  for (double& a : attractor) a += not_motions;
-  const std::vector<Category> all = basin_categories(result, attractor);
-  if (!result.file.has("/basins/axis_2")) return {starts_figure(result, attractor, all)};
-  const Planes planes(result, "/basins");
+  const auto& study = study_of<BasinsResult>(result);
+  std::vector<double> attractor;  // as categories
+  for (const int number : study.attractor) attractor.push_back(number + not_motions);
+  const std::vector<Category> all = basin_categories(study.points, attractor);
+  std::vector<ShownAxis> axes = shown_axes(result, BasinsResult::group);
+  if (axes.size() < 2) return {starts_figure(starts_of(study.points), attractor, all)};
+  const Planes planes(std::move(axes));
   std::vector<Figure> figures;
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {
     Cells cells = planes.cells(plane, [&](std::size_t i) { return std::max(0.0, attractor[i]); });
@@ -303,7 +310,7 @@ FigureKind map_kind() {
       .name = "map",
       .title = "Map",
       .summary = "kinds of motion in a plane of two parameters",
-      .needs = {"/map/motion"},
+      .needs = {point_dataset<MapResult>("motion")},
       .make = map_figures,
   };
 }
@@ -313,7 +320,7 @@ FigureKind exponent_map_kind() {
       .name = "exponent_map",
       .title = "Exponent map",
       .summary = "largest Lyapunov exponent in the plane",
-      .needs = {"/map/exponent"},
+      .needs = {point_dataset<MapResult>("exponent")},
       .make = exponent_map_figures,
   };
 }
@@ -323,7 +330,7 @@ FigureKind regime_map_kind() {
       .name = "regime_map",
       .title = "Contact map",
       .summary = "contact in the plane",
-      .needs = {"/map/regime"},
+      .needs = {point_dataset<MapResult>("regime")},
       .make = regime_map_figures,
   };
 }
@@ -333,7 +340,7 @@ FigureKind basins_kind() {
       .name = "basins",
       .title = "Basins",
       .summary = "which motion each start leads to",
-      .needs = {"/basins/attractor"},
+      .needs = {dataset_of<BasinsResult>(&BasinsResult::attractor)},
       .make = basin_figures,
   };
 }

@@ -8,10 +8,13 @@
 #include <numeric>
 
 #include "libbase/error.hpp"
+#include "libdyn/motions/identify.hpp"
+#include "libdyn/studies/classification_result.hpp"
+#include "libdyn/system/stations.hpp"
 #include "libfe/shaft_line.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
-#include "libio/results/columns.hpp"
 
 namespace whirl::inline io {
 
@@ -31,11 +34,12 @@ struct Shapes {
 /// The shapes between the nodes too, by the shape functions of the elements; at the nodes only where
 /// the model cannot be read again.
 Shapes shapes_of(const ResultView& result, const CMat& full) {
-  const Vec z = result.file.vector("/points/z");
+  const auto& at_rest = result_of<PointNames>(result);
+  const Vec& z = at_rest.z;
   const auto nodes = z.size();
   if (full.rows() < 4 * nodes) throw FileError("/modes/shape and /points/z do not fit");
-  std::vector<std::string> what(static_cast<std::size_t>(nodes));
-  if (result.file.has("/points/node_name")) what = result.file.strings("/points/node_name");
+  std::vector<std::string> what = at_rest.node_names;
+  what.resize(static_cast<std::size_t>(nodes));
   const auto name = [&](Eigen::Index i) {
     const std::string& at = what.at(static_cast<std::size_t>(i));
     return fmt::format("node {}{}{}", i + 1, at.empty() ? "" : ": ", at);
@@ -167,7 +171,7 @@ FigureTable table_of(const Modes& modes, const ResultView& result) {
 }
 
 std::vector<Figure> mode_figures(const ResultView& result) {
-  const auto modes = read_result<ModesAtPoints>(result.file);
+  const auto& modes = result_of<ModesAtPoints>(result);
   const Shapes shapes = shapes_of(result, modes.shape);
   constexpr Eigen::Index most = 6;  // beside each other
   const std::string speed = speed_text(result).empty() ? "" : " at " + speed_text(result);
@@ -195,16 +199,16 @@ std::vector<Figure> mode_figures(const ResultView& result) {
 }
 
 std::vector<Figure> mac_figures(const ResultView& result) {
-  const Mat mac = result.file.matrix("/mac/mac");
-  const Vec peaks = result.file.vector("/mac/frequency");
-  const auto modes = read_result<ModesAtPoints>(result.file).oscillatory;
-  if (mac.rows() == 0 || mac.cols() == 0) return {};
+  const std::vector<IdentifiedPeak>& peaks = result_of<Identification>(result).peaks;
+  const std::vector<Mode>& modes = result_of<ModesAtPoints>(result).oscillatory;
+  const std::size_t columns = peaks.empty() ? 0 : peaks.front().mac.size();
+  if (columns == 0) return {};
   Figure f;
   f.subtitle = "Modal assurance criterion: deflection shapes of the motion against modes" +
                (speed_text(result).empty() ? "" : " at " + speed_text(result));
-  f.width = 200.0 + 80.0 * static_cast<double>(mac.cols());
+  f.width = 200.0 + 80.0 * static_cast<double>(columns);
   f.width = std::max(f.width, 560.0);
-  f.height = 150.0 + 34.0 * static_cast<double>(mac.rows());
+  f.height = 150.0 + 34.0 * static_cast<double>(peaks.size());
   f.height = std::max(f.height, 320.0);
   Panel p;
   p.x.title = with_unit("mode, its frequency", result.frequency);
@@ -212,16 +216,17 @@ std::vector<Figure> mac_figures(const ResultView& result) {
   Cells& c = p.cells;
   c.title = "MAC";
   c.prints_values = true;
-  for (Eigen::Index j = 0; j < mac.cols(); ++j) {
+  for (std::size_t j = 0; j < columns; ++j) {
     c.x.push_back(static_cast<double>(j + 1));
-    const Mode& mode = modes.at(static_cast<std::size_t>(j));
+    const Mode& mode = modes.at(j);
     c.x_names.push_back(fmt::format("{}{} {:.1f}", j + 1, whirl_style(mode.whirl).letter,
                                     mode.frequency() * result.frequency.factor));
   }
-  for (Eigen::Index i = mac.rows(); i-- > 0;) {  // the strongest peak on top
-    c.y.push_back(static_cast<double>(mac.rows() - i));
-    c.y_names.push_back(with_minus(fmt::format("{:+.2f}", peaks(i) * result.frequency.factor)));
-    for (Eigen::Index j = 0; j < mac.cols(); ++j) c.values.push_back(mac(i, j));
+  for (std::size_t i = peaks.size(); i-- > 0;) {  // the strongest peak on top
+    c.y.push_back(static_cast<double>(peaks.size() - i));
+    c.y_names.push_back(
+        with_minus(fmt::format("{:+.2f}", peaks[i].frequency * result.frequency.factor)));
+    c.values.insert(c.values.end(), peaks[i].mac.begin(), peaks[i].mac.end());
   }
   f.panels.push_back(std::move(p));
   return {f};
@@ -263,7 +268,8 @@ FigureKind modes_kind() {
       .name = "modes",
       .title = "Mode shapes",
       .summary = "mode shapes along the rotor",
-      .needs = {"/modes/shape", "/points/z"},
+      .needs = {dataset_of<ModesAtPoints>(&ModesAtPoints::shape),
+                dataset_of<PointNames>(&PointNames::z)},
       .make = mode_figures,
   };
 }
@@ -273,7 +279,7 @@ FigureKind mac_kind() {
       .name = "mac",
       .title = "MAC",
       .summary = "which modes make up the peaks of the response",
-      .needs = {"/mac/mac"},
+      .needs = {dataset_of<Identification>(&IdentifiedPeak::mac)},
       .make = mac_figures,
   };
 }
@@ -283,7 +289,7 @@ FigureKind exponents_kind() {
       .name = "exponents",
       .title = "Exponents",
       .summary = "Lyapunov exponents of the motion",
-      .needs = {"/classify/exponent"},
+      .needs = {dataset_of<ClassificationResult>(&ClassificationResult::exponents)},
       .make = exponent_figures,
   };
 }

@@ -8,8 +8,8 @@
 
 #include "libfe/bending.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
-#include "libio/results/columns.hpp"
 
 namespace whirl::inline io {
 
@@ -97,7 +97,7 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
   Panel behind;
   add_rotor(behind, result, 0.0, 0.22 * span);
   p.curves.insert(p.curves.begin(), behind.curves.begin(), behind.curves.end());
-  const auto bearings = read_result<StaticEquilibrium>(result.file).bearings;
+  const auto& bearings = result_of<StaticEquilibrium>(result).bearings;
   if (bearings.empty()) return;
   double largest = 0.0;
   for (const BearingLoad& b : bearings) largest = std::max(largest, b.force.cwiseAbs().maxCoeff());
@@ -125,7 +125,7 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
 }
 
 std::vector<Figure> static_figures(const ResultView& result) {
-  const auto of = read_result<BendingLine>(result.file);
+  const auto& of = result_of<BendingLine>(result);
   const Vec& z = of.z;
   const std::array<Line, 3> lines{{{"deflection", "m", of.deflection},
                                    {"bending moment", "N.m", of.moment},
@@ -151,7 +151,10 @@ FigureKind static_kind() {
       .name = "static",
       .title = "Sag and bending",
       .summary = "sag under gravity, bearing loads, bending moment and shear force",
-      .needs = {"/static/z", "/static/deflection", "/static/moment", "/static/shear"},
+      .needs = {dataset_of<BendingLine>(&BendingLine::z),
+                dataset_of<BendingLine>(&BendingLine::deflection),
+                dataset_of<BendingLine>(&BendingLine::moment),
+                dataset_of<BendingLine>(&BendingLine::shear)},
       .make = static_figures,
   };
 }

@@ -3,37 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libdyn/studies/sweep.hpp"
 #include "libio/figures/common.hpp"
-#include "libio/results/motion_codes.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
 using namespace figures;
-
-/// A dataset of a study as (point of the plane, rest), points in the order of the file.
-struct Table {
-  Table(const ResultView& result, const std::string& path, std::size_t axes)
-      : values(result.file.numbers(path)), shape(result.file.shape(path)) {
-    for (std::size_t i = axes; i < shape.size(); ++i) {
-      width *= static_cast<std::size_t>(shape[i]);
-    }
-  }
-  std::vector<double> values;
-  std::vector<Eigen::Index> shape;
-  std::size_t width = 1;  ///< numbers of a point
-
-  double at(std::size_t point, std::size_t i = 0) const { return values[point * width + i]; }
-  /// The largest number of a point.
-  double most(std::size_t point) const {
-    double largest = std::nan("");
-    for (std::size_t i = 0; i < width; ++i) {
-      if (std::isfinite(at(point, i))) largest = std::fmax(largest, at(point, i));
-    }
-    return largest;
-  }
-};
 
 struct Way {
   const char* name;
@@ -69,58 +47,74 @@ void add_lines(Panel& p, const ShownAxis& axis, const std::vector<std::string>& 
   }
 }
 
-/// Spectra of a station, one way: order, value, amplitude [m].
-struct Spectra {
-  std::vector<double> order;
-  ShownAxis axis;
-  std::vector<std::string> stations, ways;
-  Table amplitude;
-  explicit Spectra(const ResultView& result)
-      : order(numbers(result.file.vector("/sweep/order"))),
-        axis(shown_axis(result, "/sweep/axis_1")),
-        stations(result.file.strings("/sweep/station")),
-        ways(result.file.strings("/sweep/direction")),
-        amplitude(result, "/sweep/spectrum", 2) {}
-  double at(std::size_t way, std::size_t value, std::size_t station, std::size_t line) const {
-    return amplitude.at(way * axis.values.size() + value, station * order.size() + line);
-  }
-};
+/// A number of a station; NaN where there is none.
+double number_of(const Mat& m, std::size_t station, std::size_t i) {
+  const auto row = static_cast<Eigen::Index>(station), column = static_cast<Eigen::Index>(i);
+  return row < m.rows() && column < m.cols() ? m(row, column) : std::nan("");
+}
 
-constexpr double shown_orders = 4.0;
-
-/// What the panels of a bifurcation diagram are made of.
+/// A sweep: its points are way after way, each in the order of the values.
 struct SweepView {
-  explicit SweepView(const ResultView& r)
-      : result(r),
-        axis(shown_axis(r, "/sweep/axis_1")),
-        ways(r.file.strings("/sweep/direction")),
-        stations(r.file.strings("/sweep/station")),
-        x(r, "/sweep/poincare_x", 2),
-        sections(x.width / stations.size()) {}
-
-  const ResultView& result;
+  explicit SweepView(const ResultView& result)
+      : study(study_of<SweepResult>(result)),
+        axis(shown_axes(result, SweepResult::group).at(0)),
+        ways(result.file.strings(dataset_of<SweepResult>(&SweepResult::ways))),
+        stations(study.stations) {
+    for (const auto& p : study.points) {
+      if (p) sections = std::max(sections, static_cast<std::size_t>(p->portrait.poincare_x.cols()));
+    }
+  }
+  const SweepResult& study;
   ShownAxis axis;
   std::vector<std::string> ways, stations;
-  Table x;               ///< once a revolution [m]
-  std::size_t sections;  ///< of a station
+  std::size_t sections = 0;  ///< of a station
 
+  /// Null where it is not computed.
+  const SweepPoint* point(std::size_t i) const {
+    return i < study.points.size() && study.points[i] ? &*study.points[i] : nullptr;
+  }
+  /// Displacement once a revolution [m].
+  double x(std::size_t i, std::size_t station, std::size_t section) const {
+    return point(i) ? number_of(point(i)->portrait.poincare_x, station, section) : std::nan("");
+  }
+  /// The largest number of all contacts at a point; NaN where nothing is known.
+  double most(std::size_t i, double ContactDoing::*number) const {
+    double largest = std::nan("");
+    if (!point(i)) return largest;
+    for (const ContactDoing& c : point(i)->motion.contacts) {
+      if (std::isfinite(c.*number)) largest = std::fmax(largest, c.*number);
+    }
+    return largest;
+  }
   /// Unit of the displacements of a station.
   DisplayUnit unit(std::size_t station) const {
     double largest = 0.0;
-    for (std::size_t i = 0; i < ways.size() * axis.values.size(); ++i) {
+    for (std::size_t i = 0; i < study.points.size(); ++i) {
       for (std::size_t j = 0; j < sections; ++j) {
-        const double v = x.at(i, station * sections + j);
-        if (std::isfinite(v)) largest = std::max(largest, std::abs(v));
+        if (std::isfinite(x(i, station, j)))
+          largest = std::max(largest, std::abs(x(i, station, j)));
       }
     }
     return unit_for(largest, "m");
   }
 };
 
+/// Spectra of a station, one way: order, value, amplitude [m].
+struct Spectra {
+  std::vector<double> order;
+  SweepView of;
+  explicit Spectra(const ResultView& result)
+      : order(result.file.numbers(dataset_of<SweepResult>(&SweepResult::orders))), of(result) {}
+  double at(std::size_t way, std::size_t value, std::size_t station, std::size_t line) const {
+    const SweepPoint* point = of.point(way * of.axis.values.size() + value);
+    return point ? number_of(point->portrait.spectrum, station, line) : std::nan("");
+  }
+};
+
+constexpr double shown_orders = 4.0;
+
 /// Displacements once a revolution.
 Panel section_panel(const SweepView& v, std::size_t station, const DisplayUnit& unit) {
-  const Table motion(v.result, "/sweep/motion", 2), period(v.result, "/sweep/period", 2);
-  const MotionCodes codes(v.result.file, "/sweep/motion");
   const std::size_t values = v.axis.values.size();
   Panel p = panel_along(v.axis, with_unit("x once a revolution", unit));
   p.share = 2.4;
@@ -130,12 +124,12 @@ Panel section_panel(const SweepView& v, std::size_t station, const DisplayUnit& 
     c.size = w == 0 ? 2.7 : 1.7;  // what is below can be seen around what hides it
     for (std::size_t i = 0; i < values; ++i) {
       const std::size_t point = w * values + i;
-      const auto kind = codes.kind(motion.at(point));
-      const std::string name(kind ? name_of(*kind) : "failed");
+      const ClassifiedMotion motion = v.point(point) ? v.point(point)->motion : ClassifiedMotion{};
+      const std::string name(motion.kind ? name_of(*motion.kind) : "failed");
       const std::string text =
-          period.at(point) > 0.0 ? fmt::format("{}, period {:.0f}", name, period.at(point)) : name;
+          motion.period > 0 ? fmt::format("{}, period {}", name, motion.period) : name;
       for (std::size_t j = 0; j < v.sections; ++j) {
-        const double x = v.x.at(point, station * v.sections + j);
+        const double x = v.x(point, station, j);
         if (!std::isfinite(x)) continue;
         c.x.push_back(v.axis.values[i]);
         c.y.push_back(unit.factor * x);
@@ -148,9 +142,10 @@ Panel section_panel(const SweepView& v, std::size_t station, const DisplayUnit& 
 }
 
 Panel exponent_panel(const SweepView& v) {
-  const Table exponent(v.result, "/sweep/exponent", 2);
   Panel e = panel_along(v.axis, "exponent [1/rev]");
-  add_lines(e, v.axis, v.ways, [&](std::size_t i) { return exponent.at(i); });
+  add_lines(e, v.axis, v.ways, [&](std::size_t i) {
+    return v.point(i) ? v.point(i)->motion.largest_exponent() : std::nan("");
+  });
   // multipliers of strongly attracting orbits are far below: what is near zero tells motions apart
   double low = 0.0;
   for (const Curve& c : e.curves) {
@@ -162,33 +157,38 @@ Panel exponent_panel(const SweepView& v) {
 }
 
 Panel duty_panel(const SweepView& v) {
-  const Table duty(v.result, "/sweep/duty", 2);
   Panel d = panel_along(v.axis, "share in touch");
   d.y.first = 0.0;
-  add_lines(d, v.axis, v.ways, [&](std::size_t i) { return duty.most(i); });
+  add_lines(d, v.axis, v.ways, [&](std::size_t i) { return v.most(i, &ContactDoing::duty); });
   return d;
 }
 
 Panel force_panel(const SweepView& v) {
-  const Table force(v.result, "/sweep/max_normal", 2);
-  const DisplayUnit newton = unit_for(largest_of(force.values), "N");
+  std::vector<double> all;
+  for (std::size_t i = 0; i < v.study.points.size(); ++i) {
+    all.push_back(v.most(i, &ContactDoing::max_normal));
+  }
+  const DisplayUnit newton = unit_for(largest_of(all), "N");
   Panel n = panel_along(v.axis, with_unit("largest force", newton));
   n.y.first = 0.0;
-  add_lines(n, v.axis, v.ways, [&](std::size_t i) { return newton.factor * force.most(i); });
+  add_lines(n, v.axis, v.ways, [&](std::size_t i) { return newton.factor * all.at(i); });
   return n;
 }
 
 Panel radius_panel(const SweepView& v, std::size_t station, const DisplayUnit& unit) {
-  const Table radius(v.result, "/sweep/max_radius", 2);
   Panel r = panel_along(v.axis, with_unit("largest radius", unit));
   r.y.first = 0.0;
-  add_lines(r, v.axis, v.ways, [&](std::size_t i) { return unit.factor * radius.at(i, station); });
+  add_lines(r, v.axis, v.ways, [&](std::size_t i) {
+    const auto at = static_cast<Eigen::Index>(station);
+    const Vec& radius = v.point(i) ? v.point(i)->portrait.max_radius : Vec();
+    return at < radius.size() ? unit.factor * radius(at) : std::nan("");
+  });
   return r;
 }
 
 std::vector<Figure> bifurcation_figures(const ResultView& result) {
   const SweepView v(result);
-  const bool has_contacts = result.file.has("/sweep/duty");
+  const bool has_contacts = !v.study.system.contacts.empty();
   std::vector<Figure> figures;
   for (const std::size_t s : stations_by_interest(result, v.stations)) {
     Figure f{.variant = v.stations[s], .height = has_contacts ? 820.0 : 560.0};
@@ -198,7 +198,7 @@ std::vector<Figure> bifurcation_figures(const ResultView& result) {
     if (has_contacts) {
       f.panels.push_back(duty_panel(v));
       f.panels.push_back(force_panel(v));
-    } else if (result.file.has("/sweep/max_radius")) {
+    } else if (result.file.has(point_dataset<SweepResult>("max_radius"))) {
       f.panels.push_back(radius_panel(v, s, unit));
     }
     figures.push_back(std::move(f));
@@ -209,21 +209,21 @@ std::vector<Figure> bifurcation_figures(const ResultView& result) {
 std::vector<Figure> spectral_map_figures(const ResultView& result) {
   const Spectra s(result);
   std::vector<Figure> figures;
-  const auto stations = stations_by_interest(result, s.stations);
+  const auto stations = stations_by_interest(result, s.of.stations);
   constexpr std::size_t most_stations = 3;
   for (std::size_t n = 0; n < std::min(most_stations, stations.size()); ++n) {
-    for (std::size_t w = 0; w < (n == 0 ? s.ways.size() : 1); ++w) {
-      Figure f{.variant = s.stations[stations[n]], .width = 820.0, .height = 600.0};
-      if (s.ways.size() > 1) f.variant += fmt::format(" ({})", s.ways[w]);
-      f.subtitle = fmt::format("{}: full spectra along {}", f.variant, s.axis.path);
+    for (std::size_t w = 0; w < (n == 0 ? s.of.ways.size() : 1); ++w) {
+      Figure f{.variant = s.of.stations[stations[n]], .width = 820.0, .height = 600.0};
+      if (s.of.ways.size() > 1) f.variant += fmt::format(" ({})", s.of.ways[w]);
+      f.subtitle = fmt::format("{}: full spectra along {}", f.variant, s.of.axis.path);
       Panel p;
       p.x = {.title = "whirl frequency over speed (backward left)",
              .first = -shown_orders,
              .last = shown_orders};
-      p.y.title = s.axis.title;
+      p.y.title = s.of.axis.title;
       Cells& c = p.cells;
       c.x = s.order;
-      c.y = s.axis.values;
+      c.y = s.of.axis.values;
       double largest = 0.0;
       for (std::size_t j = 0; j < c.y.size(); ++j) {
         for (std::size_t i = 0; i < c.x.size(); ++i) {
@@ -253,18 +253,18 @@ std::vector<Figure> cascade_figures(const ResultView& result) {
   const Spectra s(result);
   std::vector<Figure> figures;
   constexpr std::size_t most_lines = 40;
-  const std::size_t values = s.axis.values.size();
+  const std::size_t values = s.of.axis.values.size();
   const std::size_t every = (values + most_lines - 1) / most_lines;
-  const std::size_t station = stations_by_interest(result, s.stations).front();
-  for (std::size_t w = 0; w < s.ways.size(); ++w) {
-    Figure f{.variant = s.stations[station], .width = 760.0, .height = 680.0};
-    if (s.ways.size() > 1) f.variant += fmt::format(" ({})", s.ways[w]);
-    f.subtitle = fmt::format("{}: cascade along {}", f.variant, s.axis.path);
+  const std::size_t station = stations_by_interest(result, s.of.stations).front();
+  for (std::size_t w = 0; w < s.of.ways.size(); ++w) {
+    Figure f{.variant = s.of.stations[station], .width = 760.0, .height = 680.0};
+    if (s.of.ways.size() > 1) f.variant += fmt::format(" ({})", s.of.ways[w]);
+    f.subtitle = fmt::format("{}: cascade along {}", f.variant, s.of.axis.path);
     Panel p;
     p.x = {.title = "whirl frequency over speed (backward left)",
            .first = -shown_orders,
            .last = shown_orders};
-    p.y.title = s.axis.title;
+    p.y.title = s.of.axis.title;
     double largest = 0.0;
     for (std::size_t j = 0; j < values; ++j) {
       for (std::size_t i = 0; i < s.order.size(); ++i) {
@@ -273,7 +273,7 @@ std::vector<Figure> cascade_figures(const ResultView& result) {
       }
     }
     if (!(largest > 0.0)) continue;
-    const double range = s.axis.values.back() - s.axis.values.front();
+    const double range = s.of.axis.values.back() - s.of.axis.values.front();
     constexpr double powers = 3.0;  // of ten, below the largest: 1X would hide all else
     const double height = (range > 0.0 ? range : 1.0) * 0.09;
     const DisplayUnit unit = unit_for(largest, "m");
@@ -286,7 +286,7 @@ std::vector<Figure> cascade_figures(const ResultView& result) {
         const double a = s.at(w, j, station, i);
         c.x.push_back(s.order[i]);
         const double rise = a > 0.0 ? std::max(0.0, 1.0 + std::log10(a / largest) / powers) : 0.0;
-        c.y.push_back(s.axis.values[j] + height * rise);
+        c.y.push_back(s.of.axis.values[j] + height * rise);
       }
       p.curves.push_back(std::move(c));
     }
@@ -311,7 +311,7 @@ FigureKind bifurcation_kind() {
       .name = "bifurcation",
       .title = "Bifurcation",
       .summary = "bifurcation diagram, with exponents, time in touch and forces",
-      .needs = {"/sweep/poincare_x"},
+      .needs = {point_dataset<SweepResult>("poincare_x")},
       .make = bifurcation_figures,
   };
 }
@@ -321,7 +321,7 @@ FigureKind spectral_map_kind() {
       .name = "spectral_map",
       .title = "Spectral map",
       .summary = "spectra along a parameter, as colors",
-      .needs = {"/sweep/spectrum"},
+      .needs = {point_dataset<SweepResult>("spectrum")},
       .make = spectral_map_figures,
   };
 }
@@ -331,7 +331,7 @@ FigureKind cascade_kind() {
       .name = "cascade",
       .title = "Cascade",
       .summary = "spectra along a parameter, one above the other",
-      .needs = {"/sweep/spectrum"},
+      .needs = {point_dataset<SweepResult>("spectrum")},
       .make = cascade_figures,
   };
 }

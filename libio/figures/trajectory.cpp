@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -31,21 +32,19 @@ std::string revolution_text(const Motion& m, Eigen::Index i) {
 }
 
 /// Normal and friction forces of a contact in a panel.
-void add_forces(const ResultView& result, const Motion& m, Eigen::Index contact, Panel& p,
-                const std::string& name) {
-  const Mat normal = result.file.matrix("/trajectory/normal_force");
-  const Mat friction = result.file.matrix("/trajectory/friction_force");
-  const DisplayUnit unit = unit_for(normal.row(contact).cwiseAbs().maxCoeff(), "N");
+void add_forces(const Motion& m, Eigen::Index contact, Panel& p, const std::string& name) {
+  const Vec normal = m.record.normal.row(contact), friction = m.record.friction.row(contact);
+  const DisplayUnit unit = unit_for(normal.cwiseAbs().maxCoeff(), "N");
   p.y.title = with_unit(name.empty() ? "force" : name, unit);
   const MotionSamples drawn = m.drawn(seen_revolutions);
-  const auto time = row(m.time.transpose(), 0, drawn);
+  const auto time = numbers(m.time, drawn);
   Curve n{.name = "normal force", .paint = series_paint(1), .x = time};
-  n.y = scaled(row(normal, contact, drawn), unit.factor);
+  n.y = scaled(numbers(normal, drawn), unit.factor);
   n.width = 1.3;
   p.curves.push_back(std::move(n));
-  if (friction.row(contact).cwiseAbs().maxCoeff() > 0.0) {
+  if (friction.cwiseAbs().maxCoeff() > 0.0) {
     Curve t{.name = "friction force", .paint = series_paint(4), .x = time};
-    t.y = scaled(row(friction, contact, drawn), unit.factor);
+    t.y = scaled(numbers(friction, drawn), unit.factor);
     t.width = 1.1;
     p.curves.push_back(std::move(t));
   }
@@ -53,34 +52,32 @@ void add_forces(const ResultView& result, const Motion& m, Eigen::Index contact,
 
 std::vector<Figure> time_history_figures(const ResultView& result) {
   const Motion m(result);
-  const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
   const MotionSamples drawn = m.drawn(seen_revolutions);
-  const auto time = row(m.time.transpose(), 0, drawn);
+  const auto time = numbers(m.time, drawn);
   std::vector<Figure> figures;
   for (const std::size_t i : stations_by_interest(result, m.stations)) {
-    const auto k = static_cast<Eigen::Index>(i);
+    const StationMotion& s = m.record.stations[i];
     Figure f{.variant = m.stations[i], .height = 500.0};
     f.subtitle = fmt::format("{}: time history{}{}", m.stations[i],
                              speed_text(result).empty() ? "" : " at ", speed_text(result));
-    const DisplayUnit unit =
-        unit_for(std::max(x.row(k).cwiseAbs().maxCoeff(), y.row(k).cwiseAbs().maxCoeff()), "m");
-    for (const auto& [name, values] : {std::pair{"x", &x}, std::pair{"y", &y}}) {
+    const DisplayUnit unit = unit_for(largest_displacement(s), "m");
+    for (const auto& [name, values] : {std::pair{"x", &s.x}, std::pair{"y", &s.y}}) {
       Panel p;
       show(m, p);
       p.y.title = with_unit(name, unit);
       Curve c{.name = name[0] == 'x' ? "x" : "y",
               .paint = name[0] == 'x' ? Paint::series : series_paint(2),
               .x = time};
-      c.y = scaled(row(*values, k, drawn), unit.factor);
+      c.y = scaled(numbers(*values, drawn), unit.factor);
       c.width = 1.3;
       p.curves.push_back(std::move(c));
       f.panels.push_back(std::move(p));
     }
     const int contact = contact_at(result, m.stations[i]);
-    if (contact >= 0 && result.file.has("/trajectory/normal_force")) {
+    if (contact >= 0 && m.record.normal.size() > 0) {
       Panel p;
       show(m, p);
-      add_forces(result, m, contact, p, "contact force");
+      add_forces(m, contact, p, "contact force");
       f.panels.push_back(std::move(p));
       f.height = 620.0;
     }
@@ -91,8 +88,8 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
 }
 
 /// A path, in the frame that stands or in the one that turns with the rotor, and how it ends.
-std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown, const Vec& x,
-                                const Vec& y, double factor, bool is_rotating) {
+std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown,
+                                const StationMotion& of, double factor, bool is_rotating) {
   Curve c{.name = "orbit", .paint = is_rotating ? series_paint(2) : Paint::forward};
   c.width = 1.0;
   c.along_title = "time";
@@ -102,7 +99,7 @@ std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown, con
   dots.along_title = "time";
   for (Eigen::Index j = shown.first; j <= shown.last; ++j) {
     const Complex q =
-        Complex(x(j), y(j)) * (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
+        Complex(of.x(j), of.y(j)) * (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
     c.x.push_back(factor * q.real());
     c.y.push_back(factor * q.imag());
     c.along.push_back(m.time(j));
@@ -150,16 +147,15 @@ std::optional<Curve> clearance_curve(const Contact& contact, double size, double
 
 std::vector<Figure> orbit_figures(const ResultView& result) {
   const Motion m(result);
-  const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
   const MotionSamples shown = m.shown(drawn_orbits);
   std::vector<Figure> figures;
   for (const std::size_t i : stations_by_interest(result, m.stations)) {
-    const auto k = static_cast<Eigen::Index>(i);
+    const StationMotion& s = m.record.stations[i];
     Figure f{.variant = m.stations[i], .width = 900.0, .height = 480.0};
     f.columns = 2;
     f.subtitle = fmt::format("{}: orbit{}{}", m.stations[i],
                              speed_text(result).empty() ? "" : " at ", speed_text(result));
-    const double size = std::max(x.row(k).cwiseAbs().maxCoeff(), y.row(k).cwiseAbs().maxCoeff());
+    const double size = largest_displacement(s);
     const DisplayUnit unit = unit_for(size, "m");
     const int contact = contact_at(result, m.stations[i]);
     for (const bool is_rotating : {false, true}) {
@@ -175,8 +171,7 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
           p.curves.push_back(std::move(*around));
         }
       }
-      for (Curve& c : orbit_curves(m, shown, x.row(k).transpose(), y.row(k).transpose(),
-                                   unit.factor, is_rotating)) {
+      for (Curve& c : orbit_curves(m, shown, s, unit.factor, is_rotating)) {
         p.curves.push_back(std::move(c));
       }
       f.panels.push_back(std::move(p));
@@ -191,15 +186,13 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
 std::vector<Figure> poincare_figures(const ResultView& result) {
   const Motion m(result);
   if (!m.spins) return {};
-  const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
   std::vector<Figure> figures;
   for (const std::size_t i : stations_by_interest(result, m.stations)) {
-    const auto k = static_cast<Eigen::Index>(i);
+    const StationMotion& s = m.record.stations[i];
     Figure f{.variant = m.stations[i], .width = 900.0, .height = 480.0};
     f.columns = 2;
     f.subtitle = fmt::format("{}: Poincaré section at {}", m.stations[i], speed_text(result));
-    const DisplayUnit unit =
-        unit_for(std::max(x.row(k).cwiseAbs().maxCoeff(), y.row(k).cwiseAbs().maxCoeff()), "m");
+    const DisplayUnit unit = unit_for(largest_displacement(s), "m");
     Panel plane, next;
     plane.title = "once a revolution";
     next.title = "from one revolution to the next";
@@ -214,8 +207,8 @@ std::vector<Figure> poincare_figures(const ResultView& result) {
     const MotionSamples drawn = m.drawn(all_sections);
     for (Eigen::Index j = drawn.first; j <= drawn.last; ++j) {
       if (!m.ends_revolution(j)) continue;
-      c.x.push_back(unit.factor * x(k, j));
-      c.y.push_back(unit.factor * y(k, j));
+      c.x.push_back(unit.factor * s.x(j));
+      c.y.push_back(unit.factor * s.y(j));
       c.along.push_back(m.time(j));
       c.hover.push_back(revolution_text(m, j));
     }
@@ -226,7 +219,7 @@ std::vector<Figure> poincare_figures(const ResultView& result) {
     const std::size_t count = c.x.size();
     if (count == 0) return {};
     // a motion that repeats is one point: an orbit's size is the scale then, not rounding
-    const double room = 1e-3 * unit.factor * x.row(k).cwiseAbs().maxCoeff();
+    const double room = 1e-3 * unit.factor * s.x.cwiseAbs().maxCoeff();
     const auto around = [&](Panel& p, const Curve& points) {
       const auto [left, right] = std::minmax_element(points.x.begin(), points.x.end());
       const auto [low, high] = std::minmax_element(points.y.begin(), points.y.end());
@@ -240,7 +233,7 @@ std::vector<Figure> poincare_figures(const ResultView& result) {
     diagonal.width = 1.0;
     diagonal.dash = Dash::dashed;
     diagonal.is_key = false;
-    const double far = 2.0 * unit.factor * x.row(k).cwiseAbs().maxCoeff();
+    const double far = 2.0 * unit.factor * s.x.cwiseAbs().maxCoeff();
     diagonal.x = {-far, far};
     diagonal.y = {-far, far};
     plane.curves = {std::move(c)};
@@ -254,15 +247,15 @@ std::vector<Figure> poincare_figures(const ResultView& result) {
 }
 
 std::vector<Figure> spectrum_figures(const ResultView& result) {
-  const auto frequency = numbers(result.file.vector("/spectra/frequency"));
-  const Mat amplitude = result.file.matrix("/spectra/amplitude");
-  const auto stations = result.file.strings("/trajectory/station");
+  const auto& spectra = result_of<StationSpectra>(result);
+  const std::vector<double> frequency = numbers(spectra.frequency);
+  const std::vector<std::string> stations = recorded_stations(result);
   const double speed = speed_of(result);
   const bool spins = std::isfinite(speed) && speed > 0.0;
   std::vector<Figure> figures;
   for (const std::size_t i : stations_by_interest(result, stations)) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const double largest = amplitude.row(k).maxCoeff();
+    const Vec& amplitude = spectra.stations.at(i).amplitude;
+    const double largest = amplitude.maxCoeff();
     if (!(largest > 0.0)) continue;
     Figure f{.variant = stations[i], .width = 860.0, .height = 430.0};
     f.subtitle = fmt::format("{}: full spectrum{}{}, backward left, forward right", stations[i],
@@ -276,7 +269,7 @@ std::vector<Figure> spectrum_figures(const ResultView& result) {
     p.y.first = std::pow(10.0, std::floor(std::log10(1e-4 * largest * unit.factor)));
     p.y.last = std::pow(10.0, std::ceil(std::log10(1.3 * largest * unit.factor)));
     Curve c{.paint = Paint::forward, .x = scaled(frequency, in.factor)};
-    c.y = scaled(row(amplitude, k), unit.factor);
+    c.y = scaled(numbers(amplitude), unit.factor);
     c.width = 1.2;
     if (spins) p.x.also_unit = "X", p.x.also_factor = 1.0 / (in.factor * speed);
     // lines that are maxima, the strongest with their names
@@ -321,15 +314,15 @@ std::vector<Figure> spectrum_figures(const ResultView& result) {
 
 std::vector<Figure> contact_force_figures(const ResultView& result) {
   const Motion m(result);
-  const auto names = result.file.strings("/contacts/name");
-  Figure f{.height = 90.0 + 190.0 * static_cast<double>(names.size())};
+  const auto& contacts = result_of<ContactShares>(result).contacts;
+  Figure f{.height = 90.0 + 190.0 * static_cast<double>(contacts.size())};
   f.subtitle = fmt::format("Contact forces{}{}", speed_text(result).empty() ? "" : " at ",
                            speed_text(result));
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
     Panel p;
     show(m, p);
-    p.title = names[i];
-    add_forces(result, m, static_cast<Eigen::Index>(i), p, "");
+    p.title = contacts[i].name;
+    add_forces(m, static_cast<Eigen::Index>(i), p, "");
     if (p.curves[0].y.empty() || largest_of(p.curves[0].y) == 0.0) p.title += " (never touches)";
     f.panels.push_back(std::move(p));
   }
@@ -344,7 +337,7 @@ FigureKind orbit_kind() {
       .name = "orbit",
       .title = "Orbit",
       .summary = "path of a station, seen from the ground and from the rotor",
-      .needs = {"/trajectory/x"},
+      .needs = {dataset_of<MotionRecord>(&StationMotion::x)},
       .make = orbit_figures,
       .takes_window = true,
   };
@@ -355,7 +348,7 @@ FigureKind time_history_kind() {
       .name = "time_history",
       .title = "Time history",
       .summary = "displacements and contact forces in time",
-      .needs = {"/trajectory/x"},
+      .needs = {dataset_of<MotionRecord>(&StationMotion::x)},
       .make = time_history_figures,
       .takes_window = true,
   };
@@ -366,7 +359,7 @@ FigureKind spectrum_kind() {
       .name = "spectrum",
       .title = "Spectrum",
       .summary = "full spectrum, backward left and forward right",
-      .needs = {"/spectra/amplitude"},
+      .needs = {dataset_of<StationSpectra>(&StationSpectrum::amplitude)},
       .make = spectrum_figures,
   };
 }
@@ -376,7 +369,7 @@ FigureKind poincare_kind() {
       .name = "poincare",
       .title = "Poincaré",
       .summary = "where a station is once a revolution",
-      .needs = {"/trajectory/x"},
+      .needs = {dataset_of<MotionRecord>(&StationMotion::x)},
       .make = poincare_figures,
       .takes_window = true,
   };
@@ -387,7 +380,7 @@ FigureKind contact_forces_kind() {
       .name = "contact_forces",
       .title = "Contact forces",
       .summary = "normal and friction force of the contacts in time",
-      .needs = {"/trajectory/normal_force"},
+      .needs = {dataset_of<MotionRecord>(&MotionRecord::normal)},
       .make = contact_force_figures,
       .takes_window = true,
   };

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
+#include "libdyn/motions/unbalance_study.hpp"
 #include "libfe/amplification.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -14,21 +16,34 @@ namespace {
 
 using namespace figures;
 
-/// Group of the datasets that curves are drawn from: those with as many speeds as they need, which
-/// stand beside the speeds that were asked for.
-std::string curve_path(const ResultView& result) {
-  return result.file.has("/unbalance/curve_speed") ? "/unbalance/curve_" : "/unbalance/";
-}
-
+/// What curves are drawn of: as many speeds as they need, where a result has them beside those that
+/// were asked for.
 struct Response {
-  explicit Response(const ResultView& result)
-      : speed(scaled(numbers(result.file.vector(curve_path(result) + "speed")), 1.0 / rpm)),
-        stations(result.file.strings("/unbalance/station")),
-        x(result.file.complex_matrix(curve_path(result) + "x")),
-        y(result.file.complex_matrix(curve_path(result) + "y")) {}
+  explicit Response(const ResultView& result) : study(result_of<UnbalanceStudy>(result)) {
+    const bool has_curve = !study.curve_speeds.empty();
+    speed = scaled(has_curve ? study.curve_speeds : study.speeds, 1.0 / rpm);
+    const auto count = std::ssize(study.stations), points = std::ssize(speed);
+    x.resize(count, points);
+    y.resize(count, points);
+    major.resize(count, points);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const StationResponse& s = study.stations[static_cast<std::size_t>(i)];
+      const CVec &of_x = has_curve ? s.curve_x : s.x, &of_y = has_curve ? s.curve_y : s.y;
+      const Vec& axis = has_curve ? s.curve_major : s.major;
+      if (of_x.size() != points || of_y.size() != points || axis.size() != points) {
+        throw FileError("the response is not of its speeds");
+      }
+      stations.push_back(s.label);
+      x.row(i) = of_x;
+      y.row(i) = of_y;
+      major.row(i) = axis;
+    }
+  }
+  const UnbalanceStudy& study;
   std::vector<double> speed;  ///< [rpm]
   std::vector<std::string> stations;
   CMat x, y;
+  Mat major;  ///< semi-axes
 
   /// Stations with a name (disks, bearings, contacts), or all if none has.
   std::vector<Eigen::Index> named() const {
@@ -79,22 +94,17 @@ void mark_operation(const ResultView& result, const Response& r, Panel& panel) {
       {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
 }
 
-/// Peaks of the largest orbit; of a result that does not hold them, as its speeds show them.
+/// Whether a result holds its peaks; earlier versions did not write them.
+bool has_peaks(const ResultView& result) {
+  return result.file.has(dataset_of<UnbalanceStudy>(&UnbalanceStudy::peaks));
+}
+
+/// Peaks of the largest orbit [rpm]; of a result that does not hold them, as its speeds show them.
 std::vector<ResponsePeak> peaks_in(const ResultView& result, const Response& r, const CMat& a) {
-  const ResultReader& file = result.file;
-  if (!file.has("/unbalance/peak_speed")) return response_peaks(r.speed, a.cwiseAbs());
-  const auto numbers_of = [&](const std::string& name) {
-    return numbers(file.vector("/unbalance/peak_" + name));
-  };
-  const auto speed = numbers_of("speed"), amplitude = numbers_of("amplitude"),
-             below = numbers_of("below"), above = numbers_of("above");
-  const std::vector<int> station = file.integers("/unbalance/peak_station");
+  if (!has_peaks(result)) return response_peaks(r.speed, a.cwiseAbs());
   std::vector<ResponsePeak> peaks;
-  for (std::size_t i = 0;
-       i < std::min({speed.size(), amplitude.size(), below.size(), above.size(), station.size()});
-       ++i) {
-    if (station[i] < 1 || static_cast<std::size_t>(station[i]) > r.stations.size()) continue;
-    peaks.push_back({station[i] - 1, speed[i] / rpm, amplitude[i], below[i] / rpm, above[i] / rpm});
+  for (const StationPeak& p : r.study.peaks) {
+    peaks.push_back({p.row, p.speed / rpm, p.amplitude, p.below / rpm, p.above / rpm});
   }
   return peaks;
 }
@@ -165,7 +175,7 @@ Figure bode(const ResultView& result, const Response& r, const CMat& a, const ch
   phase.y.last = 90.0 * std::ceil(high / 90.0 + 1e-6);
   f.panels = {amplitude, phase};
   f.table = peaks_of(result, r, a, unit);
-  if (result.file.has("/unbalance/peak_speed")) {
+  if (has_peaks(result)) {
     f.notes.push_back(
         "Peaks are those of the largest orbit of all stations, along its major axis.");
   }
@@ -242,8 +252,8 @@ std::vector<Figure> polar_figures(const ResultView& result) {
 
 std::vector<Figure> deflection_figures(const ResultView& result) {
   const Response r(result);
-  const Mat major = result.file.matrix(curve_path(result) + "major");
-  const auto z = numbers(result.file.vector("/points/z"));
+  const Mat& major = r.major;
+  const std::vector<double> z = numbers(result_of<PointNames>(result).z);
   // stations along the shaft
   std::vector<std::pair<double, Eigen::Index>> places;
   for (std::size_t i = 0; i < r.stations.size(); ++i) {
@@ -308,7 +318,7 @@ FigureKind bode_kind() {
       .name = "bode",
       .title = "Bode",
       .summary = "amplitude and phase of the unbalance response",
-      .needs = {"/unbalance/x"},
+      .needs = {dataset_of<UnbalanceStudy>(&StationResponse::x)},
       .make = bode_figures,
   };
 }
@@ -318,7 +328,7 @@ FigureKind polar_kind() {
       .name = "polar",
       .title = "Polar",
       .summary = "the same in the plane of its complex amplitude",
-      .needs = {"/unbalance/x"},
+      .needs = {dataset_of<UnbalanceStudy>(&StationResponse::x)},
       .make = polar_figures,
   };
 }
@@ -328,7 +338,8 @@ FigureKind deflection_kind() {
       .name = "deflection",
       .title = "Deflected shapes",
       .summary = "deflected shape at the peaks of the response",
-      .needs = {"/unbalance/major", "/points/z"},
+      .needs = {dataset_of<UnbalanceStudy>(&StationResponse::major),
+                dataset_of<PointNames>(&PointNames::z)},
       .make = deflection_figures,
   };
 }

@@ -6,6 +6,7 @@
 
 #include "libbase/spectrum.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -69,13 +70,11 @@ double reach_of(const ShortTimeSpectra& s) {
 
 std::vector<Figure> waterfall_figures(const ResultView& result) {
   const Motion m(result);
-  const Mat x = result.file.matrix("/trajectory/x"), y = result.file.matrix("/trajectory/y");
   const DisplayUnit in = result.frequency;
   std::vector<Figure> figures;
   for (const std::size_t station : stations_by_interest(result, m.stations)) {
-    const auto row = static_cast<Eigen::Index>(station);
-    const ShortTimeSpectra s =
-        short_time_spectra(m, x.row(row).transpose(), y.row(row).transpose());
+    const StationMotion& motion = m.record.stations[station];
+    const ShortTimeSpectra s = short_time_spectra(m, motion.x, motion.y);
     const double largest = s.time.empty() ? 0.0 : s.amplitude.maxCoeff();
     if (!(largest > 0.0)) continue;
     Figure f{.variant = m.stations[station], .width = 760.0, .height = 680.0};
@@ -138,7 +137,7 @@ FigureKind waterfall_kind() {
       .name = "waterfall",
       .title = "Waterfall",
       .summary = "full spectra one after another in time, one above the other",
-      .needs = {"/trajectory/x"},
+      .needs = {dataset_of<MotionRecord>(&StationMotion::x)},
       .make = waterfall_figures,
   };
 }

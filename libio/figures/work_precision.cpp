@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
 #include "libio/text/format.hpp"
 
 namespace whirl::inline io {
@@ -93,7 +94,7 @@ FigureKind work_precision_kind() {
       .name = "work_precision",
       .title = "Speed against error",
       .summary = "speed against error of the integrators",
-      .needs = {"/bench/error"},
+      .needs = {dataset_of<WorkPrecisionStudy>(&WorkPrecisionStudy::errors)},
       .make = work_precision_figures,
   };
 }

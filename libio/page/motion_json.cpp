@@ -5,10 +5,12 @@
 #include <algorithm>
 
 #include "libbase/constants.hpp"
+#include "libdyn/motions/run_result.hpp"
+#include "libdyn/motions/unbalance_study.hpp"
 #include "libfe/unbalance.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/common.hpp"
-#include "libio/results/columns.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -56,26 +58,21 @@ std::vector<int> rows_of(const DofMap& dofs) {
 Record trajectory_record(const ResultView& result, const std::vector<int>& rows, int full_size,
                          ArrayStore& arrays) {
   Record r;
-  const Mat basis = result.file.matrix("/trajectory/basis");
-  const Mat coordinates = result.file.matrix("/trajectory/coordinates");
-  const Vec time = result.file.vector("/trajectory/time");
-  if (basis.rows() != full_size || time.size() == 0) return r;
-  const double samples = result.file.number_attribute("/trajectory", "samples_per_revolution");
+  const auto& motion = figures::result_of<MotionRecord>(result);
+  const Vec& time = motion.time;
+  if (motion.basis.rows() != full_size || time.size() == 0) return r;
+  const double samples = figures::result_of<RunFacts>(result).samples_per_revolution;
   const auto per_frame = static_cast<Eigen::Index>(rows.size());
   const Eigen::Index count =
       std::min({time.size(), static_cast<Eigen::Index>(most_revolutions * samples),
                 most_numbers / std::max<Eigen::Index>(1, per_frame)});
   const Eigen::Index first = time.size() - count;
   std::vector<double> places, times, forces;
-  Mat normal;
-  if (result.file.has("/trajectory/normal_force")) {
-    normal = result.file.matrix("/trajectory/normal_force");
-  }
   for (Eigen::Index j = first; j < time.size(); ++j) {
-    const Vec q = basis * coordinates.col(j);
+    const Vec q = motion.basis * motion.coordinates.col(j);
     for (const int row : rows) places.push_back(row < 0 ? 0.0 : q(row));
     times.push_back(time(j));
-    for (Eigen::Index c = 0; c < normal.rows(); ++c) forces.push_back(normal(c, j));
+    for (Eigen::Index c = 0; c < motion.normal.rows(); ++c) forces.push_back(motion.normal(c, j));
   }
   r.set("name", "the end of the motion").set("kind", "motion");
   r.set("times", arrays.add(times)).set("places", arrays.add(places));
@@ -88,10 +85,15 @@ Record trajectory_record(const ResultView& result, const std::vector<int>& rows,
 /// displacements from node to node.
 void add_responses(const ResultView& result, const DofMap& dofs, Record& motions,
                    ArrayStore& arrays) {
-  const Vec speed = result.file.vector("/unbalance/speed");
+  const auto& study = figures::result_of<UnbalanceStudy>(result);
+  Mat major(std::ssize(study.stations), std::ssize(study.speeds));
+  for (Eigen::Index i = 0; i < major.rows(); ++i) {
+    major.row(i) = study.stations[static_cast<std::size_t>(i)].major;
+  }
   std::vector<double> speeds;
-  for (const Eigen::Index k : figures::deflection_peaks(result.file.matrix("/unbalance/major"))) {
-    if (speed(k) > 0.0) speeds.push_back(speed(k));
+  for (const Eigen::Index k : figures::deflection_peaks(major)) {
+    const double speed = study.speeds[static_cast<std::size_t>(k)];
+    if (speed > 0.0) speeds.push_back(speed);
   }
   const std::vector<Point> points = dofs.points();
   const UnbalanceResponse response = unbalance_response(*result.assembler, speeds, points);
@@ -145,7 +147,7 @@ Record motion_record(const ResultView& result, ArrayStore& arrays) {
     moves = true;
   }
   if (result.file.has("/modes/shape")) {
-    const auto modes = read_result<ModesAtPoints>(result.file);
+    const auto& modes = figures::result_of<ModesAtPoints>(result);
     const CMat& shapes = modes.shape;
     for (Eigen::Index k = 0; k < shapes.cols() && shapes.rows() == dofs.full_size; ++k) {
       std::vector<double> re, im;

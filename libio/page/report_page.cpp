@@ -7,9 +7,11 @@
 #include <map>
 
 #include "libbase/error.hpp"
+#include "libdyn/motions/run_result.hpp"
 #include "libfe/properties.hpp"
 #include "libio/drawing/figure_json.hpp"
 #include "libio/figures/comparison.hpp"
+#include "libio/figures/result_of.hpp"
 #include "libio/page/machine_report.hpp"
 #include "libio/page/motion_json.hpp"
 #include "libio/page/page_assets.hpp"
@@ -69,15 +71,12 @@ Record facts_of(const ResultView& result) {
     add("speed", format_speed(result.file.number_attribute("/", "speed")));
   }
   if (result.file.has("/trajectory/time")) {
-    add("recorded",
-        fmt::format("{:g} revolutions, {:g} samples each",
-                    result.file.number_attribute("/trajectory", "revolutions"),
-                    result.file.number_attribute("/trajectory", "samples_per_revolution")));
+    const auto& run = figures::result_of<RunFacts>(result);
+    add("recorded", fmt::format("{:g} revolutions, {} samples each", run.revolutions,
+                                run.samples_per_revolution));
     if (result.file.has_attribute("/trajectory", "steps")) {
-      add("cost", fmt::format("{:.0f} steps, {:.0f} evaluations, {:.0f} events",
-                              result.file.number_attribute("/trajectory", "steps"),
-                              result.file.number_attribute("/trajectory", "evaluations"),
-                              result.file.number_attribute("/trajectory", "events")));
+      add("cost", fmt::format("{:.0f} steps, {:.0f} evaluations, {:.0f} events", run.steps,
+                              run.evaluations, run.events));
     }
   }
   if (result.file.has_attribute("/classify", "motion")) {
@@ -92,8 +91,8 @@ Record warnings_of(const ResultView& result, const std::vector<std::string>& mis
   if (!result.problem.empty()) {
     warnings.add("the model cannot be read again, the layout is left out: " + result.problem);
   }
-  if (result.file.has_attribute("/trajectory", "failure")) {
-    warnings.add("the run failed: " + result.file.string_attribute("/trajectory", "failure"));
+  if (const auto& run = figures::result_of<RunFacts>(result); !run.failure.empty()) {
+    warnings.add("the run failed: " + run.failure);
   }
   for (const char* group : {"/sweep", "/map", "/basins"}) {
     if (result.file.has_attribute(group, "complete") &&
@@ -108,29 +107,23 @@ Record warnings_of(const ResultView& result, const std::vector<std::string>& mis
 /// Measures of the contacts as a table.
 Record contacts_of(const ResultView& result) {
   FigureTable t;
-  if (!result.file.has("/contacts/name")) return {};
+  const std::vector<ContactShare>& contacts = figures::result_of<ContactShares>(result).contacts;
+  if (contacts.empty()) return {};
   t.header = {"contact",
               "regime",
               "time in touch",
               "impacts per revolution",
               "largest normal force",
               "largest friction force"};
-  const auto names = result.file.strings("/contacts/name"),
-             regimes = result.file.strings("/contacts/regime");
-  const Vec duty = result.file.vector("/contacts/duty"),
-            impacts = result.file.vector("/contacts/impacts_per_rev"),
-            normal = result.file.vector("/contacts/max_normal"),
-            tangential = result.file.vector("/contacts/max_tangential");
   Record rows = Record::array();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
+  for (const ContactShare& c : contacts) {
     Record row = Record::array();
-    row.add(names[i]);
-    row.add(regimes[i]);
-    row.add(fmt::format("{:.2f} %", 100.0 * duty(k)));
-    row.add(fmt::format("{:.4g}", impacts(k)));
-    row.add(format_engineering(normal(k), "N"));
-    row.add(format_engineering(tangential(k), "N"));
+    row.add(c.name);
+    row.add(name_of(c.regime));
+    row.add(fmt::format("{:.2f} %", 100.0 * c.duty));
+    row.add(fmt::format("{:.4g}", c.impacts_per_rev));
+    row.add(format_engineering(c.max_normal, "N"));
+    row.add(format_engineering(c.max_tangential, "N"));
     rows.add(row);
   }
   Record header = Record::array();

@@ -210,7 +210,7 @@ void read_column(const ResultReader& file, const std::string& group, T& result,
                  const RowsColumn<Member>& c) {
   if constexpr (is_read<Member>) {
     if (c.written == Written::in_json) return;
-    for_each_column<RowOf<T, Member>>(
+    for_each_in_row<RowOf<T, Member>>(
         [&](const auto& column) { read_column(file, group, result.*c.member, column, c.prefix); });
   }
 }

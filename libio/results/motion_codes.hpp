@@ -34,17 +34,4 @@ std::string code_legend() {
   return legend;
 }
 
-/// What the codes of a dataset mean: by its words, else, as in files without them, by their order.
-class MotionCodes {
- public:
-  /// @throws FileError  as ResultReader
-  MotionCodes(const ResultReader& file, const std::string& dataset);
-
-  /// Nothing for a motion that failed, or whose word is unknown.
-  std::optional<MotionKind> kind(double code) const;
-
- private:
-  std::vector<std::optional<MotionKind>> kinds_;
-};
-
 }  // namespace whirl::inline io

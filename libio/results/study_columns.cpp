@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 namespace whirl::inline io::study_columns {
 
 namespace {
@@ -83,10 +85,43 @@ void StudyWriter::write_done(const std::vector<int>& done) {
   write_points(done_column(), {done.begin(), done.end()});
 }
 
+namespace {
+
+std::vector<std::string> split_words(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream from(list);
+  for (std::string word; std::getline(from, word, ',');) words.push_back(word);
+  return words;
+}
+
+/// Codes of a list of words become those of another list; -1 for words that this one is without.
+void translate(std::vector<double>& codes, const std::string& from, const std::string& to) {
+  if (from == to) return;
+  const std::vector<std::string> theirs = split_words(from), ours = split_words(to);
+  for (double& code : codes) {
+    if (!(code >= 0.0 && code < static_cast<double>(theirs.size()))) {
+      code = -1.0;
+      continue;
+    }
+    const auto found = std::find(ours.begin(), ours.end(), theirs[static_cast<std::size_t>(code)]);
+    code = found == ours.end() ? -1.0 : static_cast<double>(found - ours.begin());
+  }
+}
+
+}  // namespace
+
+std::size_t stored_points(const ResultReader& file, const std::string& group) {
+  const std::string path = group + "/motion";
+  if (!file.has(path)) return 0;
+  const std::vector<Eigen::Index> shape = file.shape(path);
+  return static_cast<std::size_t>(product(shape));
+}
+
 std::optional<StoredColumn> read_column(const ResultReader& file, const std::string& group,
-                                        const Facts& column, std::size_t points) {
+                                        const Facts& column, std::size_t points, Missing missing) {
   const std::string path = group + '/' + column.name;
-  if (column.is_optional && !file.has(path)) return std::nullopt;
+  const bool may_miss = column.is_optional || missing == Missing::allowed;
+  if (may_miss && !file.has(path)) return std::nullopt;
   const std::vector<Eigen::Index> shape = file.shape(path);
   const std::size_t behind = dimension_names(column.dimensions).size();
   const std::span<const Eigen::Index> all(shape);
@@ -95,15 +130,21 @@ std::optional<StoredColumn> read_column(const ResultReader& file, const std::str
     throw FileError(fmt::format("{} is not of {} points: it is of another study", path, points));
   }
   StoredColumn stored{.values = file.numbers(path)};
+  if (!column.words.empty() && file.has_attribute(path, words_attribute)) {
+    translate(stored.values, file.string_attribute(path, words_attribute), column.words);
+  }
   if (behind > 0) stored.rows = static_cast<std::size_t>(shape[shape.size() - behind]);
   return stored;
 }
 
 std::vector<bool> read_done(const ResultReader& file, const std::string& group,
                             std::size_t points) {
-  if (file.number_attribute(group, "complete") != 0.0) return std::vector<bool>(points, true);
+  const bool says = file.has_attribute(group, "complete");
+  if (says && file.number_attribute(group, "complete") != 0.0) {
+    return std::vector<bool>(points, true);
+  }
   const auto flags = read_column(file, group, done_column(), points);
-  std::vector<bool> done(points, false);
+  std::vector<bool> done(points, !flags && !says);
   if (!flags) return done;
   for (std::size_t i = 0; i < points; ++i) done[i] = flags->values[i] != 0.0;
   return done;
@@ -117,3 +158,21 @@ ResultEntry entry_of(const std::string& group, const Facts& column) {
 }
 
 }  // namespace whirl::inline io::study_columns
+
+namespace whirl::inline io {
+
+StoredParameter stored_parameter(const ResultReader& file, const std::string& path) {
+  return {file.string_attribute(path, "long_name"), file.string_attribute(path, "units"),
+          file.numbers(path)};
+}
+
+std::vector<StoredParameter> stored_parameters(const ResultReader& file, std::string_view group) {
+  std::vector<StoredParameter> all;
+  for (int number = 1;; ++number) {
+    const std::string path = fmt::format("{}/axis_{}", group, number);
+    if (!file.has(path)) return all;
+    all.push_back(stored_parameter(file, path));
+  }
+}
+
+}  // namespace whirl::inline io

@@ -215,14 +215,21 @@ class StudyWriter {
   std::vector<Axis> points_;  ///< along the points
 };
 
+/// Whether columns may be missing that are not optional, as in files of earlier versions.
+enum class Missing { refused, allowed };
+
 /// Numbers of a column of so many points as a file has them, and the size of its first dimension;
-/// nothing if it may be missing and is.
+/// nothing if it may be missing and is. Codes are those of the words that stand beside them, whatever
+/// their order there; -1 for words that are unknown.
 struct StoredColumn {
   std::vector<double> values;
   std::size_t rows = 1;
 };
 std::optional<StoredColumn> read_column(const ResultReader& file, const std::string& group,
-                                        const Facts& column, std::size_t points);
+                                        const Facts& column, std::size_t points,
+                                        Missing missing = Missing::refused);
+/// How many points a file has; 0: none of this study.
+std::size_t stored_points(const ResultReader& file, const std::string& group);
 /// Which points a file has.
 std::vector<bool> read_done(const ResultReader& file, const std::string& group, std::size_t points);
 
@@ -230,6 +237,12 @@ std::vector<bool> read_done(const ResultReader& file, const std::string& group, 
 ResultEntry entry_of(const std::string& group, const Facts& column);
 
 }  // namespace study_columns
+
+/// A parameter of a study, as a file has it.
+struct StoredParameter {
+  std::string path, unit;
+  std::vector<double> values;  ///< [SI]
+};
 
 /// Writes what a study has found so far as its group of a result file.
 /// @param parameters  those of its points, in the order of its grid
@@ -286,7 +299,8 @@ void write_study(ResultWriter& file, const std::vector<ParameterAxis>& parameter
 /// @return  a result that knows nothing else
 /// @throws FileError  as ResultReader, and if it has another number of points
 template <class Result>
-Result read_study(const ResultReader& file, std::size_t points) {
+Result read_study(const ResultReader& file, std::size_t points,
+                  study_columns::Missing missing = study_columns::Missing::refused) {
   using namespace study_columns;
   using Row = study_columns::RowOf<Result>;
   const std::string group(Result::group);
@@ -297,8 +311,8 @@ Result read_study(const ResultReader& file, std::size_t points) {
     if (done[i]) result.points[i].emplace();
   }
   for (const PointColumn<Row>& column : point_columns<Row>()) {
-    const auto stored = read_column(file, group, column.facts, points);
-    if (!stored) continue;
+    const auto stored = read_column(file, group, column.facts, points, missing);
+    if (!stored || points == 0) continue;
     const std::size_t width = stored->values.size() / points;
     for (std::size_t i = 0; i < points; ++i) {
       if (!done[i]) continue;
@@ -310,6 +324,45 @@ Result read_study(const ResultReader& file, std::size_t points) {
   }
   return result;
 }
+
+/// All that a file holds of a study, to be shown: its points, and the members that say what they are
+/// of. What a file of an earlier version is without is as in a new row.
+/// @throws FileError  as ResultReader
+template <class Result>
+Result stored_study(const ResultReader& file) {
+  using namespace study_columns;
+  const std::string group(Result::group);
+  auto result = read_study<Result>(file, stored_points(file, group), Missing::allowed);
+  for_each_column<Result>([&](const auto& c) {
+    if constexpr (!is_rows_column<std::remove_cvref_t<decltype(c)>>) {
+      using Given = std::invoke_result_t<decltype(c.member), Result&>;
+      if constexpr (std::is_same_v<Given, std::remove_cvref_t<Given>&>) {
+        const auto kind = columns::kind_of<std::remove_cvref_t<Given>>();
+        auto cells = columns::read_cells(file, group + '/' + std::string(c.key), kind);
+        if (!cells) return;
+        Eigen::Index count = 1;
+        for (const Eigen::Index n : cells->shape) count *= n;
+        columns::Taking(*cells).take(std::invoke(c.member, result), std::span(&count, 1));
+      }
+    }
+  });
+  return result;
+}
+
+/// Path of a dataset of a study's points.
+/// @param key  of a column of its rows
+template <class Result>
+std::string point_dataset(std::string_view key) {
+  for (const auto& column : study_columns::point_columns<study_columns::RowOf<Result>>()) {
+    if (column.facts.name == key) return std::string(Result::group) + '/' + std::string(key);
+  }
+  return {};
+}
+
+/// The parameter whose values are a dataset.
+StoredParameter stored_parameter(const ResultReader& file, const std::string& path);
+/// The parameters of a study's points.
+std::vector<StoredParameter> stored_parameters(const ResultReader& file, std::string_view group);
 
 /// What a file is checked against that holds a study.
 /// @param parameters  entries of its parameters

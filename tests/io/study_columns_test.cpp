@@ -106,6 +106,44 @@ TEST_F(StudyColumns, GoOnWithAFileFromBeforeAColumn) {
   EXPECT_THROW(read_study<MapResult>(without("period"), 6), FileError);
 }
 
+// Files say what their codes mean: another order of the words is another code, and a word that is
+// unknown is not taken for a known one.
+TEST_F(StudyColumns, CodesAreThoseOfTheirWords) {
+  const auto kinds = [&](const std::string& words) {
+    ResultWriter file(folder / "words.h5", Replaces::anything);
+    file.dataset("/map/motion", std::vector<int>{0, 1, 2, -1}, {"", "kind", {""}});
+    if (!words.empty()) file.attribute("/map/motion", words_attribute, words);
+    file.commit();
+    std::vector<std::optional<MotionKind>> found;
+    for (const auto& p : stored_study<MapResult>(ResultReader(folder / "words.h5")).points) {
+      found.push_back(p ? p->kind : std::nullopt);
+    }
+    return found;
+  };
+  using enum MotionKind;
+  using Kinds = std::vector<std::optional<MotionKind>>;
+  EXPECT_EQ(kinds("chaotic,of another kind,not settled"),
+            (Kinds{chaotic, std::nullopt, not_settled, std::nullopt}));
+  EXPECT_EQ(kinds(""), (Kinds{equilibrium, periodic, quasi_periodic, std::nullopt}));
+}
+
+// What is read to be shown knows its points and what they are of; what a file is without is as in a
+// new row.
+TEST_F(StudyColumns, AreReadToBeShown) {
+  const MapResult map = stored_study<MapResult>(saved(half_a_map(), axes));
+  ASSERT_EQ(map.points.size(), 6u);
+  EXPECT_FALSE(map.points[0]);
+  EXPECT_EQ(map.points[4]->period, 0);
+  EXPECT_EQ(map.points[4]->largest_exponent(), 0.1);
+  EXPECT_EQ(map.system.contacts, std::vector<std::string>{"ring"});
+  const auto parameters = stored_parameters(ResultReader(folder / "study.h5"), MapResult::group);
+  ASSERT_EQ(parameters.size(), 2u);
+  EXPECT_EQ(parameters[1].path, axes[1].path);
+  EXPECT_EQ(parameters[1].values, axes[1].values);
+  EXPECT_EQ(point_dataset<MapResult>("exponent"), "/map/exponent");
+  EXPECT_EQ(point_dataset<MapResult>("exponents"), "");
+}
+
 TEST_F(StudyColumns, KeepPortraits) {
   SweepResult sweep{.system = {.contacts = {"ring"}, .states = 2, .freedoms = 3},
                     .stations = {"1 left", "2"},

@@ -1,0 +1,30 @@
+#pragma once
+/// What figures draw: results as structs, read once for all figures of a file.
+
+#include <typeinfo>
+
+#include "libio/figures/figures.hpp"
+#include "libio/results/columns.hpp"
+#include "libio/results/dataset_path.hpp"
+#include "libio/results/study_columns.hpp"
+
+namespace whirl::inline io::figures {
+
+/// What the file holds of a result; members that it is without are as in a new struct.
+/// @return  valid as long as the view
+template <HasGroup T>
+const T& result_of(const ResultView& view) {
+  std::shared_ptr<const void>& known = view.known[typeid(T)];
+  if (!known) known = std::make_shared<const T>(read_result<T>(view.file));
+  return *static_cast<const T*>(known.get());
+}
+
+/// The same of a study.
+template <class Study>
+const Study& study_of(const ResultView& view) {
+  std::shared_ptr<const void>& known = view.known[typeid(Study)];
+  if (!known) known = std::make_shared<const Study>(stored_study<Study>(view.file));
+  return *static_cast<const Study*>(known.get());
+}
+
+}  // namespace whirl::inline io::figures
