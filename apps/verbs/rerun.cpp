@@ -15,10 +15,6 @@ constexpr std::string_view rerun_usage =
     "model stored in it;\noptions are added to that command (--out NEW.h5, --set PATH=VALUE, "
     "...).\n";
 
-/// Options of a stored command that do not count again: what was set is in the stored text
-/// already, and only the line at hand says what is written.
-const std::vector<std::string_view> not_again{"quiet", "force", "restart", "out", "json", "svg"};
-
 /// Runs the command stored in a result again, on the model stored there.
 int run_rerun(const std::vector<std::string>& words) {
   if (words.empty()) {
@@ -40,8 +36,7 @@ int run_rerun(const std::vector<std::string>& words) {
     fmt::print(stderr, "whirl: {} does not hold the command that made it\n", file);
     return exit_status::wrong_input;
   }
-  std::vector<std::string> line{"whirl", call.verb, call.file};
-  for (const std::string& option : options_without(call.options, not_again)) line.push_back(option);
+  std::vector<std::string> line = words_again("whirl", call);
   line.insert(line.end(), words.begin() + 1, words.end());
   return run_command(*verb, line, {text, call.sets});
 }

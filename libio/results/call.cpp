@@ -47,6 +47,15 @@ std::vector<std::string> options_without(const std::vector<std::string>& options
   return filtered(options, names, false);
 }
 
+std::vector<std::string> words_again(const std::string& program, const Call& call) {
+  std::vector<std::string> words{program, call.verb, call.file};
+  for (const std::string& option :
+       options_without(call.options, {"quiet", "force", "restart", "out", "json", "svg"})) {
+    words.push_back(option);
+  }
+  return words;
+}
+
 Call parse_call(const std::vector<std::string>& words) {
   Call call{.verb = words.size() > 1 ? words[1] : "", .file = ""};
   std::map<std::string, std::string> last;  // of options that are given once

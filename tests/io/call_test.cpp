@@ -106,4 +106,14 @@ TEST_F(CallFile, OfEarlyVersionsIsReadFromTheWords) {
   EXPECT_EQ(read.sets, Words{"a=1"});
 }
 
+// What was set is in the model that is stored with it; where its result went does not count again.
+TEST(CallWords, AgainAreThoseThatCount) {
+  const Call call{.verb = "simulate",
+                  .file = "r.toml",
+                  .sets = {"a=1"},
+                  .options = {"--discard=300", "--out=x.h5", "--force", "--fresh", "--json=-"}};
+  EXPECT_EQ(words_again("whirl", call),
+            (Words{"whirl", "simulate", "r.toml", "--discard=300", "--fresh"}));
+}
+
 }  // namespace whirl::call_test
