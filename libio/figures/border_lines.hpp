@@ -1,13 +1,15 @@
 #pragma once
 /// Curves of bifurcations in a plane of two parameters, in their own figure and over maps.
 
+#include "libdyn/studies/curve_result.hpp"
 #include "libio/figures/common.hpp"
 
 namespace whirl::inline io::figures {
 
 /// A curve of bifurcations, both ways from where it begins.
 struct Border {
-  std::string kind, contact;
+  BifurcationKind kind{};
+  std::string contact;
   double period = 1.0;              ///< [revolutions]
   std::vector<std::string> ends;    ///< why
   std::vector<std::size_t> points;  ///< their numbers among those of all borders
@@ -17,9 +19,12 @@ struct Border {
 /// Borders, and all of their points one after another, as the axes show them.
 struct BorderPoints {
   explicit BorderPoints(const ResultView& result);
+  const CurveResult& of;
   ShownAxis first, second;
-  std::vector<double> stable;  ///< per point, 0: other multipliers are outside of the circle
   std::vector<Border> borders;
+
+  /// Whether another multiplier is outside of the unit circle at a point.
+  bool is_thin(std::size_t i) const { return of.places[i].is_stable == 0; }
 };
 
 /// The borders as curves, in color and dashes by their kind; thin where other multipliers are outside

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "libio/figures/border_lines.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -15,49 +16,41 @@ namespace {
 constexpr std::size_t most_names = 12;  ///< at the ends of curves
 
 struct BorderStyle {
-  const char *kind, *name;
+  BifurcationKind kind;
+  const char* name;
   Paint paint;
   Dash dash;
 };
 
-const BorderStyle& style_of(const std::string& kind) {
+const BorderStyle& style_of(BifurcationKind kind) {
+  using enum BifurcationKind;
   static const std::vector<BorderStyle> styles{
-      {"fold", "fold", Paint::ink, Dash::solid},
-      {"period-doubling", "period doubling", Paint::alarm, Dash::dashed},
-      {"neimark-sacker", "Neimark-Sacker", Paint::longer, Dash::dash_dot},
-      {"grazing", "grazing", Paint::gray, Dash::dotted},
-      {"", "border", Paint::gray, Dash::solid}};
+      {fold, "fold", Paint::ink, Dash::solid},
+      {period_doubling, "period doubling", Paint::alarm, Dash::dashed},
+      {neimark_sacker, "Neimark-Sacker", Paint::longer, Dash::dash_dot},
+      {grazing, "grazing", Paint::gray, Dash::dotted},
+      {pitchfork, "border", Paint::gray, Dash::solid}};
   const auto known = std::find_if(styles.begin(), styles.end() - 1,
                                   [&](const BorderStyle& s) { return s.kind == kind; });
   return *known;
 }
 
-/// Why each border ends: what failed, else the whole sentence, as in files of earlier versions.
-std::vector<std::string> reasons_of_ends(const ResultReader& file) {
-  std::vector<std::string> ends = file.strings("/border/end");
-  if (!file.has("/border/end_reason")) return ends;
-  const std::vector<std::string> reasons = file.strings("/border/end_reason");
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (!reasons[i].empty()) ends[i] = reasons[i];
-  }
-  return ends;
-}
-
 }  // namespace
 
 BorderPoints::BorderPoints(const ResultView& result)
-    : first(shown_axis(result, "/border/first")),
-      second(shown_axis(result, "/border/second")),
-      stable(result.file.numbers("/border/stable")) {
-  const auto of = result.file.integers("/border/curve");
-  const auto kind = result.file.strings("/border/kind"),
-             contact = result.file.strings("/border/contact");
-  const std::vector<std::string> end = reasons_of_ends(result.file);
-  const auto period = result.file.numbers("/border/period");
-  for (std::size_t c = 0; c < kind.size(); ++c) {
-    Border border{.kind = kind[c], .contact = contact[c], .period = period[c], .ends = {end[c]}};
-    for (std::size_t i = 0; i < of.size(); ++i) {
-      if (of[i] == static_cast<int>(c) + 1) border.points.push_back(i);
+    : of(result_of<CurveResult>(result)),
+      first(shown_axis(result, dataset_of<CurveResult>(&CurvePlace::first))),
+      second(shown_axis(result, dataset_of<CurveResult>(&CurvePlace::second))) {
+  for (std::size_t c = 0; c < of.curves.size(); ++c) {
+    const CurveRow& curve = of.curves[c];
+    // what failed, else the whole sentence, as in files of earlier versions
+    const std::string end = curve.end_reason.empty() ? curve.end : curve.end_reason;
+    Border border{.kind = curve.kind,
+                  .contact = curve.contact,
+                  .period = static_cast<double>(curve.period),
+                  .ends = {end}};
+    for (std::size_t i = 0; i < of.places.size(); ++i) {
+      if (of.places[i].curve == static_cast<int>(c) + 1) border.points.push_back(i);
     }
     if (border.points.empty()) continue;
     const std::size_t begin = border.points.front();
@@ -70,7 +63,7 @@ BorderPoints::BorderPoints(const ResultView& result)
       Border& known = borders.back();
       std::reverse(known.points.begin(), known.points.end());
       known.points.insert(known.points.end(), border.points.begin() + 1, border.points.end());
-      known.ends.push_back(end[c]);
+      known.ends.push_back(end);
     } else {
       borders.push_back(std::move(border));
     }
@@ -95,11 +88,11 @@ std::vector<Curve> border_curves(const BorderPoints& all, const std::vector<doub
       c.y.push_back(y[i]);
       c.hover.push_back(
           fmt::format("{}, period {:.0f}{}", border.name, border.period,
-                      all.stable[i] == 0.0 ? ", other multipliers are outside of the circle" : ""));
+                      all.is_thin(i) ? ", other multipliers are outside of the circle" : ""));
     };
     std::size_t last = 2;  // side of the point before; none
     for (const std::size_t i : border.points) {
-      const std::size_t side = all.stable[i] == 0.0 ? 1 : 0;
+      const std::size_t side = all.is_thin(i) ? 1 : 0;
       if (last < 2 && side != last) {
         add(last, i);  // what is before a change goes up to it
         Curve& c = sides[side];
@@ -152,7 +145,7 @@ std::vector<Figure> border_figures(const ResultView& result) {
         {b.name, fmt::format("{:.0f}", b.period), std::to_string(b.points.size()),
          fmt::format("{:.5g} to {:.5g}", all.first.values[from], all.first.values[to]),
          fmt::format("{:.5g} to {:.5g}", all.second.values[from], all.second.values[to])});
-    for (const std::size_t i : b.points) has_thin = has_thin || all.stable[i] == 0.0;
+    for (const std::size_t i : b.points) has_thin = has_thin || all.is_thin(i);
     constexpr std::size_t most_told = 6;
     if (all.borders.size() > most_told) continue;
     std::string why;
@@ -176,7 +169,7 @@ FigureKind borders_kind() {
       .name = "borders",
       .title = "Borders",
       .summary = "where periodic orbits change, in a plane of two parameters",
-      .needs = {"/border/second"},
+      .needs = {dataset_of<CurveResult>(&CurvePlace::second)},
       .make = border_figures,
   };
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "libio/figures/result_of.hpp"
+
 namespace whirl::inline io::figures {
 
 namespace {
@@ -23,56 +25,50 @@ Between place_of(const BranchPoints& b, const std::vector<double>& y, std::size_
 }  // namespace
 
 BranchPoints::BranchPoints(const ResultView& result)
-    : axis(shown_axis(result, "/branch/value")),
-      branch(result.file.numbers("/branch/branch")),
-      stable(result.file.numbers("/branch/stable")),
-      period(result.file.numbers("/branch/period")) {
+    : of(result_of<BranchResult>(result)),
+      axis(shown_axis(result, dataset_of<BranchResult>(&BranchOrbit::value))) {
+  for (const BranchRow& b : of.branches) period.push_back(b.period);
   // of orbits that are closed seen from the rotor: any number, that of the first point
-  if (result.file.has("/branch/revolutions")) {
-    const std::vector<double> revolutions = result.file.numbers("/branch/revolutions");
-    for (std::size_t i = branch.size(); i-- > 0;) {
-      period[static_cast<std::size_t>(branch[i]) - 1] = revolutions[i];
-    }
+  if (!result.file.has(dataset_of<BranchResult>(&BranchOrbit::revolutions))) return;
+  for (std::size_t i = size(); i-- > 0;) {
+    period.at(static_cast<std::size_t>(of.points[i].branch) - 1) = of.points[i].revolutions;
   }
-  if (!result.file.has("/branch/bifurcation")) return;
-  bifurcation = scaled(result.file.numbers("/branch/bifurcation"), 1.0 / axis.factor);
-  kind = result.file.strings("/branch/bifurcation_kind");
-  on = result.file.numbers("/branch/bifurcation_branch");
-  after = result.file.numbers("/branch/bifurcation_after");
 }
 
-std::size_t BranchPoints::before(std::size_t b) const {
-  const auto first = std::find(branch.begin(), branch.end(), on[b]) - branch.begin();
-  return static_cast<std::size_t>(first) + static_cast<std::size_t>(after[b]) - 1;
+std::size_t BranchPoints::before(const BranchBifurcation& b) const {
+  const auto first = std::find_if(of.points.begin(), of.points.end(),
+                                  [&](const BranchOrbit& p) { return p.branch == b.branch; });
+  return static_cast<std::size_t>(first - of.points.begin()) + static_cast<std::size_t>(b.after);
 }
 
 void BranchPoints::show_as(const ShownAxis& other) {
-  const double ratio = axis.factor / other.factor;
-  axis.values = scaled(std::move(axis.values), ratio);
-  bifurcation = scaled(std::move(bifurcation), ratio);
+  axis.values = scaled(std::move(axis.values), axis.factor / other.factor);
   axis.title = other.title;
   axis.factor = other.factor;
 }
 
-std::vector<double> column_of(const ResultView& result, const std::string& path, std::size_t i) {
-  const std::vector<double> all = result.file.numbers(path);
-  const auto width = static_cast<std::size_t>(result.file.shape(path).at(1));
+std::vector<double> BranchPoints::numbers(
+    const std::function<double(const BranchOrbit&)>& number) const {
   std::vector<double> values;
-  for (std::size_t k = i; k < all.size(); k += width) values.push_back(all[k]);
+  for (const BranchOrbit& p : of.points) values.push_back(number(p));
   return values;
 }
 
-std::vector<double> largest_multipliers(const ResultView& result) {
-  const CMat all = result.file.complex_matrix("/branch/multiplier");
-  std::vector<double> largest;
-  for (Eigen::Index i = 0; i < all.rows(); ++i) largest.push_back(std::abs(all(i, 0)));
-  return largest;
+std::vector<double> BranchPoints::numbers(std::vector<double> BranchOrbit::*list,
+                                          std::size_t i) const {
+  return numbers(
+      [&](const BranchOrbit& p) { return i < (p.*list).size() ? (p.*list)[i] : std::nan(""); });
+}
+
+double largest_multiplier(const BranchOrbit& point) {
+  return point.multipliers.size() > 0 ? std::abs(point.multipliers(0)) : std::nan("");
 }
 
 void add_branch_lines(Panel& p, const BranchPoints& b, const std::vector<double>& y,
                       const BranchStyle& style) {
-  std::map<std::pair<double, bool>, Curve> lines;
-  const auto draw = [&](double branch, bool is_stable, Between from, Between to) {
+  const std::vector<BranchOrbit>& points = b.of.points;
+  std::map<std::pair<int, bool>, Curve> lines;
+  const auto draw = [&](int branch, bool is_stable, Between from, Between to) {
     Curve& c = lines[{branch, is_stable}];
     if (c.x.empty() || c.x.back() != from.x || c.y.back() != from.y) {
       c.x.insert(c.x.end(), {not_set, from.x});
@@ -83,21 +79,24 @@ void add_branch_lines(Panel& p, const BranchPoints& b, const std::vector<double>
   };
   // a branch that begins on another has the stability that it begins with
   const auto is_stable = [&](std::size_t i) {
-    return b.stable[b.stable[i] < 0.0 && i + 1 < b.size() ? i + 1 : i] > 0.0;
+    const bool is_next = points[i].stability < 0 && i + 1 < b.size();
+    return points[is_next ? i + 1 : i].stability > 0;
   };
   for (std::size_t i = 0; i + 1 < b.size(); ++i) {
-    if (b.branch[i] != b.branch[i + 1]) continue;
+    const int branch = points[i].branch;
+    if (branch != points[i + 1].branch) continue;
     const Between from{b.axis.values[i], y[i]}, to{b.axis.values[i + 1], y[i + 1]};
     if (is_stable(i) == is_stable(i + 1)) {
-      draw(b.branch[i], is_stable(i), from, to);
+      draw(branch, is_stable(i), from, to);
       continue;
     }
     Between change = place_of(b, y, i, 0.5 * (from.x + to.x));
-    for (std::size_t k = 0; k < b.kind.size(); ++k) {
-      if (b.before(k) == i && b.kind[k] != "grazing") change = place_of(b, y, i, b.bifurcation[k]);
+    for (const BranchBifurcation& at : b.of.bifurcations) {
+      if (b.before(at) != i || at.kind == BifurcationKind::grazing) continue;
+      change = place_of(b, y, i, b.place(at));
     }
-    draw(b.branch[i], is_stable(i), from, change);
-    draw(b.branch[i], is_stable(i + 1), change, to);
+    draw(branch, is_stable(i), from, change);
+    draw(branch, is_stable(i + 1), change, to);
   }
   for (auto& [key, c] : lines) {
     const auto [number, stays] = key;
@@ -113,26 +112,28 @@ void add_branch_lines(Panel& p, const BranchPoints& b, const std::vector<double>
 
 void add_branch_marks(Panel& p, const BranchPoints& b, const std::vector<double>& y) {
   struct Style {
-    const char* kind;
+    BifurcationKind kind;
     Marker marker;
     Paint paint;
     double size;
   };
-  for (const Style& style : {Style{"fold", Marker::square, Paint::ink, 8.0},
-                             Style{"period-doubling", Marker::diamond, Paint::alarm, 9.0},
-                             Style{"neimark-sacker", Marker::circle, Paint::quasi_periodic, 9.0},
-                             Style{"pitchfork", Marker::triangle, Paint::mixed, 9.0},
-                             Style{"grazing", Marker::cross, Paint::gray, 6.0}}) {
-    Curve c{.name = style.kind, .paint = style.paint, .has_line = false, .has_marker = true};
+  using enum BifurcationKind;
+  for (const Style& style : {Style{fold, Marker::square, Paint::ink, 8.0},
+                             Style{period_doubling, Marker::diamond, Paint::alarm, 9.0},
+                             Style{neimark_sacker, Marker::circle, Paint::quasi_periodic, 9.0},
+                             Style{pitchfork, Marker::triangle, Paint::mixed, 9.0},
+                             Style{grazing, Marker::cross, Paint::gray, 6.0}}) {
+    const std::string name(name_of(style.kind));
+    Curve c{.name = name, .paint = style.paint, .has_line = false, .has_marker = true};
     c.marker = style.marker;
     c.size = style.size;
-    for (std::size_t k = 0; k < b.kind.size(); ++k) {
-      const std::size_t i = b.before(k);
-      if (b.kind[k] != style.kind || i + 1 >= b.size()) continue;
-      const Between at = place_of(b, y, i, b.bifurcation[k]);
+    for (const BranchBifurcation& found : b.of.bifurcations) {
+      const std::size_t i = b.before(found);
+      if (found.kind != style.kind || i + 1 >= b.size()) continue;
+      const Between at = place_of(b, y, i, b.place(found));
       c.x.push_back(at.x);
       c.y.push_back(at.y);
-      c.hover.push_back(fmt::format("{} at {:.7g}", style.kind, b.bifurcation[k]));
+      c.hover.push_back(fmt::format("{} at {:.7g}", name, b.place(found)));
     }
     if (!c.x.empty()) p.curves.push_back(std::move(c));
   }

@@ -1,31 +1,35 @@
 #pragma once
 /// Lines and marks of branches of periodic orbits, in their own figure and over those of sweeps.
 
+#include <functional>
+
+#include "libdyn/studies/branch_result.hpp"
 #include "libio/figures/common.hpp"
 
 namespace whirl::inline io::figures {
 
-/// Points of all branches, one after another, and what happens between them.
+/// Branches, and how they are shown along their parameter.
 struct BranchPoints {
   explicit BranchPoints(const ResultView& result);
+  const BranchResult& of;
   ShownAxis axis;
-  std::vector<double> branch, stable;  ///< per point
-  std::vector<double> period;          ///< per branch [revolutions]
-  std::vector<double> bifurcation, on, after;
-  std::vector<std::string> kind;  ///< of the bifurcations
+  std::vector<double> period;  ///< per branch [revolutions]
 
-  std::size_t size() const { return branch.size(); }
+  std::size_t size() const { return of.points.size(); }
+  /// Where a bifurcation is along the axis.
+  double place(const BranchBifurcation& b) const { return b.value / axis.factor; }
   /// Number of the point before a bifurcation, among those of all branches.
-  std::size_t before(std::size_t b) const;
+  std::size_t before(const BranchBifurcation& b) const;
   /// Shows the parameter in the unit of another axis of it.
   void show_as(const ShownAxis& other);
+  /// A number of every point.
+  std::vector<double> numbers(const std::function<double(const BranchOrbit&)>& number) const;
+  /// One of every point's list of numbers; NaN where it is shorter.
+  std::vector<double> numbers(std::vector<double> BranchOrbit::*list, std::size_t i) const;
 };
 
-/// Numbers of a column of a table with a row per point.
-std::vector<double> column_of(const ResultView& result, const std::string& path, std::size_t i);
-
-/// The size of the largest multiplier of each point.
-std::vector<double> largest_multipliers(const ResultView& result);
+/// The size of the largest multiplier of a point.
+double largest_multiplier(const BranchOrbit& point);
 
 /// How lines of branches are told apart, beside solid and dashed.
 struct BranchStyle {

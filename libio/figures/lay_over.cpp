@@ -12,6 +12,7 @@
 #include "libio/figures/border_lines.hpp"
 #include "libio/figures/branch_lines.hpp"
 #include "libio/figures/comparison.hpp"
+#include "libio/figures/result_of.hpp"
 #include "libio/results/study_columns.hpp"
 #include "libio/text/units.hpp"
 
@@ -29,22 +30,19 @@ double shown_in_one(const std::string& title) {
   return one ? 1.0 / one->value : 1.0;
 }
 
-/// The largest of all contacts, point by point.
-std::vector<double> largest_of_contacts(const ResultView& over, const std::string& path) {
-  std::vector<double> most;
-  for (Eigen::Index i = 0; i < over.file.shape(path).at(1); ++i) {
-    const auto values = column_of(over, path, static_cast<std::size_t>(i));
-    most.resize(values.size(), 0.0);
-    for (std::size_t k = 0; k < values.size(); ++k) most[k] = std::max(most[k], values[k]);
-  }
+/// The largest of all contacts.
+double largest_of_contacts(const std::vector<double>& numbers) {
+  double most = 0.0;
+  for (const double number : numbers) most = std::max(most, number);
   return most;
 }
 
 /// Lays branches over the panels of a bifurcation diagram that show numbers which branches have.
 /// @param station  number of the figure's station among those of the branches
-void add_branches(Figure& f, const ResultView& over, const BranchPoints& b, std::size_t station) {
-  const bool has_sections = over.file.has("/branch/poincare_x");
-  const bool has_contacts = over.file.has("/branch/duty");
+void add_branches(Figure& f, const BranchPoints& b, std::size_t station) {
+  const auto row = static_cast<Eigen::Index>(station);
+  const Eigen::Index sections = b.size() > 0 ? b.of.points[0].sections_x.cols() : 0;
+  const bool has_sections = sections > 0, has_contacts = !b.of.contacts.empty();
   const BranchStyle style{.is_named = true, .is_ink = true};
   for (Panel& p : f.panels) {
     const auto is_of = [&](const char* title) { return p.y.title.starts_with(title); };
@@ -52,38 +50,33 @@ void add_branches(Figure& f, const ResultView& over, const BranchPoints& b, std:
       add_branch_lines(p, b, scaled(std::move(values), factor), style);
     };
     if (is_of("x once a revolution") && has_sections) {
-      const auto shape = over.file.shape("/branch/poincare_x");
-      const auto all = over.file.numbers("/branch/poincare_x");
-      const auto stations = static_cast<std::size_t>(shape.at(1)),
-                 sections = static_cast<std::size_t>(shape.at(2));
       const double factor = shown_in_one(p.y.title);
-      for (std::size_t k = 0; k < sections; ++k) {
-        std::vector<double> x;
-        for (std::size_t i = 0; i < b.size(); ++i) {
-          x.push_back(factor * all[(i * stations + station) * sections + k]);
-        }
+      for (Eigen::Index k = 0; k < sections; ++k) {
+        const std::vector<double> x =
+            b.numbers([&](const BranchOrbit& point) { return factor * point.sections_x(row, k); });
         add_branch_lines(p, b, x, style);
         add_branch_marks(p, b, x);
       }
     } else if (is_of("exponent") && has_sections) {
-      std::vector<double> exponent = largest_multipliers(over);
-      for (std::size_t i = 0; i < b.size(); ++i) {
-        exponent[i] = std::log(exponent[i]) / b.period[static_cast<std::size_t>(b.branch[i]) - 1];
-      }
-      add(std::move(exponent), 1.0);
+      const auto exponent = [&](const BranchOrbit& point) {
+        return std::log(largest_multiplier(point)) /
+               b.period[static_cast<std::size_t>(point.branch) - 1];
+      };
+      add(b.numbers(exponent), 1.0);
     } else if (is_of("share in touch") && has_contacts) {
-      add(largest_of_contacts(over, "/branch/duty"), 1.0);
+      add(b.numbers([](const BranchOrbit& o) { return largest_of_contacts(o.duty); }), 1.0);
     } else if (is_of("largest force") && has_contacts) {
-      add(largest_of_contacts(over, "/branch/max_normal"), shown_in_one(p.y.title));
+      add(b.numbers([](const BranchOrbit& o) { return largest_of_contacts(o.max_normal); }),
+          shown_in_one(p.y.title));
     } else if (is_of("largest radius")) {
-      add(column_of(over, "/branch/max_radius", station), shown_in_one(p.y.title));
+      add(b.numbers(&BranchOrbit::radii, station), shown_in_one(p.y.title));
     }
   }
 }
 
 std::string branches_over(std::vector<Figure>& figures, const ResultView& study,
                           const ResultView& over) {
-  if (!over.file.has("/branch/max_radius")) {
+  if (!over.file.has(dataset_of<BranchResult>(&BranchOrbit::radii))) {
     return "expected branches of whirl continue over a bifurcation diagram";
   }
   const ShownAxis axis = shown_axes(study, SweepResult::group).at(0);
@@ -97,12 +90,12 @@ std::string branches_over(std::vector<Figure>& figures, const ResultView& study,
     return v >= *ends.first && v <= *ends.second;
   });
   if (!is_within) return "its branches have no point within the sweep's values";
-  const auto stations = over.file.strings("/branch/station");
+  const std::vector<std::string>& stations = b.of.stations;
   bool fits = false;
   for (Figure& f : figures) {
     const auto station = std::find(stations.begin(), stations.end(), f.variant);
     if (station == stations.end()) continue;
-    add_branches(f, over, b, static_cast<std::size_t>(station - stations.begin()));
+    add_branches(f, b, static_cast<std::size_t>(station - stations.begin()));
     fits = true;
   }
   if (fits) return "";
@@ -111,7 +104,7 @@ std::string branches_over(std::vector<Figure>& figures, const ResultView& study,
 
 std::string borders_over(std::vector<Figure>& figures, const ResultView& study,
                          const ResultView& over) {
-  if (!over.file.has("/border/second")) {
+  if (!over.file.has(dataset_of<CurveResult>(&CurvePlace::second))) {
     return "expected borders over a map, of whirl continue with two --over";
   }
   const std::vector<ShownAxis> axes = shown_axes(study, MapResult::group);
@@ -149,7 +142,8 @@ std::vector<std::string> varied(const ResultView& result) {
   for (StoredParameter& p : stored_parameters(result.file, MapResult::group)) {
     parameters.push_back(std::move(p));
   }
-  for (const char* dataset : {"/branch/value", "/border/second"}) {
+  for (const std::string& dataset : {dataset_of<BranchResult>(&BranchOrbit::value),
+                                     dataset_of<CurveResult>(&CurvePlace::second)}) {
     if (result.file.has(dataset)) parameters.push_back(stored_parameter(result.file, dataset));
   }
   std::vector<std::string> paths;
@@ -202,8 +196,9 @@ std::string lay_over(std::vector<Figure>& figures, const ResultView& study, cons
                                "Lines: borders of {}, thin where another multiplier is "
                                "outside of the unit circle.",
                                name);
-  if (kind == "bifurcation" && over.file.has("/border/second")) {
-    const ShownAxis second = shown_axis(over, "/border/second");  // borders begin on the branches
+  const std::string borders = dataset_of<CurveResult>(&CurvePlace::second);
+  if (kind == "bifurcation" && over.file.has(borders)) {
+    const ShownAxis second = shown_axis(over, borders);  // borders begin on the branches
     note += fmt::format(" They are at {} = {:.6g}.", second.title, second.values.at(0));
   }
   if (const auto others = other_values(study, over); !others.empty()) {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "libdyn/studies/torus_result.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
 
@@ -33,11 +35,13 @@ std::vector<Ratio> ratios_within(double low, double high) {
 }
 
 std::vector<Figure> torus_figures(const ResultView& result) {
-  const ShownAxis axis = shown_axis(result, "/torus/value");
-  const auto rotation = result.file.numbers("/torus/rotation"),
-             exponent = result.file.numbers("/torus/largest_exponent"),
-             tail = result.file.numbers("/torus/tail");
-  const double period = result.file.number_attribute("/torus", "period_revolutions");
+  const ShownAxis axis = shown_axis(result, dataset_of<TorusResult>(&CirclePoint::value));
+  const auto& torus = result_of<TorusResult>(result);
+  std::vector<double> rotation, exponent;
+  for (const CircleRow& c : torus.circles) {
+    rotation.push_back(c.rotation);
+    exponent.push_back(c.growth);
+  }
   const auto panel = [&](const std::string& title, std::vector<double> y) {
     Panel p;
     p.x.title = axis.title;
@@ -46,9 +50,9 @@ std::vector<Figure> torus_figures(const ResultView& result) {
     Curve c{.paint = series_paint(0), .x = axis.values, .y = std::move(y)};
     c.has_marker = true;
     c.size = 4.0;
-    for (std::size_t i = 0; i < rotation.size(); ++i) {
+    for (const CircleRow& at : torus.circles) {
       c.hover.push_back(fmt::format("circle {}: rotation {:.9f}, exponent {:+.5g}, tail {:.1e}",
-                                    i + 1, rotation[i], exponent[i], tail[i]));
+                                    c.hover.size() + 1, at.rotation, at.growth, at.tail));
     }
     p.curves.push_back(std::move(c));
     return p;
@@ -60,9 +64,10 @@ std::vector<Figure> torus_figures(const ResultView& result) {
   const auto [low, high] = std::minmax_element(rotation.begin(), rotation.end());
   // a circle of the n-th return turns by n times as much from one to the next: it locks there
   const double room = 0.03 * (*high - *low);
-  for (const Ratio& ratio : ratios_within((*low - room) * period, (*high + room) * period)) {
-    const int q = ratio.q * static_cast<int>(period), by = std::gcd(ratio.p, q);
-    r.rules.push_back({Rule::Kind::horizontal, ratio.value() / period,
+  for (const Ratio& ratio :
+       ratios_within((*low - room) * torus.period, (*high + room) * torus.period)) {
+    const int q = ratio.q * torus.period, by = std::gcd(ratio.p, q);
+    r.rules.push_back({Rule::Kind::horizontal, ratio.value() / torus.period,
                        fmt::format("{}/{}", ratio.p / by, q / by), Paint::gray, Dash::dotted});
   }
   f.panels.push_back(std::move(r));
@@ -82,7 +87,7 @@ FigureKind torus_kind() {
       .name = "torus",
       .title = "Quasi-periodic",
       .summary = "rotation and largest exponent of a quasi-periodic motion along a parameter",
-      .needs = {"/torus/value"},
+      .needs = {dataset_of<TorusResult>(&CirclePoint::value)},
       .make = torus_figures,
   };
 }

@@ -142,11 +142,11 @@ Record motion_record(const ResultView& result, ArrayStore& arrays) {
   const DofMap dofs = result.assembler->uncondensed(0.0).dofs;
   const std::vector<int> rows = rows_of(dofs);
   bool moves = false;
-  if (result.file.has("/trajectory/coordinates")) {
+  if (result.file.has(dataset_of<MotionRecord>(&MotionRecord::coordinates))) {
     motions.add(trajectory_record(result, rows, dofs.full_size, arrays));
     moves = true;
   }
-  if (result.file.has("/modes/shape")) {
+  if (result.file.has(dataset_of<ModesAtPoints>(&ModesAtPoints::shape))) {
     const auto& modes = figures::result_of<ModesAtPoints>(result);
     const CMat& shapes = modes.shape;
     for (Eigen::Index k = 0; k < shapes.cols() && shapes.rows() == dofs.full_size; ++k) {
@@ -167,7 +167,7 @@ Record motion_record(const ResultView& result, ArrayStore& arrays) {
       moves = true;
     }
   }
-  if (result.file.has("/unbalance/major")) {
+  if (result.file.has(dataset_of<UnbalanceStudy>(&StationResponse::major))) {
     add_responses(result, dofs, motions, arrays);
     moves = true;
   }

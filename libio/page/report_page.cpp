@@ -70,7 +70,7 @@ Record facts_of(const ResultView& result) {
   if (result.file.has_attribute("/", "speed")) {
     add("speed", format_speed(result.file.number_attribute("/", "speed")));
   }
-  if (result.file.has("/trajectory/time")) {
+  if (result.file.has(dataset_of<MotionRecord>(&MotionRecord::time))) {
     const auto& run = figures::result_of<RunFacts>(result);
     add("recorded", fmt::format("{:g} revolutions, {} samples each", run.revolutions,
                                 run.samples_per_revolution));
