@@ -14,6 +14,18 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// A contact's displacement along x and y, of bodies whose x and y take turns.
+template <int Bodies, class P>
+HWY_ATTR HWY_INLINE void displacement(const P* ux, const P* uy, const P* x, P& to_x, P& to_y) {
+  P along = ux[0] * x[0], across = uy[0] * x[1];
+  for (int i = 1; i < Bodies; ++i) {
+    along = fma(ux[i], x[2 * i], along);
+    across = fma(uy[i], x[2 * i + 1], across);
+  }
+  to_x = along;
+  to_y = across;
+}
+
 /// Coefficients x_{k+2} from those up to k + 1, of Pattern::bodies, while friction has no series of
 /// its own. Loads from memory decide how long this takes, so what is used twice is loaded once:
 /// of isotropic bodies, one coefficient serves x and y.
@@ -36,15 +48,6 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
   const Mask in_touch = c.in_touch;
   P *now = term(0), *rate = term(1), *next = term(2);
 
-  const auto displacement = [&](const P* x, P& to_x, P& to_y) HWY_ATTR {
-    P along = ux[0] * x[0], across = uy[0] * x[1];
-    for (int i = 1; i < Bodies; ++i) {
-      along = fma(ux[i], x[2 * i], along);
-      across = fma(uy[i], x[2 * i + 1], across);
-    }
-    to_x = along;
-    to_y = across;
-  };
   P acceleration[n];
   const auto accelerate = [&](const P* newest) HWY_ATTR {
     each<n>(n, [&](int i) HWY_ATTR {
@@ -52,12 +55,9 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
       acceleration[i] = fnma(D[j], newest[i], fnma(K[j], now[i], load[i]));
     });
   };
-  const auto square = [&](const OlderTerms<P>& older, int k) HWY_ATTR {  // half of s_k
-    return fma(dx[0], dx[k], older.xx) + fma(dy[0], dy[k], older.yy);
-  };
 
-  displacement(now, dx[0], dy[0]);
-  displacement(rate, dx[1], dy[1]);
+  displacement<Bodies>(ux, uy, now, dx[0], dy[0]);
+  displacement<Bodies>(ux, uy, rate, dx[1], dy[1]);
   dx[0] = dx[0] - c.offset_x;
   dy[0] = dy[0] - c.offset_y;
   s[0] = fma(dx[0], dx[0], dy[0] * dy[0]);
@@ -74,7 +74,7 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
         py = q[0] * dy[0];
       } else {
         older.square_and_multiply(dx, dy, r, q, k);
-        const P half_s = square(older, k);
+        const P half_s = older.half_of_square(dx, dy, k);
         s[k] = half_s + half_s;
         r[k] = (half_s - older.rr) * c.inverse_r;
         N_of[k] = law.normal(k, r[k]);
@@ -88,14 +88,12 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
         acceleration[2 * i + 1] = fnma(by[i], fy, acceleration[2 * i + 1]);
       }
     } else if (k > 0) {
-      older.square(dx, dy, k);
-      const P half_s = square(older, k);
-      s[k] = half_s + half_s;
+      s[k] = square_of<P>(dx, dy, k);
     }
     const P scale(twice_integrated<P>(k));
     P newest[n];
     each<n>(n, [&](int i) HWY_ATTR { next[i] = newest[i] = acceleration[i] * scale; });
-    displacement(newest, dx[k + 2], dy[k + 2]);
+    displacement<Bodies>(ux, uy, newest, dx[k + 2], dy[k + 2]);
     if (k == N) break;
     now = rate;
     rate = next;
@@ -104,12 +102,7 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
     load += n;
     accelerate(newest);  // of the next order, while its rates are at hand
   }
-  for (int k = N + 1; k <= N + 2; ++k) {
-    OlderTerms<P> older;
-    older.square(dx, dy, k);
-    const P half_s = square(older, k);
-    s[k] = half_s + half_s;
-  }
+  for (int k = N + 1; k <= N + 2; ++k) s[k] = square_of<P>(dx, dy, k);
 }
 
 }  // namespace HWY_NAMESPACE

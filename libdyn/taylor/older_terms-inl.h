@@ -60,6 +60,10 @@ struct OlderTerms {
       rq = fma(r[i], qj, fma(r[k - i], qi, rq));
     }
   }
+  /// Half of order k of x^2 + y^2, with the newest terms.
+  HWY_ATTR inline P half_of_square(const P* x, const P* y, int k) const {
+    return fma(x[0], x[k], xx) + fma(y[0], y[k], yy);
+  }
   /// Squares and products at once, with one load of every coefficient.
   HWY_ATTR inline void square_and_multiply(const P* x, const P* y, const P* r, const P* q, int k) {
     if (k % 2 == 0) {
@@ -83,6 +87,15 @@ struct OlderTerms {
     }
   }
 };
+
+/// Order k > 0 of x^2 + y^2.
+template <class P>
+HWY_ATTR inline P square_of(const P* x, const P* y, int k) {
+  OlderTerms<P> older;
+  older.square(x, y, k);
+  const P half = older.half_of_square(x, y, k);
+  return half + half;
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace whirl::inline dyn

@@ -92,20 +92,17 @@ void insert_friction(Pattern::ContactRows& rows, const ReducedContact& c, int n)
   }
 }
 
-}  // namespace
-
-Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
+/// What all systems of a batch must have in common, of the first one.
+Pattern begin_pattern(const ContactSystem& first) {
   Pattern p;
-  if (systems.empty()) return p;
-  p.n = systems.front()->coordinates();
+  p.n = first.coordinates();
   p.off_diagonal.resize(static_cast<std::size_t>(p.n));
   for (int i = 0; i < p.n; ++i) p.off_diagonal[static_cast<std::size_t>(i)].i = i;
-  p.contacts.resize(systems.front()->contacts().size());
+  p.contacts.resize(first.contacts().size());
   for (std::size_t c = 0; c < p.contacts.size(); ++c) {
-    const AnyContactLaw<>& law = systems.front()->contacts()[c].law;
-    p.contacts[c].law = law.index();
-    p.contacts[c].is_analytic = is_analytic(law);
-    const ReducedContact& contact = systems.front()->contacts()[c];
+    const ReducedContact& contact = first.contacts()[c];
+    p.contacts[c].law = contact.law.index();
+    p.contacts[c].is_analytic = is_analytic(contact.law);
     p.contacts[c].geometry = contact.geometry.index();
     p.contacts[c].rubs_apart = contact.rubs_apart();
     p.contacts[c].is_plane = direction_of(contact.geometry).has_value();
@@ -114,57 +111,83 @@ Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
     ++p.turning.back().count;
     p.contacts[c].group = static_cast<int>(p.turning.size()) - 1;
   }
-  for (const ReducedFilm& film : systems.front()->films()) p.films.push_back({.law = film.law});
+  for (const ReducedFilm& film : first.films()) p.films.push_back({.law = film.law});
+  return p;
+}
+
+/// @throws NumericalError  where a contact differs from that of the first system in what a batch
+///                         cannot have for each lane
+void require_alike(const Pattern::ContactRows& rows, const ReducedContact& contact,
+                   const ReducedContact& first) {
+  if (contact.owner != first.owner) {
+    throw NumericalError("the systems of a batch must have as many blades at their contacts");
+  }
+  if (contact.law.index() != rows.law) {
+    throw NumericalError("the systems of a batch must have the same laws at their contacts");
+  }
+  if (contact.geometry.index() != rows.geometry) {
+    throw NumericalError("the systems of a batch must have the same contact geometries");
+  }
+}
+
+void add_contact(Pattern::ContactRows& rows, const ReducedContact& contact, int n) {
+  for (int j = 0; j < n; ++j) {
+    if (contact.U(0, j) != 0.0) insert(rows.of_x, j);
+    if (contact.U(1, j) != 0.0) insert(rows.of_y, j);
+    if (contact.B(j, 0) != 0.0) insert(rows.pushed_by_x, j);
+    if (contact.B(j, 1) != 0.0) insert(rows.pushed_by_y, j);
+  }
+  if (rows.rubs_apart || rows.is_plane) insert_friction(rows, contact, n);
+  const Friction& f = contact.friction;
+  rows.has_rate = rows.has_rate || !is_continuous(contact.law);
+  rows.has_friction = rows.has_friction || f.mu > 0.0;
+  rows.has_smooth_friction =
+      rows.has_smooth_friction || (f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
+}
+
+/// Adds the coefficients of a system that are not zero.
+void add_coordinates(Pattern& p, const ContactSystem& s) {
+  for (int i = 0; i < p.n; ++i) {
+    if (s.cosine_load()(i) != 0.0 || s.sine_load()(i) != 0.0) insert(p.forced, i);
+  }
+  for (Pattern::OffDiagonal& row : p.off_diagonal) {
+    for (int j = 0; j < p.n; ++j) {
+      if (j == row.i) continue;
+      if (s.K()(row.i, j) != 0.0) insert(row.of_x, j);
+      if (s.D()(row.i, j) != 0.0) insert(row.of_rate, j);
+    }
+  }
+}
+
+/// Gives a direction that is held still one coefficient, of zero.
+template <class Rows>
+void fill_directions(std::vector<Rows>& list) {
+  for (Rows& rows : list) {
+    if (rows.of_x.empty()) rows.of_x.push_back(0);
+    if (rows.of_y.empty()) rows.of_y.push_back(0);
+  }
+}
+
+}  // namespace
+
+Pattern Pattern::of(std::span<const ContactSystem* const> systems) {
+  if (systems.empty()) return {};
+  const ContactSystem& first = *systems.front();
+  Pattern p = begin_pattern(first);
   for (const ContactSystem* s : systems) {
     if (s->coordinates() != p.n || s->contacts().size() != p.contacts.size()) {
       throw NumericalError(
           "the systems of a batch must have equal numbers of coordinates and contacts");
     }
     add_films(p, *s);
-    for (int i = 0; i < p.n; ++i) {
-      if (s->cosine_load()(i) != 0.0 || s->sine_load()(i) != 0.0) insert(p.forced, i);
-    }
-    for (OffDiagonal& row : p.off_diagonal) {
-      for (int j = 0; j < p.n; ++j) {
-        if (j == row.i) continue;
-        if (s->K()(row.i, j) != 0.0) insert(row.of_x, j);
-        if (s->D()(row.i, j) != 0.0) insert(row.of_rate, j);
-      }
-    }
+    add_coordinates(p, *s);
     for (std::size_t c = 0; c < p.contacts.size(); ++c) {
-      const ReducedContact& contact = s->contacts()[c];
-      ContactRows& rows = p.contacts[c];
-      if (contact.owner != systems.front()->contacts()[c].owner) {
-        throw NumericalError("the systems of a batch must have as many blades at their contacts");
-      }
-      if (contact.law.index() != rows.law) {
-        throw NumericalError("the systems of a batch must have the same laws at their contacts");
-      }
-      if (contact.geometry.index() != rows.geometry) {
-        throw NumericalError("the systems of a batch must have the same contact geometries");
-      }
-      for (int j = 0; j < p.n; ++j) {
-        if (contact.U(0, j) != 0.0) insert(rows.of_x, j);
-        if (contact.U(1, j) != 0.0) insert(rows.of_y, j);
-        if (contact.B(j, 0) != 0.0) insert(rows.pushed_by_x, j);
-        if (contact.B(j, 1) != 0.0) insert(rows.pushed_by_y, j);
-      }
-      if (rows.rubs_apart || rows.is_plane) insert_friction(rows, contact, p.n);
-      const Friction& f = contact.friction;
-      rows.has_rate = rows.has_rate || !is_continuous(contact.law);
-      rows.has_friction = rows.has_friction || f.mu > 0.0;
-      rows.has_smooth_friction =
-          rows.has_smooth_friction || (f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
+      require_alike(p.contacts[c], s->contacts()[c], first.contacts()[c]);
+      add_contact(p.contacts[c], s->contacts()[c], p.n);
     }
   }
-  const auto fill = [](auto& list) {  // a direction that is held still has one coefficient, of zero
-    for (auto& rows : list) {
-      if (rows.of_x.empty()) rows.of_x.push_back(0);
-      if (rows.of_y.empty()) rows.of_y.push_back(0);
-    }
-  };
-  fill(p.contacts);
-  fill(p.films);
+  fill_directions(p.contacts);
+  fill_directions(p.films);
   std::erase_if(p.off_diagonal,
                 [](const OffDiagonal& row) { return row.of_x.empty() && row.of_rate.empty(); });
   for (OffDiagonal& row : p.off_diagonal) {
