@@ -42,8 +42,8 @@ int print(Report report, const CommandLine& line, const std::vector<BareSpeed>& 
     fmt::print("{}{}", bare.empty() ? "" : "\n",
                folded(report.text + notes_text(report.notes), terminal_columns()));
   }
-  if (!report.failure.empty()) {
-    fmt::print(stderr, "{}: failed: {}\n", line.call.file, report.failure);
+  if (report.failure) {
+    fmt::print(stderr, "{}: failed: {}\n", line.call.file, report.failure.text());
   }
   for (const BareSpeed& s : bare) report.notes.push_back(s.warning());
   if (!line.json.empty()) write_json(report, line.json, line.call.picture_replaces());

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libdyn/system/model.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/replace_file.hpp"
@@ -72,8 +73,8 @@ struct Report {
   std::string text;  ///< for people
   /// What the numbers leave out or go beyond, a sentence each: printed below the text, in JSON.
   std::vector<std::string> notes{};
-  std::string failure;  ///< goes to standard error, --quiet or not
-  int status = 0;       ///< 0; 3: failed, what was computed is in the report; 130: stopped
+  Failure failure;  ///< goes to standard error, --quiet or not
+  int status = 0;   ///< 0; 3: failed, what was computed is in the report; 130: stopped
 };
 
 }  // namespace whirl::inline cli

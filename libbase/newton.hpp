@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "libbase/dense.hpp"
+#include "libbase/failure.hpp"
 
 namespace whirl::inline base {
 
@@ -54,7 +55,7 @@ struct NewtonSearch {
   bool has_converged() const { return end == NewtonEnd::converged; }
   int steps() const { return static_cast<int>(residuals.size()) - 1; }
   /// Why nothing was found, of equations that are defined.
-  std::string failure(std::string_view nothing, std::string_view singular) const {
+  Failure failure(std::string_view nothing, std::string_view singular) const {
     if (end == NewtonEnd::singular) return fmt::format("{}: {}", nothing, singular);
     const double last = residuals.empty() ? 0.0 : residuals.back();
     return fmt::format("{}: after {} steps of Newton's method the residual is {:.1e}", nothing,

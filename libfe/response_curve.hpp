@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libfe/amplification.hpp"
 #include "libfe/unbalance.hpp"
 
@@ -22,7 +23,7 @@ struct ResponseCurve {
   UnbalanceResponse response;       ///< at the speeds of the curve, peaks and sides among them
   std::vector<ResponsePeak> peaks;  ///< of the largest major semi-axis of all points [m]
   std::vector<double> unbounded;    ///< undamped resonances: no peaks [rad/s]
-  std::string failure;  ///< why modes did not help to find narrow peaks; empty: they did
+  Failure failure;                  ///< why modes did not help to find narrow peaks
 };
 
 /// The response from the first to the last of some speeds.

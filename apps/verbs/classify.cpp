@@ -32,12 +32,12 @@ Report run_classify(const Invocation& call) {
   const ClassificationResult result{c, scene.contacts.period()};
 
   Report report = begin_report(call, model, record_of(result));
-  report.failure = c.diagnosis;
+  report.failure = c.failure;
   report.status = status_of(c.outcome);
   note_tables(call, model, report);
   report.record.merge(record_of(contact_shares(c.contacts, c.revolutions)))
       .set("reduction", record_of(reduction_facts(scene)));
-  if (!c.diagnosis.empty()) report.record.set("failure", c.diagnosis);
+  if (c.failure) report.record.set("failure", c.failure.text());
   report.text =
       headline("Kind of motion", model) + "\n" + reduction_text(scene, model) + text_of(result);
   if (file) {

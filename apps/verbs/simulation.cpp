@@ -101,7 +101,7 @@ Report motion_report(const Invocation& call, const Model& model, const Run& run,
   const Integration& integration = run.simulation.integration;
   Report report = begin_report(call, model, record_of(run_summary(run)));
   report.text = headline(what, model) + "\n" + text_of(run, model);
-  report.failure = integration.diagnosis;
+  report.failure = integration.failure;
   report.status = status_of(integration.outcome);
   note_tables(call, model, report);
   return report;

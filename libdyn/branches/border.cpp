@@ -80,7 +80,7 @@ struct Border {
 struct Place {
   PeriodicOrbit orbit;
   Vec residual;
-  std::string failure;
+  Failure failure;
 };
 Place place_at(const Border& border, const Vec& x, double second) {
   Place p;
@@ -135,7 +135,7 @@ std::optional<Vec> multiplier_slopes(const Border& border, const Vec& x, double 
   Vec slopes(size);
   for (Eigen::Index k = 0; k < size; ++k) {
     const Passage& p = passages[static_cast<std::size_t>(k)];
-    if (!p.failure.empty()) return std::nullopt;
+    if (p.failure) return std::nullopt;
     std::vector<Mat> tangents = here.orbit.tangents;
     tangents[static_cast<std::size_t>(k / n)] =
         scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal();
@@ -178,7 +178,7 @@ BranchEquations::Value evaluate(const Border& border, const Vec& x, double secon
   moved(size) = x(size) - h;
   const Place before = place_at(border, moved, second);
   if (beside.residual.size() == 0 || before.residual.size() == 0) {
-    return {.failure = beside.failure + before.failure};
+    return {.failure = beside.failure ? beside.failure : before.failure};
   }
   at.jacobian.col(size) = (beside.residual - before.residual) / (2.0 * h);
   const std::optional<Vec> slopes = border.kind == grazing

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libbase/field.hpp"
 #include "libdyn/orbits/shooting.hpp"
 
@@ -19,7 +20,7 @@ struct BranchEquations {
     Mat jacobian;                          ///< by x, if it is wanted
     std::vector<ContactMeasure> contacts;  ///< shares of the period
     std::function<CVec()> multipliers;     ///< the largest first; likewise, where the residual is 0
-    std::string failure;
+    Failure failure;
   };
   std::function<Value(const Vec& x, double value, Tangents wanted)> at;
   double difference = 3e-6;  ///< of the parameter's range, for the derivative by it

@@ -34,7 +34,8 @@ Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
   const Flow flow = flow_at(options.first);
   const PeriodicOrbit orbit = find_orbit(flow, start, {.period = options.period});
   if (!orbit.is_good()) {
-    throw NumericalError(fmt::format("at the first value, {:g}: {}", options.first, orbit.failure));
+    throw NumericalError(
+        fmt::format("at the first value, {:g}: {}", options.first, orbit.failure.text()));
   }
   const Eigen::Index n = flow.scale.size();
   Vec x(n * options.period);
@@ -53,7 +54,7 @@ BranchEquations cycle_equations(FreeFlowAt flow_at, Vec scale) {
     FreeFlow::Arrival end = flow.go(state, x(n) * flow.revolution, wanted);
     BranchEquations::Value at{.contacts = std::move(end.contacts),
                               .failure = std::move(end.failure)};
-    if (!at.failure.empty()) return at;
+    if (at.failure) return at;
     const Vec to_scale = scale.cwiseInverse();
     at.residual = Vec::Zero(n + 1);
     at.residual.head(n) = (end.end - state).cwiseProduct(to_scale);
@@ -72,7 +73,8 @@ Continuation cycle_continuation(const FreeFlowAt& flow_at, const Vec& start, dou
   const FreeFlow flow = flow_at(options.first);
   const Cycle cycle = shorten(flow, find_cycle(flow, start, period * flow.revolution));
   if (!cycle.is_good()) {
-    throw NumericalError(fmt::format("at the first value, {:g}: {}", options.first, cycle.failure));
+    throw NumericalError(
+        fmt::format("at the first value, {:g}: {}", options.first, cycle.failure.text()));
   }
   Vec x(start.size() + 1);
   x << cycle.state.cwiseQuotient(flow.scale), cycle.period / flow.revolution;

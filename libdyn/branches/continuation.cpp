@@ -60,9 +60,9 @@ Continuation::Continuation(BranchEquations equations, const Vec& x,
   z << x,
       options_.first == options_.high ? 1.0 : (options_.first - options_.low) / options_.range();
   Trial trial = correct({Vec::Unit(size + 1, size), z}, Vec::Zero(size));
-  if (!trial.failure.empty()) {
+  if (trial.failure) {
     throw NumericalError(
-        fmt::format("at the first value, {:g}: {}", options_.first, trial.failure));
+        fmt::format("at the first value, {:g}: {}", options_.first, trial.failure.text()));
   }
   trial.point.value = options_.first;
   Vec along = Vec::Zero(size + 1);
@@ -180,7 +180,7 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
   trial.is_outside = is_outside(at.z);
   trial.failure = at.value.failure;
   if (search.end == NewtonEnd::singular) trial.failure = "the equations of the branch are singular";
-  if (trial.failure.empty()) trial.failure = "Newton's method does not converge";
+  if (!trial.failure) trial.failure = "Newton's method does not converge";
   return trial;
 }
 
@@ -206,10 +206,10 @@ Continuation::Trial Continuation::reach(double step) const {
     is_end = true;
     trial = correct(range_end_ahead(), by_parameter_);
   }
-  if (trial.failure.empty() && !add_tangent(trial, last.tangent)) {
+  if (!trial.failure && !add_tangent(trial, last.tangent)) {
     trial.failure = "the branch has no tangent";
   }
-  if (!trial.failure.empty()) return trial;
+  if (trial.failure) return trial;
   const Vec moved = trial.point.z - last.z;
   const double cosine = dot(trial.point.tangent, last.tangent),
                length = std::sqrt(dot(moved, moved));
@@ -249,7 +249,7 @@ bool Continuation::advance() {
   for (double step = std::max(last.step, options_.smallest_step); step >= options_.smallest_step;
        step *= shrink) {
     Trial trial = reach(step);
-    if (trial.failure.empty()) {
+    if (!trial.failure) {
       trial = stop_on_the_way(std::move(trial));
       if (is_first || find_bifurcations(last, trial.point) || step <= finest) {
         accept(std::move(trial));

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "libbase/failure.hpp"
 #include "libdyn/branches/branch.hpp"
 
 namespace whirl::inline dyn {
@@ -56,7 +57,7 @@ class Continuation {
     BranchPoint point;
     int corrections = 0;
     bool is_outside = false;  ///< of the range
-    std::string failure;
+    Failure failure;
     Mat jacobian;                  ///< by the unknowns
     Vec by_parameter;              ///< derivative of the residual
     std::optional<BranchEnd> end;  ///< of the branch, which this point is

@@ -67,20 +67,20 @@ Continuation::Trial Continuation::closing(const BranchPoint& a, const BranchPoin
   Plane at{Vec::Unit(size + 1, size), a.z + from / (from - to) * (b.z - a.z)};
   at.at(size) = first.z(size);
   trial = correct(at, by_parameter_);
-  if (trial.failure.empty() && !is_same(trial.point, first)) trial.failure = "another orbit";
-  if (trial.failure.empty() && !add_tangent(trial, a.tangent)) trial.failure = "no tangent";
+  if (!trial.failure && !is_same(trial.point, first)) trial.failure = "another orbit";
+  if (!trial.failure && !add_tangent(trial, a.tangent)) trial.failure = "no tangent";
   return trial;
 }
 
 Continuation::Trial Continuation::stop_on_the_way(Trial trial) const {
   const BranchPoint& last = branch_.points.back();
   const double step = trial.point.step;
-  if (Trial first = closing(last, trial.point); first.failure.empty()) {
+  if (Trial first = closing(last, trial.point); !first.failure) {
     trial = std::move(first);
     trial.end = {EndKind::closed, "it closes: the first orbit again"};
   }
   if (const auto place = halving(last, trial.point)) {
-    if (Trial vertex = between(last, trial.point, *place); vertex.failure.empty()) {
+    if (Trial vertex = between(last, trial.point, *place); !vertex.failure) {
       trial = std::move(vertex);
       trial.end = {EndKind::period_halved,
                    fmt::format("it has half the period from {:.10g} on", trial.point.value)};
@@ -153,7 +153,7 @@ Continuation::Trial Continuation::between(const BranchPoint& a, const BranchPoin
   plane.at += length * plane.normal;
   Trial trial = correct(plane, by_parameter_);
   // where two branches meet there is no single tangent
-  if (trial.failure.empty() && !add_tangent(trial, plane.normal)) {
+  if (!trial.failure && !add_tangent(trial, plane.normal)) {
     trial.point.tangent = plane.normal;
   }
   return trial;
@@ -195,7 +195,7 @@ bool Continuation::locate(BifurcationKind kind, const BranchPoint& a, const Bran
   double least = std::min(std::abs(f_a), std::abs(f_b));
   const auto f = [&](double length) {
     Trial trial = between(a, b, length);
-    if (!trial.failure.empty()) return nan;
+    if (trial.failure) return nan;
     const double value = test_function(kind, trial.point);
     if (std::abs(value) < least) {
       least = std::abs(value);
@@ -225,7 +225,7 @@ bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
                                           before.z(before.z.size() - 1)) > options_.located) {
       const double middle = 0.5 * (low + high);
       Trial trial = between(a, b, middle);
-      if (!trial.failure.empty()) return false;
+      if (trial.failure) return false;
       if (same_impacts(trial.point.contacts, before.contacts)) {
         low = middle;
         before = std::move(trial.point);

@@ -24,7 +24,7 @@ Eigen::Index number_of_ports(const HarmonicProblem& problem) {
 CVec multipliers_of(const HarmonicProblem& problem, const HarmonicOrbit& orbit) {
   const HillStability hill = hill_stability(problem, orbit);
   CVec all = CVec::Zero(2 * problem.coordinates());
-  if (!hill.failure.empty()) {
+  if (hill.failure) {
     all.setConstant(std::numeric_limits<double>::quiet_NaN());
   } else {
     all.head(hill.multipliers.size()) = hill.multipliers;

@@ -223,7 +223,7 @@ Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eige
   Turned at;
   for (Eigen::Index j = 0; j < N; ++j) {
     const Passage& p = passages[static_cast<std::size_t>(j)];
-    if (!p.failure.empty()) return Turned{{.failure = p.failure}};
+    if (p.failure) return Turned{{.failure = p.failure}};
     ends.col(j) = p.end.cwiseQuotient(scale);
     if (wanted == Tangents::no) continue;
     at.tangents.push_back(scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal());

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libdyn/branches/branch_equations.hpp"
 
 namespace whirl::inline dyn {
@@ -23,10 +24,10 @@ struct InvariantCircle {
   double tail = 0.0;            ///< highest harmonics by the largest
   /// Exponents of its tangents across the circle, descending [1 / period]: all below 0 is stable.
   Vec exponents;
-  double along = 0.0;   ///< that along it, which is zero but for errors
-  std::string failure;  ///< empty: it is one
+  double along = 0.0;  ///< that along it, which is zero but for errors
+  Failure failure;
 
-  bool is_good() const { return failure.empty(); }
+  bool is_good() const { return !failure; }
   bool is_stable() const { return is_good() && (exponents.size() == 0 || exponents(0) < 0.0); }
 };
 

@@ -8,7 +8,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/flow/free_flight.hpp"
 #include "libdyn/methods/contact_step.hpp"
-#include "libdyn/system/diagnosis.hpp"
+#include "libdyn/system/failure_text.hpp"
 
 namespace whirl::inline dyn {
 
@@ -57,7 +57,7 @@ class Run {
   }
   Result fail(Outcome outcome, std::string_view what) {
     result_.outcome = outcome;
-    result_.diagnosis = diagnosis(system_, state_, what);
+    result_.failure = failure_text(system_, state_, what);
     return Result::ended;
   }
   bool is_boundless(const Vec& y) const {

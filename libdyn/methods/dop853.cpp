@@ -6,8 +6,8 @@
 #include <optional>
 
 #include "libdyn/methods/dop853_coefficients.hpp"
-#include "libdyn/system/diagnosis.hpp"
 #include "libdyn/system/events.hpp"
+#include "libdyn/system/failure_text.hpp"
 
 namespace whirl::inline dyn {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "libdyn/system/diagnosis.hpp"
 #include "libdyn/system/equal_steps.hpp"
+#include "libdyn/system/failure_text.hpp"
 
 namespace whirl::inline dyn {
 

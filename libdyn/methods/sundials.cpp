@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/system/diagnosis.hpp"
+#include "libdyn/system/failure_text.hpp"
 
 namespace whirl::inline dyn::sundials {
 

@@ -51,7 +51,7 @@ RunFacts run_facts(const Simulation& simulation) {
           .steps = static_cast<double>(cost.steps),
           .evaluations = static_cast<double>(cost.evaluations),
           .events = static_cast<double>(cost.events),
-          .failure = simulation.integration.diagnosis};
+          .failure = simulation.integration.failure};
 }
 
 MotionRecord recorded_motion(const Run& run) {
@@ -101,7 +101,7 @@ RunSummary run_summary(const Run& run) {
           .contacts = contact_shares(s.recording.contacts, s.recording.revolutions).contacts,
           .reduction = reduction_facts(run.scene),
           .cost = {cost.steps, cost.evaluations, cost.events, s.wall, run.method},
-          .failure = s.integration.diagnosis};
+          .failure = s.integration.failure};
 }
 
 std::vector<StationSummary> station_summaries(const Run& run) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libbase/column.hpp"
+#include "libbase/failure.hpp"
 #include "libdyn/motions/response.hpp"
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/system/contact_measures.hpp"
@@ -102,7 +103,7 @@ struct RunFacts {
   double revolutions = 0.0;
   double period = 0.0;  ///< of a revolution [s]
   double steps = 0.0, evaluations = 0.0, events = 0.0;
-  std::string failure;
+  Failure failure;
 
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
@@ -229,7 +230,7 @@ struct RunSummary {
   std::vector<ContactShare> contacts;
   ReductionFacts reduction;
   RunCost cost;
-  std::string failure;  ///< empty: none
+  Failure failure;
 
   static constexpr auto columns() {
     using S = RunSummary;

@@ -35,7 +35,7 @@ struct Recording {
 struct Simulation {
   Recording recording;
   MotionState end;          ///< where it ended
-  Integration integration;  ///< outcome, cost and diagnosis of the whole
+  Integration integration;  ///< outcome, cost and failure of the whole
   double wall = 0.0;        ///< duration of the integration [s]
 };
 

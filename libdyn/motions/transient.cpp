@@ -28,7 +28,7 @@ Trajectory run_transient(const Scene& scene, const MotionState& start,
 std::optional<MotionState> settled_state(const Trajectory& transient) {
   if (transient.outcome == Outcome::stopped_by_observer) return std::nullopt;
   if (transient.outcome == Outcome::reached_end) return transient.state;
-  throw NumericalError(transient.diagnosis);
+  throw NumericalError(transient.failure.text());
 }
 
 }  // namespace whirl::inline dyn

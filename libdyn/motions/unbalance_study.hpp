@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libbase/column.hpp"
+#include "libbase/failure.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/response_curve.hpp"
@@ -105,7 +106,7 @@ struct UnbalanceStudy {
   std::vector<ClearanceUse> clearances;
   std::vector<double> unbounded;         ///< undamped resonances [rad/s]
   std::vector<LargestResponse> largest;  ///< per station
-  std::string failure;                   ///< why narrow peaks may be missing; empty: they are not
+  Failure failure;                       ///< why narrow peaks may be missing
 
   static constexpr std::string_view group = "/unbalance";
   static constexpr auto columns() {

@@ -46,7 +46,7 @@ End end_of(const ContactSystem& system, MotionState state, long revolutions, dou
   const Integration run =
       Dop853::integrate(system, state, revolutions, {.tolerance = tolerance}, {});
   if (run.outcome != Outcome::reached_end) {
-    throw NumericalError("the reference motion failed: " + run.diagnosis);
+    throw NumericalError("the reference motion failed: " + run.failure.text());
   }
   return {state.y, run.cost};
 }
@@ -78,7 +78,7 @@ ReferenceMotion quad_reference(const ContactSystem& system, const MotionState& s
     Trajectory t{.system = &system, .state = start, .revolutions = revolutions};
     integrate_quad(t, options);
     if (t.outcome != Outcome::reached_end) {
-      throw NumericalError("the reference motion failed: " + t.diagnosis);
+      throw NumericalError("the reference motion failed: " + t.failure.text());
     }
     return t;
   };
@@ -113,7 +113,7 @@ Candidate batch_of(std::string_view name, const ContactSystem& system, F integra
     integrate(all, tolerance);
     Trajectory& first = all.front();
     state = std::move(first.state);
-    return Integration{first.outcome, first.cost, std::move(first.diagnosis)};
+    return Integration{first.outcome, first.cost, std::move(first.failure)};
   };
   return {std::string(name), move, lanes};
 }

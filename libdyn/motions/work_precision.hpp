@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libbase/column.hpp"
+#include "libbase/failure.hpp"
 #include "libdyn/methods/methods.hpp"
 
 namespace whirl::inline dyn {
@@ -84,8 +85,7 @@ struct TimedRun {
   std::optional<double> nanoseconds() const {
     return has_failed() ? std::nullopt : std::optional(1e9 * time);
   }
-  /// Why it failed; empty: it did not.
-  std::string failure() const { return has_failed() ? integration.diagnosis : std::string(); }
+  Failure failure() const { return has_failed() ? integration.failure : Failure(); }
 
   static constexpr auto columns() {
     return std::tuple{

@@ -29,7 +29,7 @@ std::vector<Passage> pass(const ContactSystem& system, double tolerance,
   for (Trajectory& t : all) {
     Passage p{std::move(t.state.y), std::move(t.tangent), std::move(t.contacts), {}};
     if (t.outcome != Outcome::reached_end) {
-      p.failure = t.diagnosis.empty() ? "the motion was stopped" : t.diagnosis;
+      p.failure = !t.failure ? "the motion was stopped" : t.failure;
     }
     passages.push_back(std::move(p));
   }
@@ -93,7 +93,7 @@ Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first, double tole
     for (const Vec& y : starts) own.push_back(change.to(y));
     std::vector<Passage> passages = pass(scene->contacts, tolerance, own, revolutions, tangents);
     for (Passage& p : passages) {
-      if (!p.failure.empty()) continue;
+      if (p.failure) continue;
       p.end = change.back(p.end);
       if (tangents == Tangents::yes) p.tangent = change.back(p.tangent * change.matrix());
     }

@@ -106,7 +106,7 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
       return p;
     }
     p.arrival = flow.go(p.state, time, Tangents::yes);
-    if (!p.arrival.failure.empty()) return p;
+    if (p.arrival.failure) return p;
     if (!p.arrival.end.allFinite() || !p.arrival.tangent.allFinite()) {
       p.arrival.failure = "the motion or its tangent is not finite";
       return p;
@@ -158,7 +158,7 @@ Cycle shorten(const FreeFlow& flow, const Cycle& cycle) {
   if (!cycle.is_good()) return cycle;
   for (int parts = most_parts; parts > 1; --parts) {
     const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period / parts, Tangents::no);
-    if (!at.failure.empty()) continue;
+    if (at.failure) continue;
     const Vec gap = (at.end - cycle.state).cwiseQuotient(flow.scale);
     if (gap.lpNorm<Eigen::Infinity>() > same) continue;
     Cycle shorter = find_cycle(flow, cycle.state, cycle.period / parts);
@@ -187,7 +187,7 @@ FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
             t.state.y = R * z;
             integrate_single(
                 t, {.tolerance = tolerance, .measures = true, .tangent = wanted == Tangents::yes});
-            if (t.outcome != Outcome::reached_end) return {.failure = t.diagnosis};
+            if (t.outcome != Outcome::reached_end) return {.failure = t.failure};
             to_shares(t.contacts, time);
             FreeFlow::Arrival at{.end = t.state.y, .contacts = std::move(t.contacts)};
             if (wanted == Tangents::yes) at.tangent = t.tangent * R;
@@ -209,7 +209,7 @@ FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first, d
   const BasisChange change(*scene, first);
   flow.go = [own, change](const Vec& z, double time, Tangents wanted) {
     FreeFlow::Arrival at = own.go(change.to(z), time, wanted);
-    if (!at.failure.empty()) return at;
+    if (at.failure) return at;
     at.end = change.back(at.end);
     if (wanted == Tangents::yes) at.tangent = change.back(at.tangent * change.matrix());
     return at;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/shooting.hpp"
 
@@ -17,7 +18,7 @@ struct FreeFlow {
     Vec end;
     Mat tangent;                           ///< derivative of the end by the start
     std::vector<ContactMeasure> contacts;  ///< shares of the time
-    std::string failure;                   ///< why there is no end; empty: there is one
+    Failure failure;
   };
   Vec scale;                ///< of the states
   double revolution = 1.0;  ///< in which periods are told [s]
@@ -32,9 +33,9 @@ struct Cycle {
   std::vector<double> residuals;  ///< before every step of Newton's method, and after the last
   CVec multipliers;               ///< the largest first, without the one that is 1 along the motion
   std::vector<ContactMeasure> contacts;  ///< shares of the period
-  std::string failure;                   ///< empty: it is closed
+  Failure failure;
 
-  bool is_good() const { return failure.empty(); }
+  bool is_good() const { return !failure; }
   bool is_stable() const { return is_good() && multipliers.cwiseAbs().maxCoeff() < 1.0; }
 };
 

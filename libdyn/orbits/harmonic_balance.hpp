@@ -7,6 +7,7 @@
 
 #include "libbase/column.hpp"
 #include "libbase/dense.hpp"
+#include "libbase/failure.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/port_forces.hpp"
 
@@ -123,9 +124,9 @@ struct HarmonicOrbit {
   std::vector<Level> levels;
   /// Estimated error of displacements by the harmonics left out [length scales]; NaN if not known.
   double truncation = 0.0;
-  std::string failure;  ///< empty: it is an orbit
+  Failure failure;
 
-  bool is_good() const { return failure.empty(); }
+  bool is_good() const { return !failure; }
   int harmonics() const { return motion.harmonics(); }
   /// (eta, eta') at the start of revolution i.
   Vec state(int i = 0) const;

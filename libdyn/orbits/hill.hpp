@@ -1,6 +1,7 @@
 #pragma once
 /// Stability of orbits that are Fourier series, by Hill's method.
 
+#include "libbase/failure.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
 
 namespace whirl::inline dyn {
@@ -14,11 +15,11 @@ struct HillStability {
   int missing = 0;
   /// How many are those of modes too fast for the harmonics, from the mean of A(t).
   int averaged = 0;
-  int harmonics = 0;    ///< of p
-  std::string failure;  ///< empty: they were found
+  int harmonics = 0;  ///< of p
+  Failure failure;
 
   bool is_stable() const {
-    return failure.empty() && (multipliers.size() == 0 || multipliers.cwiseAbs().maxCoeff() < 1.0);
+    return !failure && (multipliers.size() == 0 || multipliers.cwiseAbs().maxCoeff() < 1.0);
   }
 };
 

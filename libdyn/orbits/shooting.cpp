@@ -80,8 +80,8 @@ Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted) {
   orbit.revolution = flow.period;
   for (std::size_t i = 0; i < m; ++i) {
     const Passage& p = passages[i];
-    if (!p.failure.empty() || !p.end.allFinite() || !p.tangent.allFinite()) {
-      orbit.failure = p.failure.empty() ? "the motion or its tangent is not finite" : p.failure;
+    if (p.failure || !p.end.allFinite() || !p.tangent.allFinite()) {
+      orbit.failure = !p.failure ? "the motion or its tangent is not finite" : p.failure;
       orbit.residual = std::numeric_limits<double>::infinity();
       return {};
     }
@@ -91,7 +91,7 @@ Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted) {
     orbit.tangents.push_back(flow.scale.cwiseInverse().asDiagonal() * p.tangent *
                              flow.scale.asDiagonal());
   }
-  orbit.failure.clear();
+  orbit.failure = {};
   orbit.residual = gaps.lpNorm<Eigen::Infinity>();
   orbit.contacts = shares(passages, flow.period * orbit.period);
   return gaps;
@@ -143,7 +143,7 @@ PeriodicOrbit find_orbit(const Flow& flow, const Vec& start, const ShootingOptio
   std::vector<Vec> starts{start};
   while (std::ssize(starts) < segments) {
     Passage p = flow.go({&starts.back(), 1}, options.period / segments, Tangents::no).front();
-    if (!p.failure.empty()) {
+    if (p.failure) {
       PeriodicOrbit orbit{.period = options.period, .revolution = flow.period, .states = starts};
       orbit.residual = std::numeric_limits<double>::infinity();
       orbit.failure = p.failure;

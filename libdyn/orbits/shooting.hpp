@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libbase/linalg.hpp"
 #include "libdyn/system/contact_measures.hpp"
 
@@ -16,7 +17,7 @@ struct Passage {
   Vec end;
   Mat tangent;                           ///< derivative of the end by the start
   std::vector<ContactMeasure> contacts;  ///< times, not shares; empty: there are no contacts
-  std::string failure;                   ///< why there is no end; empty: there is one
+  Failure failure;
 };
 
 /// Whether the derivative of the end is wanted, too.
@@ -50,9 +51,9 @@ struct PeriodicOrbit {
   std::vector<double> residuals;  ///< before every step of Newton's method, and after the last
   CVec multipliers;               ///< of the whole period, the largest first
   std::vector<ContactMeasure> contacts;  ///< shares of the period
-  std::string failure;                   ///< empty: it is an orbit
+  Failure failure;
 
-  bool is_good() const { return failure.empty(); }
+  bool is_good() const { return !failure; }
   bool is_stable() const;
   /// log(multiplier) / period [1/s]; the imaginary part is known up to the orbit's frequency.
   CVec exponents() const;

@@ -71,7 +71,7 @@ std::array<int, 2> strongest_lines(const Scene& scene, const FreeFlow& flow, con
     const Vec2 u = contact.U * y.head(n);
     path.emplace_back(u(0), u(1));
     FreeFlow::Arrival at = flow.go(y, cycle.period / samples, Tangents::no);
-    if (!at.failure.empty()) return {};
+    if (at.failure) return {};
     y = std::move(at.end);
   }
   std::array<int, 2> lines{};

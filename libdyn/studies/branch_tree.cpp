@@ -47,8 +47,8 @@ class TreeEquations {
         find_harmonic_orbit(scenes_.first->contacts, start,
                             {.period = options_.period, .harmonics = options_.harmonics});
     if (found.orbit.is_good()) return found.orbit;
-    throw NumericalError(
-        fmt::format("at the first value, {:g}: {}", options_.along.first, found.orbit.failure));
+    throw NumericalError(fmt::format("at the first value, {:g}: {}", options_.along.first,
+                                     found.orbit.failure.text()));
   }
   /// Its unknowns.
   Vec unknowns_of(const HarmonicOrbit& orbit) const {

@@ -30,7 +30,7 @@ MotionSummary summary_of(const ClassifiedMotion& motion) {
 }
 
 ClassifiedMotion classified(const Classification& found) {
-  if (!found.is_good()) return {.failure = found.diagnosis};
+  if (!found.is_good()) return {.failure = found.failure};
   ClassifiedMotion motion{.kind = found.kind,
                           .period = found.period,
                           .is_proven = found.is_proven,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libbase/column.hpp"
+#include "libbase/failure.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"
@@ -26,7 +27,7 @@ struct ClassifiedMotion {
   std::vector<double> exponents{};  ///< Lyapunov exponents, descending [1/revolution]
   std::vector<ContactDoing> contacts{};
   long settles_after = 0;  ///< see Classification
-  std::string failure{};   ///< why it failed; empty if it was read from a file
+  Failure failure{};       ///< why it failed; empty if it was read from a file
 
   bool has_failed() const { return !kind; }
   /// The strongest of all contacts.

@@ -112,7 +112,7 @@ class Together {
       }
       c.end = all[i].state;
       c.outcome = all[i].outcome;
-      c.diagnosis = all[i].diagnosis;
+      c.failure = all[i].failure;
       if (!c.is_good()) continue;
       open.push_back(open_[i]);
       good.push_back(std::move(all[i]));

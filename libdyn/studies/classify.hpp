@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libbase/field.hpp"
 #include "libdyn/flow/free_flight.hpp"
 #include "libdyn/studies/settling.hpp"
@@ -68,7 +69,7 @@ struct Classification {
   std::vector<double> sections;          ///< states at phase 0, the last ones, if asked for
   MotionState end;                       ///< a state on the motion
   Outcome outcome = Outcome::reached_end;
-  std::string diagnosis;
+  Failure failure;
 
   bool is_good() const { return outcome == Outcome::reached_end; }
   /// Impacts of all contacts, the p of the p/n notation (n: revolutions).

@@ -124,11 +124,10 @@ FoundOrbit find_orbit_after(const Trajectory& transient, const Scene& scene,
   if (transient.outcome == Outcome::reached_end) {
     return find_orbit_near(scene, transient.state.y, options);
   }
-  return {
-      .period = options.period,
-      .shortest_period = options.period,
-      .states = {transient.state.y},
-      .failure = transient.diagnosis.empty() ? "stopped in the transient" : transient.diagnosis};
+  return {.period = options.period,
+          .shortest_period = options.period,
+          .states = {transient.state.y},
+          .failure = !transient.failure ? "stopped in the transient" : transient.failure};
 }
 
 double guessed_period(const Scene& scene, const Vec& start) {

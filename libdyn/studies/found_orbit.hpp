@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libbase/column.hpp"
+#include "libbase/failure.hpp"
 #include "libbase/field.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/orbits/cycle.hpp"
@@ -42,7 +43,7 @@ struct OrbitOptions {
 
 /// How far an orbit of harmonic balance is from the one that shooting finds from the same states.
 struct ShootingGap {
-  std::string failure;  ///< of shooting; empty: it found one, and all else is known
+  Failure failure;  ///< of shooting; where there is none, all else is known
   std::optional<double> displacement{}, velocity{};  ///< where revolutions start [length scales]
   std::optional<double> multiplier{};                ///< of each, from the nearest of shooting
   std::optional<double> residual{};                  ///< of shooting [length scales]
@@ -65,8 +66,8 @@ struct OrbitSeries {
   std::vector<HarmonicOrbit::Level> levels{};  ///< on the way
   std::optional<int> missing_multipliers{};    ///< too small to be told; nothing: no orbit
   std::optional<int> averaged_multipliers{};   ///< of modes too fast for the harmonics
-  std::string stability_failure{};             ///< empty: the multipliers are known
-  Vec orders{};                                ///< frequency over speed of each amplitude, from 0
+  Failure stability_failure{};
+  Vec orders{};       ///< frequency over speed of each amplitude, from 0
   CMat amplitudes{};  ///< of all points: displacement = Re sum amplitude e^(i order phase) [m, rad]
   std::optional<ShootingGap> gap{};  ///< if it is asked for
 
@@ -106,10 +107,10 @@ struct FoundOrbit {
   std::vector<MultiplierMode> modes{};  ///< of the multipliers; empty: not told
   bool is_stable = false;
   std::vector<ContactMeasure> contacts{};  ///< shares of the period
-  std::string failure{};                   ///< empty: it is an orbit
-  std::optional<OrbitSeries> series{};     ///< of harmonic balance
+  Failure failure{};
+  std::optional<OrbitSeries> series{};  ///< of harmonic balance
 
-  bool is_good() const { return failure.empty(); }
+  bool is_good() const { return !failure; }
   std::optional<bool> stability() const;  ///< nothing: there is no orbit
   const Vec& state() const { return states.front(); }
   std::vector<ContactShare> contact_shares() const;

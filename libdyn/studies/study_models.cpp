@@ -59,7 +59,7 @@ void classify_together(std::span<StudyMotion> motions, const ClassifyOptions& op
 }
 
 ClassifiedMotion classified(const StudyMotion& motion) {
-  if (!motion.failure.empty()) return {.failure = motion.failure};
+  if (motion.failure) return {.failure = motion.failure};
   return classified(motion.subject.found);
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/model.hpp"
@@ -39,9 +40,9 @@ StudyModels study_models(std::function<Model(std::span<const double> values)> mo
 struct StudyMotion {
   std::shared_ptr<const Scene> scene{};  ///< null if there is none
   Subject subject{};
-  std::string failure{};  ///< why there is no scene, or no start
+  Failure failure{};  ///< why there is no scene, or no start
 
-  bool is_good() const { return failure.empty() && subject.found.is_good(); }
+  bool is_good() const { return !failure && subject.found.is_good(); }
 };
 
 /// Makes the scene of a motion and puts it where it begins.

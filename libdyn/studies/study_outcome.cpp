@@ -13,7 +13,7 @@ StudyOutcome study_outcome(const std::vector<const ClassifiedMotion*>& motions, 
     const ClassifiedMotion& motion = *motions[i];
     ++outcome.done;
     outcome.failed += motion.has_failed() ? 1 : 0;
-    if (example.empty() && !motion.failure.empty()) example = describe(i) + ": " + motion.failure;
+    if (example.empty() && motion.failure) example = describe(i) + ": " + motion.failure.text();
     if (motion.kind != MotionKind::not_settled) continue;
     UnsettledMotions& unsettled = outcome.unsettled;
     ++unsettled.motions;
@@ -22,9 +22,8 @@ StudyOutcome study_outcome(const std::vector<const ClassifiedMotion*>& motions, 
     unsettled.settles_after = std::max(unsettled.settles_after.value_or(0), motion.settles_after);
   }
   if (outcome.failed > 0) {
-    outcome.failure =
-        std::to_string(outcome.failed) + " of " + std::to_string(outcome.points) + " points";
-    if (!example.empty()) outcome.failure += ", for instance at " + example;
+    outcome.failure = std::to_string(outcome.failed) + " of " + std::to_string(outcome.points) +
+                      " points" + (example.empty() ? "" : ", for instance at " + example);
   }
   return outcome;
 }

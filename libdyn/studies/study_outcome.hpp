@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libbase/column.hpp"
+#include "libbase/failure.hpp"
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/point_runner.hpp"
 
@@ -30,7 +31,7 @@ struct UnsettledMotions {
 struct StudyOutcome {
   std::size_t resumed = 0;  ///< points that were there already
   std::size_t done = 0, points = 0, failed = 0;
-  std::string failure;  ///< how many points failed, and one of them; empty: none
+  Failure failure;  ///< how many points failed, and one of them
   UnsettledMotions unsettled;
 
   bool is_whole() const { return done == points; }

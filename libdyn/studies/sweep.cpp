@@ -53,7 +53,7 @@ class Chain {
 
   /// Settles a motion and says where the next one begins; nowhere if it fails.
   FullState end_of(StudyMotion& motion) const {
-    if (!motion.failure.empty()) return {};
+    if (motion.failure) return {};
     settle({&motion.subject, 1}, options_.classify);
     const Classification& found = motion.subject.found;
     if (!found.is_good()) return {};

@@ -26,7 +26,7 @@ CirclePoint point_of(const BranchPoint& p, const Vec& scale, int period) {
 Mat sections_of(const Scene& scene, const MotionState& start, int period, long count) {
   Trajectory motion{.system = &scene.contacts, .state = start, .revolutions = count * period};
   integrate_single(motion, {.tolerance = section_tolerance, .sections = true});
-  if (motion.outcome != Outcome::reached_end) throw NumericalError(motion.diagnosis);
+  if (motion.outcome != Outcome::reached_end) throw NumericalError(motion.failure.text());
   const Eigen::Index n = scene.contacts.size();
   const Eigen::Map<const Mat> all(motion.sections.data(), n, std::ssize(motion.sections) / n);
   Mat sections(n, count);

@@ -39,7 +39,7 @@ std::string end_text(const CircleWalk& walk) {
 std::string failure_text(const TorusBranch& torus) {
   const Ratio ratio = nearest_ratio(torus.motion_rotation);
   return fmt::format("{}; the motion turns by {:.9f} of the circle, {}/{} and {:+.1e}",
-                     torus.circle.failure, torus.motion_rotation, ratio.p, ratio.q,
+                     torus.circle.failure.text(), torus.motion_rotation, ratio.p, ratio.q,
                      torus.motion_rotation - ratio.value());
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libbase/parameter_name.hpp"
 #include "libdyn/studies/end_texts.hpp"
 #include "libdyn/studies/torus_branch.hpp"
@@ -49,7 +50,7 @@ struct TorusResult {
   int harmonics = 0;
   double residual = 0.0;  ///< [scales]
   double tail = 0.0;      ///< highest harmonics by the largest
-  std::string failure{};  ///< why there is none
+  Failure failure{};
 
   ParameterName parameter{};
   std::vector<CircleRow> circles{};

@@ -66,7 +66,7 @@ WorkPrecisionStudy work_precision_study(const ContactSystem& system, MotionState
   study.is_whole = transient.outcome != Outcome::stopped_by_observer;
   if (!study.is_whole) return study;
   if (transient.outcome != Outcome::reached_end) {
-    throw NumericalError("the transient failed: " + transient.diagnosis);
+    throw NumericalError("the transient failed: " + transient.failure.text());
   }
   study.reference = reference_motion(system, start, options.revolutions);
   for (const std::string& method : methods) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libdyn/system/contact_system.hpp"
 
 namespace whirl::inline dyn {
@@ -75,7 +76,7 @@ struct Cost {
 struct Integration {
   Outcome outcome = Outcome::reached_end;
   Cost cost;
-  std::string diagnosis;  ///< of a failure: when, which contact, in which state
+  Failure failure;  ///< when, which contact, in which state
 };
 
 }  // namespace whirl::inline dyn

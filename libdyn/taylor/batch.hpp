@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/failure.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/trajectory.hpp"
 
@@ -18,7 +19,7 @@ struct Trajectory {
   long revolutions = 0;  ///< counted from state.revolution; the end is at phase 0
 
   Outcome outcome = Outcome::reached_end;
-  std::string diagnosis;  ///< of a failure
+  Failure failure;
   Cost cost;
   std::vector<double> sections;          ///< states at the ends of revolutions, if asked for
   std::vector<ContactMeasure> contacts;  ///< of all revolutions, if asked for (times, not shares)

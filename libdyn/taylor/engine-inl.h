@@ -14,8 +14,8 @@
 
 #include "libdyn/flow/free_flight.hpp"
 #include "libdyn/flow/linear_flow.hpp"
-#include "libdyn/system/diagnosis.hpp"
 #include "libdyn/system/events.hpp"
+#include "libdyn/system/failure_text.hpp"
 #include "libdyn/system/saltation.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/equation_lanes-inl.h"
@@ -348,7 +348,7 @@ template <class P>
 HWY_ATTR void Engine<P>::fail(int l, Outcome outcome, const char* what) {
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
   t.outcome = outcome;
-  t.diagnosis = diagnosis(*t.system, motion_of(l), what);
+  t.failure = failure_text(*t.system, motion_of(l), what);
   finished_ |= uint64_t{1} << l;
 }
 

@@ -12,8 +12,8 @@
 #include <memory>
 #include <vector>
 
-#include "libdyn/system/diagnosis.hpp"
 #include "libdyn/system/equal_steps.hpp"
+#include "libdyn/system/failure_text.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/contact_lanes-inl.h"
 #include "libdyn/taylor/equation_lanes-inl.h"
@@ -77,9 +77,9 @@ class Rk4Lanes {
         if (!is_good) {
           const bool left = (inside & bit) == 0;
           t.outcome = left ? Outcome::left_bearing : Outcome::not_finite;
-          t.diagnosis = diagnosis(*t.system, t.state,
-                                  left ? "a step of the next revolution of RK4 leaves a bearing"
-                                       : "a revolution of RK4 gave no finite numbers");
+          t.failure = failure_text(*t.system, t.state,
+                                   left ? "a step of the next revolution of RK4 leaves a bearing"
+                                        : "a revolution of RK4 gave no finite numbers");
         }
         active &= ~bit;
       }

@@ -13,7 +13,7 @@ Integration Taylor::integrate(const ContactSystem& system, MotionState& state, l
       trajectory,
       {.tolerance = options.tolerance, .fixed_step = options.fixed_step, .order = order}, observer);
   state = std::move(trajectory.state);
-  return {trajectory.outcome, trajectory.cost, std::move(trajectory.diagnosis)};
+  return {trajectory.outcome, trajectory.cost, std::move(trajectory.failure)};
 }
 
 }  // namespace whirl::inline dyn

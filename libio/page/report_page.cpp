@@ -91,8 +91,8 @@ Record warnings_of(const ResultView& result, const std::vector<std::string>& mis
   if (!result.problem.empty()) {
     warnings.add("the model cannot be read again, the layout is left out: " + result.problem);
   }
-  if (const auto& run = figures::result_of<RunFacts>(result); !run.failure.empty()) {
-    warnings.add("the run failed: " + run.failure);
+  if (const auto& run = figures::result_of<RunFacts>(result); run.failure) {
+    warnings.add("the run failed: " + run.failure.text());
   }
   for (const char* group : {"/sweep", "/map", "/basins"}) {
     if (result.file.has_attribute(group, "complete") &&

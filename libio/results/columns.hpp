@@ -305,8 +305,11 @@ Record record_of(const T& result) {
   for_each_column<T>([&](const auto& c) {
     if (c.written == Written::in_file) return;
     const auto& value = std::invoke(c.member, result);
-    if constexpr (requires { value.empty(); }) {
-      if (c.is_optional && c.written == Written::in_json && value.empty()) return;
+    const bool may_be_left_out = c.is_optional && c.written == Written::in_json;
+    if constexpr (columns::Text<std::remove_cvref_t<decltype(value)>>) {
+      if (may_be_left_out && std::string_view(value).empty()) return;
+    } else if constexpr (requires { value.empty(); }) {
+      if (may_be_left_out && value.empty()) return;
     }
     if constexpr (is_rows_column<std::remove_cvref_t<decltype(c)>>) {
       Record list = Record::array();

@@ -14,7 +14,7 @@ namespace whirl::inline io {
 namespace {
 
 std::string gap_text(const ShootingGap& gap) {
-  if (!gap.failure.empty()) return "\n  shooting from there: " + gap.failure;
+  if (gap.failure) return "\n  shooting from there: " + gap.failure.text();
   return fmt::format(
       "\n  from shooting it differs by {:.1e} in displacements, {:.1e} in velocities (length "
       "scales, and those times the speed), {:.1e} in multipliers",
@@ -31,7 +31,7 @@ std::string series_text(const FoundOrbit& orbit) {
               ? fmt::format(", those left out change displacements by about {:.1e} length scales",
                             series.truncation)
               : std::string(", what those left out change is not known");
-  if (!series.stability_failure.empty()) text += "\n  stability: " + series.stability_failure;
+  if (series.stability_failure) text += "\n  stability: " + series.stability_failure.text();
   if (const int count = series.averaged_multipliers.value_or(0); count > 0) {
     text += fmt::format(
         "\n  {} multipliers of modes too fast for the harmonics are from mean forces", count);

@@ -30,7 +30,7 @@ std::string text_of(const StudyOutcome& outcome, bool has_file) {
     text += fmt::format("\n  stopped with {} of {} points{}\n", outcome.done, outcome.points,
                         has_file ? "; the same line goes on from there" : "");
   }
-  if (!outcome.failure.empty()) text += fmt::format("\n  failed: {}\n", outcome.failure);
+  if (outcome.failure) text += fmt::format("\n  failed: {}\n", outcome.failure.text());
   return text;
 }
 

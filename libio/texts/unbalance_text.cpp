@@ -108,9 +108,10 @@ std::vector<std::string> notes_of(const UnbalanceStudy& study) {
     notes.push_back(fmt::format(
         "the response is unbounded at {:.2f} rpm, a resonance without damping", Omega / rpm));
   }
-  if (!study.failure.empty()) {
-    notes.push_back(fmt::format(
-        "the modes of this rotor were not found ({}): narrow peaks may be missing", study.failure));
+  if (study.failure) {
+    notes.push_back(
+        fmt::format("the modes of this rotor were not found ({}): narrow peaks may be missing",
+                    study.failure.text()));
   }
   return notes;
 }

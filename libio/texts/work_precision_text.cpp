@@ -42,7 +42,7 @@ std::string failures_text(const WorkPrecisionStudy& study) {
   for (const TimedRun& run : study.runs) {
     if (!run.has_failed()) continue;
     text += fmt::format("  {} at {} failed: {}\n", run.method, format_tolerance(run.tolerance),
-                        run.failure());
+                        run.failure().text());
   }
   return text.empty() ? "" : "\n" + text;
 }

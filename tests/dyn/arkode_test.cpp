@@ -26,7 +26,7 @@ double order(const AnyMethod& method, const RotorStator& p, long revolutions,
     MotionState state = start;
     const Integration result = test::run(
         scene, state, revolutions, {.fixed_step = scene.contacts.period() / n, .method = method});
-    EXPECT_EQ(result.outcome, Outcome::reached_end) << result.diagnosis;
+    EXPECT_EQ(result.outcome, Outcome::reached_end) << result.failure;
     error.push_back(distance(scene.contacts, state.y, reference.y));
   }
   return test::order_of(steps, error);

@@ -53,7 +53,7 @@ void expect_same_as_alone(const test::Trajectories& sample, const BatchOptions& 
   for (std::size_t i = 0; i < batch.size(); ++i) {
     Trajectory alone = sample.all[i];
     integrate_single(alone, options);
-    EXPECT_EQ(alone.outcome, Outcome::reached_end) << alone.diagnosis;
+    EXPECT_EQ(alone.outcome, Outcome::reached_end) << alone.failure;
     EXPECT_TRUE(is_same(batch[i], alone)) << i;
     events += static_cast<int>(alone.cost.events);
   }
@@ -192,7 +192,7 @@ TEST(Batch, EndsOneTrajectoryWithoutTheOthers) {
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const bool is_bad = i == 3 || i == 7;
     EXPECT_EQ(batch[i].outcome, is_bad ? Outcome::not_finite : Outcome::reached_end) << i;
-    EXPECT_EQ(batch[i].diagnosis.empty(), !is_bad);
+    EXPECT_EQ(!batch[i].failure, !is_bad);
     if (is_bad) continue;
     Trajectory alone = sample.all[i];
     integrate_single(alone, {});

@@ -108,7 +108,7 @@ BladedDisk in_a_seal() {
 MotionState settled(const BladedDisk& p, const Scene& scene, long revolutions) {
   MotionState state = test::start_of(p.model(), scene);
   const Integration run = test::run(scene, state, revolutions, {.tolerance = 1e-12});
-  EXPECT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  EXPECT_EQ(run.outcome, Outcome::reached_end) << run.failure;
   return state;
 }
 
@@ -204,7 +204,7 @@ TEST(BladeTips, PressAsInClosedFormWhileTheDiskTurnsWithThem) {
     meter.add(step);
     return true;
   });
-  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.failure;
   EXPECT_EQ(run.cost.events, 0);
   EXPECT_NEAR(state.y(0), low, 1e-10 * low);
   EXPECT_NEAR(state.y(1), 0.0, 1e-10 * low);
@@ -224,7 +224,7 @@ TEST(BladeTips, StandStillWithoutSpin) {
   const Scene scene = p.scene();
   MotionState state = test::state_of(Vec2(0.0, 0.0), Vec2(0.0, 0.0));
   const Integration run = test::run(scene, state, 1, {});
-  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.failure;
   const double u = -state.y(1);
   EXPECT_GT(u, p.gap);
   EXPECT_NEAR(p.k * u + p.normal(u - p.gap), p.m * p.gravity, 1e-6 * p.m * p.gravity);
@@ -383,7 +383,7 @@ TEST(BladeTips, RubBesideARingAndAFace) {
     meter.add(step);
     return true;
   });
-  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.failure;
   for (const ContactMeasure& m : meter.measures()) EXPECT_EQ(m.regime(), Regime::intermittent);
   const auto end_of = [&](const MotionState& from, double tolerance, bool tangent) {
     Trajectory t{.system = &system, .state = from, .revolutions = 1};
@@ -392,7 +392,7 @@ TEST(BladeTips, RubBesideARingAndAFace) {
   };
   Trajectory exact{.system = &system, .state = start, .revolutions = 1};
   integrate_quad(exact, {.tolerance = 1e-18});
-  ASSERT_EQ(exact.outcome, Outcome::reached_end) << exact.diagnosis;
+  ASSERT_EQ(exact.outcome, Outcome::reached_end) << exact.failure;
   EXPECT_GT(exact.cost.events, 6);
   const Trajectory t = end_of(start, 1e-13, true);
   EXPECT_LT(distance(system, t.state.y, exact.state.y), 1e-10);

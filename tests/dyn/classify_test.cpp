@@ -15,7 +15,7 @@ using test::RotorStator;
 Classification kind_of(const RotorStator& p, const ClassifyOptions& options = {}) {
   const Scene scene = p.scene();
   Classification c = classify(scene.contacts, test::start_of(p.model(), scene), options);
-  EXPECT_EQ(c.outcome, Outcome::reached_end) << c.diagnosis;
+  EXPECT_EQ(c.outcome, Outcome::reached_end) << c.failure;
   return c;
 }
 

@@ -143,7 +143,7 @@ TEST(DampedStop, WouldSeemUnstableWithoutSaltation) {
   const Vec settled = t.state.y;
   t.revolutions = 1;
   integrate_single(t, {.tolerance = 1e-12, .tangent = true});
-  ASSERT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  ASSERT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   EXPECT_LT(distance(scene.contacts, t.state.y, settled), 1e-9);  // the orbit attracts
   Mat along_x(2, 2);
   along_x << t.tangent(0, 0), t.tangent(0, 2), t.tangent(2, 0), t.tangent(2, 2);

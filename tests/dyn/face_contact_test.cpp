@@ -113,7 +113,7 @@ Mat map_of(const Scene& scene) {
 MotionState settled(const OverhungDisk& p, const Scene& scene, long revolutions) {
   MotionState state = test::start_of(p.model(), scene);
   const Integration run = test::run(scene, state, revolutions, {.tolerance = 1e-12});
-  EXPECT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  EXPECT_EQ(run.outcome, Outcome::reached_end) << run.failure;
   return state;
 }
 
@@ -280,7 +280,7 @@ TEST(FaceContact, KeepsTheEnergy) {
   MotionState state = test::state_of((Vec(8) << inverse * q, inverse * v).finished());
   const double before = energy(state.y);
   const Integration run = test::run(scene, state, 50, {.tolerance = 1e-13});
-  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.failure;
   EXPECT_GT(run.cost.events, 200);
   EXPECT_NEAR(energy(state.y), before, 1e-9 * before);
 }

@@ -43,7 +43,7 @@ ContactMeasure measure(const Scene& scene, MotionState& state, long revolutions,
     meter.add(step);
     return true;
   });
-  EXPECT_EQ(result.outcome, Outcome::reached_end) << result.diagnosis;
+  EXPECT_EQ(result.outcome, Outcome::reached_end) << result.failure;
   return meter.measures().at(0);
 }
 
@@ -280,7 +280,7 @@ TEST_P(HardCase, OverflowIsReportedWithTimeContactAndState) {
   EXPECT_TRUE(state.y.allFinite());
   EXPECT_GT(state.revolution + state.phase, 0.0);
   for (const char* word : {"revolution", "ring", "sliding", "clearances"}) {
-    EXPECT_NE(result.diagnosis.find(word), std::string::npos) << result.diagnosis;
+    EXPECT_NE(result.failure.text().find(word), std::string::npos) << result.failure;
   }
 }
 

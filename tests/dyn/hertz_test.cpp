@@ -59,7 +59,7 @@ TEST_P(HertzImpact, LastsAsLongAsInClosedForm) {
           meter.add(step);
           return true;
         });
-    ASSERT_EQ(result.outcome, Outcome::reached_end) << result.diagnosis;
+    ASSERT_EQ(result.outcome, Outcome::reached_end) << result.failure;
     EXPECT_NEAR(state.y(0), side * (p.clearance - impact.v * flight), accuracy * p.clearance) << k;
     EXPECT_NEAR(state.y(2), -side * impact.v, accuracy * impact.v) << k;
     const double largest = k * std::pow(impact.depth(), 1.5);

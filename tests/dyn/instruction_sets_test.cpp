@@ -47,7 +47,7 @@ struct Rotors {
 std::vector<Trajectory> run(const Rotors& rotors, const BatchOptions& options) {
   std::vector<Trajectory> all = rotors.trajectories;
   integrate_batch(all, options);
-  for (const Trajectory& t : all) EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  for (const Trajectory& t : all) EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   return all;
 }
 

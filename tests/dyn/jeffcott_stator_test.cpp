@@ -19,7 +19,7 @@ test::Trajectories motions_of(const std::vector<RotorStator>& rotors, long trans
   integrate_batch(motions.all, {.tolerance = options.tolerance});
   for (Trajectory& t : motions.all) t.revolutions = revolutions;
   integrate_batch(motions.all, options);
-  for (const Trajectory& t : motions.all) EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  for (const Trajectory& t : motions.all) EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   return motions;
 }
 

@@ -135,8 +135,8 @@ TEST_P(EveryMethod, SaysWhatWentWrongWithAStateThatIsNoNumber) {
       state.y(entry) = bad;
       const Integration result = test::run(scene, state, 5, {.method = method()});
       EXPECT_EQ(result.outcome, Outcome::not_finite);
-      EXPECT_NE(result.diagnosis.find("revolution"), std::string::npos) << result.diagnosis;
-      EXPECT_NE(result.diagnosis.find("ring"), std::string::npos) << result.diagnosis;
+      EXPECT_NE(result.failure.text().find("revolution"), std::string::npos) << result.failure;
+      EXPECT_NE(result.failure.text().find("ring"), std::string::npos) << result.failure;
     }
   }
 }

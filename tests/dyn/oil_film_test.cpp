@@ -28,7 +28,7 @@ template <class Rotor>
 MotionState settled(const Rotor& rotor, const Scene& scene, long revolutions) {
   MotionState state = test::start_of(rotor.model(), scene);
   const Integration run = test::run(scene, state, revolutions, {.tolerance = 1e-11});
-  EXPECT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  EXPECT_EQ(run.outcome, Outcome::reached_end) << run.failure;
   return state;
 }
 
@@ -36,7 +36,7 @@ Trajectory quad(const ContactSystem& system, const MotionState& start, long revo
                 const BatchOptions& options) {
   Trajectory t{.system = &system, .state = start, .revolutions = revolutions};
   integrate_quad(t, options);
-  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   return t;
 }
 
@@ -61,7 +61,7 @@ TEST(OilFilm, StopsAThrownJournalWhereTheImpulseSays) {
     const double v = 2.0 * s * (V(e) - V(0.0)) / rotor.m;  // [m/s]
     MotionState state = test::state_of(Vec2::Zero(), {0.6 * v, -0.8 * v});
     const Integration run = test::run(scene, state, 1, {.tolerance = 1e-10, .method = method});
-    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.failure;
     constexpr double bound = 1e-6;  // what steps of 1e-10 add up to at the wall, and creeping
     EXPECT_NEAR(state.y(0) / C, 0.6 * e, bound) << name_of_method(method);
     EXPECT_NEAR(state.y(1) / C, -0.8 * e, bound) << name_of_method(method);
@@ -91,7 +91,7 @@ TEST(OilFilm, CarriesAJournalWhereTheTextbookSays) {
     // and stays there
     MotionState state = start;
     const Integration run = test::run(scene, state, 1, {.tolerance = 1e-12});
-    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.failure;
     EXPECT_LT(distance(scene.contacts, state.y, start.y), 1e-8);
   }
 }
@@ -127,8 +127,8 @@ TEST(OilFilm, CarriesAReducedShaft) {
   MotionState a = start, b = start;
   const Integration taylor = test::run(scene, a, 2, {.tolerance = 1e-11}),
                     bdf = test::run(scene, b, 2, {.tolerance = 1e-11, .method = CvodeBdf{}});
-  EXPECT_EQ(taylor.outcome, Outcome::reached_end) << taylor.diagnosis;
-  EXPECT_EQ(bdf.outcome, Outcome::reached_end) << bdf.diagnosis;
+  EXPECT_EQ(taylor.outcome, Outcome::reached_end) << taylor.failure;
+  EXPECT_EQ(bdf.outcome, Outcome::reached_end) << bdf.failure;
   EXPECT_LT(distance(system, a.y, b.y), 1e-5);
 }
 
@@ -152,7 +152,7 @@ TEST(OilFilm, CanStartAtRestInTheCentre) {
   for (const AnyMethod& method : methods()) {
     MotionState state = start;
     const Integration run = test::run(scene, state, 2, {.tolerance = 1e-11, .method = method});
-    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.failure;
     const double bound = std::holds_alternative<Taylor>(method) ? 1e-9 : 1e-5;
     EXPECT_LT(distance(scene.contacts, state.y, exact.state.y), bound) << name_of_method(method);
   }
@@ -182,7 +182,7 @@ TEST(OilFilm, MovesTheTwoDisksAlikeByEveryMethod) {
         Agreement{Rk4{}, 1e-13, 1e-3}}) {
     MotionState state = start;
     const Integration run = test::run(scene, state, 1, {.tolerance = tolerance, .method = method});
-    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.failure;
     EXPECT_LT(distance(system, state.y, exact.state.y), bound) << name_of_method(method);
   }
 }
@@ -223,7 +223,7 @@ void expect_same_as_alone(const BatchOptions& options, int count, long revolutio
   for (std::size_t i = 0; i < batch.size(); ++i) {
     Trajectory alone = all.all[i];
     integrate_single(alone, options);
-    EXPECT_EQ(alone.outcome, Outcome::reached_end) << alone.diagnosis;
+    EXPECT_EQ(alone.outcome, Outcome::reached_end) << alone.failure;
     EXPECT_EQ(batch[i].state.y, alone.state.y) << i;
     EXPECT_EQ(batch[i].cost.steps, alone.cost.steps) << i;
     EXPECT_EQ(batch[i].cost.events, alone.cost.events) << i;
@@ -249,8 +249,8 @@ TEST(OilFilm, MovesAlikeByRk4InLanes) {
   for (std::size_t i = 0; i < batch.size(); ++i) {
     MotionState state = all.all[i].state;
     const Integration run = Rk4::integrate(*all.all[i].system, state, 1, fine, {});
-    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
-    EXPECT_EQ(batch[i].outcome, Outcome::reached_end) << batch[i].diagnosis;
+    EXPECT_EQ(run.outcome, Outcome::reached_end) << run.failure;
+    EXPECT_EQ(batch[i].outcome, Outcome::reached_end) << batch[i].failure;
     EXPECT_LT(distance(*all.all[i].system, batch[i].state.y, state.y), 1e-9) << i;
   }
 }
@@ -261,7 +261,7 @@ double tangent_error(const ContactSystem& system, const MotionState& start) {
   const auto end = [&](MotionState from, bool tangent) {
     Trajectory t{.system = &system, .state = std::move(from), .revolutions = 1};
     integrate_single(t, {.tolerance = 1e-14, .tangent = tangent});
-    EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+    EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
     return t;
   };
   const Mat tangent = end(start, true).tangent;
@@ -302,28 +302,28 @@ TEST(OilFilm, RefusesAJournalOutsideItsBearing) {
   const Scene scene = rotor.scene();
   for (const double e : {1.0, 1.2}) {
     const MotionState start = test::state_of({0.0, -e * rotor.bearing.clearance}, {0.0, 0.0});
-    const auto expect_refused = [&](Outcome outcome, const std::string& diagnosis,
-                                    std::string_view who) {
-      EXPECT_EQ(outcome, Outcome::left_bearing) << who << ": " << diagnosis;
-      EXPECT_NE(diagnosis.find("\"film\""), std::string::npos) << who << ": " << diagnosis;
-      EXPECT_NE(diagnosis.find("of its clearance"), std::string::npos) << who << ": " << diagnosis;
+    const auto expect_refused = [&](Outcome outcome, const Failure& failure, std::string_view who) {
+      EXPECT_EQ(outcome, Outcome::left_bearing) << who << ": " << failure;
+      EXPECT_NE(failure.text().find("\"film\""), std::string::npos) << who << ": " << failure;
+      EXPECT_NE(failure.text().find("of its clearance"), std::string::npos)
+          << who << ": " << failure;
     };
     for (const AnyMethod& method : methods()) {
       MotionState state = start;
       const Integration run = test::run(scene, state, 1, {.method = method});
-      expect_refused(run.outcome, run.diagnosis, name_of_method(method));
+      expect_refused(run.outcome, run.failure, name_of_method(method));
     }
     Trajectory t{.system = &scene.contacts, .state = start, .revolutions = 1};
     Trajectory in_quad = t;
     std::vector<Trajectory> lanes(3, t), rk4_lanes(3, t);
     lanes[1].state = rk4_lanes[1].state = test::start_of(rotor.model(), scene);  // a good one
     integrate_quad(in_quad, {});
-    expect_refused(in_quad.outcome, in_quad.diagnosis, "quad");
+    expect_refused(in_quad.outcome, in_quad.failure, "quad");
     integrate_batch(lanes, {});
     integrate_batch_rk4(rk4_lanes, {});
     for (const auto* batch : {&lanes, &rk4_lanes}) {
-      expect_refused((*batch)[0].outcome, (*batch)[0].diagnosis, "batch");
-      EXPECT_EQ((*batch)[1].outcome, Outcome::reached_end) << (*batch)[1].diagnosis;
+      expect_refused((*batch)[0].outcome, (*batch)[0].failure, "batch");
+      EXPECT_EQ((*batch)[1].outcome, Outcome::reached_end) << (*batch)[1].failure;
     }
   }
 }
@@ -345,20 +345,20 @@ TEST(OilFilm, FollowsTheWall) {
     return true;
   };
   const Integration taylor = test::run(scene, state, 3, {.tolerance = 1e-12}, watch);
-  ASSERT_EQ(taylor.outcome, Outcome::reached_end) << taylor.diagnosis;
+  ASSERT_EQ(taylor.outcome, Outcome::reached_end) << taylor.failure;
   EXPECT_GT(nearest, 0.995);
   const Trajectory exact = quad(system, start, 3, {.tolerance = 1e-20, .order = 22});
   EXPECT_LT(distance(system, state.y, exact.state.y), 1e-7);
   for (const AnyMethod& method : {AnyMethod(Dop853{}), AnyMethod(CvodeBdf{})}) {
     MotionState other = start;
     const Integration run = test::run(scene, other, 3, {.tolerance = 1e-12, .method = method});
-    ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+    ASSERT_EQ(run.outcome, Outcome::reached_end) << run.failure;
     EXPECT_LT(distance(system, other.y, exact.state.y), 1e-4) << name_of_method(method);
   }
   MotionState coarse = start;
   const Integration rk4 =
       test::run(scene, coarse, 3, {.fixed_step = system.period() / 250.0, .method = Rk4{}});
-  EXPECT_EQ(rk4.outcome, Outcome::left_bearing) << rk4.diagnosis;
+  EXPECT_EQ(rk4.outcome, Outcome::left_bearing) << rk4.failure;
   EXPECT_EQ(system.left_bearing(coarse.y.data()), nullptr);  // the last good state
 }
 
@@ -399,10 +399,10 @@ Rub carried_to(double Omega, MotionState& state, long revolutions) {
   Trajectory t{.system = &scene.contacts, .revolutions = revolutions};
   t.state = state.y.size() > 0 ? test::state_of(state.y) : test::start_of(rotor.model(), scene);
   integrate_single(t, {.tolerance = 1e-8});
-  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   t.revolutions = 16;
   integrate_single(t, options);
-  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   state = t.state;
   return {t.contacts[0].impacts / 16.0, t.contacts[0].duty / (16.0 * scene.contacts.period())};
 }

@@ -57,7 +57,7 @@ TEST(FoundOrbit, IsTheSameByBothMethods) {
   ASSERT_TRUE(series.series && series.series->gap);
   EXPECT_EQ(series.is_stable, shot.is_stable);
   const ShootingGap& gap = *series.series->gap;
-  EXPECT_TRUE(gap.failure.empty()) << gap.failure;
+  EXPECT_FALSE(gap.failure) << gap.failure;
   constexpr double truncated = 1e-5;  // tolerance of the series [length scales]
   EXPECT_LT(gap.displacement.value(), truncated);
   EXPECT_LT(gap.multiplier.value(), 1e-3);

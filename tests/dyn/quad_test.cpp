@@ -24,7 +24,7 @@ struct Motion {
   Trajectory quad(const BatchOptions& options, long count = revolutions) const {
     Trajectory t{.system = &scene.contacts, .state = start, .revolutions = count};
     integrate_quad(t, options);
-    EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+    EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
     EXPECT_EQ(t.state.revolution, start.revolution + count);
     return t;
   }

@@ -64,7 +64,7 @@ Result moved(const RotorInRings& rotor, long revolutions, const test::RunOptions
     meter.add(step);
     return true;
   });
-  EXPECT_EQ(run.outcome, Outcome::reached_end) << name_of_method(how.method) << run.diagnosis;
+  EXPECT_EQ(run.outcome, Outcome::reached_end) << name_of_method(how.method) << run.failure;
   result.sticking = meter.measures().at(0).sticking;
   return result;
 }
@@ -139,7 +139,7 @@ TEST(RedundantFriction, OfUnequalContactsIsTheSameInEveryMethodAndKeepsTheEnergy
           }
           return true;
         });
-    ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+    ASSERT_EQ(run.outcome, Outcome::reached_end) << run.failure;
     EXPECT_GT(stuck, 0.01 * scene.contacts.period());
     EXPECT_GT(lost, 0.01 * energy(start.y));
     EXPECT_NEAR(energy(state.y), energy(start.y) + given - lost,
@@ -148,7 +148,7 @@ TEST(RedundantFriction, OfUnequalContactsIsTheSameInEveryMethodAndKeepsTheEnergy
       MotionState other = start;
       const Integration again =
           test::run(scene, other, revolutions, {.tolerance = finest(method), .method = method});
-      ASSERT_EQ(again.outcome, Outcome::reached_end) << name_of_method(method) << again.diagnosis;
+      ASSERT_EQ(again.outcome, Outcome::reached_end) << name_of_method(method) << again.failure;
       EXPECT_LT(distance(scene.contacts, other.y, state.y), accuracy) << name_of_method(method);
     }
   }
@@ -227,7 +227,7 @@ TEST(RedundantFriction, InLanesIsThatOfEachMotionAlone) {
     Trajectory& one = alone.all[i];
     const Trajectory& lane = together.all[i];
     integrate_single(one, {.measures = true});
-    ASSERT_EQ(lane.outcome, Outcome::reached_end) << i << lane.diagnosis;
+    ASSERT_EQ(lane.outcome, Outcome::reached_end) << i << lane.failure;
     EXPECT_EQ(lane.state.y, one.state.y) << i;
     for (const std::size_t c : {0u, 1u}) {
       EXPECT_EQ(lane.contacts[c].sticking, one.contacts[c].sticking) << i;

@@ -73,7 +73,7 @@ TEST(Rk4Batch, EndsOneTrajectoryWithoutTheOthers) {
   for (std::size_t i = 0; i < batch.size(); ++i) {
     EXPECT_EQ(batch[i].outcome, i == 3 ? Outcome::not_finite : Outcome::reached_end) << i;
   }
-  EXPECT_NE(batch[3].diagnosis.find("no finite numbers"), std::string::npos);
+  EXPECT_NE(batch[3].failure.text().find("no finite numbers"), std::string::npos);
 }
 
 TEST(Rk4Batch, OfNothingIsNothing) {

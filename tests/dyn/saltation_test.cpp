@@ -167,7 +167,7 @@ TEST(StickLimit, IsReachedWheneverStickingEnds) {
           }
           return true;
         });
-    ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+    ASSERT_EQ(run.outcome, Outcome::reached_end) << run.failure;
     EXPECT_GT(slips, 10) << name_of_method(method);
     EXPECT_LT(largest, 1.0 + located) << name_of_method(method);
   }

@@ -122,7 +122,7 @@ TEST(Shooting, SaysWhyThereIsNoOrbit) {
   const Flow free = test::Duffing{.zeta = 0.0, .a = 0.0, .b = 0.0, .F = 1.0}.flow();
   const PeriodicOrbit none = find_orbit(free, (Vec(2) << 0.0, 0.4).finished(), {});
   EXPECT_FALSE(none.is_good());
-  EXPECT_TRUE(none.failure.find("multiplier is one") != std::string::npos) << none.failure;
+  EXPECT_TRUE(none.failure.text().find("multiplier is one") != std::string::npos) << none.failure;
   flow.go = [](std::span<const Vec>, long, Tangents) {
     return std::vector<Passage>{{.failure = "lost"}};
   };

@@ -25,8 +25,8 @@ TEST(SimultaneousContacts, AreEachWhatTheyAreAlone) {
     MotionState a = test::start_of(alone, one), b = test::start_of(both, two);
     const Integration of_one = test::run(one, a, 10, {.method = method}),
                       of_two = test::run(two, b, 10, {.method = method});
-    ASSERT_EQ(of_one.outcome, Outcome::reached_end) << of_one.diagnosis;
-    ASSERT_EQ(of_two.outcome, Outcome::reached_end) << of_two.diagnosis;
+    ASSERT_EQ(of_one.outcome, Outcome::reached_end) << of_one.failure;
+    ASSERT_EQ(of_two.outcome, Outcome::reached_end) << of_two.failure;
     EXPECT_GT(of_one.cost.events, 10);
     EXPECT_EQ(of_two.cost.events, 2 * of_one.cost.events) << name_of_method(method);
     for (const int i : {0, 1}) {

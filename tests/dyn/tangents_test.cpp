@@ -19,7 +19,7 @@ Trajectory integrated(const ContactSystem& system, const MotionState& start, lon
                       const BatchOptions& options) {
   Trajectory t{.system = &system, .state = start, .revolutions = revolutions};
   integrate_single(t, options);
-  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   return t;
 }
 

@@ -95,8 +95,7 @@ Motion motion_of(const TwoDiskRub& rotor, const SimulationOptions& how = {}) {
   const Model model = rotor.model();
   const Scene scene = make_scene(model);
   const Simulation simulation = simulate(scene, test::start_of(model, scene), how);
-  EXPECT_EQ(simulation.integration.outcome, Outcome::reached_end)
-      << simulation.integration.diagnosis;
+  EXPECT_EQ(simulation.integration.outcome, Outcome::reached_end) << simulation.integration.failure;
   return {simulation.recording.contacts, identify(model, scene, simulation.recording, {})};
 }
 

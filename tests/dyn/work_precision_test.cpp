@@ -150,7 +150,7 @@ TEST(WorkPrecision, KeepsFailures) {
                                p.reference, quick);
   EXPECT_TRUE(run.has_failed());
   EXPECT_TRUE(std::isnan(run.error));
-  EXPECT_NE(run.integration.diagnosis, "");
+  EXPECT_NE(run.integration.failure, "");
   EXPECT_THROW(reference_motion(p.scene.contacts, start, revolutions), NumericalError);
   EXPECT_THROW(quad_reference(p.scene.contacts, start, revolutions), NumericalError);
   EXPECT_THROW(dop853_reference(p.scene.contacts, start, revolutions), NumericalError);

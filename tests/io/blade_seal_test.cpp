@@ -179,7 +179,7 @@ TEST(BladeSeal, ComesBackToRubByAJumpNear5400Rpm) {
     integrate_single(t, {.tolerance = 1e-9});
     t.revolutions = 50;
     integrate_single(t, {.tolerance = 1e-9, .measures = true});
-    EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+    EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
     state = t.state;
     return std::max(t.contacts.at(0).duty, t.contacts.at(1).duty);
   };

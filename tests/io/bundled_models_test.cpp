@@ -105,7 +105,7 @@ TEST(BundledModels, MoveAlikeByEveryMethod) {
       MotionState state = start_state(model, scene, nullptr);
       const Integration result =
           integrate(method, scene.contacts, state, 5, {.tolerance = tolerance});
-      EXPECT_EQ(result.outcome, Outcome::reached_end) << result.diagnosis;
+      EXPECT_EQ(result.outcome, Outcome::reached_end) << result.failure;
       return Vec(state.y.cwiseQuotient(scene.contacts.state_scale()));
     };
     const Vec reference = end(Dop853{}, 1e-14);

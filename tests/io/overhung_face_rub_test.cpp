@@ -94,7 +94,7 @@ TEST(OverhungFaceRub, IsDrivenOffByFriction) {
   EXPECT_EQ(with(0.1).kind, MotionKind::chaotic);
   const Classification driven = with(0.4);
   EXPECT_EQ(driven.outcome, Outcome::step_too_small);
-  EXPECT_NE(driven.diagnosis.find("grows without bound"), std::string::npos) << driven.diagnosis;
+  EXPECT_NE(driven.failure.text().find("grows without bound"), std::string::npos) << driven.failure;
 }
 
 }  // namespace whirl::overhung_face_rub_test

@@ -27,7 +27,7 @@ struct Stretch {
 inline Vec exact_end(const Stretch& s, double tolerance) {
   Trajectory exact{.system = &s.scene.contacts, .state = s.start, .revolutions = s.revolutions};
   integrate_quad(exact, {.tolerance = tolerance});
-  EXPECT_EQ(exact.outcome, Outcome::reached_end) << exact.diagnosis;
+  EXPECT_EQ(exact.outcome, Outcome::reached_end) << exact.failure;
   EXPECT_GE(exact.cost.events, s.least_events);
   return exact.state.y;
 }
@@ -36,7 +36,7 @@ inline Vec exact_end(const Stretch& s, double tolerance) {
 inline Trajectory end_of(const Stretch& s, const MotionState& from, const BatchOptions& options) {
   Trajectory t{.system = &s.scene.contacts, .state = from, .revolutions = s.revolutions};
   integrate_single(t, options);
-  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.diagnosis;
+  EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   return t;
 }
 
@@ -46,7 +46,7 @@ inline void expect_end_by(std::string method, const Stretch& s, const Vec& exact
   MotionState state = s.start;
   const Integration run = test::run(s.scene, state, s.revolutions,
                                     {.tolerance = 1e-11, .method = method_named(method)});
-  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.diagnosis;
+  ASSERT_EQ(run.outcome, Outcome::reached_end) << run.failure;
   EXPECT_LT(distance(s.scene.contacts, state.y, exact), accuracy) << method;
 }
 

@@ -1,4 +1,4 @@
-#include "libdyn/system/diagnosis.hpp"
+#include "libdyn/system/failure_text.hpp"
 
 #include <fmt/format.h>
 
@@ -25,8 +25,8 @@ int deepest_place(const ContactSystem& system, const MotionState& state, int own
 
 }  // namespace
 
-std::string diagnosis(const ContactSystem& system, const MotionState& state,
-                      std::string_view what) {
+std::string failure_text(const ContactSystem& system, const MotionState& state,
+                         std::string_view what) {
   constexpr const char* words[] = {"apart", "receding", "sliding", "sticking"};
   std::string contacts;
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
@@ -54,7 +54,7 @@ void fail(Integration& result, const ContactSystem& system, const MotionState& s
           Outcome outcome, std::string_view what) {
   const ReducedFilm* film = system.left_bearing(state.y.data());
   result.outcome = film ? Outcome::left_bearing : outcome;
-  result.diagnosis = diagnosis(system, state, film ? left_bearing_text(*film) : what);
+  result.failure = failure_text(system, state, film ? left_bearing_text(*film) : what);
 }
 
 }  // namespace whirl::inline dyn

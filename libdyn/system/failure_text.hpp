@@ -8,12 +8,13 @@
 namespace whirl::inline dyn {
 
 /// Says where an integration failed: time, contacts in touch, size of the state.
-std::string diagnosis(const ContactSystem& system, const MotionState& state, std::string_view what);
+std::string failure_text(const ContactSystem& system, const MotionState& state,
+                         std::string_view what);
 
 /// Says that the journal of a film is not inside its bearing.
 std::string left_bearing_text(const ReducedFilm& film);
 
-/// Sets outcome and diagnosis of an integration that failed: left_bearing where a journal has left
+/// Sets outcome and failure of an integration that failed: left_bearing where a journal has left
 /// its bearing, else as given.
 void fail(Integration& result, const ContactSystem& system, const MotionState& state,
           Outcome outcome, std::string_view what);
