@@ -31,7 +31,9 @@ std::string help_of_file(std::string_view takes) {
 /// Tells CLI11 the files and options of a verb, and where their values go.
 void declare(const Verb& verb, CLI::App& app, Invocation& call, Values& values) {
   app.name(fmt::format("whirl {}", verb.name));
-  app.description(fmt::format("{}\n\nExample: {}", verb.summary, verb.example));
+  app.description(fmt::format("{}{}\n\nExample: {}", verb.summary,
+                              verb.alias.empty() ? "" : fmt::format("\nAlso: whirl {}", verb.alias),
+                              verb.example));
   app.set_help_flag("-h,--help", "this help");
   app.allow_windows_style_options(false);
   app.add_option(std::string(verb.takes), call.file, help_of_file(verb.takes))

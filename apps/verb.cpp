@@ -23,7 +23,7 @@ const std::vector<OptionSpec> last_options{
 
 const Verb* verb_named(std::string_view name) {
   for (const Verb& verb : verbs()) {
-    if (verb.name == name) return &verb;
+    if (verb.name == name || (!verb.alias.empty() && verb.alias == name)) return &verb;
   }
   return nullptr;
 }

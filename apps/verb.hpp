@@ -26,7 +26,8 @@ struct OptionSpec {
 /// A verb; it is described in the file that runs it, which is named after it.
 struct Verb {
   std::string_view name;
-  std::string_view group;  ///< heading in the help
+  std::string_view alias = "";  ///< the field's name of it, where that is another one
+  std::string_view group;       ///< heading in the help
   std::string_view summary;
   std::string_view takes = "MODEL";       ///< MODEL, RESULT.h5 or FILE (either); empty: no file
   std::string_view takes_more = "";       ///< placeholder of words after the file; empty: none
@@ -41,7 +42,7 @@ struct Verb {
 
 /// All verbs, in the order of the help.
 const std::vector<Verb>& verbs();
-/// The one of a name; null: there is none.
+/// The one of a name or alias; null: there is none.
 const Verb* verb_named(std::string_view name);
 
 /// All options of a verb in the order of its help: those of all verbs around its own, which take

@@ -39,6 +39,7 @@ Report run_animate(const Invocation& call) {
 Verb animate_verb() {
   return {
       .name = "animate",
+      .alias = "video",
       .group = "Results",
       .summary = "a video of a motion or of a mode",
       .takes = "FILE",

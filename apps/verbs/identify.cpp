@@ -47,6 +47,7 @@ Report run_identify(const Invocation& call) {
 Verb identify_verb() {
   return {
       .name = "identify",
+      .alias = "modal-content",
       .group = "Contact",
       .summary = "says which complex modes make up the motion (MAC)",
       .example = "whirl identify models/two_disk_mac.toml --out run.h5",

@@ -56,6 +56,7 @@ Report run_resonances(const Invocation& call) {
 Verb resonances_verb() {
   return {
       .name = "resonances",
+      .alias = "internal-resonances",
       .group = "Linear rotordynamics",
       .summary =
           "speeds at which two modes are in p:q resonance seen from the rotor, where it may bounce",

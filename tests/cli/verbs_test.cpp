@@ -58,6 +58,12 @@ TEST(Verbs, AreWhole) {
     SCOPED_TRACE(verb.name);
     EXPECT_TRUE(names.insert(verb.name).second);
     EXPECT_EQ(verb_named(verb.name), &verb);
+    if (!verb.alias.empty()) {
+      EXPECT_TRUE(names.insert(verb.alias).second);
+      EXPECT_EQ(verb_named(verb.alias), &verb);
+      EXPECT_NE(manual().find(fmt::format("`{}`, which is `{}`", verb.alias, verb.name)),
+                std::string::npos);
+    }
     // a group that comes again would have two headings in the help
     EXPECT_TRUE(verb.group == group || groups.insert(verb.group).second) << verb.group;
     group = verb.group;
