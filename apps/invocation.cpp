@@ -4,7 +4,6 @@
 
 #include <cassert>
 #include <charconv>
-#include <ctime>
 #include <filesystem>
 
 #include "apps/verb.hpp"
@@ -13,7 +12,6 @@
 #include "libio/model/model_file.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/replace_file.hpp"
-#include "libio/results/result_schema.hpp"
 #include "libio/text/units.hpp"
 #include "libio/text/value_range.hpp"
 
@@ -25,22 +23,6 @@ constexpr int default_speeds = 101;
 
 ModelError option_error(const std::string& option, const std::string& value, std::string message) {
   return ModelError({fmt::format("--{} {}", option, value)}, "", std::move(message));
-}
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
-  return text;
-}
-
-namespace fs = std::filesystem;
-
-bool is_same_file(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(a), ignored) ==
-             fs::weakly_canonical(fs::absolute(b), ignored) ||
-         fs::equivalent(a, b, ignored);
 }
 
 }  // namespace
@@ -150,15 +132,7 @@ void Invocation::require_free_places(const std::string& json) const {
 std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const {
   if (!has("out")) return nullptr;
   auto writer = std::make_unique<ResultWriter>(given.at("out"), result_replaces());
-  writer->attribute("/", "whirl_version", version);
-  writer->attribute("/", "format", result_format);
-  writer->attribute("/", "command", shell_line(line));
-  writer->attribute("/", "created", utc_now());
-  writer->attribute("/", "title", model.title);
-  writer->dataset("/model", std::vector<std::string>{model.source}, {"", "model file", {""}});
-  writer->attribute("/model", "path", model.path);
-  writer->dataset("/arguments", line, {"", "words of the command line", {""}});
-  write_call(*writer, parts());
+  write_origin(*writer, {parts(), line, version}, model);
   return writer;
 }
 

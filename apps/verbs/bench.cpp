@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "apps/progress.hpp"
+#include "apps/interrupt.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"

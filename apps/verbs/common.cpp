@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "apps/progress.hpp"
 #include "apps/version.hpp"
+#include "libio/text/progress_line.hpp"
 
 namespace whirl::inline cli {
 
@@ -21,7 +21,7 @@ Report begin_report(const Invocation& call, const Model& model, const Record& re
 }
 
 std::function<void(long, long)> progress_of(const Invocation& call, std::string what) {
-  return [shown = std::make_shared<std::optional<Progress>>(), what = std::move(what),
+  return [shown = std::make_shared<std::optional<ProgressLine>>(), what = std::move(what),
           shows = call.shows_progress](long done, long total) {
     if (!*shown) shown->emplace(what, total, shows);
     (*shown)->update(done);

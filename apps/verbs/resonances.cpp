@@ -1,4 +1,4 @@
-#include "apps/progress.hpp"
+#include "apps/interrupt.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "apps/progress.hpp"
+#include "apps/interrupt.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
 #include "libbase/error.hpp"

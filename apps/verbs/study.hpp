@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/progress.hpp"
+#include "apps/interrupt.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/results/kept_study.hpp"

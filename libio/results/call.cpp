@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <ctime>
 #include <map>
 
+#include "libdyn/system/model.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libio/results/result_schema.hpp"
 
 namespace whirl::inline io {
 
 namespace {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&now));
+  return text;
+}
 
 const std::string call_group = "/call";
 
@@ -117,6 +127,18 @@ Call read_call(const ResultReader& file) {
           .words = read("word"),
           .sets = read("set"),
           .options = read("option")};
+}
+
+void write_origin(ResultWriter& file, const ResultOrigin& origin, const Model& model) {
+  file.attribute("/", "whirl_version", std::string(origin.version));
+  file.attribute("/", "format", result_format);
+  file.attribute("/", "command", shell_line(origin.line));
+  file.attribute("/", "created", utc_now());
+  file.attribute("/", "title", model.title);
+  file.dataset("/model", std::vector<std::string>{model.source}, {"", "model file", {""}});
+  file.attribute("/model", "path", model.path);
+  file.dataset("/arguments", origin.line, {"", "words of the command line", {""}});
+  write_call(file, origin.call);
 }
 
 std::string shell_word(std::string_view word) {

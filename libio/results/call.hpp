@@ -6,6 +6,10 @@
 #include <string_view>
 #include <vector>
 
+namespace whirl::inline dyn {
+struct Model;
+}
+
 namespace whirl::inline io {
 
 class ResultReader;
@@ -46,6 +50,17 @@ void write_call(ResultWriter& file, const Call& call);
 /// Reads it; of a file without it, the words of its command line are taken apart.
 /// @throws FileError  if the file holds neither
 Call read_call(const ResultReader& file);
+
+/// Where a result comes from.
+struct ResultOrigin {
+  Call call;
+  std::vector<std::string> line;  ///< the words of the command line
+  std::string_view version;       ///< of the program
+};
+
+/// Writes what every result file holds beside its results: its format, its origin, the time, and the
+/// model as it was.
+void write_origin(ResultWriter& file, const ResultOrigin& origin, const Model& model);
 
 /// A word as a shell takes it for one, whatever is in it.
 std::string shell_word(std::string_view word);

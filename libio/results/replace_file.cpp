@@ -76,6 +76,13 @@ void FileReplacement::commit() {
   synchronize(place_.has_parent_path() ? place_.parent_path() : ".");
 }
 
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(a), ignored) ==
+             fs::weakly_canonical(fs::absolute(b), ignored) ||
+         fs::equivalent(a, b, ignored);
+}
+
 void replace_file(const fs::path& place, std::string_view text, Replaces what) {
   FileReplacement file(place, what);
   std::ofstream stream(file.temporary(), std::ios::binary);

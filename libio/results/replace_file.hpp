@@ -56,6 +56,9 @@ class FileReplacement {
   std::filesystem::path place_, temporary_;
 };
 
+/// Whether two names are those of one file, there or not.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// Replaces a file by a text.
 /// @throws FileError
 void replace_file(const std::filesystem::path& place, std::string_view text,

@@ -1,19 +1,17 @@
-#include "apps/bare_speeds.hpp"
+#include "libio/text/bare_speed.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <vector>
 
-#include "apps/verbs/common.hpp"
+#include "libbase/constants.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/units.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 namespace {
-
-const std::string path = "operation.speed";
 
 /// The numbers of "3000", "0:8000:50" or "100,200"; nothing if one has a unit, or is no number.
 std::optional<std::vector<double>> bare_numbers(std::string_view text) {
@@ -57,31 +55,13 @@ std::string BareSpeed::warning() const {
       space, value, readings);
 }
 
-std::vector<BareSpeed> bare_speeds(const Invocation& call, const std::string& speed) {
-  std::vector<BareSpeed> found;
-  const auto look_at = [&](const std::string& option, const std::string& value) {
-    if (const auto readings = readings_of(value)) found.push_back({option, value, *readings});
-  };
-  const auto look_behind_path = [&](const std::string& option, const std::string& assignment) {
-    if (!assignment.starts_with(path + "=")) return false;
-    look_at(option + " " + path + "=", assignment.substr(path.size() + 1));
-    return true;
-  };
-  std::vector<std::string> sets = call.sets;
-  if (!speed.empty()) {
-    sets.pop_back();  // it is the last of them
-    look_at("--speed", speed);
-  }
-  for (const std::string& set : sets) look_behind_path("--set", set);
-  if (call.has("speeds")) look_at("--speeds", call.text("speeds"));
-  const std::string at = call.text("at");
-  for (std::size_t i = 0; i < call.over.size(); ++i) {
-    const bool is_speed = look_behind_path("--over", call.over[i]);
-    const bool is_bare = is_speed && bare_numbers(call.over[i].substr(path.size() + 1));
-    // a bare value beside a range with a unit has the range's
-    if (is_bare && call.over.size() == 1 && !at.empty()) look_at("--at", at);
-  }
-  return found;
+bool is_bare(std::string_view text) {
+  return bare_numbers(text).has_value();
 }
 
-}  // namespace whirl::inline cli
+std::optional<BareSpeed> bare_speed(const std::string& option, const std::string& value) {
+  const auto readings = readings_of(value);
+  return readings ? std::optional(BareSpeed{option, value, *readings}) : std::nullopt;
+}
+
+}  // namespace whirl::inline io

@@ -1,12 +1,11 @@
 #pragma once
-/// Speeds of a command line without a unit: 3000 is 28 648 rpm, which few mean.
+/// A speed without a unit: 3000 is 28 648 rpm, which few mean.
 
+#include <optional>
 #include <string>
-#include <vector>
+#include <string_view>
 
-#include "apps/invocation.hpp"
-
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 /// A speed that was given as a bare number.
 struct BareSpeed {
@@ -20,9 +19,11 @@ struct BareSpeed {
   std::string warning() const;
 };
 
-/// All of a call: of --speed, --set and --over of operation.speed, --at along it, --speeds. Zero is
-/// the same in every unit, and what is no number is told by whoever reads it.
-/// @param speed  value of --speed, which stands among the sets too; empty: not given
-std::vector<BareSpeed> bare_speeds(const Invocation& call, const std::string& speed);
+/// Whether a value, a range or a list of values is of bare numbers.
+bool is_bare(std::string_view text);
 
-}  // namespace whirl::inline cli
+/// What was given by an option, if it is a bare speed. Zero is the same in every unit, and what is no
+/// number is told by whoever reads it.
+std::optional<BareSpeed> bare_speed(const std::string& option, const std::string& value);
+
+}  // namespace whirl::inline io

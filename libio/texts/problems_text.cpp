@@ -1,16 +1,15 @@
-#include "apps/problems.hpp"
+#include "libio/texts/problems_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <utility>
 #include <vector>
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 namespace {
 
@@ -38,15 +37,15 @@ std::pair<std::string, int> excerpt(const std::string& line, int column) {
 /// Lines of files, each read once.
 class Lines {
  public:
-  explicit Lines(const Invocation& call) : call_(call) {}
+  explicit Lines(const ProblemSource& source) : source_(source) {}
 
   const std::vector<std::string>& of(const std::string& name) {
     const auto known = texts_.find(name);
     if (known != texts_.end()) return known->second;
     std::vector<std::string> lines;
-    std::istringstream stored(call_.model_text);
+    std::istringstream stored(source_.stored_text);
     std::ifstream file(name);
-    const bool is_stored = name == call_.file && !call_.model_text.empty();
+    const bool is_stored = name == source_.file && !source_.stored_text.empty();
     std::istream& from = is_stored ? stored : static_cast<std::istream&>(file);
     for (std::string line; std::getline(from, line);) lines.push_back(line);
     if (!lines.empty() && lines[0].starts_with("\x89HDF")) {
@@ -56,28 +55,26 @@ class Lines {
   }
 
  private:
-  const Invocation& call_;
+  const ProblemSource& source_;
   std::map<std::string, std::vector<std::string>> texts_;
 };
 
 }  // namespace
 
-void print_problems(const ModelError& error, const Invocation& call, const std::string* speed) {
-  Lines read(call);
+std::string problems_text(const ModelError& error, const ProblemSource& source) {
+  Lines read(source);
+  std::string all;
   for (Problem problem : error.problems()) {
-    if (problem.where.file.empty()) problem.where.file = call.file;
-    if (speed && problem.where.file == "--set operation.speed=" + *speed) {
-      problem.where.file = "--speed " + *speed;
-      problem.key.clear();
-    }
-    fmt::print(stderr, "{}\n", describe(problem));
+    if (problem.where.file.empty()) problem.where.file = source.file;
+    all += describe(problem) + "\n";
     const Where& w = problem.where;
     if (w.line <= 0) continue;
     const auto& lines = read.of(w.file);
     if (static_cast<std::size_t>(w.line) > lines.size()) continue;
     const auto [text, column] = excerpt(lines[static_cast<std::size_t>(w.line - 1)], w.column);
-    fmt::print(stderr, "{:>5} | {}\n      | {:>{}}\n", w.line, text, "^", column);
+    all += fmt::format("{:>5} | {}\n      | {:>{}}\n", w.line, text, "^", column);
   }
+  return all;
 }
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io

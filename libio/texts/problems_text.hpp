@@ -3,13 +3,17 @@
 
 #include <string>
 
-#include "apps/invocation.hpp"
 #include "libbase/error.hpp"
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
-/// Prints every problem on standard error, with the line it is in and a mark below the place.
-/// @param speed  value of --speed, under whose name a problem of the speed is told; null: not given
-void print_problems(const ModelError& error, const Invocation& call, const std::string* speed);
+/// What a problem is told of: the input of a command.
+struct ProblemSource {
+  std::string file;         ///< its name, also of problems that name no file
+  std::string stored_text;  ///< its lines, where they are not those of the file; else empty
+};
 
-}  // namespace whirl::inline cli
+/// Every problem, with the line it is in and a mark below the place; a line's end behind each line.
+std::string problems_text(const ModelError& error, const ProblemSource& source);
+
+}  // namespace whirl::inline io
