@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "libbase/constants.hpp"
 #include "libio/text/format.hpp"
@@ -62,6 +61,27 @@ bool is_bare(std::string_view text) {
 std::optional<BareSpeed> bare_speed(const std::string& option, const std::string& value) {
   const auto readings = readings_of(value);
   return readings ? std::optional(BareSpeed{option, value, *readings}) : std::nullopt;
+}
+
+std::vector<BareSpeed> bare_speeds(const SpeedOptions& given) {
+  const std::string assigned = "operation.speed=";
+  std::vector<BareSpeed> found;
+  const auto look_at = [&](const std::string& option, const std::string& value) {
+    if (const auto bare = bare_speed(option, value)) found.push_back(*bare);
+  };
+  look_at("--speed", given.speed);
+  for (const std::string& set : given.sets) {
+    if (set.starts_with(assigned)) look_at("--set " + assigned, set.substr(assigned.size()));
+  }
+  look_at("--speeds", given.speeds);
+  for (const std::string& over : given.over) {
+    if (!over.starts_with(assigned)) continue;
+    const std::string values = over.substr(assigned.size());
+    look_at("--over " + assigned, values);
+    // a bare value beside a range with a unit has the range's
+    if (given.over.size() == 1 && is_bare(values)) look_at("--at", given.at);
+  }
+  return found;
 }
 
 }  // namespace whirl::inline io

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace whirl::inline io {
 
@@ -25,5 +26,17 @@ bool is_bare(std::string_view text);
 /// What was given by an option, if it is a bare speed. Zero is the same in every unit, and what is no
 /// number is told by whoever reads it.
 std::optional<BareSpeed> bare_speed(const std::string& option, const std::string& value);
+
+/// Where a command line gives speeds; empty: not there.
+struct SpeedOptions {
+  std::string speed{};              ///< --speed
+  std::vector<std::string> sets{};  ///< --set, without what --speed sets
+  std::string speeds{};             ///< --speeds
+  std::vector<std::string> over{};  ///< --over
+  std::string at{};                 ///< --at, along the only --over
+};
+
+/// The bare ones of them, of the model's operation.speed where a path is given.
+std::vector<BareSpeed> bare_speeds(const SpeedOptions& given);
 
 }  // namespace whirl::inline io

@@ -1,5 +1,7 @@
 #include "libio/text/nearest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -64,6 +66,20 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
   if (found) return found;
   for (const std::string& candidate : known) {
     if (is_part(word, candidate)) return candidate;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> unknown_option(std::span<const std::string> words,
+                                          std::span<const std::string> known) {
+  for (const std::string& given : words) {
+    const std::string word = given.substr(0, given.find('='));
+    if (!word.starts_with("--") || word == "--" ||
+        std::find(known.begin(), known.end(), word) != known.end())
+      continue;
+    const auto near = nearest(word, known);
+    return fmt::format("there is no option \"{}\"{}", word,
+                       near ? fmt::format("; did you mean \"{}\"?", *near) : "");
   }
   return std::nullopt;
 }

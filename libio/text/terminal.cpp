@@ -1,5 +1,6 @@
 #include "libio/text/terminal.hpp"
 
+#include <fcntl.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -79,6 +80,14 @@ std::string folded(const std::string& text, std::size_t columns) {
     from = end + 1;
   }
   return out;
+}
+
+void fill_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) >= 0) continue;
+    (void)::open("/dev/null",
+                 stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);  // the lowest free one
+  }
 }
 
 }  // namespace whirl::inline io

@@ -1,5 +1,5 @@
 #pragma once
-/// How wide what is printed may be.
+/// Where a program prints: how wide that may be, and that it is there at all.
 
 #include <cstddef>
 #include <string>
@@ -17,5 +17,9 @@ std::string folded(const std::string& text, std::size_t columns);
 
 /// Parts of a line at blanks, none wider than so many columns unless it is one word.
 std::vector<std::string> folded_words(const std::string& line, std::size_t columns);
+
+/// Takes the places of standard streams that are closed: or else a result file would get the number of
+/// one, and what is printed there would end in it. To what is not there nothing can be printed.
+void fill_standard_streams();
 
 }  // namespace whirl::inline io

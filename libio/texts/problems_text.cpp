@@ -77,4 +77,14 @@ std::string problems_text(const ModelError& error, const ProblemSource& source) 
   return all;
 }
 
+ModelError renamed(const ModelError& error, const std::string& from, const std::string& to) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& problem : problems) {
+    if (problem.where.file != from) continue;
+    problem.where.file = to;
+    problem.key.clear();
+  }
+  return ModelError(std::move(problems));
+}
+
 }  // namespace whirl::inline io

@@ -16,4 +16,7 @@ struct ProblemSource {
 /// Every problem, with the line it is in and a mark below the place; a line's end behind each line.
 std::string problems_text(const ModelError& error, const ProblemSource& source);
 
+/// Problems of an input of one name told under another one, which says all of the place.
+ModelError renamed(const ModelError& error, const std::string& from, const std::string& to);
+
 }  // namespace whirl::inline io

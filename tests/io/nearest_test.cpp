@@ -34,4 +34,15 @@ TEST(Nearest, DoesNotGuessWildly) {
   EXPECT_EQ(nearest(std::string(1'000'000, 'x'), keys), std::nullopt);
 }
 
+TEST(UnknownOption, IsNamedWithTheOneThatWasMeant) {
+  const std::vector<std::string> known{"--speed", "--out"};
+  const auto told = [&](const std::vector<std::string>& words) {
+    return unknown_option(words, known);
+  };
+  EXPECT_EQ(told({"a.toml", "--sped=3rpm"}),
+            "there is no option \"--sped\"; did you mean \"--speed\"?");
+  EXPECT_EQ(told({"--viscosity", "--sped"}), "there is no option \"--viscosity\"");
+  EXPECT_EQ(told({"a.toml", "--speed=3rpm", "--", "-o"}), std::nullopt);
+}
+
 }  // namespace whirl::nearest_test

@@ -1,0 +1,74 @@
+#include "libio/text/option_values.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "libbase/constants.hpp"
+#include "libio/text/parameter_axis.hpp"
+#include "libio/text/value_range.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+constexpr int default_speeds = 101;
+
+}  // namespace
+
+ModelError wrong_option(const std::string& option, const std::string& value, std::string problem) {
+  return ModelError({fmt::format("--{} {}", option, value)}, "", std::move(problem));
+}
+
+Parsed<long> parse_whole(std::string_view text, long least) {
+  constexpr long most = 1'000'000'000;
+  long number = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  if (error == std::errc{} && end == last && number >= least && number <= most) return number;
+  return Parsed<long>::failed(fmt::format("expected a whole number of {} or more", least));
+}
+
+Parsed<double> parse_tolerance(std::string_view text) {
+  auto tolerance = parse_as(text, "");
+  if (!tolerance || (*tolerance >= 1e-15 && *tolerance <= 1e-2)) return tolerance;
+  return Parsed<double>::failed("expected a number from 1e-15 to 1e-2");
+}
+
+Parsed<std::string> parse_method(const std::string& name,
+                                 const std::vector<std::string_view>& methods) {
+  const bool is_known = std::find(methods.begin(), methods.end(), name) != methods.end();
+  if (is_known || name == "cvode") return name;
+  return Parsed<std::string>::failed(
+      fmt::format("unknown method, expected one of {}", fmt::join(methods, ", ")));
+}
+
+Parsed<std::vector<double>> parse_speeds(std::string_view text) {
+  using Result = Parsed<std::vector<double>>;
+  const auto range = parse_range(text, "rad/s");
+  if (!range) return Result::failed(range.problem);
+  if (range->first < 0.0) return Result::failed("expected speeds of zero or more");
+  return range->step ? values(*range) : values(*range, default_speeds);
+}
+
+std::vector<double> usual_speeds(double operating_speed) {
+  const double last = operating_speed > 0.0 ? 1.5 * operating_speed : 10'000.0 * rpm;
+  return values(ValueRange{0.0, last, {}}, default_speeds);
+}
+
+std::vector<double> speeds_over(const std::vector<std::string>& over, double otherwise) {
+  std::vector<double> speeds{otherwise};
+  for (const std::string& text : over) {
+    const auto axis = parse_axis(text, 2);  // of a range without a step both ends are enough
+    if (axis && axis->path.find("operation.speed") != std::string::npos) speeds = axis->values;
+  }
+  return speeds;
+}
+
+std::string expected_one_of(const std::vector<std::string_view>& names) {
+  return fmt::format("expected {}", fmt::join(names, " or "));
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,61 @@
+#pragma once
+/// Values of options: what a text says, or what would be right.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libbase/error.hpp"
+#include "libbase/field.hpp"
+#include "libio/text/units.hpp"
+
+namespace whirl::inline io {
+
+/// An option that means nothing.
+/// @param option   without dashes
+/// @param problem  what would be right
+ModelError wrong_option(const std::string& option, const std::string& value, std::string problem);
+
+/// Value of an option as a function reads it that gives a Parsed.
+/// @throws ModelError  naming the option and its value, if it means nothing
+template <class Parse>
+auto parsed_option(const std::string& option, const std::string& value, const Parse& parse) {
+  const auto found = parse(value);
+  if (!found) throw wrong_option(option, value, found.problem);
+  return *found;
+}
+
+/// A whole number from `least` to a billion.
+Parsed<long> parse_whole(std::string_view text, long least);
+
+/// Tolerance of an integrator's step.
+Parsed<double> parse_tolerance(std::string_view text);
+
+/// Name of one of these integrators, or "cvode".
+Parsed<std::string> parse_method(const std::string& name,
+                                 const std::vector<std::string_view>& methods);
+
+/// Speeds of linear analyses [rad/s]; a range without a step has 101.
+Parsed<std::vector<double>> parse_speeds(std::string_view text);
+/// Those where none are given: from zero to somewhat above the operating speed [rad/s] (0: none).
+std::vector<double> usual_speeds(double operating_speed);
+
+/// The speeds that --over goes through, at least the first and the last [rad/s].
+/// @param otherwise  where it varies no speed
+std::vector<double> speeds_over(const std::vector<std::string>& over, double otherwise);
+
+/// "expected stationary or rotating"
+std::string expected_one_of(const std::vector<std::string_view>& names);
+
+/// The choice of a name, of an enumeration with `choices`.
+template <class Enum>
+Parsed<Enum> parse_choice(std::string_view text) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : choices(Enum{})) {
+    if (name == text) return value;
+    names.push_back(name);
+  }
+  return Parsed<Enum>::failed(expected_one_of(names));
+}
+
+}  // namespace whirl::inline io
