@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <new>
 
-#include "apps/status.hpp"
+#include "apps/program.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/bare_speed.hpp"
 #include "libio/text/terminal.hpp"
@@ -35,42 +35,21 @@ void write_json(const Report& report, const std::string& to, Replaces replaces) 
   }
 }
 
-/// The speeds of a call that have no unit: of --speed, --set and --over of operation.speed, --at along
-/// it, --speeds.
-std::vector<BareSpeed> bare_speeds(const CommandLine& line) {
+/// Where the speeds of a call are given.
+SpeedOptions speed_options(const CommandLine& line) {
   const Invocation& call = line.call;
-  const std::string assigned = "operation.speed=";
-  std::vector<BareSpeed> found;
-  const auto look_at = [&](const std::string& option, const std::string& value) {
-    if (const auto bare = bare_speed(option, value)) found.push_back(*bare);
-  };
-  if (line.speed) look_at("--speed", *line.speed);
-  const std::size_t own = call.sets.size() - (line.speed ? 1 : 0);  // --speed is the last of them
-  for (std::size_t i = 0; i < own; ++i) {
-    if (!call.sets[i].starts_with(assigned)) continue;
-    look_at("--set " + assigned, call.sets[i].substr(assigned.size()));
-  }
-  if (call.has("speeds")) look_at("--speeds", call.text("speeds"));
-  for (const std::string& over : call.over) {
-    if (!over.starts_with(assigned)) continue;
-    const std::string values = over.substr(assigned.size());
-    look_at("--over " + assigned, values);
-    // a bare value beside a range with a unit has the range's
-    const bool is_along = call.over.size() == 1 && call.has("at");
-    if (is_along && is_bare(values)) look_at("--at", call.text("at"));
-  }
-  return found;
+  SpeedOptions given{.speed = line.speed.value_or(""),
+                     .sets = call.sets,
+                     .speeds = call.text("speeds"),
+                     .over = call.over,
+                     .at = call.text("at")};
+  if (line.speed) given.sets.pop_back();  // --speed is the last of them
+  return given;
 }
 
 /// Problems of a value of --speed are told under that name.
 ModelError under_its_option(const ModelError& error, const std::optional<std::string>& speed) {
-  std::vector<Problem> problems = error.problems();
-  for (Problem& problem : problems) {
-    if (!speed || problem.where.file != "--set operation.speed=" + *speed) continue;
-    problem.where.file = "--speed " + *speed;
-    problem.key.clear();
-  }
-  return ModelError(std::move(problems));
+  return speed ? renamed(error, "--set operation.speed=" + *speed, "--speed " + *speed) : error;
 }
 
 /// What a verb found goes to the terminal, to standard error and to --json; the status.
@@ -91,8 +70,8 @@ int print(Report report, const CommandLine& line, const std::vector<BareSpeed>& 
 int execute(const Verb& verb, const CommandLine& line) {
   const Invocation& call = line.call;
   if (call.has("threads")) call.integer("threads");  // verbs that use none refuse a wrong one too
-  call.require_free_places(line.json);
-  const std::vector<BareSpeed> bare = bare_speeds(line);
+  require_free_places(call.files(line.json));
+  const std::vector<BareSpeed> bare = bare_speeds(speed_options(line));
   if (!line.is_quiet) {
     for (const BareSpeed& s : bare) fmt::print(stderr, "whirl: warning: {}\n", s.warning());
   }
@@ -113,8 +92,6 @@ int run_command(const Verb& verb, const std::vector<std::string>& words,
     fmt::print(stderr, "{}",
                problems_text(under_its_option(error, line.speed), {file, line.call.model_text}));
     return exit_status::wrong_input;
-  } catch (const TakenPlace& error) {
-    return refused(error);
   } catch (const FileError& error) {
     return refused(error);
   } catch (const NumericalError& error) {

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <map>
+#include <span>
 
-#include "apps/status.hpp"
+#include "apps/program.hpp"
 #include "libio/text/nearest.hpp"
 
 namespace whirl::inline cli {
@@ -67,19 +67,9 @@ std::string misplaced(const CLI::App& app, const std::vector<std::string>& words
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
   }
-  for (std::size_t i = 2; i < words.size(); ++i) {
-    const std::string word = words[i].substr(0, words[i].find('='));
-    if (!word.starts_with("--") || word == "--" ||
-        std::find(known.begin(), known.end(), word) != known.end())
-      continue;
-    const auto near = nearest(word, known);
-    return fmt::format("there is no option \"{}\"{}", word,
-                       near ? fmt::format("; did you mean \"{}\"?", *near) : "");
-  }
-  std::string what = error.what();
-  if (!app.remaining().empty())
-    what = fmt::format("cannot place \"{}\"", fmt::join(app.remaining(), " "));
-  return what;
+  if (const auto unknown = unknown_option(std::span(words).subspan(2), known)) return *unknown;
+  if (app.remaining().empty()) return error.what();
+  return fmt::format("cannot place \"{}\"", fmt::join(app.remaining(), " "));
 }
 
 /// Sorts what was given into a command line.

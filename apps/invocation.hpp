@@ -10,7 +10,8 @@
 #include "libbase/failure.hpp"
 #include "libdyn/system/model.hpp"
 #include "libio/results/call.hpp"
-#include "libio/results/replace_file.hpp"
+#include "libio/results/command_files.hpp"
+#include "libio/text/option_values.hpp"
 #include "libio/text/record.hpp"
 
 namespace whirl::inline io {
@@ -37,7 +38,16 @@ class Invocation {
 
   /// Value of an option; where it is left out, its default as the verb states it, or "".
   std::string text(const std::string& option) const;
-  /// The same as a number; without a default, the option must be given.
+  /// An option that means nothing, with its value.
+  /// @param problem  what would be right
+  ModelError wrong(const std::string& option, std::string problem) const;
+  /// Value of an option as a function reads it that gives a Parsed.
+  /// @throws ModelError  naming the option, if it means nothing
+  template <class Parse>
+  auto parsed(const std::string& option, const Parse& parse) const {
+    return parsed_option(option, text(option), parse);
+  }
+  /// Value of an option as a number; without a default, the option must be given.
   /// @throws ModelError  naming the option, if it is none, or smaller than the least
   long integer(const std::string& option, long least = 1) const;
   double number(const std::string& option, std::string_view unit) const;
@@ -58,10 +68,9 @@ class Invocation {
   Replaces result_replaces() const;
   Replaces picture_replaces() const;
 
-  /// Checks that results take the place of nothing but results, before the work.
+  /// The files that it reads and writes.
   /// @param json  value of --json
-  /// @throws FileError  naming what would be lost: the model, another file, the other result
-  void require_free_places(const std::string& json) const;
+  CommandFiles files(const std::string& json) const;
 
   /// The file of --out with the facts of this call in it, or nothing.
   std::unique_ptr<ResultWriter> result_file(const Model& model) const;
@@ -75,6 +84,10 @@ struct Report {
   std::vector<std::string> notes{};
   Failure failure;  ///< goes to standard error, --quiet or not
   int status = 0;   ///< 0; 3: failed, what was computed is in the report; 130: stopped
+
+  void add_notes(const std::vector<std::string>& more) {
+    notes.insert(notes.end(), more.begin(), more.end());
+  }
 };
 
 }  // namespace whirl::inline cli

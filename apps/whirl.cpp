@@ -1,16 +1,14 @@
 // The program: finds the verb of a command line and runs it.
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdio>
 
 #include "apps/command.hpp"
-#include "apps/status.hpp"
+#include "apps/program.hpp"
 #include "apps/verb.hpp"
-#include "apps/version.hpp"
 #include "libio/text/nearest.hpp"
+#include "libio/text/terminal.hpp"
 
 namespace {
 
@@ -56,16 +54,6 @@ int run_verb(const std::vector<std::string>& words) {
     return exit_status::done;
   }
   return verb->run_words({words.begin() + 2, words.end()});
-}
-
-/// Takes the places of standard streams that are closed: or else a result file would get the number of
-/// one, and what is printed there would end in it. To what is not there nothing can be printed.
-void fill_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (::fcntl(stream, F_GETFD) >= 0) continue;
-    (void)::open("/dev/null",
-                 stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);  // the lowest free one
-  }
 }
 
 }  // namespace

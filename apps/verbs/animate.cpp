@@ -16,7 +16,7 @@ Report run_animate(const Invocation& call) {
   const SceneSource source = scene_source(call);
   const std::filesystem::path beside = std::filesystem::path(call.file).replace_extension(".ogv");
   VideoOptions video{.place = call.text_or("out", beside.string()),
-                     .size = parsed_option(call, "size", parse_pixels),
+                     .size = call.parsed("size", parse_pixels),
                      .rate = call.integer("rate"),
                      .replaces = call.picture_replaces()};
   require_video_place(video);

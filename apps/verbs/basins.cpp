@@ -4,7 +4,6 @@
 
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
-#include "libbase/error.hpp"
 #include "libio/texts/basins_text.hpp"
 
 namespace whirl::inline cli {
@@ -14,9 +13,9 @@ namespace {
 BasinsOptions basins_options(const Invocation& call, const StudyPoints& points) {
   for (const ParameterAxis& axis : points.axes()) {
     if (axis.path.starts_with("start.")) continue;
-    throw ModelError({"--over " + axis.path}, "",
-                     "basins vary the start only, such as start.displaced.1.x; `map` and `sweep` "
-                     "vary anything");
+    throw wrong_option("over", axis.path,
+                       "basins vary the start only, such as start.displaced.1.x; `map` and `sweep` "
+                       "vary anything");
   }
   BasinsOptions options{.grid = points.grid(),
                         .size = call.number("size", ""),
@@ -26,8 +25,7 @@ BasinsOptions basins_options(const Invocation& call, const StudyPoints& points) 
   if (options.is_random()) {
     options.starts = static_cast<std::size_t>(call.integer("starts"));
   } else if (call.has("starts")) {
-    throw ModelError({"--starts " + call.text("starts")}, "",
-                     "with --over the starts are those of its values");
+    throw call.wrong("starts", "with --over the starts are those of its values");
   }
   return options;
 }

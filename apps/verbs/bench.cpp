@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
-#include "apps/interrupt.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libbase/error.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/work_precision.hpp"
+#include "libio/text/interrupt.hpp"
 #include "libio/text/parameter_axis.hpp"
 #include "libio/texts/work_precision_text.hpp"
 
@@ -18,13 +17,12 @@ WorkPrecisionOptions bench_options(const Invocation& call) {
   WorkPrecisionOptions options{.revolutions = call.integer("revolutions"),
                                .discard = call.integer("discard", 0)};
   if (call.has("methods")) options.methods = split(call.text("methods"), ',');
-  for (const std::string& m : options.methods)
-    require_method(m, candidate_names(), "--methods " + m);
+  for (const std::string& m : options.methods) {
+    parsed_option("methods", m,
+                  [](const std::string& name) { return parse_method(name, candidate_names()); });
+  }
   for (const std::string& part : split(call.text("tolerances"), ',')) {
-    const auto value = parse_as(part, "");
-    if (!value) throw ModelError({"--tolerances " + part}, "", value.problem);
-    require_tolerance(*value, "--tolerances " + part);
-    options.tolerances.push_back(*value);
+    options.tolerances.push_back(parsed_option("tolerances", part, parse_tolerance));
   }
   return options;
 }

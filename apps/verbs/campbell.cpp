@@ -17,7 +17,7 @@ Report run_campbell(const Invocation& call) {
       campbell(Assembler(model.structure), speeds, static_cast<int>(call.integer("modes")));
   Report report = begin_report(call, model, record_of(diagram));
   report.text = text_of(diagram);
-  note_linear(model, speeds, report);
+  report.add_notes(linear_notes(model, speeds));
   write_file(call, model, report, [&](ResultWriter& file) { write_result(file, diagram); });
   return report;
 }

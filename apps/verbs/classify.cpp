@@ -1,7 +1,7 @@
-#include "apps/interrupt.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
+#include "libio/text/interrupt.hpp"
 #include "libio/texts/classification_text.hpp"
 
 namespace whirl::inline cli {
@@ -11,7 +11,7 @@ namespace {
 ClassifyOptions classify_options(const Invocation& call) {
   ClassifyOptions options{.discard = call.integer("discard", 0),
                           .revolutions = call.integer("revolutions"),
-                          .tolerance = tolerance_of(call)};
+                          .tolerance = call.parsed("tolerance", parse_tolerance)};
   options.exponents = options.revolutions;
   options.watch = [progress = progress_of(call, "classifying"),
                    total = options.discard + options.revolutions](long done) {

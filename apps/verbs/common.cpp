@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "apps/version.hpp"
+#include "apps/program.hpp"
 #include "libio/text/progress_line.hpp"
 
 namespace whirl::inline cli {
@@ -26,6 +26,10 @@ std::function<void(long, long)> progress_of(const Invocation& call, std::string 
     if (!*shown) shown->emplace(what, total, shows);
     (*shown)->update(done);
   };
+}
+
+void note_tables(const Invocation& call, const Model& model, Report& report) {
+  report.add_notes(table_notes(model.structure, speeds_over(call.over, model.speed)));
 }
 
 void write_notes(ResultWriter& file, const Report& report) {

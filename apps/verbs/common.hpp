@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "apps/invocation.hpp"
-#include "apps/verbs/notes.hpp"
 #include "libbase/constants.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libio/results/hdf5.hpp"
@@ -18,6 +17,10 @@ namespace whirl::inline cli {
 Record begin_record(const Invocation& call, const Model& model);
 /// A report with these, and those of a result.
 Report begin_report(const Invocation& call, const Model& model, const Record& result = {});
+
+/// Notes the bearing tables that are held constant at the speed of the model, or at one that --over
+/// goes through.
+void note_tables(const Invocation& call, const Model& model, Report& report);
 
 /// Writes the report's notes into a result file, where there are any.
 void write_notes(ResultWriter& file, const Report& report);

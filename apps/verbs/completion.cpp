@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "apps/status.hpp"
+#include "apps/program.hpp"
 #include "apps/verb.hpp"
 #include "libio/text/bash_completion.hpp"
 

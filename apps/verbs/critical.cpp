@@ -2,7 +2,6 @@
 
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
-#include "libbase/error.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/modes_text.hpp"
 
@@ -14,7 +13,7 @@ CriticalOptions critical_options(const Invocation& call) {
   CriticalOptions options{.count = static_cast<int>(call.integer("modes")),
                           .order = call.number("order", "")};
   if (options.order > 0.0) return options;
-  throw ModelError({"--order " + call.text("order")}, "", "expected a number above zero");
+  throw call.wrong("order", "expected a number above zero");
 }
 
 Report run_critical(const Invocation& call) {
@@ -26,7 +25,7 @@ Report run_critical(const Invocation& call) {
   std::vector<double> speeds;
   for (const Critical& c : found.criticals) speeds.push_back(c.speed);
   if (speeds.empty()) speeds = {model.speed};
-  note_linear(model, speeds, report);
+  report.add_notes(linear_notes(model, speeds));
   write_file(call, model, report, [&](ResultWriter& file) { write_result(file, found); });
   return report;
 }

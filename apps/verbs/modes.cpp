@@ -18,7 +18,7 @@ Report run_modes(const Invocation& call) {
                             system.dofs);
   Report report = begin_report(call, model, record_of(modes));
   report.text = fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, text_of(modes));
-  note_linear(model, {model.speed}, report);
+  report.add_notes(linear_notes(model, {model.speed}));
   write_file(call, model, report, [&](ResultWriter& file) {
     file.attribute("/", "speed", model.speed);
     write_points(file, model, assembler);

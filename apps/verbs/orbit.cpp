@@ -44,8 +44,7 @@ Report run_orbit(const Invocation& given) {
   Invocation call = given;
   if (call.has("point")) {
     if (!call.has("from")) {
-      throw ModelError({"--point " + call.text("point")}, "",
-                       "of which branches? give the result of whirl continue with --from");
+      throw call.wrong("point", "of which branches? give the result of whirl continue with --from");
     }
     point = read_branch_point(call.text("from"), call.integer("point"));
     call.sets.insert(call.sets.end(), point->sets.begin(), point->sets.end());

@@ -25,7 +25,7 @@ OrbitSearchOptions search_options(const Invocation& call) {
                              .seed = static_cast<std::uint64_t>(call.integer("seed"))};
   if (call.has("discard")) options.discard = call.integer("discard", 0);
   if (options.size > 0.0) return options;
-  throw ModelError({"--size " + call.text("size")}, "", "expected a number above 0");
+  throw call.wrong("size", "expected a number above 0");
 }
 
 }  // namespace

@@ -10,26 +10,14 @@ namespace {
 
 constexpr long most_harmonics = 10000;
 
-/// The choice that an option names.
-/// @throws ModelError  if it is none
-template <class Enum>
-Enum choice_of(const Invocation& call, const std::string& option, const char* expected) {
-  const std::string given = call.text(option);
-  for (const auto& [name, value] : choices(Enum{})) {
-    if (name == given) return value;
-  }
-  throw ModelError({"--" + option + " " + given}, "", expected);
-}
-
 }  // namespace
 
 OrbitFrame orbit_frame(const Invocation& call) {
-  return choice_of<OrbitFrame>(call, "frame", "expected stationary or rotating");
+  return call.parsed("frame", parse_choice<OrbitFrame>);
 }
 
 OrbitMethod orbit_method(const Invocation& call) {
-  const auto method =
-      choice_of<OrbitMethod>(call, "method", "expected shooting or harmonic-balance");
+  const OrbitMethod method = call.parsed("method", parse_choice<OrbitMethod>);
   for (const std::string option : {"harmonics", "verify"}) {
     if (method == OrbitMethod::harmonic_balance || !call.has(option)) continue;
     throw ModelError({"--" + option}, "", "goes with --method harmonic-balance");
@@ -41,7 +29,7 @@ int harmonics_of(const Invocation& call, int period) {
   if (!call.has("harmonics")) return 0;
   const long harmonics = call.integer("harmonics");
   if (harmonics < period || harmonics > most_harmonics) {
-    throw ModelError({"--harmonics " + call.text("harmonics")}, "",
+    throw call.wrong("harmonics",
                      fmt::format("expected {} to {}: the speed is harmonic {} of the orbit", period,
                                  most_harmonics, period));
   }
@@ -55,7 +43,7 @@ BranchParameters asked_parameters(const Invocation& call, const Model& model) {
 
 Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene) {
   const long discard = call.has("from") && !call.has("discard") ? 0 : call.integer("discard", 0);
-  const double tolerance = tolerance_of(call);
+  const double tolerance = call.parsed("tolerance", parse_tolerance);
   install_interrupt_handler();
   return run_transient(scene, starting_state(call, model, scene),
                        {.revolutions = discard,

@@ -2,10 +2,10 @@
 #include <fmt/ranges.h>
 
 #include "apps/invocation.hpp"
+#include "apps/program.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/result_input.hpp"
-#include "apps/version.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/drawing/picture_file.hpp"
 #include "libio/figures/choice.hpp"
@@ -19,7 +19,7 @@ namespace {
 /// What the result can be drawn as.
 Report list_of(const Invocation& call, const ResultView& result) {
   for (const char* option : {"out", "with", "size", "font", "format", "no-title"}) {
-    if (call.has(option)) throw wrong_option(call, option, "which kind of figure?");
+    if (call.has(option)) throw call.wrong(option, "which kind of figure?");
   }
   const DrawableKinds all = drawable_kinds(result);
   Table table({"kind", "shows", "--which"});
@@ -37,9 +37,9 @@ Report list_of(const Invocation& call, const ResultView& result) {
 
 PictureSize size_of(const Invocation& call) {
   PictureSize size{.has_title = !call.has("no-title")};
-  if (call.has("font")) size.font = parsed_option(call, "font", parse_font);
+  if (call.has("font")) size.font = call.parsed("font", parse_font);
   if (call.has("size")) {
-    const PrintedSides sides = parsed_option(call, "size", parse_sides);
+    const PrintedSides sides = call.parsed("size", parse_sides);
     size.width = sides.width;
     size.height = sides.height;
   }
@@ -47,9 +47,9 @@ PictureSize size_of(const Invocation& call) {
 }
 
 PictureFormat format_of(const Invocation& call) {
-  if (call.has("format")) return parsed_option(call, "format", parse_picture_format);
+  if (call.has("format")) return call.parsed("format", parse_picture_format);
   if (call.text("out").empty()) return PictureFormat::svg;
-  return parsed_option(call, "out", picture_format_of);
+  return call.parsed("out", picture_format_of);
 }
 
 Report run_plot(const Invocation& call) {

@@ -3,10 +3,10 @@
 #include <filesystem>
 
 #include "apps/invocation.hpp"
+#include "apps/program.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/result_input.hpp"
-#include "apps/version.hpp"
 #include "libbase/error.hpp"
 #include "libio/page/report_page.hpp"
 #include "libio/results/replace_file.hpp"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "apps/command.hpp"
-#include "apps/status.hpp"
+#include "apps/program.hpp"
 #include "apps/verb.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/hdf5.hpp"

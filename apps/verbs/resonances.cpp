@@ -1,4 +1,3 @@
-#include "apps/interrupt.hpp"
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
@@ -6,6 +5,7 @@
 #include "libdyn/studies/resonance_study.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
+#include "libio/text/interrupt.hpp"
 #include "libio/texts/resonance_text.hpp"
 
 namespace whirl::inline cli {
@@ -42,9 +42,9 @@ Report run_resonances(const Invocation& call) {
   report.text = headline("Internal resonances seen from the rotor", model) + "\n" + text_of(study) +
                 (study.is_whole ? "" : "\n  stopped\n");
   if (options.confirms) {
-    note_tables(model, options.speeds, report);
+    report.add_notes(table_notes(model.structure, options.speeds));
   } else {
-    note_linear(model, options.speeds, report);
+    report.add_notes(linear_notes(model, options.speeds));
   }
   if (file) write_resonances(*file, model, assembler, study);
   commit(call, file.get(), report);

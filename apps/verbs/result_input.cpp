@@ -23,7 +23,7 @@ void require_result(const Invocation& call, const std::string& kind) {
 
 void set_frequency_unit(const Invocation& call, ResultView& result) {
   const auto unit = frequency_unit(call.text("frequency"));
-  if (!unit) throw wrong_option(call, "frequency", "expected Hz, cpm or rad/s");
+  if (!unit) throw call.wrong("frequency", "expected Hz, cpm or rad/s");
   result.frequency = *unit;
 }
 
@@ -32,9 +32,9 @@ MotionWindow window_of(const Invocation& call) {
   if (call.has("times")) {
     for (const char* other : {"from-revolution", "revolutions"}) {
       if (!call.has(other)) continue;
-      throw wrong_option(call, "times", fmt::format("does not go with --{}", other));
+      throw call.wrong("times", fmt::format("does not go with --{}", other));
     }
-    window.times = parsed_option(call, "times", parse_times);
+    window.times = call.parsed("times", parse_times);
   }
   if (call.has("from-revolution")) {
     window.from_revolution = static_cast<double>(call.integer("from-revolution", 0));
@@ -55,10 +55,6 @@ SceneSource scene_source(const Invocation& call) {
 
 std::optional<long> number_given(const Invocation& call, const std::string& option) {
   return call.has(option) ? std::optional(call.integer(option)) : std::nullopt;
-}
-
-ModelError wrong_option(const Invocation& call, const std::string& option, std::string problem) {
-  return ModelError({fmt::format("--{} {}", option, call.text(option))}, "", std::move(problem));
 }
 
 Record file_list(const std::vector<fs::path>& files) {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "apps/invocation.hpp"
-#include "libbase/error.hpp"
 #include "libio/export/scene_source.hpp"
 #include "libio/figures/figures.hpp"
 
@@ -29,18 +28,6 @@ SceneSource scene_source(const Invocation& call);
 
 /// Value of an option that asks for a number; nothing where it is left out.
 std::optional<long> number_given(const Invocation& call, const std::string& option);
-
-/// An option that means nothing.
-/// @param problem  what would be right
-ModelError wrong_option(const Invocation& call, const std::string& option, std::string problem);
-
-/// Value of an option as a function reads it that gives a Parsed.
-template <class Parse>
-auto parsed_option(const Invocation& call, const std::string& option, const Parse& parse) {
-  const auto value = parse(call.text(option));
-  if (!value) throw wrong_option(call, option, value.problem);
-  return *value;
-}
 
 /// Files that were written, for JSON.
 Record file_list(const std::vector<std::filesystem::path>& files);

@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "apps/status.hpp"
+#include "apps/program.hpp"
 #include "apps/verb.hpp"
 #include "libio/model/model_schema.hpp"
 #include "libio/results/replace_file.hpp"
@@ -31,8 +31,6 @@ int run_schema(const std::vector<std::string>& words) {
   }
   try {
     replace_file(words[1], text, is_forced ? Replaces::anything : Replaces::own_pictures);
-  } catch (const TakenPlace& error) {
-    return refused(error);
   } catch (const FileError& error) {
     return refused(error);
   }

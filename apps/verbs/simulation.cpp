@@ -1,13 +1,8 @@
 #include "apps/verbs/simulation.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "apps/interrupt.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
-#include "libbase/error.hpp"
+#include "libio/text/interrupt.hpp"
 
 namespace whirl::inline cli {
 
@@ -26,26 +21,6 @@ std::vector<OptionSpec> integration_options(std::vector<OptionSpec> own) {
        "bearings"}};
   own.insert(own.end(), shared.begin(), shared.end());
   return own;
-}
-
-void require_tolerance(double tolerance, const std::string& option) {
-  if (tolerance >= 1e-15 && tolerance <= 1e-2) return;
-  throw ModelError({option}, "", "expected a number from 1e-15 to 1e-2");
-}
-
-double tolerance_of(const Invocation& call) {
-  const double tolerance = call.number("tolerance", "");
-  require_tolerance(tolerance, "--tolerance " + call.text("tolerance"));
-  return tolerance;
-}
-
-void require_method(const std::string& method, const std::vector<std::string_view>& methods,
-                    const std::string& option) {
-  if (method == "cvode" || std::find(methods.begin(), methods.end(), method) != methods.end()) {
-    return;
-  }
-  throw ModelError({option}, "",
-                   fmt::format("unknown method, expected one of {}", fmt::join(methods, ", ")));
 }
 
 Start start_of(const Invocation& call, const Model& model) {
@@ -67,18 +42,17 @@ MotionState starting_state(const Invocation& call, Model model, const Scene& sce
 }
 
 Run run_simulation(const Invocation& call, const Model& model) {
-  RunOptions options{.simulation = {.revolutions = call.integer("revolutions"),
-                                    .discard = call.integer("discard", 0),
-                                    .samples = static_cast<int>(call.integer("samples", 4)),
-                                    .integration = {.tolerance = tolerance_of(call)}},
-                     .method = call.text("method"),
-                     .stations = call.text("stations"),
-                     .is_written = call.has("out"),
-                     .progress = progress_of(call, "simulating"),
-                     .is_stopped = is_interrupted};
-  if (!options.method.empty()) {
-    require_method(options.method, method_names(), "--method " + options.method);
-  }
+  const auto method = [](const std::string& name) { return parse_method(name, method_names()); };
+  const RunOptions options{
+      .simulation = {.revolutions = call.integer("revolutions"),
+                     .discard = call.integer("discard", 0),
+                     .samples = static_cast<int>(call.integer("samples", 4)),
+                     .integration = {.tolerance = call.parsed("tolerance", parse_tolerance)}},
+      .method = call.text("method").empty() ? "" : call.parsed("method", method),
+      .stations = call.text("stations"),
+      .is_written = call.has("out"),
+      .progress = progress_of(call, "simulating"),
+      .is_stopped = is_interrupted};
   Model started = model;
   started.start = start_of(call, model);
   install_interrupt_handler();

@@ -18,15 +18,6 @@ namespace whirl::inline cli {
 /// Options of simulate and identify, behind those of one of them.
 std::vector<OptionSpec> integration_options(std::vector<OptionSpec> own = {});
 
-/// The value of --tolerance.
-/// @throws ModelError  naming the option and its value, if it is out of its range
-double tolerance_of(const Invocation& call);
-/// @throws ModelError  naming the option and its value, if a method is none of these, or if a
-///                     tolerance is out of its range
-void require_method(const std::string& method, const std::vector<std::string_view>& methods,
-                    const std::string& option);
-void require_tolerance(double tolerance, const std::string& option);
-
 /// The start of a model's motions: with --from, where that result ended.
 Start start_of(const Invocation& call, const Model& model);
 /// Where that, or the model's [start], is the end of another result; nothing: it is not.

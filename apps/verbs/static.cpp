@@ -14,7 +14,7 @@ Report run_static(const Invocation& call) {
   const StaticStudy study = static_study(model, assembler);
   Report report = begin_report(call, model, record_of(study));
   report.text = text_of(study);
-  note_linear(model, {model.speed}, report);
+  report.add_notes(linear_notes(model, {model.speed}));
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
     write_result(file, study.at_rest);

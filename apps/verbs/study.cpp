@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "apps/program.hpp"
 #include "apps/verbs/options.hpp"
-#include "apps/version.hpp"
 #include "libio/texts/study_text.hpp"
 
 namespace whirl::inline cli {
@@ -35,7 +35,7 @@ ClassifyOptions study_classify(const Invocation& call) {
   return {.discard = call.integer("discard", 0),
           .revolutions = call.integer("revolutions"),
           .exponents = call.integer("exponents"),
-          .tolerance = tolerance_of(call)};
+          .tolerance = call.parsed("tolerance", parse_tolerance)};
 }
 
 int study_threads(const Invocation& call) {

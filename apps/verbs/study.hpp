@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/interrupt.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/results/kept_study.hpp"
+#include "libio/text/interrupt.hpp"
 
 namespace whirl::inline cli {
 

@@ -20,7 +20,7 @@ Report run_unbalance(const Invocation& call) {
   Report report = begin_report(call, model, record_of(study));
   report.text = text_of(study, model);
   report.notes = notes_of(study);
-  note_linear(model, study.speeds, report);
+  report.add_notes(linear_notes(model, study.speeds));
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
     write_result(file, study);

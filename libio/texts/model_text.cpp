@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "libbase/constants.hpp"
 #include "libbase/names.hpp"
 #include "libfe/exceeded_tables.hpp"
@@ -19,6 +21,18 @@ std::string names_of(const auto& members, const char* kind) {
     names += (names.empty() ? "" : ", ") + named(kind, member.name);
   }
   return names;
+}
+
+/// Which contacts and oil films a linear analysis leaves out; empty: none.
+std::string left_out_note(const Model& model) {
+  const std::string contacts = names_of(model.contacts, "contact");
+  const std::string films = names_of(model.films, "oil film");
+  if (contacts.empty() && films.empty()) return "";
+  return fmt::format(
+      "left out: {}{}{}{}", contacts, contacts.empty() || films.empty() ? "" : ", ", films,
+      films.empty()
+          ? ""
+          : " (oil films have no linear coefficients here: nothing holds the rotor there)");
 }
 
 }  // namespace
@@ -49,18 +63,10 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
   return table.text();
 }
 
-std::string left_out_note(const Model& model) {
-  const std::string contacts = names_of(model.contacts, "contact");
-  const std::string films = names_of(model.films, "oil film");
-  if (contacts.empty() && films.empty()) return "";
-  return fmt::format(
-      "left out: {}{}{}{}", contacts, contacts.empty() || films.empty() ? "" : ", ", films,
-      films.empty()
-          ? ""
-          : " (oil films have no linear coefficients here: nothing holds the rotor there)");
-}
-
-std::vector<std::string> table_notes(const Structure& structure, double lowest, double highest) {
+std::vector<std::string> table_notes(const Structure& structure,
+                                     const std::vector<double>& speeds) {
+  const auto [low, high] = std::minmax_element(speeds.begin(), speeds.end());
+  const double lowest = *low, highest = *high;
   std::vector<std::string> notes;
   for (const ExceededTable& table : exceeded_tables(structure, lowest, highest)) {
     std::string beyond;
@@ -75,6 +81,13 @@ std::vector<std::string> table_notes(const Structure& structure, double lowest, 
         fmt::format("the table of {} goes from {:.6g} to {:.6g} rpm; its ends are held constant {}",
                     table.name, table.first / rpm, table.last / rpm, beyond));
   }
+  return notes;
+}
+
+std::vector<std::string> linear_notes(const Model& model, const std::vector<double>& speeds) {
+  std::vector<std::string> notes = table_notes(model.structure, speeds);
+  const std::string left_out = left_out_note(model);
+  if (!left_out.empty()) notes.insert(notes.begin(), left_out);
   return notes;
 }
 

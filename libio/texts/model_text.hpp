@@ -15,10 +15,10 @@ std::string headline(std::string_view what, const Model& model);
 /// Table of what a model has.
 std::string text_of(const ModelFacts& facts, const Model& model);
 
-/// Which contacts and oil films a linear analysis leaves out; empty: none.
-std::string left_out_note(const Model& model);
+/// Which bearing tables are held constant at their ends for some speeds, one or more [rad/s].
+std::vector<std::string> table_notes(const Structure& structure, const std::vector<double>& speeds);
 
-/// Which bearing tables are held constant at their ends for speeds in a range [rad/s].
-std::vector<std::string> table_notes(const Structure& structure, double lowest, double highest);
+/// Which contacts and oil films a linear analysis leaves out, and the same of tables.
+std::vector<std::string> linear_notes(const Model& model, const std::vector<double>& speeds);
 
 }  // namespace whirl::inline io

@@ -1,9 +1,9 @@
-#include "apps/interrupt.hpp"
+#include "libio/text/interrupt.hpp"
 
 #include <atomic>
 #include <csignal>
 
-namespace whirl::inline cli {
+namespace whirl::inline io {
 
 namespace {
 
@@ -22,4 +22,4 @@ bool is_interrupted() {
   return interrupted;
 }
 
-}  // namespace whirl::inline cli
+}  // namespace whirl::inline io

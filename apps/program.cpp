@@ -1,4 +1,4 @@
-#include "apps/status.hpp"
+#include "apps/program.hpp"
 
 #include <fmt/format.h>
 
@@ -6,19 +6,18 @@
 
 namespace whirl::inline cli {
 
+const char* const version = WHIRL_VERSION;
+
 int after_printing(int status) {
   if (std::fflush(stdout) == 0) return status;
   fmt::print(stderr, "whirl: cannot write to standard output\n");
   return exit_status::wrong_input;
 }
 
-int refused(const TakenPlace& error) {
-  fmt::print(stderr, "whirl: {}; take another name, or --force to replace it\n", error.what());
-  return exit_status::wrong_input;
-}
-
 int refused(const FileError& error) {
-  fmt::print(stderr, "whirl: {}\n", error.what());
+  const bool is_taken = dynamic_cast<const TakenPlace*>(&error) != nullptr;
+  fmt::print(stderr, "whirl: {}{}\n", error.what(),
+             is_taken ? "; take another name, or --force to replace it" : "");
   return exit_status::wrong_input;
 }
 

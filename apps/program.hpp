@@ -1,0 +1,22 @@
+#pragma once
+/// The program: its version, and how it ends.
+
+#include "libio/results/replace_file.hpp"
+
+namespace whirl::inline cli {
+
+/// Version of the program, from the build.
+extern const char* const version;
+
+/// Exit statuses.
+namespace exit_status {
+constexpr int done = 0, wrong_input = 2, failed = 3, stopped = 130;
+}
+
+/// A status, unless what was printed did not arrive, on a full disk for instance.
+int after_printing(int status);
+
+/// Says what is wrong with a file, or that a place holds what whirl did not write; the status.
+int refused(const FileError& error);
+
+}  // namespace whirl::inline cli

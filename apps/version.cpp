@@ -1,7 +1,0 @@
-#include "apps/version.hpp"
-
-namespace whirl::inline cli {
-
-const char* const version = WHIRL_VERSION;
-
-}  // namespace whirl::inline cli
