@@ -26,7 +26,7 @@ Report run_animate(const Invocation& call) {
   video.title = clip.title;
   const auto files = write_video(source.scene, clip.frames, video);
 
-  Report report{.record = begin_record(call, source.model)};
+  Report report = begin_report(call, source.model);
   report.record.set("files", file_list(files));
   report.record.set("frames", static_cast<int>(clip.frames.size()));
   report.text = fmt::format("  {}: {} frames{}, {}\n", files.front().string(), clip.frames.size(),

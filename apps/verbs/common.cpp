@@ -10,14 +10,11 @@
 
 namespace whirl::inline cli {
 
-Record begin_record(const Invocation& call, const Model& model) {
-  Record record;
-  record.set("model", call.file).set("version", version).set("speed_rpm", model.speed / rpm);
-  return record;
-}
-
 Report begin_report(const Invocation& call, const Model& model, const Record& result) {
-  return {.record = begin_record(call, model).merge(result), .text = ""};
+  Report report;
+  report.record.set("model", call.file).set("version", version);
+  report.record.set("speed_rpm", model.speed / rpm).merge(result);
+  return report;
 }
 
 std::function<void(long, long)> progress_of(const Invocation& call, std::string what) {

@@ -13,9 +13,7 @@
 
 namespace whirl::inline cli {
 
-/// Record with the entries that all verbs have: model, version, speed_rpm.
-Record begin_record(const Invocation& call, const Model& model);
-/// A report with these, and those of a result.
+/// A report with the entries that all verbs have (model, version, speed_rpm), and those of a result.
 Report begin_report(const Invocation& call, const Model& model, const Record& result = {});
 
 /// Notes the bearing tables that are held constant at the speed of the model, or at one that --over

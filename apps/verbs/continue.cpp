@@ -1,9 +1,8 @@
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "libbase/error.hpp"
-#include "libio/model/branch_setup.hpp"
-#include "libio/results/branch_results.hpp"
 #include "libio/results/columns.hpp"
+#include "libio/results/kept_branches.hpp"
 #include "libio/texts/branches_text.hpp"
 
 namespace whirl::inline cli {
@@ -42,32 +41,13 @@ Report run_continue(const Invocation& call) {
   const BranchSetup asked = asked_branches(call, model);
   Report report =
       orbit_report(call, model, "Periodic orbits along " + asked.parameters.along.axis.path);
-  long resumed = 0;
-  const BranchStudy empty{.tree = empty_tree(*asked.scene, asked.tree)};
-  const KeptStudy<BranchStudy> kept{
-      .write =
-          [&](ResultWriter& to, const BranchStudy& study) {
-            write_branches(to, study.tree, asked.result(study.tree));
-            if (asked.has_curves()) write_curves(to, study.curves, asked.result(study.curves));
-          },
-      .read =
-          [&](const ResultReader& from) {
-            BranchStudy study{.tree = read_branches(from, empty.tree)};
-            study.curves = read_curves(from, study.tree.layout);
-            resumed = study.tree.points();
-            return study;
-          },
-      .run =
-          [&](const BranchStudy& begun, const Monitor<BranchStudy>& monitor) {
-            const auto settled = [&]() -> std::optional<Vec> {
-              const auto state = settled_state(after_transient(call, asked.at_first, *asked.scene));
-              return state ? std::optional(state->y) : std::nullopt;
-            };
-            return follow_branches(asked.scenes(), begun, settled, asked.options(), monitor);
-          }};
-  const BranchStudy found = run_kept(
+  const auto settled = [&] {
+    return settled_state(after_transient(call, asked.at_first, *asked.scene));
+  };
+  const auto [found, resumed] = keep_branches(
+      asked,
       study_keeping(call, model, earlier_start(call, model), "points of branches", report.notes),
-      kept, empty);
+      settled);
   report.status = found.is_complete() ? 0 : 130;
   const BranchResult branches = asked.result(found.tree);
   report.record.merge(record_of(branches)).set("resumed", resumed);

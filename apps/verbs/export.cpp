@@ -20,7 +20,8 @@ Report run_export(const Invocation& call) {
                                                  .frames = number_given(call, "frames"),
                                                  .modes = call.integer("modes"),
                                                  .replaces = call.picture_replaces()});
-  Report report{.record = begin_record(call, source.model), .text = written.text};
+  Report report = begin_report(call, source.model);
+  report.text = written.text;
   report.record.set("files", file_list(written.files));
   return report;
 }

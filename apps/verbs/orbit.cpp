@@ -1,3 +1,4 @@
+#include "apps/program.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "libbase/error.hpp"
@@ -18,6 +19,21 @@ OrbitOptions orbit_options(const Invocation& call, const std::optional<BranchSta
   return options;
 }
 
+/// Report on an orbit, found or not, and its file.
+/// @param asked  for its record
+template <class Orbit>
+Report orbit_found(const Invocation& call, const Model& model, const Scene& scene,
+                   const Orbit& orbit, const std::string& what, const Record& asked) {
+  Report report = orbit_report(call, model, what);
+  report.failure = orbit.failure;
+  report.status = orbit.is_good() ? 0 : 3;
+  report.record.merge(asked).merge(record_of(orbit));
+  report.record.set("reduction", record_of(reduction_facts(scene)));
+  report.text += "\n" + reduction_text(scene, model) + text_of(orbit);
+  write_file(call, model, report, [&](ResultWriter& to) { write_orbit(to, model, scene, orbit); });
+  return report;
+}
+
 Report stationary_orbit(const Invocation& call, const Model& model,
                         const std::optional<BranchStart>& point) {
   const OrbitOptions options = orbit_options(call, point);
@@ -26,17 +42,26 @@ Report stationary_orbit(const Invocation& call, const Model& model,
   const Trajectory transient =
       point ? Trajectory{.system = &scene.contacts, .state = point->in(scene)}
             : after_transient(call, model, scene);
-  const FoundOrbit orbit = find_orbit_after(transient, scene, options);
-  const int status = status_of(transient.outcome);
-  Report report = orbit_report(call, model, "Periodic orbit");
-  report.failure = orbit.failure;
-  report.status = status == 0 && !orbit.is_good() ? 3 : status;
-  report.record.set("frame", "stationary").set("method", call.text("method"));
-  report.record.merge(record_of(orbit));
-  report.record.set("reduction", record_of(reduction_facts(scene)));
-  report.text += "\n" + reduction_text(scene, model) + text_of(orbit);
-  write_file(call, model, report, [&](ResultWriter& to) { write_orbit(to, model, scene, orbit); });
+  Report report =
+      orbit_found(call, model, scene, find_orbit_after(transient, scene, options), "Periodic orbit",
+                  Record().set("frame", "stationary").set("method", call.text("method")));
+  if (transient.outcome != Outcome::reached_end) report.status = status_of(transient.outcome);
   return report;
+}
+
+/// An orbit that repeats as seen from the rotor, whose period is any.
+Report rotating_orbit(const Invocation& call, const Model& model) {
+  const auto scene = std::make_shared<const Scene>(make_scene(model));
+  const FreeFlow flow = rotating_flow(scene);
+  const auto state = settled_state(after_transient(call, model, *scene));
+  if (!state) {
+    Report report = begin_report(call, model);
+    report.failure = "stopped";
+    report.status = exit_status::stopped;
+    return report;
+  }
+  return orbit_found(call, model, *scene, find_rotating_orbit(flow, *scene, state->y),
+                     "Periodic orbit in the rotating frame", Record().set("frame", "rotating"));
 }
 
 Report run_orbit(const Invocation& given) {

@@ -38,7 +38,4 @@ void add_kept(const Invocation& call, const std::string& points, long resumed, R
 /// Orbits near random starts: --starts.
 Report search_orbits(const Invocation& call, const Model& model);
 
-/// An orbit that repeats as seen from the rotor, whose period is any: --frame rotating.
-Report rotating_orbit(const Invocation& call, const Model& model);
-
 }  // namespace whirl::inline cli

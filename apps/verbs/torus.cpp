@@ -1,8 +1,7 @@
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
-#include "libio/model/branch_setup.hpp"
 #include "libio/results/columns.hpp"
-#include "libio/results/torus_results.hpp"
+#include "libio/results/kept_branches.hpp"
 #include "libio/texts/torus_text.hpp"
 
 namespace whirl::inline cli {
@@ -24,28 +23,12 @@ Report run_torus(const Invocation& call) {
   require_speed(model);
   const TorusSetup asked = asked_torus(call, model);
   Report report = orbit_report(call, model, "Quasi-periodic motion");
-  long resumed = 0;
-  const KeptStudy<TorusBranch> kept{
-      .write =
-          [&](ResultWriter& to, const TorusBranch& torus) {
-            write_end(to, asked.at_first, *asked.scene, torus.circle.points.col(0));
-            write_torus(to, torus, asked.result(torus));
-          },
-      .read =
-          [&](const ResultReader& from) {
-            TorusBranch torus = read_torus(from, asked.scene->contacts.size());
-            resumed = std::ssize(torus.points());
-            return torus;
-          },
-      .run =
-          [&](TorusBranch begun, const Monitor<TorusBranch>& monitor) {
-            const auto settled = [&] {
-              return settled_state(after_transient(call, asked.at_first, *asked.scene));
-            };
-            return grow_torus(asked.scenes(), std::move(begun), settled, asked.options, monitor);
-          }};
-  const TorusBranch torus = run_kept(
-      study_keeping(call, model, earlier_start(call, model), "circles", report.notes), kept);
+  const auto settled = [&] {
+    return settled_state(after_transient(call, asked.at_first, *asked.scene));
+  };
+  const auto [torus, resumed] = keep_torus(
+      asked, study_keeping(call, model, earlier_start(call, model), "circles", report.notes),
+      settled);
   if (torus.circle.points.size() == 0) {
     report.text.clear();
     report.failure = "stopped in the transient";
