@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libbase/error.hpp"
+#include "libio/text/option_values.hpp"
 
 namespace whirl::inline io {
 
@@ -25,7 +26,7 @@ Clip clip_of_mode(const SceneSource& source, long wanted, long frames) {
                      if (number == wanted) clip = {cycle, told(number, mode), ""};
                    });
   if (!clip.frames.empty()) return clip;
-  throw ModelError({fmt::format("--mode {}", wanted)}, "", "there is no such mode");
+  throw wrong_option("mode", std::to_string(wanted), "there is no such mode");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "libio/export/xdmf.hpp"
 #include "libio/results/csv_tables.hpp"
 #include "libio/text/nearest.hpp"
+#include "libio/text/option_values.hpp"
 
 namespace whirl::inline io {
 
@@ -128,10 +129,10 @@ ExportFormat export_format(const std::string& name) {
   if (const MeshFormat* mesh = mesh_format(name)) return {name, std::string(mesh->ending), mesh};
   for (const MeshFormat& mesh : mesh_formats()) known.emplace_back(mesh.name);
   const auto near = nearest(name, known);
-  throw ModelError({"--format " + name}, "",
-                   fmt::format("unknown format{}; there are {}",
-                               near ? fmt::format(", did you mean \"{}\"?", *near) : "",
-                               fmt::join(known, ", ")));
+  throw wrong_option("format", name,
+                     fmt::format("unknown format{}; there are {}",
+                                 near ? fmt::format(", did you mean \"{}\"?", *near) : "",
+                                 fmt::join(known, ", ")));
 }
 
 Exported export_scene(const SceneSource& source, const ExportOptions& options) {

@@ -14,6 +14,7 @@
 #include "libbase/program.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libio/text/option_values.hpp"
 
 namespace whirl::inline io {
 
@@ -150,8 +151,8 @@ Parsed<PixelSize> parse_pixels(std::string_view text) {
 void require_video_place(const VideoOptions& options) {
   const std::string ending = options.place.extension();
   if (ending != ".ogv" && ending != ".gif" && ending != ".png") {
-    throw ModelError({"--out " + options.place.string()}, "",
-                     "expected a video .ogv or .gif, or pictures .png");
+    throw wrong_option("out", options.place.string(),
+                       "expected a video .ogv or .gif, or pictures .png");
   }
   FileReplacement{options.place, options.replaces};
 }

@@ -9,6 +9,7 @@
 
 #include "libbase/error.hpp"
 #include "libio/text/nearest.hpp"
+#include "libio/text/option_values.hpp"
 
 namespace whirl::inline io {
 
@@ -59,8 +60,8 @@ Figure& variant_of(std::vector<Figure>& figures, const std::string& name) {
   for (Figure& f : figures) {  // "ring" of "7 ring"
     if (f.variant.find(name) != std::string::npos) return f;
   }
-  throw ModelError({"--which " + name}, "",
-                   fmt::format("there is no such figure; there are {}", fmt::join(names, ", ")));
+  throw wrong_option("which", name,
+                     fmt::format("there is no such figure; there are {}", fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -93,7 +94,7 @@ Figure chosen_figure(const ResultView& result, const FigureChoice& choice) {
   if (!choice.with.empty()) {
     const std::string problem = lay_over(figures, result, ResultView(choice.with),
                                          std::filesystem::path(choice.with).filename());
-    if (!problem.empty()) throw ModelError({"--with " + choice.with}, "", problem);
+    if (!problem.empty()) throw wrong_option("with", choice.with, problem);
   }
   return std::move(variant_of(figures, choice.variant));
 }

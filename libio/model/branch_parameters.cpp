@@ -8,6 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libio/model/model_file.hpp"
+#include "libio/text/option_values.hpp"
 
 namespace whirl::inline io {
 
@@ -21,11 +22,11 @@ double value_at(const BranchParameter& p, const std::string& at) {
   const auto own = parse_axis(line, 0);  // with a unit of its own
   const auto& found = own && !own->unit.empty() ? own : same;
   if (!found || found->values.size() != 1 || found->unit != p.axis.unit) {
-    throw ModelError({"--at " + at}, "", "expected a value such as those of --over");
+    throw wrong_option("at", at, "expected a value such as those of --over");
   }
   const double first = found->values[0];
   if (first < p.range.low || first > p.range.high) {
-    throw ModelError({"--at " + at}, "", "expected a value within --over");
+    throw wrong_option("at", at, "expected a value within --over");
   }
   return first;
 }
@@ -33,7 +34,7 @@ double value_at(const BranchParameter& p, const std::string& at) {
 /// A parameter from its --over and its part of --at, which may be empty.
 BranchParameter parameter_of(const std::string& over, const std::string& at, int points) {
   const auto axis = parse_axis(over, points);
-  if (!axis) throw ModelError({"--over " + over}, "", axis.problem);
+  if (!axis) throw wrong_option("over", over, axis.problem);
   BranchParameter p{.axis = *axis, .range = {}};
   ParameterRange& range = p.range;
   const auto& values = axis->values;
@@ -42,7 +43,7 @@ BranchParameter parameter_of(const std::string& over, const std::string& at, int
   range.high = *high;
   range.first = values.front();
   if (!(range.low < range.high)) {
-    throw ModelError({"--over " + over}, "", "expected two values that differ");
+    throw wrong_option("over", over, "expected two values that differ");
   }
   range.direction = values.back() >= values.front() ? 1.0 : -1.0;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -83,7 +84,7 @@ BranchParameters branch_parameters(const Model& model, const std::vector<std::st
   std::string second_at;
   if (const auto comma = at.find(','); comma != std::string::npos) {
     if (over.size() == 1) {
-      throw ModelError({"--at " + at}, "", "expected one value for one --over");
+      throw wrong_option("at", at, "expected one value for one --over");
     }
     second_at = at.substr(comma + 1);
     at.resize(comma);

@@ -9,6 +9,7 @@
 #include "libdyn/studies/branch_result.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/columns.hpp"
+#include "libio/text/option_values.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl::inline io {
@@ -26,8 +27,8 @@ BranchStart read_branch_point(const std::filesystem::path& path, long number) {
     throw FileError(path.string() + " holds no branches; whirl continue --out writes them");
   }
   if (number > std::ssize(branches.points)) {
-    throw ModelError({fmt::format("--point {}", number)}, "",
-                     fmt::format("expected a number from 1 to {}", branches.points.size()));
+    throw wrong_option("point", std::to_string(number),
+                       fmt::format("expected a number from 1 to {}", branches.points.size()));
   }
   const BranchOrbit& orbit = branches.points[static_cast<std::size_t>(number - 1)];
   const ParameterAxis axis{.path = branches.parameter.path, .unit = branches.parameter.unit};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libbase/error.hpp"
+#include "libio/text/option_values.hpp"
 #include "libio/text/value_range.hpp"
 
 namespace whirl::inline io {
@@ -103,7 +104,7 @@ std::vector<ParameterAxis> parse_axes(const std::vector<std::string>& texts, int
   std::vector<ParameterAxis> axes;
   for (const std::string& text : texts) {
     const auto axis = parse_axis(text, points);
-    if (!axis) throw ModelError({"--over " + text}, "", axis.problem);
+    if (!axis) throw wrong_option("over", text, axis.problem);
     axes.push_back(*axis);
   }
   if (least <= axes.size() && axes.size() <= most) return axes;
