@@ -1,5 +1,7 @@
 // The list of verbs is in order, and the documents say the same.
 
+#include <fmt/format.h>
+
 #include <map>
 #include <regex>
 #include <set>
