@@ -143,7 +143,7 @@ Verdict by_rk4(const test::RotorStator& p, const ContactSystem& system, Vec y) {
 std::vector<Verdict> by_whirl(const std::vector<Scene>& scenes,
                               const std::vector<MotionState>& starts, double moved) {
   const double begin = now();
-  std::vector<Subject> subjects;
+  std::vector<ClassifyCandidate> subjects;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     subjects.push_back({.system = &scenes[i].contacts});
     subjects.back().found.end = starts[i];
@@ -154,7 +154,7 @@ std::vector<Verdict> by_whirl(const std::vector<Scene>& scenes,
   average(subjects, how);
   const double each = (now() - begin) / static_cast<double>(scenes.size());
   std::vector<Verdict> verdicts;
-  for (const Subject& s : subjects) {
+  for (const ClassifyCandidate& s : subjects) {
     const Classification& c = s.found;
     verdicts.push_back({c.contacts[0].regime(), c.kind, c.period, each});
   }

@@ -62,17 +62,17 @@ BENCHMARK(BranchByTangents)->Unit(benchmark::kMillisecond);
 Flow differences(const std::shared_ptr<const Scene>& scene) {
   Flow flow = flow_of(scene, *scene);
   flow.go = [scene, scale = flow.scale](std::span<const Vec> starts, long revolutions,
-                                        Tangents wanted) {
+                                        WithTangent wanted) {
     const auto end = [&](const Vec& y) {
       MotionState state = test::state_of(y);
       const double step = scene->contacts.period() / 1000.0;
       integrate(AnyMethod(Rk4{}), scene->contacts, state, revolutions, {.fixed_step = step}, {});
       return state.y;
     };
-    std::vector<Passage> all;
+    std::vector<FlowResult> all;
     for (const Vec& y : starts) {
-      Passage p{end(y), Mat::Identity(y.size(), y.size()), {}, {}};
-      for (Eigen::Index k = 0; wanted == Tangents::yes && k < y.size(); ++k) {
+      FlowResult p{end(y), Mat::Identity(y.size(), y.size()), {}, {}};
+      for (Eigen::Index k = 0; wanted == WithTangent::yes && k < y.size(); ++k) {
         Vec aside = y;
         const double h = 1e-6 * scale(k);
         aside(k) += h;
@@ -117,10 +117,10 @@ struct TwoDiskBranch {
     moved.speed = speed;
     return std::make_shared<const Scene>(make_scene(moved, ReductionEstimate::no));
   }
-  void walk(benchmark::State& state, const FreeFlowAt& flow_at) const {
+  void walk(benchmark::State& state, const AutonomousFlowAt& flow_at) const {
     std::size_t found = 0;
     for (auto _ : state) {
-      Continuation walk = cycle_continuation(flow_at, start, period, options);
+      Continuation walk = autonomous_continuation(flow_at, start, period, options);
       while (walk.advance()) {
       }
       found = walk.branch().points.size();
@@ -137,9 +137,9 @@ void TwoDiskBranchByTangents(benchmark::State& state) {
 BENCHMARK(TwoDiskBranchByTangents)->Unit(benchmark::kMillisecond);
 
 /// The same flow by RK4 with 1000 steps a revolution, its tangent by differences.
-FreeFlow differences(const FreeFlow& exact, const std::shared_ptr<const Scene>& scene) {
-  FreeFlow flow = exact;
-  flow.go = [scene, scale = flow.scale](const Vec& z, double time, Tangents wanted) {
+AutonomousFlow differences(const AutonomousFlow& exact, const std::shared_ptr<const Scene>& scene) {
+  AutonomousFlow flow = exact;
+  flow.go = [scene, scale = flow.scale](const Vec& z, double time, WithTangent wanted) {
     const double turn = 2.0 * std::numbers::pi, phases = scene->contacts.Omega() * time;
     const auto revolutions = static_cast<long>(std::ceil(phases / turn));
     const double phase = static_cast<double>(revolutions) * turn - phases;
@@ -151,8 +151,8 @@ FreeFlow differences(const FreeFlow& exact, const std::shared_ptr<const Scene>& 
       integrate(AnyMethod(Rk4{}), scene->contacts, state, revolutions, {.fixed_step = step}, {});
       return state.y;
     };
-    FreeFlow::Arrival at{.end = end(z)};
-    if (wanted == Tangents::no) return at;
+    AutonomousFlow::Result at{.end = end(z)};
+    if (wanted == WithTangent::no) return at;
     at.tangent = Mat::Identity(z.size(), z.size());
     for (Eigen::Index k = 0; k < z.size(); ++k) {
       Vec aside = z;

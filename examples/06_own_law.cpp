@@ -87,7 +87,7 @@ struct Rotor {
     return y;
   }
 
-  Passage passage(Vec y, long revolutions) const {
+  FlowResult passage(Vec y, long revolutions) const {
     for (long i = 0; i < revolutions; ++i) y = revolution(y);
     return {.end = y, .tangent = {}, .contacts = {}, .failure = {}};
   }
@@ -97,12 +97,12 @@ struct Rotor {
     const Vec scale = scene.contacts.state_scale();
     return {.scale = scale,
             .period = free.period(),
-            .go = [=, this](std::span<const Vec> starts, long revolutions, Tangents wanted) {
+            .go = [=, this](std::span<const Vec> starts, long revolutions, WithTangent wanted) {
               constexpr double difference = 1e-6;  // [scales]
-              std::vector<Passage> all;
+              std::vector<FlowResult> all;
               for (const Vec& y : starts) {
-                Passage p = passage(y, revolutions);
-                if (wanted == Tangents::yes) p.tangent.resize(y.size(), y.size());
+                FlowResult p = passage(y, revolutions);
+                if (wanted == WithTangent::yes) p.tangent.resize(y.size(), y.size());
                 for (Eigen::Index i = 0; i < p.tangent.cols(); ++i) {
                   const Vec step = difference * scale(i) * Vec::Unit(y.size(), i);
                   p.tangent.col(i) =

@@ -41,7 +41,7 @@ struct Polynomial {
 /// @param on_surface  g(0) is zero by definition (an event just happened there): its rounded
 ///                    value is taken off, and only a fall right at the start or a later one counts
 /// @source ../docs/methods.md, "Events"
-inline std::optional<double> first_fall(Polynomial g, bool on_surface) {
+inline std::optional<double> first_downward_zero(Polynomial g, bool on_surface) {
   constexpr double zero = 1e-15;      // of g, which is made dimensionless by its owner
   constexpr double rounding = 1e-12;  // of coefficients that were interpolated
   constexpr double no_slope = 1e-10;  // of all coefficients: as good as none, as where sticking

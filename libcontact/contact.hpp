@@ -15,7 +15,7 @@ struct Contact {
   Station at;
   Station against;             ///< the ground or a body
   double clearance = 0.0;      ///< radius of the clearance circle, of a face: axial [m]
-  Vec2 offset = Vec2::Zero();  ///< centre of the clearance circle [m]
+  Vec2 offset = Vec2::Zero();  ///< center of the clearance circle [m]
   Friction friction;
   AnyContactLaw<> law;
   AnyGeometry geometry{};  ///< of a law that has none of its own

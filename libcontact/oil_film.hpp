@@ -13,7 +13,7 @@ struct OilFilm {
   Station at;       ///< the journal, which spins
   Station against;  ///< the bearing: the ground or a body that does not spin
   JournalBearing bearing;
-  Vec2 offset = Vec2::Zero();  ///< centre of the bearing [m]
+  Vec2 offset = Vec2::Zero();  ///< center of the bearing [m]
   AnyFilmLaw law;
   Where where{};
 };

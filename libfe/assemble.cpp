@@ -67,7 +67,7 @@ std::vector<int> indices(const DofMap& dofs, const Point& from, const Point& to)
   return index;
 }
 
-/// Groups of freedoms that rigid connections hold together; group 0 is the ground.
+/// Groups of dofs that rigid connections hold together; group 0 is the ground.
 class Ties {
  public:
   explicit Ties(int freedoms) : parent_(static_cast<std::size_t>(freedoms) + 1) {
@@ -150,7 +150,7 @@ std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& G, 
   return chosen;
 }
 
-/// Transformation from the kept freedoms to all, K_ss q_s + K_sk q_k = 0 for the others.
+/// Transformation from the kept dofs to all, K_ss q_s + K_sk q_k = 0 for the others.
 Sparse condensation(const Sparse& K, const std::vector<int>& condensed) {
   const int n = static_cast<int>(K.rows()), ns = static_cast<int>(condensed.size());
   std::vector<int> place(static_cast<std::size_t>(n), -1);  // in s: -(index + 2), in kept: index
@@ -179,7 +179,8 @@ Sparse condensation(const Sparse& K, const std::vector<int>& condensed) {
   const SparseLu solver(Kss);
   if (!solver.is_regular()) {
     throw NumericalError(
-        "some freedoms have neither inertia nor stiffness: give a massless part of the shaft "
+        "some degrees of freedom have neither inertia nor stiffness: give a massless part of the "
+        "shaft "
         "a density, or a massless body a mass or a support");
   }
   const Mat recovered = -solver.solve(Mat(Ksk));

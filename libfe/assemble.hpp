@@ -35,7 +35,7 @@ class Assembler {
   /// Whether K or C change with speed, beyond Omega G (tables, rotating damping).
   bool depends_on_speed() const { return depends_on_speed_; }
 
-  /// Matrices at a speed [rad/s], freedoms without inertia condensed.
+  /// Matrices at a speed [rad/s], dofs without inertia condensed.
   ///
   /// Condensed exactly are those without mass whose damping is none or proportional to stiffness;
   /// a massless freedom with a damper of its own stays, and makes M singular.

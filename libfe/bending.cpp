@@ -12,7 +12,7 @@ namespace {
 
 constexpr int pieces = 8;            ///< of a beam, between which the line is told
 constexpr int points_of_piece = 12;  ///< exact for cylinders; a cone of ratio 1:10 to rounding
-constexpr int plane_x[] = {0, 3, 4, 7}, plane_y[] = {1, 2, 5, 6};  ///< freedoms of a plane
+constexpr int plane_x[] = {0, 3, 4, 7}, plane_y[] = {1, 2, 5, 6};  ///< dofs of a plane
 constexpr std::array<double, 4> sign_y{1.0, -1.0, 1.0, -1.0};      ///< theta = -theta_x there
 
 /// Deflection and rotation that a moment and a shear force make of a straight beam, at the ends of

@@ -30,7 +30,7 @@ std::vector<Critical> undamped_criticals(const System& system, const CriticalOpt
       largest_hermitian(system.M, system.G, 1.0 / options.order, K, options.count);
   std::vector<Critical> criticals;
   for (Eigen::Index i = 0; i < modes.nu.size(); ++i) {
-    // no real speed: a disk that stiffens faster than it spins, or freedoms without inertia
+    // no real speed: a disk that stiffens faster than it spins, or dofs without inertia
     if (modes.nu(i) <= rounding * modes.nu(0)) break;
     const CVec q = modes.q.col(i);
     Critical critical{.speed = 1.0 / (options.order * std::sqrt(modes.nu(i))),

@@ -15,14 +15,14 @@ enum Component { X = 0, Y = 1, THETA_X = 2, THETA_Y = 3 };
 ///
 /// The full vector holds (x, y, theta_x, theta_y) of every node, then of every body (x, y, and the
 /// tilts if it has them), then the amplitudes of internal shape functions. The coordinates q are
-/// what is left after supports are eliminated and massless freedoms condensed: full = T q.
+/// what is left after supports are eliminated and massless dofs condensed: full = T q.
 struct DofMap {
   int nodes = 0;
   std::vector<int> body_start;   ///< index of x of each body in the full vector
   std::vector<bool> body_tilts;  ///< whether that body has tilts
   int full_size = 0;
   Sparse T;           ///< full_size x size()
-  int condensed = 0;  ///< freedoms without inertia that T expresses by others
+  int condensed = 0;  ///< dofs without inertia that T expresses by others
 
   int size() const { return static_cast<int>(T.cols()); }
   int bodies() const { return static_cast<int>(body_start.size()); }

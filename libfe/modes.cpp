@@ -20,8 +20,8 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int dense_below = 75;          ///< freedoms; dense solvers are as fast there
-constexpr int dense_after = 160;         ///< freedoms; where Arnoldi failed, dense ones are faster
+constexpr int dense_below = 75;          ///< dofs; dense solvers are as fast there
+constexpr int dense_after = 160;         ///< dofs; where Arnoldi failed, dense ones are faster
 constexpr double visible = 1e-3;         ///< of the largest orbit: smaller ones have no sense
 constexpr double flat = 1e-4;            ///< axis ratio below which an orbit is a line
 constexpr double rigid_share = 1e-5;     ///< of the first flexible omega^2: does not deform
@@ -63,7 +63,7 @@ double stiffness_ratio(const System& system, const CVec& q) {
 ///
 ///   A^H (P_x - P_y) A v = mu A^H (P_x + P_y) A v,   mu = 1 in the x-z plane, -1 in the y-z plane
 ///
-/// A: their shapes, P: the freedoms of all points that belong to a plane.
+/// A: their shapes, P: the dofs of all points that belong to a plane.
 void separate_planes(QuadraticModes& modes, const DofMap& dofs) {
   Vec plane = Vec::Zero(dofs.full_size);
   for (const Point& p : dofs.points()) {

@@ -18,7 +18,7 @@ namespace {
 constexpr double dependent = 1e-7;  ///< of its M-norm: what is left of a shape that repeats others
 constexpr int band_samples = 25;    ///< frequencies at which receptances are compared
 constexpr int largest_basis = 60;
-constexpr int small_system = 12;  ///< freedoms that are not worth reducing
+constexpr int small_system = 12;  ///< dofs that are not worth reducing
 
 /// Adds the part of `shapes` that is new, M-orthonormal.
 void append_orthonormal(Mat& basis, const Mat& shapes, const Sparse& M) {

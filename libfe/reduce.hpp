@@ -11,7 +11,7 @@
 namespace whirl::inline fe {
 
 enum class ReductionMethod {
-  automatic,       ///< none up to 12 freedoms, modal_residual above
+  automatic,       ///< none up to 12 dofs, modal_residual above
   modal,           ///< lowest undamped modes at rest
   modal_residual,  ///< and static shapes of given loads
   damped,          ///< real and imaginary parts of the damped modes at speed
@@ -82,7 +82,7 @@ struct ReductionError {
 ///   damped          Re and Im of the damped modes at speed, so that these are exact with real
 ///                   coordinates: one complex mode makes two of the `modes`
 ///   none            every freedom, M must be regular
-///   automatic       none up to 12 freedoms, modal+residual above
+///   automatic       none up to 12 dofs, modal+residual above
 ///
 /// Damping, gyroscopics and skew stiffness are projected, not diagonalized: they stay full.
 /// Where the number of modes is not given, it grows until both errors are below the tolerance.

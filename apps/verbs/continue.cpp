@@ -74,7 +74,7 @@ Verb continue_verb() {
           "contact.ring.stiffness=64e6 --over contact.ring.friction=0.1:0.15:0.002 --at 0.15",
       .options = {{"over", "PATH=A:B:STEP",
                    "a value of the model, from where to where, and the largest step; first:last: a "
-                   "hundredth; a second one: borders in the plane of both"},
+                   "hundredth; a second one: bifurcation curves in the plane of both"},
                   branch_points_option,
                   {"at", "VALUE[,VALUE]",
                    "where the first orbit is looked for, between first and last; left out: first"},

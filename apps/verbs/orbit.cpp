@@ -52,7 +52,7 @@ Report stationary_orbit(const Invocation& call, const Model& model,
 /// An orbit that repeats as seen from the rotor, whose period is any.
 Report rotating_orbit(const Invocation& call, const Model& model) {
   const auto scene = std::make_shared<const Scene>(make_scene(model));
-  const FreeFlow flow = rotating_flow(scene);
+  const AutonomousFlow flow = rotating_flow(scene);
   const auto state = settled_state(after_transient(call, model, *scene));
   if (!state) {
     Report report = begin_report(call, model);

@@ -101,7 +101,7 @@ Verb plot_verb() {
            {"which", "NAME",
             "of several of a kind: the station, contact or plane; left out: the first"},
            {"with", "OTHER.h5",
-            "branches over bifurcation, borders over map, where both are of the same values"},
+            "branches over bifurcation, bifurcation curves over map, where both are of the same values"},
            {"size", "WxHmm", "of the printed picture, such as 85x60mm; cm, in and pt too"},
            {"font", "PT", "letters of axes and legend in points; left out: 9, with --size 8"},
            {"no-title", "", "without title and subtitle, for a caption below"},

@@ -22,7 +22,7 @@ struct BranchEquations {
     std::function<CVec()> multipliers;     ///< the largest first; likewise, where the residual is 0
     Failure failure;
   };
-  std::function<Value(const Vec& x, double value, Tangents wanted)> at;
+  std::function<Value(const Vec& x, double value, WithTangent wanted)> at;
   double difference = 3e-6;  ///< of the parameter's range, for the derivative by it
 };
 

@@ -9,7 +9,7 @@ namespace whirl::inline dyn {
 
 BranchEquations shooting_equations(FlowAt flow_at, Vec scale) {
   return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
-                                                                   Tangents wanted) {
+                                                                   WithTangent wanted) {
     const Eigen::Index n = scale.size();
     PeriodicOrbit orbit{.period = static_cast<int>(x.size() / n)};
     for (Eigen::Index i = 0; i < x.size(); i += n) {
@@ -18,7 +18,7 @@ BranchEquations shooting_equations(FlowAt flow_at, Vec scale) {
     Flow flow = flow_at(value);
     flow.scale = scale;
     BranchEquations::Value at{.residual = shoot(flow, orbit, wanted)};
-    if (wanted == Tangents::yes && at.residual.size() > 0) {
+    if (wanted == WithTangent::yes && at.residual.size() > 0) {
       at.jacobian = shooting_jacobian(orbit.tangents);
       at.multipliers = [tangents = std::move(orbit.tangents)] { return multipliers_of(tangents); };
     }
@@ -45,40 +45,42 @@ Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
   return {shooting_equations(flow_at, flow.scale), x, options};
 }
 
-BranchEquations cycle_equations(FreeFlowAt flow_at, Vec scale) {
+BranchEquations autonomous_equations(AutonomousFlowAt flow_at, Vec scale) {
   return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
-                                                                   Tangents wanted) {
+                                                                   WithTangent wanted) {
     const Eigen::Index n = scale.size();
-    FreeFlow flow = flow_at(value);
+    AutonomousFlow flow = flow_at(value);
     const Vec state = scale.cwiseProduct(x.head(n));
-    FreeFlow::Arrival end = flow.go(state, x(n) * flow.revolution, wanted);
+    AutonomousFlow::Result end = flow.go(state, x(n) * flow.revolution, wanted);
     BranchEquations::Value at{.contacts = std::move(end.contacts),
                               .failure = std::move(end.failure)};
     if (at.failure) return at;
     const Vec to_scale = scale.cwiseInverse();
     at.residual = Vec::Zero(n + 1);
     at.residual.head(n) = (end.end - state).cwiseProduct(to_scale);
-    if (wanted == Tangents::no) return at;
+    if (wanted == WithTangent::no) return at;
     const Mat tangent = to_scale.asDiagonal() * end.tangent * scale.asDiagonal();
     at.multipliers = [tangent] { return multipliers_across(tangent); };
-    at.jacobian = cycle_jacobian(tangent, flow.rate(state).cwiseProduct(to_scale) * flow.revolution,
-                                 flow.rate(end.end).cwiseProduct(to_scale) * flow.revolution);
+    at.jacobian =
+        autonomous_jacobian(tangent, flow.rate(state).cwiseProduct(to_scale) * flow.revolution,
+                            flow.rate(end.end).cwiseProduct(to_scale) * flow.revolution);
     return at;
   }};
 }
 
-Continuation cycle_continuation(const FreeFlowAt& flow_at, const Vec& start, double period,
-                                const ContinuationOptions& options) {
+Continuation autonomous_continuation(const AutonomousFlowAt& flow_at, const Vec& start,
+                                     double period, const ContinuationOptions& options) {
   options.check();
-  const FreeFlow flow = flow_at(options.first);
-  const Cycle cycle = shorten(flow, find_cycle(flow, start, period * flow.revolution));
+  const AutonomousFlow flow = flow_at(options.first);
+  const AutonomousOrbit cycle =
+      shorten(flow, find_autonomous_orbit(flow, start, period * flow.revolution));
   if (!cycle.is_good()) {
     throw NumericalError(
         fmt::format("at the first value, {:g}: {}", options.first, cycle.failure.text()));
   }
   Vec x(start.size() + 1);
   x << cycle.state.cwiseQuotient(flow.scale), cycle.period / flow.revolution;
-  return {cycle_equations(flow_at, flow.scale), x, options};
+  return {autonomous_equations(flow_at, flow.scale), x, options};
 }
 
 }  // namespace whirl::inline dyn

@@ -2,7 +2,7 @@
 /// What branches of periodic motions solve: multiple shooting, and closed motions of a free period.
 
 #include "libdyn/branches/continuation.hpp"
-#include "libdyn/orbits/cycle.hpp"
+#include "libdyn/orbits/autonomous_orbit.hpp"
 
 namespace whirl::inline dyn {
 
@@ -22,20 +22,20 @@ Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
 
 /// A flow whose period is free at a value of the parameter; its states are the same throughout.
 /// May throw NumericalError where there is none.
-using FreeFlowAt = std::function<FreeFlow(double value)>;
+using AutonomousFlowAt = std::function<AutonomousFlow(double value)>;
 
-/// Those of a closed motion, x: its state, then its period [revolutions].
+/// Those of an autonomous orbit, x: its state, then its period [revolutions].
 ///
 ///   flow(y, T) - y = 0,   <f(y), dy> = 0
 ///
 /// Newton's method moves it across the flow only, and so does its tangent.
 /// @param scale  of the states
-BranchEquations cycle_equations(FreeFlowAt flow_at, Vec scale);
+BranchEquations autonomous_equations(AutonomousFlowAt flow_at, Vec scale);
 
 /// The walk along closed motions.
 /// @param start, period  near one at the first value [states; revolutions]
 /// @throws NumericalError  if there is none, or no tangent
-Continuation cycle_continuation(const FreeFlowAt& flow_at, const Vec& start, double period,
-                                const ContinuationOptions& options);
+Continuation autonomous_continuation(const AutonomousFlowAt& flow_at, const Vec& start,
+                                     double period, const ContinuationOptions& options);
 
 }  // namespace whirl::inline dyn

@@ -96,7 +96,7 @@ double Continuation::limited(double step, const Vec& tangent) const {
   return share * step > most ? most / share : step;
 }
 
-BranchEquations::Value Continuation::evaluate(const Vec& z, Tangents wanted) const {
+BranchEquations::Value Continuation::evaluate(const Vec& z, WithTangent wanted) const {
   const Eigen::Index size = z.size() - 1;
   try {
     return equations_.at(z.head(size), value_of(z(size)), wanted);
@@ -114,7 +114,7 @@ Vec Continuation::derivative_by_parameter(const Vec& z) const {
   for (int k = 0; k < (is_central ? 2 : 3); ++k) {
     Vec at = z;
     at(z.size() - 1) = std::clamp(u + shifts[is_central ? 0 : 1][k], 0.0, 1.0);
-    g[k] = evaluate(at, Tangents::no).residual;
+    g[k] = evaluate(at, WithTangent::no).residual;
     if (g[k].size() == 0) return Vec::Zero(z.size() - 1);
   }
   if (is_central) return (g[1] - g[0]) / (2.0 * h);
@@ -145,7 +145,7 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
   const auto place = [&](Vec z) {
     Place p{std::move(z)};
     p.value = is_outside(p.z) ? BranchEquations::Value{.failure = "outside of the range"}
-                              : evaluate(p.z, Tangents::yes);
+                              : evaluate(p.z, WithTangent::yes);
     if (p.value.residual.size() > 0) p.residual = p.value.residual.lpNorm<Eigen::Infinity>();
     return p;
   };

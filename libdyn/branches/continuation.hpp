@@ -70,7 +70,7 @@ class Continuation {
   void weigh(Eigen::Index unknowns);
   double value_of(double u) const;
   double dot(const Vec& a, const Vec& b) const;
-  BranchEquations::Value evaluate(const Vec& z, Tangents wanted) const;
+  BranchEquations::Value evaluate(const Vec& z, WithTangent wanted) const;
   Vec derivative_by_parameter(const Vec& z) const;
   Trial correct(const Plane& plane, Vec by_parameter) const;
   /// Tangent at a point of the branch, and the derivative by the parameter.

@@ -106,7 +106,7 @@ void Continuation::end_at_failure(const std::string& why) {
   const auto impacts_differ = [&](double length, std::vector<ContactMeasure>& seen) {
     Vec z = last.z + length * last.tangent;
     z(z.size() - 1) = std::clamp(z(z.size() - 1), 0.0, 1.0);
-    BranchEquations::Value at = evaluate(z, Tangents::no);
+    BranchEquations::Value at = evaluate(z, WithTangent::no);
     if (at.residual.size() == 0) return false;
     seen = std::move(at.contacts);
     return !same_impacts(seen, last.contacts);

@@ -58,14 +58,14 @@ HarmonicOrbit orbit_of_unknowns(const HarmonicProblem& problem, const Vec& x, in
 BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int harmonics,
                                    double scale) {
   return {[problem_at = std::move(problem_at), period, harmonics, scale](const Vec& x, double value,
-                                                                         Tangents wanted) {
+                                                                         WithTangent wanted) {
     BranchEquations::Value result;
     try {
       const auto problem = problem_at(value);
       const HarmonicEquations equations(*problem, period, harmonics);
       HarmonicOrbit orbit;
       orbit.ports = {ports_of(x, equations.ports(), scale), period, problem->rate};
-      const auto at = equations.evaluate(orbit.ports.coefficients, wanted == Tangents::yes);
+      const auto at = equations.evaluate(orbit.ports.coefficients, wanted == WithTangent::yes);
       if (!at.has_force) {
         result.failure = "a force is not defined on the motion";
         return result;
@@ -73,7 +73,7 @@ BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int
       orbit.motion = {equations.motion(at.g), period, problem->rate};
       result.residual = Eigen::Map<const Vec>(at.residual.data(), at.residual.size()) / scale;
       if (problem->measures) result.contacts = problem->measures(orbit.motion);
-      if (wanted == Tangents::yes) {
+      if (wanted == WithTangent::yes) {
         result.jacobian = equations.jacobian(at);
         result.multipliers = [problem, orbit = std::move(orbit)] {
           return multipliers_of(*problem, orbit);

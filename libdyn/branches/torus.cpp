@@ -207,7 +207,7 @@ struct Turned {
   double residual = std::numeric_limits<double>::infinity();
 };
 Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eigen::Index coordinate,
-              Tangents wanted, double most_tail) {
+              WithTangent wanted, double most_tail) {
   const Eigen::Index n = scale.size(), size = x.size() - 1, N = size / n;
   const Mat scaled = x.head(size).reshaped(n, N);
   if (const double tail = tail_of(scaled); tail > most_tail) {
@@ -218,14 +218,14 @@ Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eige
   }
   std::vector<Vec> starts;
   for (Eigen::Index j = 0; j < N; ++j) starts.push_back(scale.cwiseProduct(scaled.col(j)));
-  const std::vector<Passage> passages = flow.go(starts, period, wanted);
+  const std::vector<FlowResult> passages = flow.go(starts, period, wanted);
   Mat ends(n, N);
   Turned at;
   for (Eigen::Index j = 0; j < N; ++j) {
-    const Passage& p = passages[static_cast<std::size_t>(j)];
+    const FlowResult& p = passages[static_cast<std::size_t>(j)];
     if (p.failure) return Turned{{.failure = p.failure}};
     ends.col(j) = p.end.cwiseQuotient(scale);
-    if (wanted == Tangents::no) continue;
+    if (wanted == WithTangent::no) continue;
     at.tangents.push_back(scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal());
   }
   const Shift shift(N, turn * x(size));
@@ -235,7 +235,7 @@ Turned turned(const Flow& flow, const Vec& scale, const Vec& x, int period, Eige
   at.value.residual(size) = c(1).imag();
   at.x = x;
   at.residual = at.value.residual.lpNorm<Eigen::Infinity>();
-  if (wanted == Tangents::no) return at;
+  if (wanted == WithTangent::no) return at;
   at.value.jacobian = Mat::Zero(size + 1, size + 1);
   for (Eigen::Index i = 0; i < N; ++i) {
     at.value.jacobian.block(i * n, i * n, n, n) = at.tangents[static_cast<std::size_t>(i)];
@@ -268,7 +268,7 @@ InvariantCircle circle_of(const Vec& unknowns, const Vec& scale, int period) {
 }
 
 BranchEquations circle_equations(FlowAt flow_at, Vec scale, int period, Eigen::Index coordinate) {
-  return {[=, flow_at = std::move(flow_at)](const Vec& x, double value, Tangents wanted) {
+  return {[=, flow_at = std::move(flow_at)](const Vec& x, double value, WithTangent wanted) {
     Turned at = turned(flow_at(value), scale, x, period, coordinate, wanted, broken);
     at.value.multipliers = [tangents = std::move(at.tangents),
                             rotation = x(x.size() - 1)]() -> CVec {
@@ -332,7 +332,7 @@ InvariantCircle find_circle(const Flow& flow, const InvariantCircle& guess,
     }
     circle.points = points;
     const auto at_unknowns = [&](const Vec& x) {
-      return turned(flow, scale, x, options.period, coordinate, Tangents::yes, 1.0);
+      return turned(flow, scale, x, options.period, coordinate, WithTangent::yes, 1.0);
     };
     Turned at = at_unknowns(circle_unknowns(circle, scale));
     const NewtonSearch search = newton(

@@ -28,7 +28,7 @@ std::optional<double> first_fall_in_parts(const Polynomial& g, bool on_surface, 
   double lowest = g.c[0];
   for (int k = 1; k <= g.degree; ++k) lowest += std::min(0.0, g.c[static_cast<std::size_t>(k)]);
   if (lowest > 0.0) return std::nullopt;
-  if (depth == most_halvings) return first_fall(g, on_surface);
+  if (depth == most_halvings) return first_downward_zero(g, on_surface);
   Polynomial half = g;
   restrict_to_half(half, false);
   if (const auto s = first_fall_in_parts(half, on_surface, depth + 1)) return 0.5 * *s;

@@ -30,9 +30,10 @@ Vec end_of(const FullState* end, const Scene& scene, const NearestCoordinates& n
   if (!end) throw ModelError({}, "start.file", "no result file was given to start from");
   const Sparse& T = scene.system.dofs.T;
   if (end->displacement.size() != T.rows()) {
-    throw ModelError({}, "start.file",
-                     fmt::format("the result has {} freedoms, the model {}: they do not fit",
-                                 end->displacement.size(), T.rows()));
+    throw ModelError(
+        {}, "start.file",
+        fmt::format("the result has {} degrees of freedom, the model {}: they do not fit",
+                    end->displacement.size(), T.rows()));
   }
   // full vectors to the system's coordinates by least squares (T has full column rank)
   const Mat dense_T(T);

@@ -9,7 +9,7 @@ namespace whirl::inline dyn {
 Trajectory run_transient(const Scene& scene, const MotionState& start,
                          const TransientOptions& options) {
   if (scene.contacts.coordinates() == 0) {
-    throw NumericalError("nothing moves: the system has no freedoms");
+    throw NumericalError("nothing moves: the system has no degrees of freedom");
   }
   const long least = start.phase > 0.0 ? 1 : 0;
   Trajectory transient{.system = &scene.contacts,

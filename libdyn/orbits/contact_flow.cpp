@@ -10,24 +10,26 @@ namespace {
 
 constexpr std::size_t few = 2;  ///< trajectories that are faster one by one than in lanes
 
-std::vector<Passage> pass(const ContactSystem& system, double tolerance,
-                          std::span<const Vec> starts, long revolutions, Tangents tangents) {
+std::vector<FlowResult> pass(const ContactSystem& system, double tolerance,
+                             std::span<const Vec> starts, long revolutions, WithTangent tangents) {
   std::vector<Trajectory> all;
   for (const Vec& y : starts) {
     Trajectory t{.system = &system, .revolutions = revolutions};
     t.state.y = y;
     all.push_back(std::move(t));
   }
-  const BatchOptions how{
-      .tolerance = tolerance, .threads = 1, .measures = true, .tangent = tangents == Tangents::yes};
+  const BatchOptions how{.tolerance = tolerance,
+                         .threads = 1,
+                         .measures = true,
+                         .tangent = tangents == WithTangent::yes};
   if (all.size() > few) {
     integrate_batch(all, how);
   } else {
     for (Trajectory& t : all) integrate_single(t, how);
   }
-  std::vector<Passage> passages;
+  std::vector<FlowResult> passages;
   for (Trajectory& t : all) {
-    Passage p{std::move(t.state.y), std::move(t.tangent), std::move(t.contacts), {}};
+    FlowResult p{std::move(t.state.y), std::move(t.tangent), std::move(t.contacts), {}};
     if (t.outcome != Outcome::reached_end) {
       p.failure = !t.failure ? "the motion was stopped" : t.failure;
     }
@@ -42,7 +44,7 @@ BasisChange::BasisChange(const Scene& scene, const Scene& first) {
   const Mat &Phi = scene.reduced.Phi, &Phi_first = first.reduced.Phi;
   if (Phi == Phi_first) return;
   if (Phi.rows() != Phi_first.rows() || Phi.cols() != Phi_first.cols()) {
-    throw NumericalError("the parameter changes the number of freedoms");
+    throw NumericalError("the parameter changes the number of degrees of freedom");
   }
   const Mat weighted = Phi.transpose() * Mat(scene.system.M);
   const Mat half = DenseLu<Mat>(weighted * Phi).solve(weighted * Phi_first);
@@ -68,12 +70,13 @@ Mat BasisChange::back(const Mat& y) const {
 
 Flow flow_of(const ContactSystem& system, double tolerance) {
   if (system.coordinates() == 0) {
-    throw NumericalError("nothing moves: the system has no freedoms");
+    throw NumericalError("nothing moves: the system has no degrees of freedom");
   }
-  return {system.state_scale(), system.period(),
-          [&system, tolerance](std::span<const Vec> starts, long revolutions, Tangents tangents) {
-            return pass(system, tolerance, starts, revolutions, tangents);
-          }};
+  return {
+      system.state_scale(), system.period(),
+      [&system, tolerance](std::span<const Vec> starts, long revolutions, WithTangent tangents) {
+        return pass(system, tolerance, starts, revolutions, tangents);
+      }};
 }
 
 Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first, double tolerance) {
@@ -81,21 +84,22 @@ Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first, double tole
   Flow flow = flow_of(system, tolerance);
   flow.scale = first.contacts.state_scale();
   if (scene->reduced.Phi == first.reduced.Phi) {
-    flow.go = [scene, tolerance](std::span<const Vec> starts, long revolutions, Tangents tangents) {
+    flow.go = [scene, tolerance](std::span<const Vec> starts, long revolutions,
+                                 WithTangent tangents) {
       return pass(scene->contacts, tolerance, starts, revolutions, tangents);
     };
     return flow;
   }
   const BasisChange change(*scene, first);
   flow.go = [scene, tolerance, change](std::span<const Vec> starts, long revolutions,
-                                       Tangents tangents) {
+                                       WithTangent tangents) {
     std::vector<Vec> own;
     for (const Vec& y : starts) own.push_back(change.to(y));
-    std::vector<Passage> passages = pass(scene->contacts, tolerance, own, revolutions, tangents);
-    for (Passage& p : passages) {
+    std::vector<FlowResult> passages = pass(scene->contacts, tolerance, own, revolutions, tangents);
+    for (FlowResult& p : passages) {
       if (p.failure) continue;
       p.end = change.back(p.end);
-      if (tangents == Tangents::yes) p.tangent = change.back(p.tangent * change.matrix());
+      if (tangents == WithTangent::yes) p.tangent = change.back(p.tangent * change.matrix());
     }
     return passages;
   };

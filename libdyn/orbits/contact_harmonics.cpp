@@ -20,7 +20,7 @@ constexpr int kept = 80;      ///< harmonics of them
 
 HarmonicProblem harmonic_problem(const ContactSystem& system) {
   if (system.coordinates() == 0) {
-    throw NumericalError("nothing moves: the system has no freedoms");
+    throw NumericalError("nothing moves: the system has no degrees of freedom");
   }
   return {.K = system.K(),
           .D = system.D(),

@@ -19,7 +19,7 @@ constexpr int most_halvings = 6;
 constexpr double same = 1e-6;  ///< of states after a shorter period
 
 /// Sums of what contacts did in the segments, as shares of the whole.
-std::vector<ContactMeasure> shares(const std::vector<Passage>& passages, double whole) {
+std::vector<ContactMeasure> shares(const std::vector<FlowResult>& passages, double whole) {
   std::vector<ContactMeasure> sum = passages.front().contacts;
   for (std::size_t i = 1; i < passages.size(); ++i) {
     for (std::size_t c = 0; c < sum.size(); ++c) {
@@ -70,16 +70,16 @@ Mat shooting_jacobian(std::span<const Mat> tangents) {
   return J;
 }
 
-Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted) {
+Vec shoot(const Flow& flow, PeriodicOrbit& orbit, WithTangent wanted) {
   const std::size_t m = orbit.states.size();
   const Eigen::Index n = flow.scale.size();
-  const std::vector<Passage> passages =
+  const std::vector<FlowResult> passages =
       flow.go(orbit.states, orbit.period / static_cast<long>(m), wanted);
   Vec gaps(n * std::ssize(orbit.states));
   orbit.tangents.clear();
   orbit.revolution = flow.period;
   for (std::size_t i = 0; i < m; ++i) {
-    const Passage& p = passages[i];
+    const FlowResult& p = passages[i];
     if (p.failure || !p.end.allFinite() || !p.tangent.allFinite()) {
       orbit.failure = !p.failure ? "the motion or its tangent is not finite" : p.failure;
       orbit.residual = std::numeric_limits<double>::infinity();
@@ -87,7 +87,7 @@ Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted) {
     }
     gaps.segment(static_cast<Eigen::Index>(i) * n, n) =
         (p.end - orbit.states[(i + 1) % m]).cwiseQuotient(flow.scale);
-    if (wanted == Tangents::no) continue;
+    if (wanted == WithTangent::no) continue;
     orbit.tangents.push_back(flow.scale.cwiseInverse().asDiagonal() * p.tangent *
                              flow.scale.asDiagonal());
   }
@@ -142,7 +142,7 @@ PeriodicOrbit find_orbit(const Flow& flow, const Vec& start, const ShootingOptio
   const int segments = options.segments > 0 ? options.segments : options.period;
   std::vector<Vec> starts{start};
   while (std::ssize(starts) < segments) {
-    Passage p = flow.go({&starts.back(), 1}, options.period / segments, Tangents::no).front();
+    FlowResult p = flow.go({&starts.back(), 1}, options.period / segments, WithTangent::no).front();
     if (p.failure) {
       PeriodicOrbit orbit{.period = options.period, .revolution = flow.period, .states = starts};
       orbit.residual = std::numeric_limits<double>::infinity();

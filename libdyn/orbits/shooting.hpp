@@ -13,7 +13,7 @@
 namespace whirl::inline dyn {
 
 /// What becomes of one start.
-struct Passage {
+struct FlowResult {
   Vec end;
   Mat tangent;                           ///< derivative of the end by the start
   std::vector<ContactMeasure> contacts;  ///< times, not shares; empty: there are no contacts
@@ -21,14 +21,15 @@ struct Passage {
 };
 
 /// Whether the derivative of the end is wanted, too.
-enum class Tangents { no, yes };
+enum class WithTangent { no, yes };
 
 /// A map from the states at the start of a revolution to those some revolutions later.
 struct Flow {
   Vec scale;            ///< of the states: what counts as a change of one in each
   double period = 1.0;  ///< of a revolution [s]
   /// Moves several starts on by as many revolutions; a passage each.
-  std::function<std::vector<Passage>(std::span<const Vec> starts, long revolutions, Tangents)> go;
+  std::function<std::vector<FlowResult>(std::span<const Vec> starts, long revolutions, WithTangent)>
+      go;
 };
 
 struct ShootingOptions {
@@ -79,7 +80,7 @@ int shortest_period(const PeriodicOrbit& orbit, const Vec& scale);
 
 /// Moves all segments on once; their gaps, tangents, and what contacts did, go into the orbit.
 /// @return  gaps flow(s_i) - s_(i+1) one after another [scales]; empty if the flow fails
-Vec shoot(const Flow& flow, PeriodicOrbit& orbit, Tangents wanted = Tangents::yes);
+Vec shoot(const Flow& flow, PeriodicOrbit& orbit, WithTangent wanted = WithTangent::yes);
 
 /// Derivative of the gaps by the starts of the segments: A - I of a single one.
 Mat shooting_jacobian(std::span<const Mat> tangents);

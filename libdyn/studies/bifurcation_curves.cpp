@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "libbase/error.hpp"
-#include "libdyn/branches/border.hpp"
+#include "libdyn/branches/bifurcation_curve.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/studies/branch_walk.hpp"
 
@@ -31,7 +31,7 @@ BranchEquations equations_of(const BifurcationCurve& curve, const PlaneScenes& s
         for (const Vec& y : starts) own.push_back(change.to(y));
         return nearest_graze(*scene, contact, own);
       }};
-  return border_equations(curve.kind, plane, scale, along.low, along.high);
+  return bifurcation_curve_equations(curve.kind, plane, scale, along.low, along.high);
 }
 
 ContinuationOptions walk_options(const BifurcationCurve& curve,

@@ -62,7 +62,8 @@ std::optional<Shape> shape_of(const Scene& scene, const Modes& modes, double fre
 
 }  // namespace
 
-std::array<int, 2> strongest_lines(const Scene& scene, const FreeFlow& flow, const Cycle& cycle) {
+std::array<int, 2> strongest_lines(const Scene& scene, const AutonomousFlow& flow,
+                                   const AutonomousOrbit& cycle) {
   const ReducedContact& contact = scene.contacts.contacts().front();
   const Eigen::Index n = scene.contacts.coordinates();
   std::vector<Complex> path;
@@ -70,7 +71,7 @@ std::array<int, 2> strongest_lines(const Scene& scene, const FreeFlow& flow, con
   for (int i = 0; i < samples; ++i) {
     const Vec2 u = contact.U * y.head(n);
     path.emplace_back(u(0), u(1));
-    FreeFlow::Arrival at = flow.go(y, cycle.period / samples, Tangents::no);
+    AutonomousFlow::Result at = flow.go(y, cycle.period / samples, WithTangent::no);
     if (at.failure) return {};
     y = std::move(at.end);
   }
@@ -105,7 +106,7 @@ std::optional<Bouncing> find_bouncing(
     const double speed = (1.0 + above) * resonance.speed;
     const std::shared_ptr<const Scene> scene = scene_at(speed);
     if (scene->contacts.contacts().empty()) return std::nullopt;
-    const FreeFlow flow = rotating_flow(scene);
+    const AutonomousFlow flow = rotating_flow(scene);
     const Modes modes = complex_modes(scene->system, static_cast<int>(diagram.branches.size()) + 4);
     const auto branch = [&](int number) {
       return shape_of(*scene, modes, frequency_at(diagram, number, speed),
@@ -139,7 +140,7 @@ std::optional<Bouncing> find_bouncing(
       ++tried;
       const auto guess = recurrence(*scene, t.state.y, most_recurrence);
       if (!guess) continue;
-      Cycle cycle = shorten(flow, find_cycle(flow, t.state.y, *guess));
+      AutonomousOrbit cycle = shorten(flow, find_autonomous_orbit(flow, t.state.y, *guess));
       if (!cycle.is_good()) continue;
       const auto lines = strongest_lines(*scene, flow, cycle);
       if (lines[0] != resonance.p || lines[1] != resonance.q) continue;

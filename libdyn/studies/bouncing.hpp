@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libbase/column.hpp"
-#include "libdyn/orbits/cycle.hpp"
+#include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libfe/resonance.hpp"
 
 namespace whirl::inline dyn {
@@ -25,7 +25,7 @@ struct BouncingOptions {
 struct Bouncing {
   double speed = 0.0;  ///< [rad/s]
   double turns = 0.0;  ///< its period [revolutions]
-  Cycle cycle;
+  AutonomousOrbit cycle;
   std::array<int, 2> lines{};  ///< their orders of 2 pi / period, the higher first
 
   bool is_stable() const { return cycle.is_stable(); }
@@ -39,7 +39,8 @@ struct Bouncing {
 
 /// The two strongest lines of what a contact's station does over a closed motion, seen from the
 /// rotor, as orders of 2 pi / period, the higher first.
-std::array<int, 2> strongest_lines(const Scene& scene, const FreeFlow& flow, const Cycle& cycle);
+std::array<int, 2> strongest_lines(const Scene& scene, const AutonomousFlow& flow,
+                                   const AutonomousOrbit& cycle);
 
 /// Looks for motions of a scene with intermittent contact in which the two modes of a resonance are
 /// locked: starts are sums of both with 0.2 to 2 clearances each where it touches first.

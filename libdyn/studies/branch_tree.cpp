@@ -9,8 +9,8 @@
 #include "libbase/error.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/branches/harmonic_branch.hpp"
+#include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
-#include "libdyn/orbits/cycle.hpp"
 #include "libdyn/studies/branch_walk.hpp"
 
 namespace whirl::inline dyn {
@@ -28,7 +28,7 @@ class TreeEquations {
   FlowAt flow_at() const {
     return [this](double value) { return flow_of(scenes_.at(value), *scenes_.first); };
   }
-  FreeFlowAt free_flow_at() const {
+  AutonomousFlowAt autonomous_flow_at() const {
     return [this](double value) { return rotating_flow(scenes_.at(value), *scenes_.first); };
   }
 
@@ -37,7 +37,7 @@ class TreeEquations {
       return harmonic_equations([this](double value) { return problem_at(value); }, options_.period,
                                 layout.harmonics, length_scale());
     }
-    return layout.is_rotating ? cycle_equations(free_flow_at(), layout.scale)
+    return layout.is_rotating ? autonomous_equations(autonomous_flow_at(), layout.scale)
                               : shooting_equations(flow_at(), layout.scale);
   }
 
@@ -188,10 +188,10 @@ BranchTree begin_tree(const ParameterScenes& scenes, const Vec& start,
   const double period = is_rotating ? guessed_period(first, start) / first.contacts.period() : 0.0;
   for (const double direction : options.along.directions()) {
     const ContinuationOptions how = walk_options(options, direction);
-    const Continuation walk = unknowns ? Continuation(equations.of(tree.layout), *unknowns, how)
-                              : is_rotating
-                                  ? cycle_continuation(equations.free_flow_at(), start, period, how)
-                                  : orbit_continuation(equations.flow_at(), start, how);
+    const Continuation walk =
+        unknowns      ? Continuation(equations.of(tree.layout), *unknowns, how)
+        : is_rotating ? autonomous_continuation(equations.autonomous_flow_at(), start, period, how)
+                      : orbit_continuation(equations.flow_at(), start, how);
     tree.branches.push_back({.branch = walk.branch(), .direction = direction});
     equations.measure(tree.layout, tree.branches.back(), walk.branch().points[0]);
   }

@@ -6,7 +6,7 @@
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/section_geometry.hpp"
+#include "libbase/fractal_dimension.hpp"
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/proven_orbit.hpp"
 #include "libdyn/taylor/mixed.hpp"
@@ -28,12 +28,13 @@ constexpr long most_flight =
     1'000'000'000;  ///< revolutions that a motion is followed in closed form
 
 /// Motions that are classified together.
-class Together {
+class BatchClassifier {
  public:
-  Together(std::span<Subject> all, const ClassifyOptions& options) : options_(options) {
-    for (Subject& s : all) {
+  BatchClassifier(std::span<ClassifyCandidate> all, const ClassifyOptions& options)
+      : options_(options) {
+    for (ClassifyCandidate& s : all) {
       if (s.system->coordinates() == 0) {
-        throw NumericalError("nothing moves: the system has no freedoms");
+        throw NumericalError("nothing moves: the system has no degrees of freedom");
       }
       if (s.found.is_good() && !s.found.is_proven) open_.push_back(&s);
     }
@@ -51,7 +52,7 @@ class Together {
       go(to - done - watched, {});
       const std::vector<Trajectory> sections = go(watched, {.sections = true});
       done = to;
-      for (Subject* s : open_) s->found.transient = done;
+      for (ClassifyCandidate* s : open_) s->found.transient = done;
       search(sections, is_last);
       fly();
     }
@@ -61,7 +62,7 @@ class Together {
     const long averaged = std::min(options_.revolutions, options_.exponents);
     std::vector<Trajectory> all =
         go(averaged, {.sections = true, .measures = true, .exponents = true, .growths = true});
-    const std::vector<Subject*> before = open_;
+    const std::vector<ClassifyCandidate*> before = open_;
     const std::vector<Trajectory> rest =
         go(options_.revolutions - averaged, {.sections = options_.sections > 0, .measures = true});
     for (std::size_t i = 0, j = 0; i < before.size(); ++i) {
@@ -70,7 +71,7 @@ class Together {
       append(rest[j], all[j]);
       ++j;
     }
-    std::vector<Subject*> undecided;
+    std::vector<ClassifyCandidate*> undecided;
     for (std::size_t i = 0; i < open_.size(); ++i) {
       judge(all[i], *open_[i]);
       const Classification& c = open_[i]->found;
@@ -80,7 +81,7 @@ class Together {
     open_ = std::move(undecided);  // they have come nearer to their orbits by now
     fly();
     if (!open_.empty()) search(go(2L * options_.longest_period, {.sections = true}), true);
-    for (Subject* s : open_) tell_what_settles(*s);
+    for (ClassifyCandidate* s : open_) tell_what_settles(*s);
   }
 
  private:
@@ -96,14 +97,14 @@ class Together {
     how.watch = watch(true);
     std::vector<Trajectory> all;
     std::vector<long> first;
-    for (Subject* s : open_) {
+    for (ClassifyCandidate* s : open_) {
       first.push_back(s->found.end.revolution);
       all.push_back(
           {.system = s->system, .state = std::move(s->found.end), .revolutions = revolutions});
     }
     if (revolutions > 0) integrate_mixed(all, how);
     std::vector<Trajectory> good;
-    std::vector<Subject*> open;
+    std::vector<ClassifyCandidate*> open;
     for (std::size_t i = 0; i < all.size(); ++i) {
       Classification& c = open_[i]->found;
       if (how.measures && all[i].outcome != Outcome::reached_end) {  // as far as it came
@@ -154,11 +155,11 @@ class Together {
     const Eigen::Index size = t.system->size(), all = std::ssize(t.sections) / size;
     const Eigen::Index used = std::min(all, most_dimension);
     const Eigen::Map<const Mat> sections(t.sections.data() + (all - used) * size, size, used);
-    return section_dimension(t.system->state_scale().cwiseInverse().asDiagonal() * sections);
+    return fractal_dimension(t.system->state_scale().cwiseInverse().asDiagonal() * sections);
   }
 
   /// What a motion is by the growth of its tangents and by its sections, which may leave it open.
-  void judge(const Trajectory& t, Subject& s) const {
+  void judge(const Trajectory& t, ClassifyCandidate& s) const {
     Classification& c = s.found;
     c.revolutions = options_.revolutions;
     take_measures(t, c);
@@ -182,7 +183,7 @@ class Together {
   }
 
   /// Finds out when a motion would have settled that has not.
-  void tell_what_settles(Subject& s) const {
+  void tell_what_settles(ClassifyCandidate& s) const {
     Classification& c = s.found;
     if (c.kind != MotionKind::not_settled) return;
     double more = 0.0;
@@ -200,13 +201,13 @@ class Together {
     c.settles_after = c.transient + options_.revolutions + static_cast<long>(std::ceil(more));
   }
 
-  static FreeFlight& flight_of(Subject& s) {
+  static FreeFlight& flight_of(ClassifyCandidate& s) {
     if (!s.flight) s.flight = std::make_shared<FreeFlight>(*s.system);
     return *s.flight;
   }
 
   /// Revolutions after which no contact can happen to a motion without any; 0: never.
-  static long free_after(Subject& s) {
+  static long free_after(ClassifyCandidate& s) {
     FreeFlight& flight = flight_of(s);
     if (!flight.decays()) return 0;
     constexpr double finer = 1.1;
@@ -223,7 +224,7 @@ class Together {
   /// whose transient and multipliers are known.
   void fly() {
     std::vector<OrbitCandidate> free;
-    for (Subject* s : open_) {
+    for (ClassifyCandidate* s : open_) {
       const ContactSystem& system = *s->system;
       if (!system.films().empty()) continue;
       FreeFlight& flight = flight_of(*s);
@@ -287,11 +288,11 @@ class Together {
                        ? MotionKind::equilibrium
                        : MotionKind::periodic;
     }
-    std::erase_if(open_, [](const Subject* s) { return s->found.is_proven; });
+    std::erase_if(open_, [](const ClassifyCandidate* s) { return s->found.is_proven; });
   }
 
   const ClassifyOptions& options_;
-  std::vector<Subject*> open_;
+  std::vector<ClassifyCandidate*> open_;
   long done_ = 0;  ///< revolutions of all motions
 };
 
@@ -303,17 +304,17 @@ double Classification::impacts() const {
   return sum;
 }
 
-void settle(std::span<Subject> motions, const ClassifyOptions& options) {
-  Together(motions, options).settle();
+void settle(std::span<ClassifyCandidate> motions, const ClassifyOptions& options) {
+  BatchClassifier(motions, options).settle();
 }
 
-void average(std::span<Subject> motions, const ClassifyOptions& options) {
-  Together(motions, options).average();
+void average(std::span<ClassifyCandidate> motions, const ClassifyOptions& options) {
+  BatchClassifier(motions, options).average();
 }
 
 Classification classify(const ContactSystem& system, MotionState start,
                         const ClassifyOptions& options) {
-  Subject motion{.system = &system};
+  ClassifyCandidate motion{.system = &system};
   motion.found.end = std::move(start);
   settle({&motion, 1}, options);
   ClassifyOptions rest = options;  // counts on where the transient ended

@@ -77,7 +77,7 @@ struct Classification {
 };
 
 /// A motion to be classified; its end is where it begins.
-struct Subject {
+struct ClassifyCandidate {
   const ContactSystem* system = nullptr;
   Classification found;
   std::shared_ptr<FreeFlight> flight{};  ///< of the system, once it was asked for
@@ -92,7 +92,7 @@ struct Subject {
 ///
 /// @throws NumericalError  if a system has no coordinates
 /// @source [LeineNijmeijer2004] for multipliers of nonsmooth flows
-void settle(std::span<Subject> motions, const ClassifyOptions& options);
+void settle(std::span<ClassifyCandidate> motions, const ClassifyOptions& options);
 
 /// Tells what those motions are that are not proven to be periodic, from averaged exponents.
 ///
@@ -102,7 +102,7 @@ void settle(std::span<Subject> motions, const ClassifyOptions& options);
 /// has a time after which it would have; without contact this follows from the linear rotor.
 ///
 /// @source [Benettin1980] for exponents, [SanderMeiss2020] for means
-void average(std::span<Subject> motions, const ClassifyOptions& options);
+void average(std::span<ClassifyCandidate> motions, const ClassifyOptions& options);
 
 /// Both: what a motion becomes from a start.
 Classification classify(const ContactSystem& system, MotionState start,

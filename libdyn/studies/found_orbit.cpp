@@ -139,8 +139,10 @@ double guessed_period(const Scene& scene, const Vec& start) {
                   most_recurrence));
 }
 
-RotatingOrbit find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& start) {
-  const Cycle cycle = shorten(flow, find_cycle(flow, start, guessed_period(scene, start)));
+RotatingOrbit find_rotating_orbit(const AutonomousFlow& flow, const Scene& scene,
+                                  const Vec& start) {
+  const AutonomousOrbit cycle =
+      shorten(flow, find_autonomous_orbit(flow, start, guessed_period(scene, start)));
   return {cycle, cycle.period / scene.contacts.period()};
 }
 

@@ -11,7 +11,7 @@
 #include "libbase/failure.hpp"
 #include "libbase/field.hpp"
 #include "libdyn/motions/run_result.hpp"
-#include "libdyn/orbits/cycle.hpp"
+#include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
 #include "libdyn/orbits/multiplier_modes.hpp"
 #include "libdyn/system/scene.hpp"
@@ -134,7 +134,7 @@ struct FoundOrbit {
 };
 
 /// An orbit that repeats as seen from the rotor.
-struct RotatingOrbit : Cycle {
+struct RotatingOrbit : AutonomousOrbit {
   double revolutions = 0.0;  ///< of its period
 
   long steps() const;                     ///< of Newton's method
@@ -168,6 +168,6 @@ double guessed_period(const Scene& scene, const Vec& start);
 /// The orbit near a start that repeats as seen from the rotor, after the shortest period it has.
 /// @param flow  of the scene as seen from there
 /// @throws NumericalError  as guessed_period
-RotatingOrbit find_rotating_orbit(const FreeFlow& flow, const Scene& scene, const Vec& start);
+RotatingOrbit find_rotating_orbit(const AutonomousFlow& flow, const Scene& scene, const Vec& start);
 
 }  // namespace whirl::inline dyn

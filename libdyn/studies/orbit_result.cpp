@@ -20,7 +20,7 @@ OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit) {
   return result;
 }
 
-OrbitResult orbit_result(const Scene& scene, const Cycle& cycle) {
+OrbitResult orbit_result(const Scene& scene, const AutonomousOrbit& cycle) {
   OrbitResult result{.multipliers = cycle.multipliers};
   result.period = cycle.period / scene.contacts.period();
   result.residual = cycle.residual;

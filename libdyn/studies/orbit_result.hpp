@@ -40,6 +40,6 @@ struct OrbitResult {
 };
 OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit);
 /// Of an orbit that repeats as seen from the rotor.
-OrbitResult orbit_result(const Scene& scene, const Cycle& cycle);
+OrbitResult orbit_result(const Scene& scene, const AutonomousOrbit& cycle);
 
 }  // namespace whirl::inline dyn

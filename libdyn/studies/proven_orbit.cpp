@@ -89,7 +89,7 @@ void find_orbits(std::vector<OrbitCandidate>& candidates, double tolerance,
   candidates = std::move(found);
 }
 
-bool stands_still(const Subject& s, double tolerance) {
+bool stands_still(const ClassifyCandidate& s, double tolerance) {
   const ContactSystem& system = *s.system;
   if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0)) return false;
   double moved = 0.0;

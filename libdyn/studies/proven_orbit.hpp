@@ -15,10 +15,10 @@ constexpr double largest_attracting = 1.0 - 1e-7;
 
 /// An orbit that is looked for.
 struct OrbitCandidate {
-  Subject* of;      ///< the motion that may approach it
-  int period;       ///< [revolutions]
-  double farthest;  ///< that the orbit may be from the motion's end [length scales]
-  Vec y;            ///< its state at phase 0, at first that of the motion
+  ClassifyCandidate* of;  ///< the motion that may approach it
+  int period;             ///< [revolutions]
+  double farthest;        ///< that the orbit may be from the motion's end [length scales]
+  Vec y;                  ///< its state at phase 0, at first that of the motion
   double residual = std::numeric_limits<double>::infinity();  ///< after its period [length scales]
   std::optional<Vec> exponents{};  ///< once it is found: descending [1/revolution]
   bool is_free = false;            ///< of contact for good, on the way to it and on it
@@ -40,6 +40,6 @@ void find_orbits(std::vector<OrbitCandidate>& candidates, double tolerance,
 
 /// Whether a motion stands still all through a revolution, as none does that is out of balance.
 /// @param tolerance  of a step
-bool stands_still(const Subject& motion, double tolerance);
+bool stands_still(const ClassifyCandidate& motion, double tolerance);
 
 }  // namespace whirl::inline dyn

@@ -39,9 +39,10 @@ StudyMotion begin_motion(const StudyModels& models, std::span<const double> valu
   return motion;
 }
 
-void together(std::span<StudyMotion> motions, const std::function<void(std::span<Subject>)>& f) {
+void together(std::span<StudyMotion> motions,
+              const std::function<void(std::span<ClassifyCandidate>)>& f) {
   std::vector<StudyMotion*> good;
-  std::vector<Subject> subjects;
+  std::vector<ClassifyCandidate> subjects;
   for (StudyMotion& m : motions) {
     if (!m.is_good()) continue;
     good.push_back(&m);
@@ -52,7 +53,7 @@ void together(std::span<StudyMotion> motions, const std::function<void(std::span
 }
 
 void classify_together(std::span<StudyMotion> motions, const ClassifyOptions& options) {
-  together(motions, [&](std::span<Subject> good) {
+  together(motions, [&](std::span<ClassifyCandidate> good) {
     settle(good, options);
     average(good, options);
   });

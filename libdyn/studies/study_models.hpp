@@ -39,7 +39,7 @@ StudyModels study_models(std::function<Model(std::span<const double> values)> mo
 /// A motion at one point of a study.
 struct StudyMotion {
   std::shared_ptr<const Scene> scene{};  ///< null if there is none
-  Subject subject{};
+  ClassifyCandidate subject{};
   Failure failure{};  ///< why there is no scene, or no start
 
   bool is_good() const { return !failure && subject.found.is_good(); }
@@ -51,7 +51,8 @@ StudyMotion begin_motion(const StudyModels& models, std::span<const double> valu
                          const FullState* from = nullptr);
 
 /// Calls f with all good motions together, such as settle and average take them.
-void together(std::span<StudyMotion> motions, const std::function<void(std::span<Subject>)>& f);
+void together(std::span<StudyMotion> motions,
+              const std::function<void(std::span<ClassifyCandidate>)>& f);
 
 /// Classifies all good motions together, in the lanes of one batch.
 void classify_together(std::span<StudyMotion> motions, const ClassifyOptions& options);

@@ -76,7 +76,8 @@ class Chain {
 
 /// Tells settled motions apart and portrays them.
 std::vector<SweepPoint> finish(Settled& piece, const SweepOptions& options) {
-  together(piece.motions, [&](std::span<Subject> good) { average(good, options.classify); });
+  together(piece.motions,
+           [&](std::span<ClassifyCandidate> good) { average(good, options.classify); });
   std::vector<SweepPoint> points;
   for (std::size_t i = 0; i < piece.motions.size(); ++i) {
     const StudyMotion& motion = piece.motions[i];
@@ -160,7 +161,8 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
     for (const std::size_t point : piece) {
       settled.motions.push_back(begin_motion(models, {&options.values[point], 1}));
     }
-    together(settled.motions, [&](std::span<Subject> good) { settle(good, options.classify); });
+    together(settled.motions,
+             [&](std::span<ClassifyCandidate> good) { settle(good, options.classify); });
     settled.ends.resize(piece.size());
     return finish(settled, options);
   };

@@ -72,7 +72,7 @@ struct Hold {
 /// Kinematics and forces of one contact at one instant.
 struct ContactForces {
   Vec2 n = Vec2::Zero();  ///< normal, from the rotor to the stator
-  double r = 0.0;         ///< distance from that centre, infinite of a plane [m]
+  double r = 0.0;         ///< distance from that center, infinite of a plane [m]
   double depth = 0.0;     ///< beyond the surface [m]
   double rate = 0.0;      ///< of the depth [m/s]
   double slip = 0.0;      ///< slip velocity v_t [m/s]

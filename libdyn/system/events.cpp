@@ -161,7 +161,7 @@ std::optional<Event> EventWatcher::first(const Step& step) const {
     for (const EventKind kind : kinds(i, step.contacts)) {
       Polynomial g = polynomial(step, i, kind);
       if (is_level(i, kind)) g.c[1] = 0.0;
-      const auto s = first_fall(g, on_surface(i, kind));
+      const auto s = first_downward_zero(g, on_surface(i, kind));
       if (s && (!earliest || *s < earliest->s)) earliest = Event{*s, i, kind};
     }
   }

@@ -34,7 +34,7 @@ std::string failure_text(const ContactSystem& system, const MotionState& state,
     if (c.turns() && c.place != deepest_place(system, state, c.owner)) continue;
     const ContactForces f = kinematics(c, state.phase, state.y.data(), system.coordinates());
     contacts += fmt::format(
-        "; contact \"{}\" {}, {:.4g} clearances from its centre, slip {:.3g} m/s", c.name,
+        "; contact \"{}\" {}, {:.4g} clearances from its center, slip {:.3g} m/s", c.name,
         words[static_cast<int>(state.contacts[i].touch)], 1.0 + f.depth / c.clearance, f.slip);
   }
   for (const ReducedFilm& film : system.films()) {

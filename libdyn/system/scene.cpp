@@ -26,7 +26,7 @@ void add_rows(std::vector<Vec>& rows, const DofMap& dofs, const Point& at, const
   }
 }
 
-/// Forces can only act on points that are held or have inertia: those of massless freedoms, which
+/// Forces can only act on points that are held or have inertia: those of massless dofs, which
 /// are condensed, would not bend the shaft there.
 void require_inertia(const Assembler& assembler, const System& system, const Station& station,
                      const std::string& what, std::span<const Component> components = lateral) {

@@ -11,7 +11,7 @@ namespace whirl::inline dyn {
 
 struct Scene {
   Assembler assembler;
-  System system;  ///< all freedoms, at the operating speed
+  System system;  ///< all dofs, at the operating speed
   ReducedSystem reduced;
   ReductionError error;  ///< of the reduction
   ContactSystem contacts;
@@ -36,14 +36,14 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
 /// A scene with other laws of its contacts and films, at the same stations and speed.
 Scene with_contacts(const Scene& scene, const Model& model);
 
-/// Motions of all freedoms in coordinates: those nearest in kinetic energy,
+/// Motions of all dofs in coordinates: those nearest in kinetic energy,
 /// eta = (Phi^T M Phi)^-1 Phi^T M q.
 class NearestCoordinates {
  public:
   explicit NearestCoordinates(const Scene& scene);
 
   Vec of(const Vec& q) const { return mass_.solve(weighted_ * q); }
-  /// The matrix that makes them, coordinates x freedoms.
+  /// The matrix that makes them, coordinates x dofs.
   Mat matrix() const { return mass_.solve(weighted_); }
   const DenseLu<Mat>& mass() const { return mass_; }  ///< Phi^T M Phi
 

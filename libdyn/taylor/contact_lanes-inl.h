@@ -15,8 +15,8 @@
 
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/taylor/blade_lanes-inl.h"
+#include "libdyn/taylor/convolution_tail-inl.h"
 #include "libdyn/taylor/law_lanes-inl.h"
-#include "libdyn/taylor/older_terms-inl.h"
 #include "libdyn/taylor/pattern.hpp"
 #include "libdyn/taylor/rub_lanes-inl.h"
 
@@ -219,7 +219,7 @@ struct ContactLanes {
     displacement(x, xk, yk);
     dx[k] = xk;
     dy[k] = yk;
-    OlderTerms<P> older;
+    ConvolutionTail<P> older;
     with_distance ? older.square(dx, dy, r, k) : older.square(dx, dy, k);
     const P half_s = fma(dx[0], xk, older.xx) + fma(dy[0], yk, older.yy);
     s[k] = half_s + half_s;
@@ -296,7 +296,7 @@ struct ContactLanes {
       px = q[0] * dx[0];
       py = q[0] * dy[0];
     } else {
-      OlderTerms<P> older;
+      ConvolutionTail<P> older;
       older.multiply(dx, dy, r, q, k);
       q[k] = select(in_touch, (N[k] - fma(r[k], q[0], older.rq)) * inverse_r, P(0.0));
       px = fma(q[k], dx[0], fma(q[0], dx[k], older.xq));

@@ -48,7 +48,7 @@ class Engine {
     y_.assign(2 * n, P(0.0));
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
-    falls_.resize(contacts_.size());
+    event_masks_.resize(contacts_.size());
     disks_ = disks_of(pattern, contacts_);
     alike_.assign(pattern.alike.size(), 0);
     for (const Pattern::ContactRows& rows : pattern.contacts) {
@@ -60,7 +60,7 @@ class Engine {
       is_analytic_ = false;  // near the wall steps get as short as at a surface
     }
     trajectory_.assign(static_cast<size_t>(lanes_), nullptr);
-    book_.resize(static_cast<size_t>(lanes_));
+    records_.resize(static_cast<size_t>(lanes_));
     if (has_slopes) {
       tangents_ = std::make_unique<Tangents<P>>();
       prepare_tangents();
@@ -95,7 +95,7 @@ class Engine {
 
  private:
   /// What is kept per lane in plain numbers.
-  struct Book {
+  struct LaneRecord {
     long last = 0;  ///< revolution at which it is done
     long revolution = 0;
     long first_revolution = 0;
@@ -113,7 +113,7 @@ class Engine {
   };
 
   /// Lanes in which an event ended the step, by kind.
-  struct Falls {
+  struct EventMask {
     uint64_t distance = 0, force = 0, slip = 0, stick = 0;
     uint64_t any() const { return distance | force | slip | stick; }
     void remove(uint64_t lanes) {
@@ -160,7 +160,7 @@ class Engine {
   HWY_ATTR void watch_slip(size_t i, P& h);
   HWY_ATTR void note_slip(size_t i, uint64_t asked, P& h);
   HWY_ATTR void watch_stick(size_t i, P& h);
-  HWY_ATTR void note(size_t i, uint64_t Falls::*kind, const Mask& fell);
+  HWY_ATTR void note(size_t i, uint64_t EventMask::*kind, const Mask& fell);
   HWY_ATTR void apply_events(uint64_t instant);
   HWY_ATTR void apply_rare_event(int l, size_t i);
   uint64_t joins_sticking(size_t i) const;
@@ -219,12 +219,12 @@ class Engine {
   long watched_steps_ = 0, revolutions_ = 0;  // revolutions done in all lanes
   uint64_t active_ = 0, finished_ = 0;
   std::vector<Trajectory*> trajectory_;
-  std::vector<Book> book_;
+  std::vector<LaneRecord> records_;
 
   // this step
   Mask finite_, bounded_;  // lanes whose series is one of numbers, whose motion is of sane size
   std::vector<P> terms_, load_, influence_, work_;
-  std::vector<Falls> falls_;
+  std::vector<EventMask> event_masks_;
   std::unique_ptr<Tangents<P>> tangents_;
 };
 
@@ -233,15 +233,15 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   const ContactSystem& s = *t.system;
   const uint64_t bit = uint64_t{1} << l;
   trajectory_[static_cast<size_t>(l)] = &t;
-  Book& book = book_[static_cast<size_t>(l)];
-  book = {};
-  book.first_step = steps_;
-  book.revolution = book.first_revolution = t.state.revolution;
-  book.first_phase = t.state.phase;
-  book.last = t.state.revolution + t.revolutions;
-  book.free_since = t.state.revolution;
-  book.certificate_due = t.state.revolution + 1;
-  book.impacts.assign(contacts_.size(), 0.0);
+  LaneRecord& record = records_[static_cast<size_t>(l)];
+  record = {};
+  record.first_step = steps_;
+  record.revolution = record.first_revolution = t.state.revolution;
+  record.first_phase = t.state.phase;
+  record.last = t.state.revolution + t.revolutions;
+  record.free_since = t.state.revolution;
+  record.certificate_due = t.state.revolution + 1;
+  record.impacts.assign(contacts_.size(), 0.0);
   if (t.state.contacts.size() != contacts_.size()) {
     t.state.contacts = s.classify(t.state.phase, t.state.y.data());
   }
@@ -279,7 +279,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
 template <class P>
 HWY_ATTR void Engine<P>::unload(int l) {
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
-  const Book& book = book_[static_cast<size_t>(l)];
+  const LaneRecord& record = records_[static_cast<size_t>(l)];
   t.state = motion_of(l);
   if constexpr (!P::is_double) {
     t.lower_digits.resize(2 * n_);
@@ -287,10 +287,10 @@ HWY_ATTR void Engine<P>::unload(int l) {
       t.lower_digits(i) = lane(y_[static_cast<size_t>(i)] - P(t.state.y(i)), l);
     }
   }
-  const long steps = steps_ - book.first_step;
-  t.cost.steps += steps - book.no_steps;
+  const long steps = steps_ - record.first_step;
+  t.cost.steps += steps - record.no_steps;
   t.cost.evaluations += steps * (N + 1);  // one for each coefficient
-  t.cost.events += book.events;
+  t.cost.events += record.events;
   if (options_.measures) {
     t.contacts.resize(static_cast<size_t>(t.system->owners()));
     for (size_t c = 0; c < contacts_.size(); ++c) {
@@ -300,14 +300,14 @@ HWY_ATTR void Engine<P>::unload(int l) {
       m.name = contact.name;
       m.duty += lane(from.duty, l);
       m.sticking += lane(from.stuck, l);
-      m.impacts += book.impacts[c];
+      m.impacts += record.impacts[c];
       m.max_normal = std::max(m.max_normal, lane(from.max_normal, l));
       m.max_tangential = std::max(m.max_tangential, lane(from.max_friction, l));
     }
   }
   if (has_tangents()) {
-    const double turns = static_cast<double>(book.revolution - book.first_revolution);
-    const double start = book.first_phase / t.system->phase_rate();
+    const double turns = static_cast<double>(record.revolution - record.first_revolution);
+    const double start = record.first_phase / t.system->phase_rate();
     unload_tangents(l, turns * t.system->period() + t.state.phase / t.system->phase_rate() - start,
                     t);
   }
@@ -339,8 +339,8 @@ HWY_ATTR ContactStates Engine<P>::contacts_of(int l) const {
 template <class P>
 HWY_ATTR MotionState Engine<P>::motion_of(int l) const {
   const auto ul = static_cast<size_t>(l);
-  return {book_[ul].revolution, lane(time_, l) * trajectory_[ul]->system->phase_rate(), state_of(l),
-          contacts_of(l)};
+  return {records_[ul].revolution, lane(time_, l) * trajectory_[ul]->system->phase_rate(),
+          state_of(l), contacts_of(l)};
 }
 
 /// Ends a trajectory that cannot go on; its state is the last good one.

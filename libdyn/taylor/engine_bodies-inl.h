@@ -64,7 +64,7 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
   if (c.is_evaluated) c.first_distance();
   accelerate(rate);
   for (int k = 0;; ++k) {
-    OlderTerms<P> older;
+    ConvolutionTail<P> older;
     if (c.is_evaluated) {
       P px, py;
       if (k == 0) {

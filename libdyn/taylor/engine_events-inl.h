@@ -15,17 +15,17 @@ namespace HWY_NAMESPACE {
 
 /// Notes events that are earlier than what was found before in their lanes.
 template <class P>
-HWY_ATTR void Engine<P>::note(size_t i, uint64_t Falls::*kind, const Mask& fell) {
+HWY_ATTR void Engine<P>::note(size_t i, uint64_t EventMask::*kind, const Mask& fell) {
   const uint64_t lanes = bits(time_, fell) & active_;
   if (lanes == 0) return;
-  for (Falls& f : falls_) f.remove(lanes);
-  falls_[i].*kind |= lanes;
+  for (EventMask& f : event_masks_) f.remove(lanes);
+  event_masks_[i].*kind |= lanes;
 }
 
 /// Shortens h to the first event in every lane; returns the lanes with one.
 template <class P>
 HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
-  std::fill(falls_.begin(), falls_.end(), Falls{});
+  std::fill(event_masks_.begin(), event_masks_.end(), EventMask{});
   bool is_far = false;
   for (size_t i = 0; i < contacts_.size(); ++i) {
     ContactLanes<P>& c = contacts_[i];
@@ -40,9 +40,9 @@ HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
     c.s[0] = c.beyond();
     const uint64_t watched = active_ & (~c.touching | c.continuous);
     const P sign = select(mask_of<P>(c.touching | c.receding), P(1.0), P(-1.0));
-    note(i, &Falls::distance,
-         first_fall(c.s, N + 2, sign, c.distance_scale, h, mask_of<P>(watched),
-                    mask_of<P>(c.surface_distance)));
+    note(i, &EventMask::distance,
+         first_downward_zero(c.s, N + 2, sign, c.distance_scale, h, mask_of<P>(watched),
+                             mask_of<P>(c.surface_distance)));
     c.s[0] = s0;
     if (!c.is_evaluated) continue;
     if (((c.touching | c.receding) & active_ & ~c.continuous) != 0) watch_force(i, h);
@@ -50,7 +50,7 @@ HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
     if ((c.leading & active_) != 0) watch_stick(i, h);
   }
   uint64_t fell = 0;
-  for (const Falls& f : falls_) fell |= f.any();
+  for (const EventMask& f : event_masks_) fell |= f.any();
   return fell;
 }
 
@@ -62,7 +62,8 @@ HWY_ATTR bool Engine<P>::is_out_of_reach(const BladeLanes<P>& disk, const P& h) 
   std::copy(disk.square, disk.square + N + 3, beyond);
   beyond[0] = beyond[0] - disk.clearance2;
   const Mask active = mask_of<P>(active_);
-  return !any(h, first_fall(beyond, N + 2, P(-1.0), disk.clearance2, until, active, mask_of<P>(0)));
+  return !any(h, first_downward_zero(beyond, N + 2, P(-1.0), disk.clearance2, until, active,
+                                     mask_of<P>(0)));
 }
 
 /// A damped law lets go where its force vanishes, and grips again where it would push.
@@ -71,9 +72,9 @@ HWY_ATTR void Engine<P>::watch_force(size_t i, P& h) {
   ContactLanes<P>& c = contacts_[i];
   const uint64_t watched = (c.touching | c.receding) & active_ & ~c.continuous;
   const P sign = select(mask_of<P>(c.touching), P(1.0), P(-1.0));
-  note(
-      i, &Falls::force,
-      first_fall(c.N, N, sign, c.force_scale, h, mask_of<P>(watched), mask_of<P>(c.surface_force)));
+  note(i, &EventMask::force,
+       first_downward_zero(c.N, N, sign, c.force_scale, h, mask_of<P>(watched),
+                           mask_of<P>(c.surface_force)));
 }
 
 /// Slip that comes to rest. A bound tells most steps that it cannot:  |d x d'| <= max |d| max |d'|.
@@ -110,8 +111,9 @@ HWY_ATTR void Engine<P>::note_slip(size_t i, uint64_t asked, P& h) {
   ContactLanes<P>& c = contacts_[i];
   P* g = c.slip;
   if (c.level_slip != 0) g[1] = select(mask_of<P>(c.level_slip), P(0.0), g[1]);
-  note(i, &Falls::slip,
-       first_fall(g, N, c.sign, c.slip_scale, h, mask_of<P>(asked), mask_of<P>(c.surface_slip)));
+  note(i, &EventMask::slip,
+       first_downward_zero(g, N, c.sign, c.slip_scale, h, mask_of<P>(asked),
+                           mask_of<P>(c.surface_slip)));
 }
 
 /// Sticking ends where the friction it needs is more than mu N:  (mu q)^2 - tau^2 falls below zero.
@@ -140,8 +142,9 @@ HWY_ATTR void Engine<P>::watch_stick(size_t i, P& h) {
     g[k] = fma(mu2, qq, -tt);
   }
   const P scale = c.force_scale / c.clearance;
-  note(i, &Falls::stick,
-       first_fall(g, N, P(1.0), scale * scale, h, mask_of<P>(c.leading & active_), mask_of<P>(0)));
+  note(i, &EventMask::stick,
+       first_downward_zero(g, N, P(1.0), scale * scale, h, mask_of<P>(c.leading & active_),
+                           mask_of<P>(0)));
 }
 
 template <class P>
@@ -149,7 +152,7 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
   constexpr int most_instant_events = 50;
   for (size_t i = 0; i < contacts_.size(); ++i) {
     ContactLanes<P>& c = contacts_[i];
-    const Falls& f = falls_[i];
+    const EventMask& f = event_masks_[i];
     // touching and parting of continuous laws, in all lanes at once
     uint64_t common = f.distance & c.continuous;
     if (common != 0) {
@@ -178,13 +181,13 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
     for (uint64_t rest = f.any(); rest != 0; rest &= rest - 1) {
       const int l = __builtin_ctzll(rest);
       const uint64_t bit = rest & (~rest + 1);
-      Book& book = book_[static_cast<size_t>(l)];
-      ++book.events;
+      LaneRecord& record = records_[static_cast<size_t>(l)];
+      ++record.events;
       const bool was_touching = ((c.touching ^ (common & bit)) & bit) != 0;
       if (!(common & bit)) apply_rare_event(l, i);
-      if (!was_touching && (c.touching & bit)) book.impacts[i] += 1.0;
-      book.instant_events = instant & bit ? book.instant_events + 1 : 0;
-      if (book.instant_events > most_instant_events) {
+      if (!was_touching && (c.touching & bit)) record.impacts[i] += 1.0;
+      record.instant_events = instant & bit ? record.instant_events + 1 : 0;
+      if (record.instant_events > most_instant_events) {
         fail(l, Outcome::step_too_small, "events follow without time passing");
       }
     }
@@ -208,12 +211,12 @@ template <class P>
 HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   const uint64_t bit = uint64_t{1} << l;
   const Trajectory& t = *trajectory_[static_cast<size_t>(l)];
-  Book& book = book_[static_cast<size_t>(l)];
-  if (!book.watcher) book.watcher = std::make_unique<EventWatcher>(*t.system);
+  LaneRecord& record = records_[static_cast<size_t>(l)];
+  if (!record.watcher) record.watcher = std::make_unique<EventWatcher>(*t.system);
   Vec y = state_of(l);
   ContactStates states = contacts_of(l);
 
-  const Falls& f = falls_[i];
+  const EventMask& f = event_masks_[i];
   EventKind kind = EventKind::touch;
   if (f.distance & bit) {
     kind = states[i].touch == Touch::receding ? EventKind::part
@@ -229,8 +232,8 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   const double phase = lane(rate_ * time_, l);
   const ContactStates before = states;
   t.system->remove_slip(y.data(), before);  // what sticking has gathered must not look like slip
-  book.watcher->moved_on();                 // what it notes now is of this event
-  book.watcher->apply(event, phase, y.data(), states);
+  record.watcher->moved_on();               // what it notes now is of this event
+  record.watcher->apply(event, phase, y.data(), states);
   if constexpr (!P::is_double) {
     // where double cannot tell, it sticks: whether it can, the series of its friction tells at once
     constexpr double undecided = 1e-9;
@@ -249,21 +252,21 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   if constexpr (P::is_double) set_state(l, y);
   ContactLanes<P>& c = contacts_[i];
   c.set_state(states[i], l);
-  const auto starts = [&](EventKind k) { return book.watcher->on_surface(index, k); };
+  const auto starts = [&](EventKind k) { return record.watcher->on_surface(index, k); };
   put(c.surface_distance, bit,
       starts(EventKind::touch) || starts(EventKind::part) ||
           (starts(EventKind::release) && (c.continuous & bit)));
   put(c.surface_force, bit,
       starts(EventKind::retouch) || (starts(EventKind::release) && !(c.continuous & bit)));
   put(c.surface_slip, bit, starts(EventKind::slip_stop));
-  put(c.level_slip, bit, book.watcher->is_level(index, EventKind::slip_stop));
+  put(c.level_slip, bit, record.watcher->is_level(index, EventKind::slip_stop));
   for (size_t j = 0; j < contacts_.size(); ++j) {  // others stick and slip with it
     if (j == i || !t.system->slip_alike(i, j)) continue;
     contacts_[j].set_state(states[j], l);
     const int other = static_cast<int>(j);
-    if (!book.watcher->on_surface(other, EventKind::slip_stop)) continue;
+    if (!record.watcher->on_surface(other, EventKind::slip_stop)) continue;
     contacts_[j].surface_slip |= bit;
-    put(contacts_[j].level_slip, bit, book.watcher->is_level(other, EventKind::slip_stop));
+    put(contacts_[j].level_slip, bit, record.watcher->is_level(other, EventKind::slip_stop));
   }
 }
 

@@ -109,7 +109,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   if (options_.measures) measure(h);
   const uint64_t instant = bits(h, less_equal(h, period_ * P(too_small))) & active_;
   for (uint64_t rest = instant; rest != 0; rest &= rest - 1) {
-    ++book_[static_cast<size_t>(__builtin_ctzll(rest))].no_steps;
+    ++records_[static_cast<size_t>(__builtin_ctzll(rest))].no_steps;
   }
   bool goes_on = true;
   if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
@@ -134,8 +134,8 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
 
   for (uint64_t rest = ends; rest != 0; rest &= rest - 1) {
     const int l = __builtin_ctzll(rest);
-    Book& book = book_[static_cast<size_t>(l)];
-    ++book.revolution;
+    LaneRecord& record = records_[static_cast<size_t>(l)];
+    ++record.revolution;
     ++revolutions_;
     remove_slip(l);
     if (options_.sections) {
@@ -143,7 +143,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
       for (const P& y : y_) sections.push_back(lane(y, l));
     }
     if (P::is_double && !observer && !has_tangents() && films_.empty()) fly_on(l);
-    if (book.revolution >= book.last) finished_ |= uint64_t{1} << l;
+    if (record.revolution >= record.last) finished_ |= uint64_t{1} << l;
   }
   if (has_tangents() && options_.exponents) orthonormalize(due_lanes(ends));
   if (has_tangents() && options_.growths) keep_growths(ends);
@@ -157,27 +157,27 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
 /// 4, ... revolutions without contact.
 template <class P>
 HWY_ATTR void Engine<P>::fly_on(int l) {
-  Book& book = book_[static_cast<size_t>(l)];
+  LaneRecord& record = records_[static_cast<size_t>(l)];
   const uint64_t bit = uint64_t{1} << l;
   uint64_t near = 0;
   for (const ContactLanes<P>& c : contacts_) near |= c.touching | c.receding;
-  if ((near & bit) != 0 || book.events != book.events_before) {
-    book.events_before = book.events;
-    book.free_since = book.revolution;
-    book.certificate_due = book.revolution + 1;
+  if ((near & bit) != 0 || record.events != record.events_before) {
+    record.events_before = record.events;
+    record.free_since = record.revolution;
+    record.certificate_due = record.revolution + 1;
     return;
   }
-  if (book.revolution < book.certificate_due || book.revolution >= book.last) return;
-  book.certificate_due = 2 * book.revolution - book.free_since;
+  if (record.revolution < record.certificate_due || record.revolution >= record.last) return;
+  record.certificate_due = 2 * record.revolution - record.free_since;
   Trajectory& t = *trajectory_[static_cast<size_t>(l)];
-  if (!book.free_flight) book.free_flight = std::make_unique<FreeFlight>(*t.system);
+  if (!record.free_flight) record.free_flight = std::make_unique<FreeFlight>(*t.system);
   MotionState state = motion_of(l);
-  if (!book.free_flight->is_certain(state)) return;
-  while (book.revolution < book.last) {
-    const long to = options_.sections ? book.revolution + 1 : book.last;
-    book.free_flight->finish(state, to);
-    revolutions_ += to - book.revolution;
-    book.revolution = to;
+  if (!record.free_flight->is_certain(state)) return;
+  while (record.revolution < record.last) {
+    const long to = options_.sections ? record.revolution + 1 : record.last;
+    record.free_flight->finish(state, to);
+    revolutions_ += to - record.revolution;
+    record.revolution = to;
     if (options_.sections) t.sections.insert(t.sections.end(), state.y.begin(), state.y.end());
   }
   set_state(l, state.y);
@@ -281,7 +281,7 @@ template <class P>
 HWY_ATTR bool Engine<P>::tell(const Observer& observer, double h) {
   const Trajectory& t = *trajectory_[0];
   Step step;
-  step.revolution = book_[0].revolution;
+  step.revolution = records_[0].revolution;
   step.phase = lane(time_, 0) * t.system->phase_rate();
   step.h = h;
   step.turn = h * t.system->phase_rate();

@@ -314,7 +314,7 @@ HWY_ATTR uint64_t Engine<P>::due_lanes(uint64_t ends) const {
   uint64_t due = ends;
   for (uint64_t rest = active_; rest != 0; rest &= rest - 1) {
     const int l = __builtin_ctzll(rest);
-    if ((steps_ - book_[static_cast<size_t>(l)].first_step) % interval == 0)
+    if ((steps_ - records_[static_cast<size_t>(l)].first_step) % interval == 0)
       due |= uint64_t{1} << l;
   }
   return due;

@@ -50,7 +50,7 @@ HWY_ATTR inline P safe_advance(const P& value, const P& slope, const P& M, const
 
 /// First fall below zero of sign * g on [0, h] in every active lane.
 ///
-/// The same method as first_fall of libbase/polynomial.hpp: with M >= |g''| on [0, h], g(t + u) is
+/// The same method as first_downward_zero of libbase/polynomial.hpp: with M >= |g''| on [0, h], g(t + u) is
 /// at least g + g' u - M u^2 / 2, so t moves by the positive root of that. No root can be jumped.
 ///
 /// @param g           coefficients in time; g[0] counts as zero in lanes of `surface`
@@ -60,9 +60,9 @@ HWY_ATTR inline P safe_advance(const P& value, const P& slope, const P& M, const
 /// @param surface     lanes that start on the surface
 /// @return            lanes with an event
 template <class P>
-HWY_ATTR typename P::Mask first_fall(const P* g, int degree, const P& sign, const P& scale, P& h,
-                                     const typename P::Mask& active,
-                                     const typename P::Mask& surface) {
+HWY_ATTR typename P::Mask first_downward_zero(const P* g, int degree, const P& sign, const P& scale,
+                                              P& h, const typename P::Mask& active,
+                                              const typename P::Mask& surface) {
   using Mask = typename P::Mask;
   const P zero = scale * P(P::rounding), tiny = scale * P(1e-200), nothing(0.0);
   P M = P(degree * (degree - 1.0)) * abs(g[degree]);

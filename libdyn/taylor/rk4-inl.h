@@ -175,7 +175,7 @@ class Rk4Lanes {
     c.displacement(y, dx, dy);
     dx = dx - c.offset_x;
     dy = dy - c.offset_y;
-    P tip_x(0.0), tip_y(0.0);  // of a blade, from the disk's centre
+    P tip_x(0.0), tip_y(0.0);  // of a blade, from the disk's center
     if (c.disk) {
       const P &cosine = c.disk->cosine[0], &sine = c.disk->sine[0];
       tip_x = c.disk->radius * fnma(sine, c.blade_sine, cosine * c.blade_cosine);

@@ -10,7 +10,7 @@ struct HermitianModes {
   CMat q;  ///< n x m, q^H K q = I
 };
 
-/// Dense below 150 freedoms; above, by Lanczos on the real form of twice the size.
+/// Dense below 150 dofs; above, by Lanczos on the real form of twice the size.
 /// @throws NumericalError  if K is not positive definite or Lanczos does not converge
 HermitianModes largest_hermitian(const Sparse& M, const Sparse& G, double g, const Sparse& K,
                                  int count);

@@ -16,7 +16,7 @@ struct QuadraticModes {
 /// and as the oracle in tests.
 ///
 /// The inverse resolves the lowest modes to rounding even where supports of 1e15 N/m or nearly
-/// massless freedoms put others at 1e10 rad/s; velocities are scaled by a typical frequency,
+/// massless dofs put others at 1e10 rad/s; velocities are scaled by a typical frequency,
 /// without which the small real parts drown, and with them the verdict on stability. Infinite
 /// eigenvalues of a singular M are left out.
 ///

@@ -18,7 +18,7 @@ namespace {
 
 using Ldlt = Eigen::SimplicialLDLT<Sparse>;
 
-constexpr int dense_below = 120;       ///< freedoms; dense is as fast there and never misses
+constexpr int dense_below = 120;       ///< dofs; dense is as fast there and never misses
 constexpr double rigid_share = 1e-5;   ///< of the first flexible omega^2: a rigid-body mode
 constexpr double pivot_noise = 1e-12;  ///< of the diagonal: a vanishing pivot
 
@@ -49,7 +49,8 @@ struct ShiftInvert {
 RealModes dense_modes(const Sparse& K, const Sparse& M) {
   const auto modes = symmetric_modes(Mat(K), Mat(M));
   if (!modes) {
-    throw NumericalError("the mass matrix is not positive definite: some freedoms lack inertia");
+    throw NumericalError(
+        "the mass matrix is not positive definite: some degrees of freedom lack inertia");
   }
   return {modes->values, modes->vectors, 0};
 }
@@ -160,7 +161,8 @@ RealModes lowest_real_modes(const Sparse& K, const Sparse& M, int count) {
   const auto n = static_cast<int>(K.rows());
   count = std::min(count, n);
   if ((M.diagonal().array() <= 0.0).any()) {
-    throw NumericalError("the mass matrix is not positive definite: some freedoms lack inertia");
+    throw NumericalError(
+        "the mass matrix is not positive definite: some degrees of freedom lack inertia");
   }
   const bool supported = is_supported(K);
   RealModes modes;

@@ -12,7 +12,7 @@ struct ElementMatrices {
   using Block = Eigen::Matrix<double, N, N>;
   Block M, C, G, K, H;
 
-  /// @param n  number of freedoms, for N = Eigen::Dynamic
+  /// @param n  number of dofs, for N = Eigen::Dynamic
   explicit ElementMatrices(int n = N)
       : M(Block::Zero(n, n)),
         C(Block::Zero(n, n)),

@@ -34,12 +34,11 @@ std::vector<VtkFrame> SceneSource::motion(const MotionSamples& samples, long mos
   if (recorded.normal.size() > 0) normal = recorded.normal, friction = recorded.friction;
   const int freedoms = assembler.uncondensed(0.0).dofs.full_size;
   if (recorded.basis.rows() != freedoms || normal.rows() != contacts) {
-    throw ModelError(
-        {}, "",
-        fmt::format(
-            "the motion is of another rotor ({} freedoms, {} contacts) than the model as set "
-            "({}, {}): leave out --set",
-            recorded.basis.rows(), normal.rows(), freedoms, contacts));
+    throw ModelError({}, "",
+                     fmt::format("the motion is of another rotor ({} degrees of freedom, {} "
+                                 "contacts) than the model as set "
+                                 "({}, {}): leave out --set",
+                                 recorded.basis.rows(), normal.rows(), freedoms, contacts));
   }
   std::vector<VtkFrame> list;
   for (Eigen::Index k = 0; k < frames; ++k) {

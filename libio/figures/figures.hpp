@@ -63,7 +63,7 @@ bool is_in(const FigureKind& kind, const ResultView& result);
 std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result);
 
 /// Lays what `whirl continue` followed over figures of a study: branches over the bifurcation diagram
-/// of a sweep along the same value, borders over maps of the same two values, either way round.
+/// of a sweep along the same value, bifurcation curves over maps of the same two values, either way round.
 ///
 /// @param figures  of one kind of the study; left as they are where the other result does not fit
 /// @param name     of the other result, in a note

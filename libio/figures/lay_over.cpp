@@ -9,7 +9,7 @@
 
 #include "libdyn/studies/map.hpp"
 #include "libdyn/studies/sweep.hpp"
-#include "libio/figures/border_lines.hpp"
+#include "libio/figures/bifurcation_curve_lines.hpp"
 #include "libio/figures/branch_lines.hpp"
 #include "libio/figures/comparison.hpp"
 #include "libio/figures/result_of.hpp"
@@ -102,24 +102,25 @@ std::string branches_over(std::vector<Figure>& figures, const ResultView& study,
   return fmt::format("it has no station of the sweep; it has {}", fmt::join(stations, ", "));
 }
 
-std::string borders_over(std::vector<Figure>& figures, const ResultView& study,
-                         const ResultView& over) {
+std::string bifurcation_curves_over(std::vector<Figure>& figures, const ResultView& study,
+                                    const ResultView& over) {
   if (!over.file.has(dataset_of<CurveResult>(&CurvePlace::second))) {
-    return "expected borders over a map, of whirl continue with two --over";
+    return "expected bifurcation curves over a map, of whirl continue with two --over";
   }
   const std::vector<ShownAxis> axes = shown_axes(study, MapResult::group);
-  if (axes.size() > 2) return "borders go over maps of two values, not of three";
+  if (axes.size() > 2) return "bifurcation curves go over maps of two values, not of three";
   const ShownAxis &x = axes.at(0), &y = axes.at(1);
-  const BorderPoints b(over);
+  const BifurcationCurvePoints b(over);
   const bool is_same = b.first.path == x.path && b.second.path == y.path,
              is_turned = b.first.path == y.path && b.second.path == x.path;
   if (!is_same && !is_turned) {
-    return fmt::format("its borders are in the plane of {} and {}, the map in that of {} and {}",
-                       b.first.path, b.second.path, x.path, y.path);
+    return fmt::format(
+        "its bifurcation curves are in the plane of {} and {}, the map in that of {} and {}",
+        b.first.path, b.second.path, x.path, y.path);
   }
   const ShownAxis &along_x = is_same ? b.first : b.second, &along_y = is_same ? b.second : b.first;
-  const auto curves = border_curves(b, scaled(along_x.values, along_x.factor / x.factor),
-                                    scaled(along_y.values, along_y.factor / y.factor));
+  const auto curves = bifurcation_curve_lines(b, scaled(along_x.values, along_x.factor / x.factor),
+                                              scaled(along_y.values, along_y.factor / y.factor));
   for (Figure& f : figures) {
     for (Curve c : curves) {
       c.is_key = false;  // the map says what is seen
@@ -161,7 +162,7 @@ std::vector<std::string> varied(const ResultView& result) {
 }  // namespace
 
 std::vector<std::string> other_values(const ResultView& study, const ResultView& over) {
-  // what the study varies; of borders their second value is fixed for the branches
+  // what the study varies; of bifurcation curves the second value is fixed for the branches
   const std::vector<std::string> paths = varied(study);
   const FigureTable table = differences(
       {study.file.strings("/model").at(0), over.file.strings("/model").at(0)}, {"a", "b"});
@@ -182,7 +183,7 @@ std::string lay_over(std::vector<Figure>& figures, const ResultView& study, cons
   if (kind == "bifurcation") {
     problem = branches_over(figures, study, over);
   } else if (std::find(maps.begin(), maps.end(), kind) != maps.end()) {
-    problem = borders_over(figures, study, over);
+    problem = bifurcation_curves_over(figures, study, over);
   } else {
     problem = "something is laid over bifurcation, map, exponent_map and regime_map only";
   }
@@ -193,12 +194,12 @@ std::string lay_over(std::vector<Figure>& figures, const ResultView& study, cons
                                "where unstable.",
                                name)
                          : fmt::format(
-                               "Lines: borders of {}, thin where another multiplier is "
+                               "Lines: bifurcation curves of {}, thin where another multiplier is "
                                "outside of the unit circle.",
                                name);
-  const std::string borders = dataset_of<CurveResult>(&CurvePlace::second);
-  if (kind == "bifurcation" && over.file.has(borders)) {
-    const ShownAxis second = shown_axis(over, borders);  // borders begin on the branches
+  const std::string curves = dataset_of<CurveResult>(&CurvePlace::second);
+  if (kind == "bifurcation" && over.file.has(curves)) {
+    const ShownAxis second = shown_axis(over, curves);  // they begin on the branches
     note += fmt::format(" They are at {} = {:.6g}.", second.title, second.values.at(0));
   }
   if (const auto others = other_values(study, over); !others.empty()) {

@@ -77,7 +77,7 @@ BranchParameters branch_parameters(const Model& model, const std::vector<std::st
   if (over.empty() || over.size() > 2) {
     throw ModelError(
         {"--over"}, "",
-        fmt::format("found {} of them, expected one, or two for borders: --over "
+        fmt::format("found {} of them, expected one, or two for bifurcation curves: --over "
                     "PATH=first:last:step, such as --over contact.ring.friction=0:0.15:0.002",
                     over.size()));
   }

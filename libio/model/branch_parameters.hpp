@@ -18,7 +18,7 @@ struct BranchParameter {
   ParameterRange range;
 };
 
-/// The parameter of the branch, the second one of borders, if any, and the model at their values.
+/// The parameter of the branch, the second one of bifurcation curves, if any, and the model at their values.
 struct BranchParameters {
   BranchParameter along;
   std::optional<BranchParameter> across{};

@@ -6,7 +6,7 @@
 
 namespace whirl::inline io {
 
-/// The key `offset`, [x, y] of a circle's centre [m].
+/// The key `offset`, [x, y] of a circle's center [m].
 Vec2 ModelBuilder::center(TableReader& table) {
   const auto offset = table.pair("offset", "m", Range::any, "[x, y]");
   return offset ? Vec2(offset->front(), offset->back()) : Vec2(Vec2::Zero());

@@ -82,11 +82,11 @@ std::string text_of(const BranchResult& result) {
 }
 
 std::string text_of(const CurveResult& result) {
-  if (result.curves.empty()) return "\n  no border: there is no bifurcation to follow\n";
+  if (result.curves.empty()) return "\n  no bifurcation to follow in the plane\n";
   using C = CurveRow;
-  return "\n  borders in the plane of both parameters\n\n" +
+  return "\n  bifurcation curves in the plane of both parameters\n\n" +
          table_of(result.curves,
-                  {{"border", [](const C& c) { return bifurcation_text(c.kind, c.contact); }},
+                  {{"bifurcation", [](const C& c) { return bifurcation_text(c.kind, c.contact); }},
                    shown("branch").as("of branch"),
                    {"points", [](const C& c) { return std::to_string(c.points.rows()); }},
                    {label_of(result.first), [](const C& c) { return curve_range(c.points, 0); }},

@@ -35,11 +35,12 @@ std::string contacts_table(const std::vector<ContactMeasure>& contacts, long rev
 
 std::string reduction_text(const Scene& scene, const Model& model) {
   if (scene.reduced.size() == scene.system.size()) {
-    return fmt::format("  {} freedoms, not reduced\n", scene.system.size());
+    return fmt::format("  {} degrees of freedom, not reduced\n", scene.system.size());
   }
   const ReductionError& e = scene.error;
   std::string text = fmt::format(
-      "  {} of {} freedoms; up to {:.0f} rpm eigenvalues are {:.2g} % off, contact receptances "
+      "  {} of {} degrees of freedom; up to {:.0f} rpm eigenvalues are {:.2g} % off, contact "
+      "receptances "
       "{:.2g} %\n",
       scene.reduced.size(), scene.system.size(), e.band / rpm, 100.0 * e.eigenvalue(),
       100.0 * e.receptance);

@@ -53,10 +53,11 @@ TEST(Polynomial, AndItsSlopeAreThoseOfItsCoefficients) {
 
 TEST(FirstFall, FindsASimpleRoot) {
   for (const double a : places) {
-    const auto s = first_fall(falls_at(a), false);
+    const auto s = first_downward_zero(falls_at(a), false);
     ASSERT_TRUE(s) << a;
     EXPECT_NEAR(*s, a, at_simple_root);
-    const auto curved = first_fall(product(falls_at(a), polynomial({1.0, -0.3, 2.0, 0.5})), false);
+    const auto curved =
+        first_downward_zero(product(falls_at(a), polynomial({1.0, -0.3, 2.0, 0.5})), false);
     ASSERT_TRUE(curved) << a;
     EXPECT_NEAR(*curved, a, at_simple_root);
   }
@@ -65,7 +66,7 @@ TEST(FirstFall, FindsASimpleRoot) {
 TEST(FirstFall, FindsTheFirstOfTwoRootsHoweverNear) {
   for (const double a : {0.1, 0.5, 0.77}) {
     for (const double distance : {0.2, 1e-2, 1e-4, 1e-6}) {
-      const auto s = first_fall(product(falls_at(a), falls_at(a + distance)), false);
+      const auto s = first_downward_zero(product(falls_at(a), falls_at(a + distance)), false);
       ASSERT_TRUE(s) << a << " " << distance;
       // g = 1e-15 is reached 1e-15 / distance before the root
       EXPECT_NEAR(*s, a, 2e-15 / distance + at_simple_root);
@@ -75,7 +76,7 @@ TEST(FirstFall, FindsTheFirstOfTwoRootsHoweverNear) {
 
 TEST(FirstFall, DoesNotJumpOverADoubleRoot) {
   for (const double a : {0.1, 1.0 / 3.0, 0.5, 0.77}) {
-    const auto s = first_fall(product(falls_at(a), falls_at(a)), false);
+    const auto s = first_downward_zero(product(falls_at(a), falls_at(a)), false);
     ASSERT_TRUE(s) << a;
     EXPECT_NEAR(*s, a, at_double_root);
   }
@@ -83,18 +84,19 @@ TEST(FirstFall, DoesNotJumpOverADoubleRoot) {
 
 TEST(FirstFall, FindsATripleRoot) {
   for (const double a : {0.1, 1.0 / 3.0, 0.5, 0.77}) {
-    const auto s = first_fall(product(falls_at(a), product(falls_at(a), falls_at(a))), false);
+    const auto s =
+        first_downward_zero(product(falls_at(a), product(falls_at(a), falls_at(a))), false);
     ASSERT_TRUE(s) << a;
     EXPECT_NEAR(*s, a, at_triple_root);
   }
 }
 
 TEST(FirstFall, FindsNothingWhereThereIsNoRoot) {
-  EXPECT_FALSE(first_fall(polynomial({1.0}), false));
-  EXPECT_FALSE(first_fall(polynomial({1.0, 0.0, 0.0}), false));  // a rotor at rest
-  EXPECT_FALSE(first_fall(polynomial({1.0, -0.999}), false));
-  EXPECT_FALSE(first_fall(polynomial({0.26, -1.0, 1.0}), false));  // (s - 1/2)^2 + 0.01
-  EXPECT_FALSE(first_fall(falls_at(1.0 + 1e-9), false));
+  EXPECT_FALSE(first_downward_zero(polynomial({1.0}), false));
+  EXPECT_FALSE(first_downward_zero(polynomial({1.0, 0.0, 0.0}), false));  // a rotor at rest
+  EXPECT_FALSE(first_downward_zero(polynomial({1.0, -0.999}), false));
+  EXPECT_FALSE(first_downward_zero(polynomial({0.26, -1.0, 1.0}), false));  // (s - 1/2)^2 + 0.01
+  EXPECT_FALSE(first_downward_zero(falls_at(1.0 + 1e-9), false));
 }
 
 // ---- grazes -------------------------------------------------------------------------------------
@@ -109,13 +111,13 @@ TEST(FirstFall, FindsGrazesAndPassesNearMisses) {
       g.c[0] -= depth;
       if (g.c[0] > 0.0) {
         const double dip = a - std::sqrt(depth / (b * (1.0 + a * a * a)));
-        const auto s = first_fall(g, false);
+        const auto s = first_downward_zero(g, false);
         ASSERT_TRUE(s) << a << " " << b;
         EXPECT_NEAR(*s, dip, 0.1 * (a - dip))
             << b;  // rounding of the depth by 1e-14 moves it by 5 %
       }
       g.c[0] += 2.0 * depth;
-      EXPECT_FALSE(first_fall(g, false)) << a << " " << b;
+      EXPECT_FALSE(first_downward_zero(g, false)) << a << " " << b;
     }
   }
 }
@@ -124,12 +126,12 @@ TEST(FirstFall, FindsGrazesAndPassesNearMisses) {
 
 TEST(FirstFall, OfARiseFromTheSurfaceIsTheNextOne) {
   for (const double noise : {0.0, 1e-15, -1e-15, 1e-12, -1e-12}) {  // c_0 is what rounding left
-    EXPECT_FALSE(first_fall(polynomial({noise, 1.0}), true));
-    EXPECT_FALSE(first_fall(polynomial({noise, 1.0, -0.999}), true));
-    const auto s = first_fall(polynomial({noise, 1.0, -2.0}), true);  // s (1 - 2 s)
+    EXPECT_FALSE(first_downward_zero(polynomial({noise, 1.0}), true));
+    EXPECT_FALSE(first_downward_zero(polynomial({noise, 1.0, -0.999}), true));
+    const auto s = first_downward_zero(polynomial({noise, 1.0, -2.0}), true);  // s (1 - 2 s)
     ASSERT_TRUE(s);
     EXPECT_NEAR(*s, 0.5, at_simple_root);
-    const auto slow = first_fall(polynomial({noise, 1e-7, -2e-7}), true);
+    const auto slow = first_downward_zero(polynomial({noise, 1e-7, -2e-7}), true);
     ASSERT_TRUE(slow);
     EXPECT_NEAR(*slow, 0.5, at_simple_root / 1e-7);  // 1e-15 of a smaller function
   }
@@ -137,28 +139,28 @@ TEST(FirstFall, OfARiseFromTheSurfaceIsTheNextOne) {
 
 TEST(FirstFall, OfAFallFromTheSurfaceIsAtTheStart) {
   for (const double noise : {0.0, 1e-15, -1e-15, 1e-12, -1e-12}) {
-    EXPECT_EQ(first_fall(polynomial({noise, -1.0, 3.0}), true), 0.0);
+    EXPECT_EQ(first_downward_zero(polynomial({noise, -1.0, 3.0}), true), 0.0);
   }
 }
 
 // Without a slope the bend decides, as where sticking ends and the slip begins with zero rate.
 TEST(FirstFall, OfAFlatStartIsDecidedByTheBend) {
   for (const double slope : {0.0, 1e-13, -1e-13}) {  // rounding of interpolated coefficients
-    EXPECT_FALSE(first_fall(polynomial({0.0, slope, 1.0}), true)) << slope;
-    EXPECT_EQ(first_fall(polynomial({0.0, slope, -1.0}), true), 0.0) << slope;
-    const auto s = first_fall(polynomial({0.0, slope, 1.0, -4.0}), true);  // s^2 (1 - 4 s)
+    EXPECT_FALSE(first_downward_zero(polynomial({0.0, slope, 1.0}), true)) << slope;
+    EXPECT_EQ(first_downward_zero(polynomial({0.0, slope, -1.0}), true), 0.0) << slope;
+    const auto s = first_downward_zero(polynomial({0.0, slope, 1.0, -4.0}), true);  // s^2 (1 - 4 s)
     ASSERT_TRUE(s) << slope;
     EXPECT_NEAR(*s, 0.25, 1e-11);  // moved by the slope
   }
-  EXPECT_FALSE(first_fall(polynomial({0.0, 0.0, 0.0}), true));  // stays on the surface
+  EXPECT_FALSE(first_downward_zero(polynomial({0.0, 0.0, 0.0}), true));  // stays on the surface
 }
 
 // A start that nobody has flagged, zero up to rounding, is a start on the surface; below is an
 // event.
 TEST(FirstFall, OfAZeroStartNeedsNoFlag) {
-  EXPECT_FALSE(first_fall(polynomial({5e-16, 1.0}), false));
-  EXPECT_EQ(first_fall(polynomial({5e-16, -1.0}), false), 0.0);
-  EXPECT_EQ(first_fall(polynomial({-1e-3, 1.0}), false), 0.0);
+  EXPECT_FALSE(first_downward_zero(polynomial({5e-16, 1.0}), false));
+  EXPECT_EQ(first_downward_zero(polynomial({5e-16, -1.0}), false), 0.0);
+  EXPECT_EQ(first_downward_zero(polynomial({-1e-3, 1.0}), false), 0.0);
 }
 
 // 1.1 + T_8(2 s - 1) stays above 0.1; 0.9 + T_8 first falls where cos(8 phi) = -0.9,
@@ -167,9 +169,9 @@ TEST(FirstFall, OfAFunctionThatWaversIsNeitherMissedNorInvented) {
   Polynomial wavering =
       polynomial({1.0, -128.0, 2688.0, -21504.0, 84480.0, -180224.0, 212992.0, -131072.0, 32768.0});
   wavering.c[0] += 1.1;
-  EXPECT_FALSE(first_fall(wavering, false));
+  EXPECT_FALSE(first_downward_zero(wavering, false));
   wavering.c[0] -= 0.2;
-  const auto s = first_fall(wavering, false);
+  const auto s = first_downward_zero(wavering, false);
   ASSERT_TRUE(s);
   EXPECT_NEAR(*s, 0.5 * (1.0 - std::cos(std::acos(-0.9) / 8.0)), at_simple_root);
 }
@@ -209,7 +211,7 @@ TEST(FirstFall, OfRandomPolynomialsIsThatOfBruteForce) {
     g.c[0] = std::abs(normal(random));
     const double expected = brute_force(g);
     if (expected == -2.0) continue;
-    const auto s = first_fall(g, false);
+    const auto s = first_downward_zero(g, false);
     if (expected < 0.0) {
       EXPECT_FALSE(s) << trial;
       ++without;

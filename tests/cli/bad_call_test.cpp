@@ -301,7 +301,7 @@ TEST_F(BadCall, AStartNeedsAMotionThatFits) {
       has(problem({"simulate", "rotor.toml", "--speed", "100rad/s", "--from", "run.h5", "--set",
                    "body.rotor.tilts=true", "--set", "body.rotor.diametral_inertia=1", "--set",
                    "bearing.shaft.tilt_stiffness=1"}),
-          "the result has 2 freedoms, the model 4: they do not fit"));
+          "the result has 2 degrees of freedom, the model 4: they do not fit"));
 }
 
 }  // namespace bad_call_test

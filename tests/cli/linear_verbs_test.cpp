@@ -10,7 +10,7 @@ namespace linear_verbs_test {
 
 constexpr double m = 2.0, k = 2e4, c = 4.0, e = 1e-4, g = 9.81;  // of `jeffcott`
 constexpr double omega = 100.0, zeta = 0.01;
-constexpr double rounding = 1e-9;  // relative, of solvers on two freedoms
+constexpr double rounding = 1e-9;  // relative, of solvers on two dofs
 
 class Linear : public Program {
  protected:
@@ -70,7 +70,7 @@ stiffness = 1e6
   EXPECT_NEAR(r["center_of_mass_m"], (shaft * 0.3 + 5.0 * 0.15) / (shaft + 5.0), 1e-12);
   EXPECT_NEAR(r["polar_inertia_kg_m2"], shaft * 0.02 * 0.02 / 8.0 + 0.06, 1e-12);
 
-  // without mass only the disk's freedoms are left
+  // without mass only the disk's dofs are left
   r = result({"check", "shaft.toml", "--set", "material.steel.density=0"});
   EXPECT_NEAR(r["mass_kg"], 5.0, 1e-12);
   EXPECT_EQ(r["dofs"], 50);

@@ -250,7 +250,7 @@ TEST_F(Plot, BordersLieInThePlaneOfTheMap) {
   }
   map({friction, "contact.ring.clearance=4,5mm"}, "other.h5");
   EXPECT_TRUE(has(whirl({"plot", "other.h5", "map", "--with", "b.h5"}).err,
-                  "its borders are in the plane of contact.ring.friction and "
+                  "its bifurcation curves are in the plane of contact.ring.friction and "
                   "contact.ring.stiffness, the map in that of contact.ring.friction and "
                   "contact.ring.clearance"));
 }

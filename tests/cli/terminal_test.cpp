@@ -53,7 +53,7 @@ TEST_F(Terminal, NoLineIsWiderThanIt) {
   }
 }
 
-// The same calls with further verbs on one model of few freedoms.
+// The same calls with further verbs on one model of few dofs.
 TEST_F(Terminal, NeitherOfStudies) {
   write("rub.toml", rubbing);
   for (const std::string& verb : model_verbs) {

@@ -67,7 +67,7 @@ TEST(Classify, IsTheSameAloneAndTogether) {
     starts.push_back(test::start_of(p.model(), scenes.back()));
   }
   const ClassifyOptions options{.discard = 150, .revolutions = 40, .sections = 8};
-  std::vector<Subject> together;
+  std::vector<ClassifyCandidate> together;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     together.push_back({.system = &scenes[i].contacts});
     together.back().found.end = starts[i];

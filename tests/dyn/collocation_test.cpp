@@ -235,7 +235,7 @@ TEST(Collocation, RollsWithoutSlip) {
 
 // ---- stiff models -------------------------------------------------------------------------------
 
-/// The two-disk rotor of models/two_disk_mac.toml: 12 elements, 52 freedoms.
+/// The two-disk rotor of models/two_disk_mac.toml: 12 elements, 52 dofs.
 Model two_disk_rotor(Reduction reduction) {
   Model m;
   m.speed = 4430.0 * test::rpm;

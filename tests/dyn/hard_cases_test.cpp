@@ -104,7 +104,7 @@ TEST_P(HardCase, ChatterComesToRest) {
 
 // A free mass crosses the ring along a diameter, v0 everywhere within: each contact is half a
 // period of the mass on the contact's spring, pi / w, and each crossing takes 2 gap / v0. With v0
-// such that both last t / n together, it passes the centre after n contacts with v0 again, however
+// such that both last t / n together, it passes the center after n contacts with v0 again, however
 // stiff the ring. The largest force is v0 w m.
 TEST_P(HardCase, StiffContactsKeepTheClosedFormOfABounce) {
   constexpr int contacts = 12;

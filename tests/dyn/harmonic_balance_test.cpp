@@ -363,7 +363,7 @@ TEST(HarmonicBalance, OfEveryContactConvergesToShooting) {
   }
 }
 
-// All 52 freedoms of a shaft, the fastest at 4.5e5 rad/s, that rubs: the unknowns are the contact's
+// All 52 dofs of a shaft, the fastest at 4.5e5 rad/s, that rubs: the unknowns are the contact's
 // alone, and the orbit is that of 16 modes to what these leave out.
 TEST(HarmonicBalance, OfAnUnreducedRotorCostsWhatItsContactsDo) {
   const auto rotor = [](int modes) {

@@ -15,7 +15,7 @@ namespace whirl::identify_test {
 using test::rpm;
 using test::TwoDiskRub;
 
-/// All freedoms, so that modes are motions of the scene exactly.
+/// All dofs, so that modes are motions of the scene exactly.
 Model two_disks() {
   return TwoDiskRub{.speed = 4430.0 * rpm, .modes = 0}.model();
 }

@@ -46,7 +46,7 @@ double V(double u) {
   return (2.0 + u * 2.0 / root * std::atan2(root, -u)) / Q;
 }
 
-// Without spin and weight a journal thrown from the centre is stopped by the oil alone:
+// Without spin and weight a journal thrown from the center is stopped by the oil alone:
 //
 //   m C e'' = -2 s e' V'(e)   =>   m C e' = m C v - 2 s (V(e) - V(0))
 //
@@ -143,7 +143,7 @@ TEST(OilFilm, SaysThatItCarriesNothingWithoutSpin) {
   }
 }
 
-// At rest in the centre the squeeze is zero and the film has no Taylor series.
+// At rest in the center the squeeze is zero and the film has no Taylor series.
 TEST(OilFilm, CanStartAtRestInTheCentre) {
   const MassOnFilm rotor{.U = 2e-5};
   const Scene scene = rotor.scene();

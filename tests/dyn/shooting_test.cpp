@@ -123,8 +123,8 @@ TEST(Shooting, SaysWhyThereIsNoOrbit) {
   const PeriodicOrbit none = find_orbit(free, (Vec(2) << 0.0, 0.4).finished(), {});
   EXPECT_FALSE(none.is_good());
   EXPECT_TRUE(none.failure.text().find("multiplier is one") != std::string::npos) << none.failure;
-  flow.go = [](std::span<const Vec>, long, Tangents) {
-    return std::vector<Passage>{{.failure = "lost"}};
+  flow.go = [](std::span<const Vec>, long, WithTangent) {
+    return std::vector<FlowResult>{{.failure = "lost"}};
   };
   EXPECT_EQ(find_orbit(flow, Vec(Vec::Zero(2)), {}).failure, "lost");
 }

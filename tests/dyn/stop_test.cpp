@@ -10,7 +10,7 @@
 #include <string>
 
 #include "libbase/dense.hpp"
-#include "libdyn/branches/border.hpp"
+#include "libdyn/branches/bifurcation_curve.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/system/contact_measures.hpp"
@@ -294,7 +294,7 @@ TEST(Stop, HasTheTangentsOfDifferences) {
     MotionState state = test::state_of(Vec2(1e-3, 2e-3), Vec2(0.03, -0.02));
     ASSERT_EQ(test::run(scene, state, 3).outcome, Outcome::reached_end);
     const Mat expected = tangent_by_differences(scene, state.y);
-    const auto passages = flow_of(scene.contacts).go(std::vector{state.y}, 1, Tangents::yes);
+    const auto passages = flow_of(scene.contacts).go(std::vector{state.y}, 1, WithTangent::yes);
     ASSERT_FALSE(passages[0].failure) << passages[0].failure;
     ASSERT_GE(passages[0].contacts.at(0).impacts, 1.0);
     const Vec scale = scene.contacts.state_scale();

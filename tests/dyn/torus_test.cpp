@@ -36,10 +36,10 @@ Flow delayed_logistic(double a) {
 
 Mat sections(const Flow& flow, const Vec& start, int discard, int count) {
   Mat all(start.size(), count);
-  Vec y = flow.go({&start, 1}, discard, Tangents::no)[0].end;
+  Vec y = flow.go({&start, 1}, discard, WithTangent::no)[0].end;
   for (int i = 0; i < count; ++i) {
     all.col(i) = y;
-    y = flow.go({&y, 1}, 1, Tangents::no)[0].end;
+    y = flow.go({&y, 1}, 1, WithTangent::no)[0].end;
   }
   return all;
 }

@@ -23,7 +23,7 @@ constexpr double degree = test::pi / 180.0;
 
 // ---- linear -------------------------------------------------------------------------------------
 
-/// Frequency of a mode of all 52 freedoms, numbered from 1 [rpm].
+/// Frequency of a mode of all 52 dofs, numbered from 1 [rpm].
 double frequency_of_mode(double speed, int number, Whirl whirl) {
   const Scene scene = TwoDiskRub{.speed = speed * rpm, .contact_nodes = {}}.scene();
   const Mode mode =

@@ -57,7 +57,7 @@ double largest(const Mat& A) {
   return A.cwiseAbs().maxCoeff();
 }
 
-/// 4 x 4 blocks of the planes (x, theta_y) and (y, -theta_x) at their places among the freedoms.
+/// 4 x 4 blocks of the planes (x, theta_y) and (y, -theta_x) at their places among the dofs.
 Block in_planes(const Eigen::Matrix4d& xx, const Eigen::Matrix4d& xy) {
   const int place[2][4] = {{0, 3, 4, 7}, {1, 2, 5, 6}};
   const double sign[2][4] = {{1, 1, 1, 1}, {1, -1, 1, -1}};

@@ -15,7 +15,7 @@ namespace whirl::critical_map_test {
 
 using test::at;
 
-constexpr double solves = 1e-9;  // relative; an eigenvalue of some dozen freedoms
+constexpr double solves = 1e-9;  // relative; an eigenvalue of some dozen dofs
 
 /// A shaft with two disks on bearings that differ from each other and between x and y.
 Structure unequal() {

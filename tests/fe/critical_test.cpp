@@ -109,7 +109,7 @@ TEST(CriticalSpeeds, DampedOnesOfAJeffcottRotorAreTheClosedForm) {
 
 // At a critical speed a mode of the rotor that spins with it has its frequency and its shape.
 TEST(CriticalSpeeds, AreFrequenciesOfTheRotorThatSpinsWithThem) {
-  constexpr double eigensolvers = 1e-8;  // relative; Arnoldi to 1e-11 in hundreds of freedoms
+  constexpr double eigensolvers = 1e-8;  // relative; Arnoldi to 1e-11 in hundreds of dofs
   std::mt19937 random(8);
   for (int draw = 0; draw < 6; ++draw) {
     SCOPED_TRACE("draw " + std::to_string(draw));

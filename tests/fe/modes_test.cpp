@@ -19,7 +19,7 @@ using test::at;
 using test::pi;
 
 constexpr Complex I(0.0, 1.0);
-constexpr double rounding = 1e-10;  // relative; eigenvalues of a few freedoms
+constexpr double rounding = 1e-10;  // relative; eigenvalues of a few dofs
 
 /// A mass on a bearing of its own.
 Structure block(double m, const BearingCoefficients& c) {

@@ -221,7 +221,7 @@ TEST(QuadraticModes, TinyDampingKeepsItsSignInTwoThousandStates) {
   }
 }
 
-// Overdamped freedoms beside oscillating ones: bearings of 1e6 N.s/m creep.
+// Overdamped dofs beside oscillating ones: bearings of 1e6 N.s/m creep.
 TEST(QuadraticModes, RealEigenvaluesAreFoundAmongThePairs) {
   const System s = assemble(test::two_disk(test::isotropic(1e6, 1e6), 4), 400.0);
   const QuadraticModes modes = QuadraticSolver(s.M, s.K, 0.0).lowest(s.D(), 6);

@@ -136,7 +136,7 @@ TEST(Reduce, StaticShapesMakeTheDeflectionOfThePortsExact) {
   }
 }
 
-// "none" keeps every freedom, and so does any method with as many modes as freedoms.
+// "none" keeps every freedom, and so does any method with as many modes as dofs.
 TEST(Reduce, NoneIsTheSystemItself) {
   const System s = assemble(test::two_disk(test::isotropic(1e6, 500.0)), 300.0);
   ReductionError error;
@@ -151,7 +151,7 @@ TEST(Reduce, NoneIsTheSystemItself) {
   EXPECT_EQ(reduce(s, {.method = ReductionMethod::modal, .modes = 100}, {}, {}).size(), s.size());
 }
 
-// Up to 12 freedoms are not worth reducing.
+// Up to 12 dofs are not worth reducing.
 TEST(Reduce, AutomaticKeepsSmallSystemsWhole) {
   const System small = assemble(test::Jeffcott{}.structure(), 100.0);
   EXPECT_EQ(reduce(small, {}, {}, {}).Phi, Mat(Mat::Identity(2, 2)));

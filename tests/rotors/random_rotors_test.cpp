@@ -33,7 +33,7 @@ constexpr double same = 1e-6;       // relative; QZ's eigenvalue, polished, and 
 constexpr double border = 1e-4;  // relative; nearer to the end of a list it may be on either side
 constexpr double moved = 1e-2;   // relative; farther away Newton has found another one
 constexpr int modes_asked = 8;
-constexpr int large = 120;     // freedoms; QZ of more takes seconds, every tenth is compared
+constexpr int large = 120;     // dofs; QZ of more takes seconds, every tenth is compared
 constexpr double slow = 2.0;   // seconds of a processor that are worth a line
 constexpr double slope = 5.0;  // |Re| / Im of what oscillates, docs/conventions.md
 
@@ -115,8 +115,8 @@ void study(unsigned seed, const Seeds& how, Figures& figures) {
     figures.seconds[name] += taken;
     figures.slowest[name] = std::max(figures.slowest[name], taken);
     if (how.is_all && taken > slow) {
-      fmt::print("seed {}, {} freedoms, {}: {:.1f} s\n", seed, assembler.at(0.0).size(), name,
-                 taken);
+      fmt::print("seed {}, {} degrees of freedom, {}: {:.1f} s\n", seed, assembler.at(0.0).size(),
+                 name, taken);
       std::fflush(stdout);
     }
     if (failure.empty()) return;
@@ -154,7 +154,8 @@ void study(unsigned seed, const Seeds& how, Figures& figures) {
   timed("qz", [&] {
     for (const Complex lambda : missing_modes(system, modes)) {
       ++figures.missing;
-      ADD_FAILURE() << "seed " << seed << ", " << system.size() << " freedoms: missing " << lambda;
+      ADD_FAILURE() << "seed " << seed << ", " << system.size() << " degrees of freedom: missing "
+                    << lambda;
     }
   });
 }

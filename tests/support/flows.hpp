@@ -61,10 +61,10 @@ inline void move_on(const Equation& equation, double t, double duration, int ste
 
 /// The flow over periods of an equation that is driven with this period.
 inline Flow flow_of(const Equation& equation, int size, double period, int steps = 40) {
-  return {Vec::Ones(size), period, [=](std::span<const Vec> starts, long revolutions, Tangents) {
-            std::vector<Passage> all;
+  return {Vec::Ones(size), period, [=](std::span<const Vec> starts, long revolutions, WithTangent) {
+            std::vector<FlowResult> all;
             for (const Vec& start : starts) {
-              Passage p{start, Mat::Identity(size, size), {}, {}};
+              FlowResult p{start, Mat::Identity(size, size), {}, {}};
               for (long r = 0; r < revolutions; ++r) {
                 move_on(equation, 0.0, period, steps, p.end, p.tangent);
               }
@@ -90,10 +90,10 @@ struct Duffing {
 
 /// A map y -> f(y) as a flow.
 inline Flow map_flow(int size, std::function<void(const Vec& y, Vec& f, Mat& J)> f) {
-  return {Vec::Ones(size), 1.0, [=](std::span<const Vec> starts, long n, Tangents) {
-            std::vector<Passage> all;
+  return {Vec::Ones(size), 1.0, [=](std::span<const Vec> starts, long n, WithTangent) {
+            std::vector<FlowResult> all;
             for (const Vec& start : starts) {
-              Passage p{start, Mat::Identity(size, size), {}, {}};
+              FlowResult p{start, Mat::Identity(size, size), {}, {}};
               Vec next(size);
               Mat J(size, size);
               for (long i = 0; i < n; ++i) {

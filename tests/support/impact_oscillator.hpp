@@ -16,8 +16,8 @@ struct ImpactOscillator {
 
   /// From one period to the next: the solution between impacts is known, impacts are where x = d.
   Flow flow() const {
-    return {Vec::Ones(2), period(), [p = *this](std::span<const Vec> starts, long n, Tangents) {
-              std::vector<Passage> all;
+    return {Vec::Ones(2), period(), [p = *this](std::span<const Vec> starts, long n, WithTangent) {
+              std::vector<FlowResult> all;
               for (const Vec& start : starts) all.push_back(p.pass(start, n));
               return all;
             }};
@@ -50,8 +50,8 @@ struct ImpactOscillator {
  private:
   static Mat turn(double t) { return Mat{{std::cos(t), std::sin(t)}, {-std::sin(t), std::cos(t)}}; }
 
-  Passage pass(const Vec& start, long n) const {
-    Passage p{start, Mat::Identity(2, 2), {{.name = "wall"}}, {}};
+  FlowResult pass(const Vec& start, long n) const {
+    FlowResult p{start, Mat::Identity(2, 2), {{.name = "wall"}}, {}};
     const double T = period(), h = T / 256.0;
     const double end = T * static_cast<double>(n);
     double t = 0.0;

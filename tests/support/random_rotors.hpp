@@ -13,7 +13,7 @@ struct Wording {
 
 struct RotorDraw {
   unsigned seed = 1;
-  int most_elements = 99;  ///< of the shaft; it has 4 freedoms per node
+  int most_elements = 99;  ///< of the shaft; it has 4 dofs per node
 };
 
 /// A model with a stepped shaft of one to 99 elements, disks, two or three bearings, now and then

@@ -40,7 +40,7 @@ struct RotorStator {
   double R = 0.1;                   ///< of the contact, for the slip velocity [m]
   double slip_tolerance = 0.0;      ///< [m/s]
   Slip slip = Slip::actual;
-  Vec2 offset = Vec2::Zero();  ///< centre of the clearance circle [m]
+  Vec2 offset = Vec2::Zero();  ///< center of the clearance circle [m]
 
   Model model() const {
     Model m;
@@ -102,7 +102,7 @@ struct MassInRing {
 };
 
 /// Shaft with two disks of "Nonlinear rotordynamics of a MDOF rotor-stator contact system subjected
-/// to frictional and gravitational effects": 12 elements, 52 freedoms, disks at nodes 4 and 9, out
+/// to frictional and gravitational effects": 12 elements, 52 dofs, disks at nodes 4 and 9, out
 /// of balance at node 4, bearings at nodes 1 and 13; the contact "ring" at node 7.
 struct TwoDiskRub {
   double speed = 4430.0 * rpm;        ///< [rad/s]

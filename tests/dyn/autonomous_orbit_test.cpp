@@ -1,6 +1,6 @@
 // Closed motions of unknown period: van der Pol's, and a rotor that bounces seen from itself.
 
-#include "libdyn/orbits/cycle.hpp"
+#include "libdyn/orbits/autonomous_orbit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,19 +13,19 @@
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl::cycle_test {
+namespace whirl::autonomous_orbit_test {
 
 constexpr double pi = std::numbers::pi;
 
 /// x'' - m (1 - x^2) x' + x = 0
-FreeFlow van_der_pol(double m) {
+AutonomousFlow van_der_pol(double m) {
   const test::Equation equation{[m](double, const Vec& y, Vec& f, Mat& J) {
     f << y(1), m * (1.0 - y(0) * y(0)) * y(1) - y(0);
     J << 0.0, 1.0, -2.0 * m * y(0) * y(1) - 1.0, m * (1.0 - y(0) * y(0));
   }};
   return {Vec::Ones(2), 1.0,
-          [=](const Vec& y, double time, Tangents) -> FreeFlow::Arrival {
-            FreeFlow::Arrival at{.end = y, .tangent = Mat::Identity(2, 2)};
+          [=](const Vec& y, double time, WithTangent) -> AutonomousFlow::Result {
+            AutonomousFlow::Result at{.end = y, .tangent = Mat::Identity(2, 2)};
             test::move_on(equation, 0.0, time, 60, at.end, at.tangent);
             return at;
           },
@@ -39,10 +39,11 @@ FreeFlow van_der_pol(double m) {
 
 // T = 2 pi (1 + m^2 / 16 - 5 m^4 / 3072 + O(m^6)), multiplier exp(-2 pi m + O(m^3)) by averaging:
 // the orders of what is left are measured.
-TEST(Cycle, FindsThePeriodOfVanDerPolsEquation) {
+TEST(AutonomousOrbit, FindsThePeriodOfVanDerPolsEquation) {
   std::vector<double> number, period, multiplier;
   for (const double m : {0.8, 0.4, 0.2}) {
-    const Cycle cycle = find_cycle(van_der_pol(m), (Vec(2) << 2.1, 0.1).finished(), 6.4);
+    const AutonomousOrbit cycle =
+        find_autonomous_orbit(van_der_pol(m), (Vec(2) << 2.1, 0.1).finished(), 6.4);
     ASSERT_TRUE(cycle.is_good()) << cycle.failure;
     EXPECT_TRUE(cycle.is_stable());
     EXPECT_LT(cycle.residual, 1e-11);
@@ -58,21 +59,21 @@ TEST(Cycle, FindsThePeriodOfVanDerPolsEquation) {
 }
 
 // Over three periods the same motion is found, and that it is one of a third.
-TEST(Cycle, KnowsTheShortestPeriod) {
-  const FreeFlow flow = van_der_pol(1.0);
-  const Cycle once = find_cycle(flow, (Vec(2) << 2.0, 0.0).finished(), 6.6);
-  const Cycle thrice = find_cycle(flow, once.state, 3.0 * once.period + 1e-3);
+TEST(AutonomousOrbit, KnowsTheShortestPeriod) {
+  const AutonomousFlow flow = van_der_pol(1.0);
+  const AutonomousOrbit once = find_autonomous_orbit(flow, (Vec(2) << 2.0, 0.0).finished(), 6.6);
+  const AutonomousOrbit thrice = find_autonomous_orbit(flow, once.state, 3.0 * once.period + 1e-3);
   ASSERT_TRUE(thrice.is_good()) << thrice.failure;
-  const Cycle shortest = shorten(flow, thrice);
+  const AutonomousOrbit shortest = shorten(flow, thrice);
   EXPECT_NEAR(shortest.period, once.period, 1e-9);
   EXPECT_NEAR(shortest.multipliers(0).real(), once.multipliers(0).real(), 1e-10);
 }
 
 // Along m the period leaves 2 pi as m^2 / 16, and at m = 1 it is 6.6632868593231: found by itself, and
 // at the end of a branch.
-TEST(Cycle, IsFollowedAlongAParameter) {
-  Continuation walk = cycle_continuation(van_der_pol, (Vec(2) << 2.0, 0.1).finished(), 6.3,
-                                         {.low = 0.1, .high = 1.0, .first = 0.1});
+TEST(AutonomousOrbit, IsFollowedAlongAParameter) {
+  Continuation walk = autonomous_continuation(van_der_pol, (Vec(2) << 2.0, 0.1).finished(), 6.3,
+                                              {.low = 0.1, .high = 1.0, .first = 0.1});
   while (walk.advance()) {
   }
   const Branch& branch = walk.branch();
@@ -87,10 +88,10 @@ TEST(Cycle, IsFollowedAlongAParameter) {
 }
 
 // Gravity tells directions apart.
-TEST(Cycle, RefusesWhatIsNotIsotropic) {
+TEST(AutonomousOrbit, RefusesWhatIsNotIsotropic) {
   EXPECT_THROW(rotating_flow(std::make_shared<const Scene>(test::P1.scene())), NumericalError);
   EXPECT_THROW(rotating_flow(std::make_shared<const Scene>(test::MassInRing{.Omega = 0.0}.scene())),
                NumericalError);
 }
 
-}  // namespace whirl::cycle_test
+}  // namespace whirl::autonomous_orbit_test

@@ -14,6 +14,6 @@ namespace whirl::inline base {
 /// @param points  one per column, at least 96; in units in which all directions count alike
 /// @return        NaN for fewer points
 /// @source [BadiiPoliti1985], fixed mass
-double section_dimension(const Mat& points);
+double fractal_dimension(const Mat& points);
 
 }  // namespace whirl::inline base

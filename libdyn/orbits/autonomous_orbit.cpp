@@ -1,4 +1,4 @@
-#include "libdyn/orbits/cycle.hpp"
+#include "libdyn/orbits/autonomous_orbit.hpp"
 
 #include <fmt/format.h>
 
@@ -88,12 +88,13 @@ void require_isotropy(const ContactSystem& system, const Mat& S) {
 
 }  // namespace
 
-Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most_steps) {
+AutonomousOrbit find_autonomous_orbit(const AutonomousFlow& flow, const Vec& start, double period,
+                                      int most_steps) {
   const Eigen::Index n = start.size();
   struct Passed {
     Vec state;
     double period;
-    FreeFlow::Arrival arrival{};
+    AutonomousFlow::Result arrival{};
     Mat tangent{};
     Vec gap{};  ///< and the motion along itself: 0
     double residual = std::numeric_limits<double>::infinity();
@@ -102,10 +103,10 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
   const auto passed = [&](Vec state, double time) {
     Passed p{std::move(state), time};
     if (!(time > 0.1 * period && time < 10.0 * period)) {
-      p.arrival.failure = "no closed motion: the period runs away";
+      p.arrival.failure = "no periodic orbit: the period runs away";
       return p;
     }
-    p.arrival = flow.go(p.state, time, Tangents::yes);
+    p.arrival = flow.go(p.state, time, WithTangent::yes);
     if (p.arrival.failure) return p;
     if (!p.arrival.end.allFinite() || !p.arrival.tangent.allFinite()) {
       p.arrival.failure = "the motion or its tangent is not finite";
@@ -124,14 +125,14 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
   NewtonSearch search = newton(
       at,
       [&](const Passed& p) {
-        return newton_step(cycle_jacobian(p.tangent, rate(p, p.state), rate(p, p.arrival.end)),
+        return newton_step(autonomous_jacobian(p.tangent, rate(p, p.state), rate(p, p.arrival.end)),
                            p.gap);
       },
       [&](const Passed& p, const Vec& step) {
         return passed(p.state - flow.scale.cwiseProduct(step.head(n)), p.period * (1.0 - step(n)));
       },
       {.most_steps = most_steps});
-  Cycle cycle{.state = at.state, .period = at.period, .residual = at.residual};
+  AutonomousOrbit cycle{.state = at.state, .period = at.period, .residual = at.residual};
   cycle.residuals = std::move(search.residuals);
   cycle.failure = at.arrival.failure;
   if (search.has_converged()) {
@@ -139,7 +140,7 @@ Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most
     cycle.contacts = at.arrival.contacts;
   } else if (search.end != NewtonEnd::undefined) {
     cycle.failure =
-        search.failure("no closed motion", "the equations for state and period are singular");
+        search.failure("no periodic orbit", "the equations for state and period are singular");
   }
   return cycle;
 }
@@ -148,26 +149,26 @@ Mat rotation(const Scene& scene, double angle) {
   return rotation(quarter_turn(scene), angle);
 }
 
-Mat cycle_jacobian(const Mat& tangent, const Vec& start, const Vec& end) {
+Mat autonomous_jacobian(const Mat& tangent, const Vec& start, const Vec& end) {
   Mat J(tangent.rows() + 1, tangent.cols() + 1);
   J << shooting_jacobian({&tangent, 1}), end, start.transpose(), 0.0;
   return J;
 }
 
-Cycle shorten(const FreeFlow& flow, const Cycle& cycle) {
+AutonomousOrbit shorten(const AutonomousFlow& flow, const AutonomousOrbit& cycle) {
   if (!cycle.is_good()) return cycle;
   for (int parts = most_parts; parts > 1; --parts) {
-    const FreeFlow::Arrival at = flow.go(cycle.state, cycle.period / parts, Tangents::no);
+    const AutonomousFlow::Result at = flow.go(cycle.state, cycle.period / parts, WithTangent::no);
     if (at.failure) continue;
     const Vec gap = (at.end - cycle.state).cwiseQuotient(flow.scale);
     if (gap.lpNorm<Eigen::Infinity>() > same) continue;
-    Cycle shorter = find_cycle(flow, cycle.state, cycle.period / parts);
+    AutonomousOrbit shorter = find_autonomous_orbit(flow, cycle.state, cycle.period / parts);
     if (shorter.is_good()) return shorter;
   }
   return cycle;
 }
 
-FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
+AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
   const ContactSystem& system = scene->contacts;
   if (!(system.Omega() > 0.0) || system.coordinates() == 0) {
     throw NumericalError("the rotating frame: the rotor does not spin forward");
@@ -177,7 +178,8 @@ FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
   const double Omega = system.Omega();
   const Eigen::Index n = S.rows();
   return {system.state_scale(), system.period(),
-          [scene, S, tolerance](const Vec& z, double time, Tangents wanted) -> FreeFlow::Arrival {
+          [scene, S, tolerance](const Vec& z, double time,
+                                WithTangent wanted) -> AutonomousFlow::Result {
             // it ends at phase 0, where both frames are the same, so it begins at another phase
             const double phases = scene->contacts.Omega() * time;
             const double revolutions = std::ceil(phases / turn);
@@ -186,11 +188,12 @@ FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
             const Mat R = rotation(S, t.state.phase);
             t.state.y = R * z;
             integrate_single(
-                t, {.tolerance = tolerance, .measures = true, .tangent = wanted == Tangents::yes});
+                t,
+                {.tolerance = tolerance, .measures = true, .tangent = wanted == WithTangent::yes});
             if (t.outcome != Outcome::reached_end) return {.failure = t.failure};
             to_shares(t.contacts, time);
-            FreeFlow::Arrival at{.end = t.state.y, .contacts = std::move(t.contacts)};
-            if (wanted == Tangents::yes) at.tangent = t.tangent * R;
+            AutonomousFlow::Result at{.end = t.state.y, .contacts = std::move(t.contacts)};
+            if (wanted == WithTangent::yes) at.tangent = t.tangent * R;
             return at;
           },
           [scene, S, Omega, n](const Vec& z) -> Vec {
@@ -201,17 +204,18 @@ FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
           }};
 }
 
-FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first, double tolerance) {
-  const FreeFlow own = rotating_flow(scene, tolerance);
-  FreeFlow flow = own;
+AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first,
+                             double tolerance) {
+  const AutonomousFlow own = rotating_flow(scene, tolerance);
+  AutonomousFlow flow = own;
   flow.scale = first.contacts.state_scale();
   if (scene->reduced.Phi == first.reduced.Phi) return flow;
   const BasisChange change(*scene, first);
-  flow.go = [own, change](const Vec& z, double time, Tangents wanted) {
-    FreeFlow::Arrival at = own.go(change.to(z), time, wanted);
+  flow.go = [own, change](const Vec& z, double time, WithTangent wanted) {
+    AutonomousFlow::Result at = own.go(change.to(z), time, wanted);
     if (at.failure) return at;
     at.end = change.back(at.end);
-    if (wanted == Tangents::yes) at.tangent = change.back(at.tangent * change.matrix());
+    if (wanted == WithTangent::yes) at.tangent = change.back(at.tangent * change.matrix());
     return at;
   };
   flow.rate = [own, change](const Vec& z) -> Vec { return change.back(own.rate(change.to(z))); };

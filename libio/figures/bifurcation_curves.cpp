@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "libio/figures/border_lines.hpp"
+#include "libio/figures/bifurcation_curve_lines.hpp"
 #include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
@@ -15,29 +15,29 @@ namespace {
 
 constexpr std::size_t most_names = 12;  ///< at the ends of curves
 
-struct BorderStyle {
+struct BifurcationStyle {
   BifurcationKind kind;
   const char* name;
   Paint paint;
   Dash dash;
 };
 
-const BorderStyle& style_of(BifurcationKind kind) {
+const BifurcationStyle& style_of(BifurcationKind kind) {
   using enum BifurcationKind;
-  static const std::vector<BorderStyle> styles{
+  static const std::vector<BifurcationStyle> styles{
       {fold, "fold", Paint::ink, Dash::solid},
       {period_doubling, "period doubling", Paint::alarm, Dash::dashed},
       {neimark_sacker, "Neimark-Sacker", Paint::longer, Dash::dash_dot},
       {grazing, "grazing", Paint::gray, Dash::dotted},
-      {pitchfork, "border", Paint::gray, Dash::solid}};
+      {pitchfork, "bifurcation", Paint::gray, Dash::solid}};
   const auto known = std::find_if(styles.begin(), styles.end() - 1,
-                                  [&](const BorderStyle& s) { return s.kind == kind; });
+                                  [&](const BifurcationStyle& s) { return s.kind == kind; });
   return *known;
 }
 
 }  // namespace
 
-BorderPoints::BorderPoints(const ResultView& result)
+BifurcationCurvePoints::BifurcationCurvePoints(const ResultView& result)
     : of(result_of<CurveResult>(result)),
       first(shown_axis(result, dataset_of<CurveResult>(&CurvePlace::first))),
       second(shown_axis(result, dataset_of<CurveResult>(&CurvePlace::second))) {
@@ -45,41 +45,42 @@ BorderPoints::BorderPoints(const ResultView& result)
     const CurveRow& curve = of.curves[c];
     // what failed, else the whole sentence, as in files of earlier versions
     const std::string end = curve.end_reason.empty() ? curve.end : curve.end_reason;
-    Border border{.kind = curve.kind,
-                  .contact = curve.contact,
-                  .period = static_cast<double>(curve.period),
-                  .ends = {end}};
+    BifurcationCurve line{.kind = curve.kind,
+                          .contact = curve.contact,
+                          .period = static_cast<double>(curve.period),
+                          .ends = {end}};
     for (std::size_t i = 0; i < of.places.size(); ++i) {
-      if (of.places[i].curve == static_cast<int>(c) + 1) border.points.push_back(i);
+      if (of.places[i].curve == static_cast<int>(c) + 1) line.points.push_back(i);
     }
-    if (border.points.empty()) continue;
-    const std::size_t begin = border.points.front();
+    if (line.points.empty()) continue;
+    const std::size_t begin = line.points.front();
     const bool is_other_way =
-        !borders.empty() && borders.back().ends.size() == 1 && borders.back().kind == border.kind &&
-        borders.back().contact == border.contact && borders.back().period == border.period &&
-        first.values[borders.back().points.front()] == first.values[begin] &&
-        second.values[borders.back().points.front()] == second.values[begin];
+        !curves.empty() && curves.back().ends.size() == 1 && curves.back().kind == line.kind &&
+        curves.back().contact == line.contact && curves.back().period == line.period &&
+        first.values[curves.back().points.front()] == first.values[begin] &&
+        second.values[curves.back().points.front()] == second.values[begin];
     if (is_other_way) {
-      Border& known = borders.back();
+      BifurcationCurve& known = curves.back();
       std::reverse(known.points.begin(), known.points.end());
-      known.points.insert(known.points.end(), border.points.begin() + 1, border.points.end());
+      known.points.insert(known.points.end(), line.points.begin() + 1, line.points.end());
       known.ends.push_back(end);
     } else {
-      borders.push_back(std::move(border));
+      curves.push_back(std::move(line));
     }
   }
-  for (std::size_t k = 0; k < borders.size(); ++k) {
-    Border& b = borders[k];
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    BifurcationCurve& b = curves[k];
     b.name = fmt::format("{} {}{}", k + 1, style_of(b.kind).name,
                          b.contact.empty() ? "" : " of " + b.contact);
   }
 }
 
-std::vector<Curve> border_curves(const BorderPoints& all, const std::vector<double>& x,
-                                 const std::vector<double>& y) {
+std::vector<Curve> bifurcation_curve_lines(const BifurcationCurvePoints& all,
+                                           const std::vector<double>& x,
+                                           const std::vector<double>& y) {
   std::vector<Curve> curves;
-  for (const Border& border : all.borders) {
-    const BorderStyle& style = style_of(border.kind);
+  for (const BifurcationCurve& line : all.curves) {
+    const BifurcationStyle& style = style_of(line.kind);
     std::array<Curve, 2> sides;  // thick, thin
     std::pair<double, std::size_t> rightmost{-INFINITY, 0};
     const auto add = [&](std::size_t side, std::size_t i) {
@@ -87,11 +88,11 @@ std::vector<Curve> border_curves(const BorderPoints& all, const std::vector<doub
       c.x.push_back(x[i]);
       c.y.push_back(y[i]);
       c.hover.push_back(
-          fmt::format("{}, period {:.0f}{}", border.name, border.period,
+          fmt::format("{}, period {:.0f}{}", line.name, line.period,
                       all.is_thin(i) ? ", other multipliers are outside of the circle" : ""));
     };
     std::size_t last = 2;  // side of the point before; none
-    for (const std::size_t i : border.points) {
+    for (const std::size_t i : line.points) {
       const std::size_t side = all.is_thin(i) ? 1 : 0;
       if (last < 2 && side != last) {
         add(last, i);  // what is before a change goes up to it
@@ -114,7 +115,7 @@ std::vector<Curve> border_curves(const BorderPoints& all, const std::vector<doub
       c.paint = style.paint;
       c.dash = style.dash;
       c.width = side == 0 ? 2.4 : 1.0;
-      if (all.borders.size() <= most_names && side == rightmost.second) c.end_name = border.name;
+      if (all.curves.size() <= most_names && side == rightmost.second) c.end_name = line.name;
       curves.push_back(std::move(c));
     }
   }
@@ -127,19 +128,19 @@ using namespace figures;
 
 namespace {
 
-std::vector<Figure> border_figures(const ResultView& result) {
-  const BorderPoints all(result);
-  if (all.borders.empty()) return {};
+std::vector<Figure> bifurcation_curve_figures(const ResultView& result) {
+  const BifurcationCurvePoints all(result);
+  if (all.curves.empty()) return {};
   Figure f{.width = 780.0, .height = 580.0};
-  f.subtitle = "Borders: where periodic orbits change";
+  f.subtitle = "Bifurcation curves: where periodic orbits change";
   Panel p;
   p.x.title = all.first.title;
   p.y.title = all.second.title;
-  p.curves = border_curves(all, all.first.values, all.second.values);
+  p.curves = bifurcation_curve_lines(all, all.first.values, all.second.values);
   f.panels.push_back(std::move(p));
-  f.table.header = {"border", "period", "points", all.first.title, all.second.title};
+  f.table.header = {"bifurcation", "period", "points", all.first.title, all.second.title};
   bool has_thin = false;
-  for (const Border& b : all.borders) {
+  for (const BifurcationCurve& b : all.curves) {
     const std::size_t from = b.points.front(), to = b.points.back();
     f.table.rows.push_back(
         {b.name, fmt::format("{:.0f}", b.period), std::to_string(b.points.size()),
@@ -147,7 +148,7 @@ std::vector<Figure> border_figures(const ResultView& result) {
          fmt::format("{:.5g} to {:.5g}", all.second.values[from], all.second.values[to])});
     for (const std::size_t i : b.points) has_thin = has_thin || all.is_thin(i);
     constexpr std::size_t most_told = 6;
-    if (all.borders.size() > most_told) continue;
+    if (all.curves.size() > most_told) continue;
     std::string why;
     for (const std::string& end : b.ends) {
       if (!end.empty() && end != why) why += (why.empty() ? "" : "; ") + end;
@@ -164,13 +165,13 @@ std::vector<Figure> border_figures(const ResultView& result) {
 
 }  // namespace
 
-FigureKind borders_kind() {
+FigureKind bifurcation_curves_kind() {
   return {
       .name = "borders",
-      .title = "Borders",
+      .title = "Bifurcation curves",
       .summary = "where periodic orbits change, in a plane of two parameters",
       .needs = {dataset_of<CurveResult>(&CurvePlace::second)},
-      .make = border_figures,
+      .make = bifurcation_curve_figures,
   };
 }
 

@@ -13,8 +13,8 @@
 namespace whirl::inline dyn {
 
 /// The flow of an equation y' = f(y).
-struct FreeFlow {
-  struct Arrival {
+struct AutonomousFlow {
+  struct Result {
     Vec end;
     Mat tangent;                           ///< derivative of the end by the start
     std::vector<ContactMeasure> contacts;  ///< shares of the time
@@ -22,11 +22,11 @@ struct FreeFlow {
   };
   Vec scale;                ///< of the states
   double revolution = 1.0;  ///< in which periods are told [s]
-  std::function<Arrival(const Vec& y, double time, Tangents wanted)> go;  ///< time > 0 [s]
-  std::function<Vec(const Vec& y)> rate;                                  ///< f(y) [1/s]
+  std::function<Result(const Vec& y, double time, WithTangent wanted)> go;  ///< time > 0 [s]
+  std::function<Vec(const Vec& y)> rate;                                    ///< f(y) [1/s]
 };
 
-struct Cycle {
+struct AutonomousOrbit {
   Vec state;
   double period = 0.0;  ///< [s]
   double residual = 0.0;
@@ -45,15 +45,16 @@ struct Cycle {
 ///
 /// @param start, period  near it
 /// @source [Kuznetsov2004], 10.1.4
-Cycle find_cycle(const FreeFlow& flow, const Vec& start, double period, int most_steps = 12);
+AutonomousOrbit find_autonomous_orbit(const AutonomousFlow& flow, const Vec& start, double period,
+                                      int most_steps = 12);
 
 /// Derivative of (gap, <f, dy>) by state and period, in scales.
 /// @param tangent  of the flow over the period
 /// @param start, end  rates there
-Mat cycle_jacobian(const Mat& tangent, const Vec& start, const Vec& end);
+Mat autonomous_jacobian(const Mat& tangent, const Vec& start, const Vec& end);
 
 /// The same motion with the shortest period it has, a part of the given one.
-Cycle shorten(const FreeFlow& flow, const Cycle& cycle);
+AutonomousOrbit shorten(const AutonomousFlow& flow, const AutonomousOrbit& cycle);
 
 /// What turns reduced states of a scene by an angle about the axis [rad].
 /// @throws NumericalError  for a basis that is not closed under rotation
@@ -64,11 +65,11 @@ Mat rotation(const Scene& scene, double angle);
 ///
 /// @throws NumericalError  for gravity, anisotropic bearings, contacts off the axis, or a basis that
 ///                         is not closed under rotation
-FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance = flow_tolerance);
+AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance = flow_tolerance);
 
 /// The same of a scene at another value of a parameter, for the states of a first scene: see flow_of.
-FreeFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first,
-                       double tolerance = flow_tolerance);
+AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first,
+                             double tolerance = flow_tolerance);
 
 /// Time after which a motion from a start comes back to it nearest, as a first guess [s]; nothing if
 /// it does not come near, or stands still.

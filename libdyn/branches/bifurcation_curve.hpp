@@ -1,5 +1,5 @@
 #pragma once
-/// Curves of bifurcations in the plane of two parameters: the borders between kinds of motion.
+/// Curves of bifurcations in the plane of two parameters, where kinds of motion meet.
 
 #include <functional>
 #include <memory>
@@ -35,8 +35,8 @@ struct FlowPlane {
 /// @param scale  of the states
 /// @throws NumericalError  for a pitchfork, which lives by a symmetry
 /// @source [Kuznetsov2004], 10.3, where the determinants of the same are used
-BranchEquations border_equations(BifurcationKind kind, FlowPlane flows, Vec scale, double low,
-                                 double high);
+BranchEquations bifurcation_curve_equations(BifurcationKind kind, FlowPlane flows, Vec scale,
+                                            double low, double high);
 
 /// Depth over clearance where it comes nearest to zero with a rate of zero, over the revolutions from
 /// several starts: negative just before a contact touches, positive where it just does. Of contacts

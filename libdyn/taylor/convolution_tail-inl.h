@@ -1,10 +1,10 @@
 // Sums over older coefficients in products of series, those of a contact at once.
 
-#if defined(WHIRL_OLDER_TERMS_INL_H) == defined(HWY_TARGET_TOGGLE)
-#ifdef WHIRL_OLDER_TERMS_INL_H
-#undef WHIRL_OLDER_TERMS_INL_H
+#if defined(WHIRL_CONVOLUTION_TAIL_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_CONVOLUTION_TAIL_INL_H
+#undef WHIRL_CONVOLUTION_TAIL_INL_H
 #else
-#define WHIRL_OLDER_TERMS_INL_H
+#define WHIRL_CONVOLUTION_TAIL_INL_H
 #endif
 
 #include "libdyn/taylor/pack-inl.h"
@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 /// Pairs i, k - i from the middle outwards: the newest come last, which shortens the chain. Operands
 /// are references, for g++ 12 stores copies of packs and never reads them.
 template <class P>
-struct OlderTerms {
+struct ConvolutionTail {
   P xx{0.0}, yy{0.0}, rr{0.0};  // halves
   P xq{0.0}, yq{0.0}, rq{0.0};
 
@@ -91,7 +91,7 @@ struct OlderTerms {
 /// Order k > 0 of x^2 + y^2.
 template <class P>
 HWY_ATTR inline P square_of(const P* x, const P* y, int k) {
-  OlderTerms<P> older;
+  ConvolutionTail<P> older;
   older.square(x, y, k);
   const P half = older.half_of_square(x, y, k);
   return half + half;

@@ -1,4 +1,4 @@
-#include "libdyn/branches/border.hpp"
+#include "libdyn/branches/bifurcation_curve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,8 +55,8 @@ std::optional<double> test_value(BifurcationKind kind, const CVec& mu) {
   return m.real() + (kind == period_doubling ? 1.0 : -1.0);
 }
 
-/// What the equations of a border are made of. Their unknowns x are states [scales], then u.
-struct Border {
+/// What the equations of a curve are made of. Their unknowns x are states [scales], then u.
+struct BifurcationCurve {
   BifurcationKind kind;
   FlowPlane flows;
   Vec scale;
@@ -82,21 +82,21 @@ struct Place {
   Vec residual;
   Failure failure;
 };
-Place place_at(const Border& border, const Vec& x, double second) {
+Place place_at(const BifurcationCurve& curve, const Vec& x, double second) {
   Place p;
-  p.orbit.states = border.states(x);
+  p.orbit.states = curve.states(x);
   p.orbit.period = static_cast<int>(p.orbit.states.size());
-  Flow flow = border.flows.at(border.first(x), second);
-  flow.scale = border.scale;
+  Flow flow = curve.flows.at(curve.first(x), second);
+  flow.scale = curve.scale;
   const Vec gaps = shoot(flow, p.orbit);
   p.failure = p.orbit.failure;
   if (gaps.size() == 0) return p;
-  const std::optional<double> g = border.kind == grazing
-                                      ? border.graze(x, second)
-                                      : test_value(border.kind, multipliers_of(p.orbit.tangents));
+  const std::optional<double> g = curve.kind == grazing
+                                      ? curve.graze(x, second)
+                                      : test_value(curve.kind, multipliers_of(p.orbit.tangents));
   if (!g) {
-    p.failure = border.kind == neimark_sacker ? "the critical pair becomes real: a strong resonance"
-                                              : "the critical multiplier meets another one";
+    p.failure = curve.kind == neimark_sacker ? "the critical pair becomes real: a strong resonance"
+                                             : "the critical multiplier meets another one";
     return p;
   }
   p.residual.resize(gaps.size() + 1);
@@ -105,15 +105,15 @@ Place place_at(const Border& border, const Vec& x, double second) {
 }
 
 /// dg / dx of a grazing by the states, each difference towards the motion that does not touch.
-Vec graze_slopes(const Border& border, const Vec& x, double second, double g) {
-  const double h = border.difference();
+Vec graze_slopes(const BifurcationCurve& curve, const Vec& x, double second, double g) {
+  const double h = curve.difference();
   Vec slopes(x.size() - 1);
   for (Eigen::Index k = 0; k < slopes.size(); ++k) {
     Vec moved = x;
     moved(k) = x(k) + h;
-    const double above = border.graze(moved, second);
+    const double above = curve.graze(moved, second);
     moved(k) = x(k) - h;
-    const double below = border.graze(moved, second);
+    const double below = curve.graze(moved, second);
     slopes(k) = above < below ? (above - g) / h : (g - below) / h;
   }
   return slopes;
@@ -121,25 +121,25 @@ Vec graze_slopes(const Border& border, const Vec& x, double second, double g) {
 
 /// dg / dx of a critical multiplier by the states, each of which moves one segment only; nothing where
 /// a moved one has no g.
-std::optional<Vec> multiplier_slopes(const Border& border, const Vec& x, double second,
+std::optional<Vec> multiplier_slopes(const BifurcationCurve& curve, const Vec& x, double second,
                                      const Place& here) {
-  const Vec& scale = border.scale;
+  const Vec& scale = curve.scale;
   const Eigen::Index size = x.size() - 1, n = scale.size();
-  const double h = border.difference(), g = here.residual(size);
+  const double h = curve.difference(), g = here.residual(size);
   std::vector<Vec> starts;
   for (Eigen::Index k = 0; k < size; ++k) {
     starts.push_back(here.orbit.states[static_cast<std::size_t>(k / n)]);
     starts.back()(k % n) += h * scale(k % n);
   }
-  const auto passages = border.flows.at(border.first(x), second).go(starts, 1, Tangents::yes);
+  const auto passages = curve.flows.at(curve.first(x), second).go(starts, 1, WithTangent::yes);
   Vec slopes(size);
   for (Eigen::Index k = 0; k < size; ++k) {
-    const Passage& p = passages[static_cast<std::size_t>(k)];
+    const FlowResult& p = passages[static_cast<std::size_t>(k)];
     if (p.failure) return std::nullopt;
     std::vector<Mat> tangents = here.orbit.tangents;
     tangents[static_cast<std::size_t>(k / n)] =
         scale.cwiseInverse().asDiagonal() * p.tangent * scale.asDiagonal();
-    const auto moved = test_value(border.kind, multipliers_of(tangents));
+    const auto moved = test_value(curve.kind, multipliers_of(tangents));
     if (!moved) return std::nullopt;
     slopes(k) = (*moved - g) / h;
   }
@@ -158,35 +158,35 @@ CVec other_multipliers(BifurcationKind kind, const std::vector<Mat>& tangents) {
   return Eigen::Map<const CVec>(others.data(), std::ssize(others));
 }
 
-BranchEquations::Value evaluate(const Border& border, const Vec& x, double second,
-                                Tangents wanted) {
+BranchEquations::Value evaluate(const BifurcationCurve& curve, const Vec& x, double second,
+                                WithTangent wanted) {
   const Eigen::Index size = x.size() - 1;
-  const double h = border.difference();
+  const double h = curve.difference();
   if (x(size) < 0.0 || x(size) > 1.0) return {.failure = "the range of the first parameter ends"};
-  Place here = place_at(border, x, second);
+  Place here = place_at(curve, x, second);
   BranchEquations::Value at{
       .residual = here.residual, .contacts = here.orbit.contacts, .failure = here.failure};
-  if (border.kind == grazing) {  // whether it touches is rounding here
+  if (curve.kind == grazing) {  // whether it touches is rounding here
     for (ContactMeasure& c : at.contacts) c.impacts = 0.0;
   }
-  if (wanted == Tangents::no || at.residual.size() == 0) return at;
+  if (wanted == WithTangent::no || at.residual.size() == 0) return at;
   at.jacobian = Mat::Zero(size + 1, size + 1);
   at.jacobian.topLeftCorner(size, size) = shooting_jacobian(here.orbit.tangents);
   Vec moved = x;
   moved(size) = x(size) + h;
-  const Place beside = place_at(border, moved, second);
+  const Place beside = place_at(curve, moved, second);
   moved(size) = x(size) - h;
-  const Place before = place_at(border, moved, second);
+  const Place before = place_at(curve, moved, second);
   if (beside.residual.size() == 0 || before.residual.size() == 0) {
     return {.failure = beside.failure ? beside.failure : before.failure};
   }
   at.jacobian.col(size) = (beside.residual - before.residual) / (2.0 * h);
-  const std::optional<Vec> slopes = border.kind == grazing
-                                        ? graze_slopes(border, x, second, here.residual(size))
-                                        : multiplier_slopes(border, x, second, here);
+  const std::optional<Vec> slopes = curve.kind == grazing
+                                        ? graze_slopes(curve, x, second, here.residual(size))
+                                        : multiplier_slopes(curve, x, second, here);
   if (!slopes) return {.failure = "beside it there is no such point"};
   at.jacobian.row(size).head(size) = slopes->transpose();
-  at.multipliers = [kind = border.kind, tangents = std::move(here.orbit.tangents)] {
+  at.multipliers = [kind = curve.kind, tangents = std::move(here.orbit.tangents)] {
     return other_multipliers(kind, tangents);
   };
   return at;
@@ -215,16 +215,16 @@ double nearest_graze(const ContactSystem& system, const ReducedContact& c, const
 
 }  // namespace
 
-BranchEquations border_equations(BifurcationKind kind, FlowPlane flows, Vec scale, double low,
-                                 double high) {
+BranchEquations bifurcation_curve_equations(BifurcationKind kind, FlowPlane flows, Vec scale,
+                                            double low, double high) {
   if (kind == pitchfork) {
-    throw NumericalError("a pitchfork lives by a symmetry and has no border in a plane");
+    throw NumericalError("a pitchfork lives by a symmetry and has no curve of its own in a plane");
   }
-  const Border border{kind, std::move(flows), std::move(scale), low, high};
-  return {[border](const Vec& x, double second, Tangents wanted) {
-            return evaluate(border, x, second, wanted);
+  const BifurcationCurve curve{kind, std::move(flows), std::move(scale), low, high};
+  return {[curve](const Vec& x, double second, WithTangent wanted) {
+            return evaluate(curve, x, second, wanted);
           },
-          border.difference()};
+          curve.difference()};
 }
 
 double nearest_graze(const Scene& scene, const std::string& contact, std::span<const Vec> starts) {

@@ -1,7 +1,7 @@
-// Curves of bifurcations in two parameters: maps whose borders are known exactly, and the touch of a
+// Curves of bifurcations in two parameters: maps where they are known exactly, and the touch of a
 // rotor in closed form.
 
-#include "libdyn/branches/border.hpp"
+#include "libdyn/branches/bifurcation_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace whirl::border_test {
+namespace whirl::bifurcation_curve_test {
 
 using enum BifurcationKind;
 
@@ -33,7 +33,7 @@ Branch border(BifurcationKind kind, const FlowPlane& flows, const Vec& scale, co
   constexpr double low = -2.0, high = 4.0;
   Vec start(x.size() + 1);
   start << x, (first - low) / (high - low);
-  Continuation walk(border_equations(kind, flows, scale, low, high), start, second);
+  Continuation walk(bifurcation_curve_equations(kind, flows, scale, low, high), start, second);
   while (walk.advance()) {
   }
   Branch branch = walk.branch();
@@ -46,7 +46,7 @@ Branch border(BifurcationKind kind, const FlowPlane& flows, const Vec& scale, co
 
 // Henon's map: fold at a = -(1 - b)^2 / 4, x = -(1 - b) / 2; period doubling at a = 3 (1 - b)^2 / 4,
 // x = (1 - b) / 2; the doubled orbit doubles at a = (1 - b)^2 + (1 + b)^2 / 4.
-TEST(Border, FollowsFoldsAndPeriodDoublingsOfHenonsMap) {
+TEST(BifurcationCurve, FollowsFoldsAndPeriodDoublingsOfHenonsMap) {
   const FlowPlane plane{henon, {}};
   const ContinuationOptions b{.low = -0.5, .high = 0.5, .first = -0.5};
   const Branch folds = border(fold, plane, Vec::Ones(2), Vec::Constant(2, -0.74), -0.55, b);
@@ -74,7 +74,7 @@ TEST(Border, FollowsFoldsAndPeriodDoublingsOfHenonsMap) {
 }
 
 // z' = (1 + a - b^2) e^i z - |z|^2 z: the fixed point z = 0 loses its stability at a = b^2.
-TEST(Border, FollowsNeimarkSackerPoints) {
+TEST(BifurcationCurve, FollowsNeimarkSackerPoints) {
   const auto flow = [](double a, double b) {
     return test::map_flow(2, [=](const Vec& y, Vec& f, Mat& J) {
       const double s = 1.0 + a - b * b, c = std::cos(1.0), d = std::sin(1.0), r2 = y.squaredNorm();
@@ -90,13 +90,14 @@ TEST(Border, FollowsNeimarkSackerPoints) {
     EXPECT_NEAR(p.z(2), p.value * p.value, located);
     EXPECT_EQ(p.multipliers.size(), 0);
   }
-  EXPECT_THROW(border_equations(pitchfork, {flow, {}}, Vec::Ones(2), 0.0, 1.0), NumericalError);
+  EXPECT_THROW(bifurcation_curve_equations(pitchfork, {flow, {}}, Vec::Ones(2), 0.0, 1.0),
+               NumericalError);
 }
 
 // Below its critical speed the rotor alone turns in a circle, r = e W^2 / |w^2 - W^2 + 2 i d W|, around
 // its sag, m g / k: it grazes the ring where both add up to the clearance. As plane: offset of the
 // unbalance e in units of 1 mm, and the speed.
-TEST(Border, FollowsGrazingsInClosedForm) {
+TEST(BifurcationCurve, FollowsGrazingsInClosedForm) {
   const auto at = [](double e, double W) {
     test::RotorStator p = test::P1;
     p.e = 1e-3 * e;
@@ -136,4 +137,4 @@ TEST(Border, FollowsGrazingsInClosedForm) {
     EXPECT_NEAR(p.z(8), touching(p.value), located) << p.value;
 }
 
-}  // namespace whirl::border_test
+}  // namespace whirl::bifurcation_curve_test

@@ -1,4 +1,4 @@
-#include "libbase/section_geometry.hpp"
+#include "libbase/fractal_dimension.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace whirl::inline base {
 
-double section_dimension(const Mat& points) {
+double fractal_dimension(const Mat& points) {
   constexpr std::ptrdiff_t near = 8, far = 32;
   const Eigen::Index count = points.cols();
   if (count < 3 * far) return std::numeric_limits<double>::quiet_NaN();
