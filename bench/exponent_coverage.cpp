@@ -73,14 +73,14 @@ bool is_ending_chaos(const Mat& growths) {
 std::vector<Mat> growths_of(const std::vector<Model>& models, long revolutions) {
   std::vector<Scene> scenes;
   for (const Model& m : models) scenes.push_back(make_scene(m, ReductionEstimate::no));
-  std::vector<Candidate> subjects;
+  std::vector<ClassifyCandidate> subjects;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     subjects.push_back({.system = &scenes[i].contacts});
     subjects.back().found.end = test::start_of(models[i], scenes[i]);
   }
   settle(subjects, {.discard = transient});
   std::map<int, std::vector<Trajectory>> by_size;
-  for (const Candidate& s : subjects) {
+  for (const ClassifyCandidate& s : subjects) {
     if (!s.found.is_good() || s.found.is_proven) continue;
     by_size[s.system->size()].push_back(
         {.system = s.system, .state = s.found.end, .revolutions = revolutions});

@@ -165,7 +165,7 @@ std::vector<Figure> bifurcation_curve_figures(const ResultView& result) {
 
 }  // namespace
 
-FigureKind bifurcation_curves_kind() {
+FigureKind borders_kind() {
   return {
       .name = "borders",
       .title = "Bifurcation curves",

@@ -33,7 +33,7 @@
   spectral_map_kind(),   \
   cascade_kind(),        \
   branches_kind(),       \
-  bifurcation_curves_kind(),        \
+  borders_kind(),        \
   torus_kind(),          \
   map_kind(),            \
   exponent_map_kind(),   \

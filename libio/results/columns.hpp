@@ -280,7 +280,9 @@ T read_result(const ResultReader& file) {
     if constexpr (HasParameters<T>) {
       if (c.unit != unit_of_parameter || c.written == Written::in_json) return;
       const std::string name = columns::facts_of(c, "", prefix).name;
-      T::parameter_of(result, name) = columns::read_parameter(file, group + "/" + name);
+      // rows of which there are none have no dataset that says it
+      const ParameterName parameter = columns::read_parameter(file, group + "/" + name);
+      if (!parameter.path.empty()) T::parameter_of(result, name) = parameter;
     }
   };
   for_each_column<T>([&](const auto& c) {

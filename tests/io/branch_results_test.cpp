@@ -121,6 +121,17 @@ TEST_F(BranchResults, KnowTheirParameters) {
             "{\"period_revs\": 2, \"parent\": 1, \"end\": \"\", \"end_kind\": null}\n");
 }
 
+// Rows of bifurcations, of which there may be none, say it too.
+TEST_F(BranchResults, KnowTheirParametersWithoutABifurcation) {
+  BranchTree tree = example();
+  for (TracedBranch& traced : tree.branches) traced.branch.bifurcations.clear();
+  write(path, tree);
+  const auto again = read_result<BranchResult>(ResultReader(path));
+  EXPECT_TRUE(again.bifurcations.empty());
+  EXPECT_EQ(again.parameter.path, "bearing.left.stiffness");
+  EXPECT_EQ(again.parameter.unit, "N/m");
+}
+
 // A walk of other sizes than the model has, or of a later version, is refused.
 TEST_F(BranchResults, TellWhatDoesNotFit) {
   const auto problem = [&](const BranchTree& written, const BranchLayout& asked) {

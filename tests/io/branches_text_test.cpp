@@ -32,8 +32,8 @@ TEST(BranchesText, SaysWhereBranchesGoAndWhatHappensThere) {
       << text;
 }
 
-TEST(BranchesText, SaysThatThereIsNoBorder) {
-  EXPECT_EQ(text_of(CurveResult{}), "\n  no border: there is no bifurcation to follow\n");
+TEST(BranchesText, SaysThatThereIsNoCurve) {
+  EXPECT_EQ(text_of(CurveResult{}), "\n  no bifurcation to follow in the plane\n");
 }
 
 TEST(TorusText, HasEveryFewCirclesAndTheLastOne) {
