@@ -396,8 +396,8 @@ std::vector<ResultSet> schema_of() {
     return sets;
   }
   // the first entry says whether a set is there: it is never missing
-  std::ranges::stable_partition(sets.front().entries,
-                                [](const ResultEntry& e) { return !e.is_optional; });
+  std::stable_partition(sets.front().entries.begin(), sets.front().entries.end(),
+                        [](const ResultEntry& e) { return !e.is_optional; });
   for (std::size_t i = 1; i < sets.size(); ++i) {
     sets[i].needs.push_back(sets.front().entries.front().path);
   }

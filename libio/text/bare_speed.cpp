@@ -31,11 +31,12 @@ std::optional<std::string> readings_of(const std::string& text) {
   if (!numbers) return std::nullopt;
   const bool has_step = text.find(':') != std::string::npos && numbers->size() == 3;
   if (has_step) numbers->pop_back();
-  const auto [low, high] = std::minmax_element(numbers->begin(), numbers->end());
-  if (*low == 0.0 && *high == 0.0) return std::nullopt;
+  const double low = *std::min_element(numbers->begin(), numbers->end());
+  const double high = *std::max_element(numbers->begin(), numbers->end());
+  if (low == 0.0 && high == 0.0) return std::nullopt;
   const auto both = [&](double factor) {
-    return *low == *high ? format_grouped(*high * factor)
-                         : format_grouped(*low * factor) + " to " + format_grouped(*high * factor);
+    return low == high ? format_grouped(high * factor)
+                       : format_grouped(low * factor) + " to " + format_grouped(high * factor);
   };
   return fmt::format("{} rad/s = {} rpm", both(1.0), both(1.0 / rpm));
 }

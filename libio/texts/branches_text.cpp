@@ -49,9 +49,11 @@ std::string periods_text(std::span<const BranchOrbit> orbits) {
 }
 
 std::string branch_text(const BranchResult& result, const BranchRow& branch) {
-  const auto on_it =
-      std::ranges::equal_range(result.points, branch.number, {}, &BranchOrbit::branch);
-  const std::span<const BranchOrbit> orbits(on_it.begin(), on_it.end());
+  const auto first =
+      std::ranges::lower_bound(result.points, branch.number, {}, &BranchOrbit::branch);
+  const auto last =
+      std::ranges::upper_bound(result.points, branch.number, {}, &BranchOrbit::branch);
+  const std::span<const BranchOrbit> orbits(first, last);
   if (orbits.empty()) return "";
   return fmt::format(
              "\n  branch {}: period {}, {} points, {} of them stable; from {:.8g} to {:.8g}{}\n  "
