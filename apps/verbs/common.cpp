@@ -34,11 +34,15 @@ void write_notes(ResultWriter& file, const Report& report) {
   file.attribute("/", "notes", fmt::format("{}", fmt::join(report.notes, "\n")));
 }
 
+void tell_result(const Invocation& call, Report& report) {
+  if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+}
+
 void commit(const Invocation& call, ResultWriter* file, Report& report) {
   if (!file) return;
   write_notes(*file, report);
   file->commit();
-  report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+  tell_result(call, report);
 }
 
 void write_file(const Invocation& call, const Model& model, Report& report,

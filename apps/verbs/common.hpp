@@ -22,6 +22,8 @@ void note_tables(const Invocation& call, const Model& model, Report& report);
 
 /// Writes the report's notes into a result file, where there are any.
 void write_notes(ResultWriter& file, const Report& report);
+/// Says where the result is, with --out.
+void tell_result(const Invocation& call, Report& report);
 /// Writes the report's notes into a result file, if there is one, commits it, and says so.
 void commit(const Invocation& call, ResultWriter* file, Report& report);
 /// The same of a file of its own, if --out asks for one, with what is written into it.

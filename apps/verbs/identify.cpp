@@ -35,7 +35,7 @@ Report run_identify(const Invocation& call) {
                                 .mass_weighted = call.has("mass-weighted"),
                                 .stiffened = call.has("stiffened")};
   const Run run = run_simulation(call, model);
-  Report report = motion_report(call, model, run, "Identification");
+  Report report = motion_report(call, model, run, station_summaries(run), "Identification");
   if (file) write_run(*file, run, model);
   add_identification(model, run, options, report, file.get());
   commit(call, file.get(), report);

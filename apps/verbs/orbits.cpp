@@ -65,7 +65,7 @@ void add_kept(const Invocation& call, const std::string& points, long resumed, R
     report.text +=
         fmt::format("\n  stopped{}\n", call.has("out") ? "; the same line goes on from there" : "");
   }
-  if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+  tell_result(call, report);
 }
 
 }  // namespace whirl::inline cli

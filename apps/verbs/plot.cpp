@@ -47,7 +47,7 @@ PictureSize size_of(const Invocation& call) {
 }
 
 PictureFormat format_of(const Invocation& call) {
-  if (call.has("format")) return call.parsed("format", parse_picture_format);
+  if (call.has("format")) return call.parsed("format", parse_choice<PictureFormat>);
   if (call.text("out").empty()) return PictureFormat::svg;
   return call.parsed("out", picture_format_of);
 }

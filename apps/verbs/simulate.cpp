@@ -10,8 +10,9 @@ Report run_simulate(const Invocation& call) {
   require_speed(model);
   const auto file = call.result_file(model);
   const Run run = run_simulation(call, model);
-  Report report = motion_report(call, model, run, "Simulation");
-  report.record.set("stations", columns::record_value(station_summaries(run), 1.0));
+  const std::vector<StationSummary> stations = station_summaries(run);
+  Report report = motion_report(call, model, run, stations, "Simulation");
+  report.record.set("stations", columns::record_value(stations, 1.0));
   if (file) write_run(*file, run, model);
   commit(call, file.get(), report);
   return report;

@@ -71,10 +71,11 @@ int status_of(Outcome outcome) {
 }
 
 Report motion_report(const Invocation& call, const Model& model, const Run& run,
-                     std::string_view what) {
+                     const std::vector<StationSummary>& stations, std::string_view what) {
   const Integration& integration = run.simulation.integration;
-  Report report = begin_report(call, model, record_of(run_summary(run)));
-  report.text = headline(what, model) + "\n" + text_of(run, model);
+  const RunSummary summary = run_summary(run);
+  Report report = begin_report(call, model, record_of(summary));
+  report.text = headline(what, model) + "\n" + text_of(run, model, summary, stations);
   report.failure = integration.failure;
   report.status = status_of(integration.outcome);
   note_tables(call, model, report);

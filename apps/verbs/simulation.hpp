@@ -33,7 +33,8 @@ Run run_simulation(const Invocation& call, const Model& model);
 int status_of(Outcome outcome);
 
 /// Report on a run under a headline: its record, its text, its notes and its status.
+/// @param stations  station_summaries of the run
 Report motion_report(const Invocation& call, const Model& model, const Run& run,
-                     std::string_view what);
+                     const std::vector<StationSummary>& stations, std::string_view what);
 
 }  // namespace whirl::inline cli

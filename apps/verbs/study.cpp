@@ -71,7 +71,7 @@ Report study_report(const Invocation& call, const Model& model, const StudyOutco
   report.text = text + text_of(outcome, call.has("out"));
   report.status = !outcome.is_whole() ? 130 : outcome.has_failed() ? 3 : 0;
   if (report.status == 3) report.failure = outcome.failure;
-  if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+  tell_result(call, report);
   note_tables(call, model, report);
   return report;
 }

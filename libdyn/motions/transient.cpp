@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/require_coordinates.hpp"
 
 namespace whirl::inline dyn {
 
 Trajectory run_transient(const Scene& scene, const MotionState& start,
                          const TransientOptions& options) {
-  if (scene.contacts.coordinates() == 0) {
-    throw NumericalError("nothing moves: the system has no degrees of freedom");
-  }
+  require_coordinates(scene.contacts);
   const long least = start.phase > 0.0 ? 1 : 0;
   Trajectory transient{.system = &scene.contacts,
                        .state = start,

@@ -2,6 +2,7 @@
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libdyn/system/require_coordinates.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -69,9 +70,7 @@ Mat BasisChange::back(const Mat& y) const {
 }
 
 Flow flow_of(const ContactSystem& system, double tolerance) {
-  if (system.coordinates() == 0) {
-    throw NumericalError("nothing moves: the system has no degrees of freedom");
-  }
+  require_coordinates(system);
   return {
       system.state_scale(), system.period(),
       [&system, tolerance](std::span<const Vec> starts, long revolutions, WithTangent tangents) {

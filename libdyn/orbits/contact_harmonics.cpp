@@ -8,6 +8,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/methods/methods.hpp"
 #include "libdyn/system/contact_ports.hpp"
+#include "libdyn/system/require_coordinates.hpp"
 
 namespace whirl::inline dyn {
 
@@ -19,9 +20,7 @@ constexpr int kept = 80;      ///< harmonics of them
 }  // namespace
 
 HarmonicProblem harmonic_problem(const ContactSystem& system) {
-  if (system.coordinates() == 0) {
-    throw NumericalError("nothing moves: the system has no degrees of freedom");
-  }
+  require_coordinates(system);
   return {.K = system.K(),
           .D = system.D(),
           .f0 = system.constant_load(),

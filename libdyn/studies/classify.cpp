@@ -9,6 +9,7 @@
 #include "libbase/fractal_dimension.hpp"
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/proven_orbit.hpp"
+#include "libdyn/system/require_coordinates.hpp"
 #include "libdyn/taylor/mixed.hpp"
 
 namespace whirl::inline dyn {
@@ -33,9 +34,7 @@ class BatchClassifier {
   BatchClassifier(std::span<ClassifyCandidate> all, const ClassifyOptions& options)
       : options_(options) {
     for (ClassifyCandidate& s : all) {
-      if (s.system->coordinates() == 0) {
-        throw NumericalError("nothing moves: the system has no degrees of freedom");
-      }
+      require_coordinates(*s.system);
       if (s.found.is_good() && !s.found.is_proven) open_.push_back(&s);
     }
     fly();

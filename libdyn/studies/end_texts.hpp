@@ -41,9 +41,8 @@ struct EndTexts {
         column("end", &EndTexts::end, "", "why it ends"),
         column("end_kind", &EndTexts::end_kind, "", "what makes it end").only(in_file).maybe(),
         column("end_kind", &EndTexts::kind, "", "null: it goes on").only(in_json),
-
         column("end_reason", &EndTexts::end_reason, "", "what fails where no orbit is found")
-            .only(Written::in_file)
+            .only(in_file)
             .maybe()};
   }
 };

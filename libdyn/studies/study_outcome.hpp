@@ -52,17 +52,21 @@ struct StudyOutcome {
 StudyOutcome study_outcome(const std::vector<const ClassifiedMotion*>& motions, std::size_t resumed,
                            const std::function<std::string(std::size_t)>& describe);
 
+/// The motion at a point of a study: a part of its row, or all of it.
+template <class Row>
+auto& motion_of(Row& row) {
+  if constexpr (requires { row.motion; }) {
+    return row.motion;
+  } else {
+    return row;
+  }
+}
+
 /// The motions of a study's points; null where none is known.
 template <class Row>
 std::vector<const ClassifiedMotion*> motions_of(const PointRows<Row>& points) {
   std::vector<const ClassifiedMotion*> motions;
-  for (const auto& p : points) {
-    if constexpr (requires { p->motion; }) {
-      motions.push_back(p ? &p->motion : nullptr);
-    } else {
-      motions.push_back(p ? &*p : nullptr);
-    }
-  }
+  for (const auto& p : points) motions.push_back(p ? &motion_of(*p) : nullptr);
   return motions;
 }
 

@@ -56,13 +56,6 @@ struct Passing {
 
 }  // namespace
 
-Parsed<PictureFormat> parse_picture_format(std::string_view name) {
-  for (const auto& [known, format] : choices(PictureFormat{})) {
-    if (known == name) return format;
-  }
-  return Parsed<PictureFormat>::failed("expected svg, png or pdf");
-}
-
 Parsed<PictureFormat> picture_format_of(std::string_view file) {
   for (const auto& [name, format] : choices(PictureFormat{})) {
     if (fs::path(file).extension() == fmt::format(".{}", name)) return format;

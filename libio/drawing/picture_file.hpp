@@ -19,8 +19,6 @@ constexpr auto choices(PictureFormat) {
                     Choice<PictureFormat>{"png", PictureFormat::png},
                     Choice<PictureFormat>{"pdf", PictureFormat::pdf}};
 }
-/// Reads the name of a format.
-Parsed<PictureFormat> parse_picture_format(std::string_view name);
 /// The format that a file's name ends in.
 Parsed<PictureFormat> picture_format_of(std::string_view file);
 

@@ -34,8 +34,7 @@ Clip clip_of_mode(const SceneSource& source, long wanted, long frames) {
 Clip clip_of(const SceneSource& source, const ClipOptions& options) {
   if (!options.mode && source.has_motion()) return clip_of_motion(source, options);
   if (options.window.is_given()) {
-    throw ModelError({"--revolutions, --from-revolution, --times"}, "",
-                     "are of motions, and this is a mode");
+    throw wrong_window("are of motions, and this is a mode");
   }
   return clip_of_mode(source, options.mode.value_or(1), options.frames.value_or(cycle_frames));
 }

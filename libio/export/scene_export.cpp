@@ -137,8 +137,7 @@ ExportFormat export_format(const std::string& name) {
 
 Exported export_scene(const SceneSource& source, const ExportOptions& options) {
   if (!source.has_motion() && options.window.is_given()) {
-    throw ModelError({"--revolutions, --from-revolution, --times"}, "",
-                     "are of motions, and this file holds none");
+    throw wrong_window("are of motions, and this file holds none");
   }
   const fs::path stem = without_ending(options.stem, options.format.ending);
   if (options.format.mesh) return export_mesh(source, options, stem);

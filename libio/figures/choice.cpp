@@ -46,8 +46,7 @@ void require_window(const FigureKind& kind) {
   for (const FigureKind& other : figure_kinds()) {
     if (other.takes_window) names.push_back(other.name);
   }
-  throw ModelError({"--revolutions, --from-revolution, --times"}, "",
-                   fmt::format("are of motions in time: {}", fmt::join(names, ", ")));
+  throw wrong_window(fmt::format("are of motions in time: {}", fmt::join(names, ", ")));
 }
 
 Figure& variant_of(std::vector<Figure>& figures, const std::string& name) {

@@ -16,6 +16,17 @@ template <class T>
 concept Scalar = std::is_arithmetic_v<T> || std::is_enum_v<T> || std::same_as<T, Complex>;
 template <class T>
 concept Text = std::convertible_to<T, std::string_view>;
+/// Whether a text or list is empty; of other values: no.
+template <class T>
+bool is_empty(const T& value) {
+  if constexpr (Text<T>) {
+    return std::string_view(value).empty();
+  } else if constexpr (requires { value.empty(); }) {
+    return value.empty();
+  } else {
+    return false;
+  }
+}
 /// A std::optional; nothing is null in JSON. In files it can be an attribute that may be missing.
 template <class T>
 concept Maybe = requires(T t) {

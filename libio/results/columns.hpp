@@ -307,12 +307,7 @@ Record record_of(const T& result) {
   for_each_column<T>([&](const auto& c) {
     if (c.written == Written::in_file) return;
     const auto& value = std::invoke(c.member, result);
-    const bool may_be_left_out = c.is_optional && c.written == Written::in_json;
-    if constexpr (columns::Text<std::remove_cvref_t<decltype(value)>>) {
-      if (may_be_left_out && std::string_view(value).empty()) return;
-    } else if constexpr (requires { value.empty(); }) {
-      if (may_be_left_out && value.empty()) return;
-    }
+    if (c.is_optional && c.written == Written::in_json && columns::is_empty(value)) return;
     if constexpr (is_rows_column<std::remove_cvref_t<decltype(c)>>) {
       Record list = Record::array();
       for (const auto& row : value) {

@@ -69,6 +69,10 @@ std::pair<double, double> asked_for(const MotionWindow& window, const RecordedRa
 
 }  // namespace
 
+ModelError wrong_window(std::string problem) {
+  return ModelError({"--revolutions, --from-revolution, --times"}, "", std::move(problem));
+}
+
 Parsed<std::pair<double, double>> parse_times(std::string_view text) {
   using Times = std::pair<double, double>;
   const auto range = parse_range(text, "s");

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "libbase/error.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/units.hpp"
 
@@ -18,6 +19,10 @@ struct MotionWindow {
 
   bool is_given() const { return from_revolution || revolutions || times; }
 };
+
+/// A window where there is nothing that it could be of.
+/// @param problem  what windows are of, and what there is
+ModelError wrong_window(std::string problem);
 
 /// Reads two times, first:last [s].
 Parsed<std::pair<double, double>> parse_times(std::string_view text);

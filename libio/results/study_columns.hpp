@@ -18,6 +18,7 @@
 #include "libbase/field.hpp"
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/study_outcome.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_codes.hpp"
@@ -103,15 +104,6 @@ struct PointColumn {
   std::function<void(Row&, std::span<const double>, std::size_t rows)> take{};
   bool is_of_motion = false;  ///< not known where the motion failed
 };
-
-template <class Row>
-auto& motion_of(Row& row) {
-  if constexpr (requires { row.motion; }) {
-    return row.motion;
-  } else {
-    return row;
-  }
-}
 
 /// Words of codes, and what they mean for people.
 template <class T>

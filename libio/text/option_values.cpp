@@ -68,7 +68,8 @@ std::vector<double> speeds_over(const std::vector<std::string>& over, double oth
 }
 
 std::string expected_one_of(const std::vector<std::string_view>& names) {
-  return fmt::format("expected {}", fmt::join(names, " or "));
+  const auto last = names.end() - 1;
+  return fmt::format("expected {} or {}", fmt::join(names.begin(), last, ", "), *last);
 }
 
 }  // namespace whirl::inline io

@@ -44,7 +44,8 @@ std::vector<double> usual_speeds(double operating_speed);
 /// @param otherwise  where it varies no speed
 std::vector<double> speeds_over(const std::vector<std::string>& over, double otherwise);
 
-/// "expected stationary or rotating"
+/// "expected stationary or rotating", "expected svg, png or pdf"
+/// @param names  two or more
 std::string expected_one_of(const std::vector<std::string_view>& names);
 
 /// The choice of a name, of an enumeration with `choices`.

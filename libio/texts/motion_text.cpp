@@ -57,8 +57,8 @@ std::string reduction_text(const Scene& scene, const Model& model) {
   return text + "\n";
 }
 
-std::string text_of(const Run& run, const Model& model) {
-  const RunSummary summary = run_summary(run);
+std::string text_of(const Run& run, const Model& model, const RunSummary& summary,
+                    const std::vector<StationSummary>& stations) {
   const RunCost& cost = summary.cost;
   std::string text =
       reduction_text(run.scene, model) +
@@ -75,13 +75,13 @@ std::string text_of(const Run& run, const Model& model) {
   const std::vector<ContactMeasure>& contacts = run.simulation.recording.contacts;
   if (!contacts.empty()) text += "\n" + contacts_table(contacts, summary.revolutions);
   return text + "\n" +
-         table_of(station_summaries(run),
-                  {{"station", [](const StationSummary& s) { return s.label; }},
-                   shown("max_radius").as("largest radius"),
-                   {"strongest frequencies [rpm] (radius)",
-                    [](const StationSummary& s) { return peaks_text(s.peaks); }},
-                   {"seen from the rotor [rpm]",
-                    [](const StationSummary& s) { return peaks_text(s.peaks_rotating); }}});
+         table_of(stations, {{"station", [](const StationSummary& s) { return s.label; }},
+                             shown("max_radius").as("largest radius"),
+                             {"strongest frequencies [rpm] (radius)",
+                              [](const StationSummary& s) { return peaks_text(s.peaks); }},
+                             {"seen from the rotor [rpm]", [](const StationSummary& s) {
+                                return peaks_text(s.peaks_rotating);
+                              }}});
 }
 
 }  // namespace whirl::inline io

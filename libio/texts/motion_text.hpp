@@ -15,6 +15,8 @@ std::string contacts_table(const std::vector<ContactMeasure>& contacts, long rev
 std::string reduction_text(const Scene& scene, const Model& model);
 
 /// What was integrated, how, at what cost, and what contacts and stations did.
-std::string text_of(const Run& run, const Model& model);
+/// @param stations  station_summaries of the run
+std::string text_of(const Run& run, const Model& model, const RunSummary& summary,
+                    const std::vector<StationSummary>& stations);
 
 }  // namespace whirl::inline io

@@ -6,6 +6,7 @@
 
 #include "libbase/program.hpp"
 #include "libio/results/own_file.hpp"
+#include "libio/text/option_values.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::test {
@@ -42,9 +43,9 @@ TEST(Letters, ArePointsWithoutUnit) {
 }
 
 TEST(PictureFormat, IsThatOfItsNameOrOfTheFile) {
-  EXPECT_EQ(*parse_picture_format("pdf"), PictureFormat::pdf);
-  EXPECT_FALSE(parse_picture_format("gif"));
-  EXPECT_FALSE(parse_picture_format(""));
+  EXPECT_EQ(*parse_choice<PictureFormat>("pdf"), PictureFormat::pdf);
+  EXPECT_FALSE(parse_choice<PictureFormat>("gif"));
+  EXPECT_FALSE(parse_choice<PictureFormat>(""));
   EXPECT_EQ(*picture_format_of("a.svg/b.png"), PictureFormat::png);
   for (const char* file : {"png", "a.png.txt", "a.", ""}) {
     EXPECT_FALSE(picture_format_of(file)) << file;
