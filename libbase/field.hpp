@@ -2,6 +2,7 @@
 /// Fields: one table per struct says which keys it has, in which units and ranges, and what they
 /// mean. Reader, command line, documentation and tests all work from these tables.
 
+#include <optional>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -53,6 +54,16 @@ constexpr std::string_view name_of(Enum value) {
     if (candidate == value) return name;
   }
   return "?";
+}
+
+/// The enumerator of a name, from its list of choices; nothing: it is none of them.
+template <class Enum>
+requires std::is_enum_v<Enum>
+constexpr std::optional<Enum> value_named(std::string_view name) {
+  for (const auto& [candidate, value] : choices(Enum{})) {
+    if (candidate == name) return value;
+  }
+  return std::nullopt;
 }
 
 }  // namespace whirl::inline base

@@ -70,7 +70,7 @@ std::vector<int> indices(const DofMap& dofs, const Point& from, const Point& to)
 /// Groups of dofs that rigid connections hold together; group 0 is the ground.
 class Ties {
  public:
-  explicit Ties(int freedoms) : parent_(static_cast<std::size_t>(freedoms) + 1) {
+  explicit Ties(int dofs) : parent_(static_cast<std::size_t>(dofs) + 1) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
   /// Ties two indices of the full vector (-1: ground); false if they were tied already.
@@ -126,7 +126,8 @@ Vec row_sizes(const Sparse& A) {
   return size;
 }
 
-/// Freedoms without inertia whose damping is beta times their stiffness, with one common beta.
+/// Degrees of freedom without inertia whose damping is beta times their stiffness, with one common
+/// beta.
 std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K) {
   constexpr double tolerance = 1e-12;
   const Vec mass = row_sizes(M), gyroscopic = row_sizes(G), stiffness = row_sizes(K);

@@ -195,13 +195,13 @@ StationSpectra spectra_of(const Run& run);
 
 /// How a rotor was reduced.
 struct ReductionFacts {
-  int size = 0, freedoms = 0;  ///< degrees of freedom, with and without the reduction
+  int size = 0, dofs = 0;  ///< degrees of freedom, with and without the reduction
   double eigenvalue_error = 0.0, receptance_error = 0.0;
 
   static constexpr auto columns() {
     return std::tuple{
         column("size", &ReductionFacts::size, "", "reduced degrees of freedom"),
-        column("freedoms", &ReductionFacts::freedoms, "", "degrees of freedom"),
+        column("freedoms", &ReductionFacts::dofs, "", "degrees of freedom"),
         column("eigenvalue_error", &ReductionFacts::eigenvalue_error, "", "largest, relative"),
         column("receptance_error", &ReductionFacts::receptance_error, "", "of the contacts")};
   }

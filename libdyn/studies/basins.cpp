@@ -102,7 +102,7 @@ void find_basins(const ContactSystem& system, BasinsResult& result) {
   }
 }
 
-constexpr std::size_t most_together = 64;  ///< starts, in the lanes of one batch
+constexpr std::size_t most_starts = 64;  ///< in the lanes of one batch
 
 }  // namespace
 
@@ -141,7 +141,7 @@ std::vector<int> BasinsResult::starts() const {
 
 ColumnSizes BasinsResult::sizes() const {
   return {{"exponents", system.states},
-          {"full", system.freedoms},
+          {"full", system.dofs},
           {"sections", sections},
           {"states", system.states}};
 }
@@ -180,7 +180,7 @@ BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
   result.is_random = options.is_random();
   result.sections = options.classify.sections;
   result.points.resize(options.points());
-  run_points<BasinsPoint>({.most_together = most_together,
+  run_points<BasinsPoint>({.most_together = most_starts,
                            .threads = options.threads,
                            .prepare =
                                [&](const auto& piece) {

@@ -50,7 +50,7 @@ StudySystem study_system(const Scene& scene) {
   StudySystem system{
       .contacts = std::vector<std::string>(static_cast<std::size_t>(scene.contacts.owners())),
       .states = scene.contacts.size(),
-      .freedoms = scene.reduced.dofs.T.rows()};
+      .dofs = scene.reduced.dofs.T.rows()};
   for (const ReducedContact& c : scene.contacts.contacts()) {
     system.contacts[static_cast<std::size_t>(c.owner)] = c.name;
   }

@@ -87,7 +87,7 @@ ClassifiedMotion classified(const Classification& found);
 struct StudySystem {
   std::vector<std::string> contacts{};  ///< names
   Eigen::Index states = 0;              ///< coordinates and velocities; as many exponents
-  Eigen::Index freedoms = 0;            ///< of all points, see FullState
+  Eigen::Index dofs = 0;                ///< of all points, see FullState
 };
 StudySystem study_system(const Scene& scene);
 

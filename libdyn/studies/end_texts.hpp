@@ -24,11 +24,8 @@ struct EndTexts {
   /// Files of earlier versions have the sentence alone.
   std::optional<BranchEnd> branch_end() const {
     if (end.empty()) return std::nullopt;
-    BranchEnd found{.kind = EndKind::untold, .text = end, .reason = end_reason};
-    for (const auto& [name, kind] : choices(EndKind{})) {
-      if (end_kind == name) found.kind = kind;
-    }
-    return found;
+    const EndKind known = value_named<EndKind>(end_kind).value_or(EndKind::untold);
+    return BranchEnd{.kind = known, .text = end, .reason = end_reason};
   }
 
   std::optional<std::string> kind() const {

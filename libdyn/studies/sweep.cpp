@@ -119,7 +119,7 @@ Vec SweepResult::sectors() const {
 }
 
 ColumnSizes SweepResult::sizes() const {
-  return {{"exponents", system.states}, {"full", system.freedoms}, {"sections", sections}};
+  return {{"exponents", system.states}, {"full", system.dofs}, {"sections", sections}};
 }
 
 bool SweepResult::leaves_out(std::string_view column) const {

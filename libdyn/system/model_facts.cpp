@@ -11,8 +11,8 @@ ModelFacts model_facts(const Model& model, const Assembler& assembler) {
   ModelFacts facts{.mass = rotor.mass,
                    .length = s.length(),
                    .nodes = static_cast<int>(assembler.mesh().nodes()),
-                   .freedoms = static_cast<int>(assembler.uncondensed(model.speed).size()),
-                   .condensed_freedoms = assembler.at(model.speed).dofs.condensed,
+                   .dofs = static_cast<int>(assembler.uncondensed(model.speed).size()),
+                   .condensed_dofs = assembler.at(model.speed).dofs.condensed,
                    .contacts = static_cast<long>(model.contacts.size()),
                    .polar_inertia = rotor.Ip};
   if (!s.shaft.empty()) facts.center_of_mass = rotor.center_of_mass;

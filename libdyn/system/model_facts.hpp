@@ -12,7 +12,7 @@ struct ModelFacts {
   double mass = 0.0;    ///< of the rotor [kg]
   double length = 0.0;  ///< of the shaft [m]
   int nodes = 0;
-  int freedoms = 0, condensed_freedoms = 0;
+  int dofs = 0, condensed_dofs = 0;
   long contacts = 0;
   std::optional<double> center_of_mass{};  ///< along the shaft [m]; nothing: there is no shaft
   double polar_inertia = 0.0;              ///< [kg.m^2]
@@ -23,8 +23,8 @@ struct ModelFacts {
         column("mass", &F::mass, "kg", "mass of the rotor"),
         column("length", &F::length, "m", "length of the shaft"),
         column("nodes", &F::nodes, "", "nodes"),
-        column("dofs", &F::freedoms, "", "degrees of freedom"),
-        column("condensed_dofs", &F::condensed_freedoms, "", "of them without inertia"),
+        column("dofs", &F::dofs, "", "degrees of freedom"),
+        column("condensed_dofs", &F::condensed_dofs, "", "of them without inertia"),
         column("contacts", &F::contacts, "", "contacts"),
         column("center_of_mass", &F::center_of_mass, "m", "along the shaft"),
         column("polar_inertia", &F::polar_inertia, "kg.m^2", "polar moment of inertia")

@@ -20,9 +20,10 @@ struct Beam {
 
 /// Matrices of a shaft element.
 ///
-/// Freedoms: (x, y, theta_x, theta_y) of the left node, of the right node, then the amplitudes of
-/// the internal functions of the x-z plane, then those of the y-z plane (dimensionless: each
-/// function's largest deflection is one metre or its largest rotation one over the length).
+/// Degrees of freedom: (x, y, theta_x, theta_y) of the left node, of the right node, then the
+/// amplitudes of the internal functions of the x-z plane, then those of the y-z plane
+/// (dimensionless: each function's largest deflection is one metre or its largest rotation one over
+/// the length).
 ///
 /// Shape functions are the exact static deflections of the element for unit displacements and
 /// rotations of its ends, found by integrating M / (E I) and V / (kappa G A) along the taper, so

@@ -5,7 +5,7 @@
 
 namespace whirl::inline fe {
 
-/// Matrices of a bearing or link for the freedoms (x, y, theta_x, theta_y) of both its ends.
+/// Matrices of a bearing or link for the degrees of freedom (x, y, theta_x, theta_y) of both ends.
 inline ElementMatrices<8> matrices(const BearingCoefficients& c) {
   ElementMatrices<8> e;
   const auto add = [](auto& block, const Mat2& k, int at) {

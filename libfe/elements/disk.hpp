@@ -7,7 +7,7 @@
 
 namespace whirl::inline fe {
 
-/// Matrices of a disk for the freedoms (x, y, theta_x, theta_y) of its node.
+/// Matrices of a disk for the degrees of freedom (x, y, theta_x, theta_y) of its node.
 ///
 ///   Id theta_x'' + Omega Ip theta_y' = moment about x
 ///   Id theta_y'' - Omega Ip theta_x' = moment about y

@@ -32,13 +32,13 @@ std::vector<VtkFrame> SceneSource::motion(const MotionSamples& samples, long mos
   const auto contacts = static_cast<Eigen::Index>(model.contacts.size());
   Mat normal = Mat::Zero(contacts, recorded.time.size()), friction = normal;
   if (recorded.normal.size() > 0) normal = recorded.normal, friction = recorded.friction;
-  const int freedoms = assembler.uncondensed(0.0).dofs.full_size;
-  if (recorded.basis.rows() != freedoms || normal.rows() != contacts) {
+  const int dofs = assembler.uncondensed(0.0).dofs.full_size;
+  if (recorded.basis.rows() != dofs || normal.rows() != contacts) {
     throw ModelError({}, "",
                      fmt::format("the motion is of another rotor ({} degrees of freedom, {} "
                                  "contacts) than the model as set "
                                  "({}, {}): leave out --set",
-                                 recorded.basis.rows(), normal.rows(), freedoms, contacts));
+                                 recorded.basis.rows(), normal.rows(), dofs, contacts));
   }
   std::vector<VtkFrame> list;
   for (Eigen::Index k = 0; k < frames; ++k) {

@@ -69,10 +69,7 @@ class TableReader {
     std::vector<std::string> known;
     for (const auto& [candidate, value] : choices(Enum{})) known.emplace_back(candidate);
     const auto name = choice(key, known);
-    for (const auto& [candidate, value] : choices(Enum{})) {
-      if (name && candidate == *name) return value;
-    }
-    return std::nullopt;
+    return name ? value_named<Enum>(*name) : std::nullopt;
   }
   /// One of some names; reports any other.
   std::optional<std::string> choice(std::string_view key, const std::vector<std::string>& known);

@@ -137,10 +137,7 @@ class Taking {
   template <class T>
   void take(T& value, std::span<const Eigen::Index> shape, int offset = 0) {
     if constexpr (std::is_enum_v<T>) {
-      const std::string& word = cells_.texts.at(at_++);
-      for (const auto& [name, candidate] : choices(T{})) {
-        if (name == word) value = candidate;
-      }
+      value = value_named<T>(cells_.texts.at(at_++)).value_or(value);
     } else if constexpr (Text<T>) {
       value = cells_.texts.at(at_++);
     } else if constexpr (std::same_as<T, Complex>) {

@@ -51,11 +51,9 @@ std::string expected_one_of(const std::vector<std::string_view>& names);
 /// The choice of a name, of an enumeration with `choices`.
 template <class Enum>
 Parsed<Enum> parse_choice(std::string_view text) {
+  if (const auto value = value_named<Enum>(text)) return *value;
   std::vector<std::string_view> names;
-  for (const auto& [name, value] : choices(Enum{})) {
-    if (name == text) return value;
-    names.push_back(name);
-  }
+  for (const auto& [name, value] : choices(Enum{})) names.push_back(name);
   return Parsed<Enum>::failed(expected_one_of(names));
 }
 

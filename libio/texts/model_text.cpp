@@ -51,10 +51,10 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
   }
   table.row({"polar moment of inertia", format_engineering(facts.polar_inertia, "kg.m^2")});
   table.row({"nodes, bodies", fmt::format("{}, {}", facts.nodes, s.bodies.size())});
-  table.row({"freedoms", facts.condensed_freedoms > 0
+  table.row({"degrees of freedom", facts.condensed_dofs > 0
                              ? fmt::format("{}, of which {} without inertia are condensed",
-                                           facts.freedoms, facts.condensed_freedoms)
-                             : fmt::format("{}", facts.freedoms)});
+                                           facts.dofs, facts.condensed_dofs)
+                             : fmt::format("{}", facts.dofs)});
   table.row({"disks, bearings, links",
              fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
   if (!model.films.empty()) table.row({"oil films", fmt::format("{}", model.films.size())});

@@ -197,7 +197,7 @@ TEST_P(HardCase, AStartAtRestOnTheSurfaceSinksIn) {
 
 // r = 0 has no direction: forces and slip are finite there, whether the mass rests or moves
 // through.
-TEST_P(HardCase, TheCentreIsAnOrdinaryPlace) {
+TEST_P(HardCase, TheCenterIsAnOrdinaryPlace) {
   const MassInRing p{.Omega = 100.0, .k = 1e4, .U = 1e-6, .mu = 0.2, .R = 0.01};
   const Scene scene = p.scene();
   for (const double v : {0.0, 0.05}) {

@@ -144,7 +144,7 @@ TEST(OilFilm, SaysThatItCarriesNothingWithoutSpin) {
 }
 
 // At rest in the center the squeeze is zero and the film has no Taylor series.
-TEST(OilFilm, CanStartAtRestInTheCentre) {
+TEST(OilFilm, CanStartAtRestInTheCenter) {
   const MassOnFilm rotor{.U = 2e-5};
   const Scene scene = rotor.scene();
   const MotionState start = test::state_of(Vec::Zero(4));

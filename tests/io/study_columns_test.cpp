@@ -145,7 +145,7 @@ TEST_F(StudyColumns, AreReadToBeShown) {
 }
 
 TEST_F(StudyColumns, KeepPortraits) {
-  SweepResult sweep{.system = {.contacts = {"ring"}, .states = 2, .freedoms = 3},
+  SweepResult sweep{.system = {.contacts = {"ring"}, .states = 2, .dofs = 3},
                     .stations = {"1 left", "2"},
                     .sections = 4,
                     .spectrum_revolutions = 1};
@@ -177,7 +177,7 @@ TEST_F(StudyColumns, KeepPortraits) {
 
 // Random starts are numbered; attractors are there once all starts are.
 TEST_F(StudyColumns, NumberRandomStarts) {
-  BasinsResult basins{.system = {.states = 2, .freedoms = 3}, .is_random = true, .sections = 1};
+  BasinsResult basins{.system = {.states = 2, .dofs = 3}, .is_random = true, .sections = 1};
   basins.points.resize(2);
   EXPECT_FALSE(saved(basins, {}).has("/basins/attractor"));
   for (auto& point : basins.points) {
