@@ -71,6 +71,8 @@ AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double toleranc
 AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, const Scene& first,
                              double tolerance = flow_tolerance);
 
+constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
+
 /// Time after which a motion from a start comes back to it nearest, as a first guess [s]; nothing if
 /// it does not come near, or stands still.
 std::optional<double> recurrence(const Scene& scene, const Vec& start, long revolutions);

@@ -13,8 +13,7 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr int samples = 128;          ///< of a period, for its lines
-constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
+constexpr int line_samples = 128;     ///< of a period, for its lines
 constexpr long watched = 20;          ///< revolutions in which it is seen whether a motion bounces
 constexpr double least_share = 0.05;  ///< of the second line, to count beside the first
 constexpr int tried_orbits = 6;       ///< motions at a speed that are closed by Newton's method
@@ -68,19 +67,19 @@ std::array<int, 2> strongest_lines(const Scene& scene, const AutonomousFlow& flo
   const Eigen::Index n = scene.contacts.coordinates();
   std::vector<Complex> path;
   Vec y = cycle.state;
-  for (int i = 0; i < samples; ++i) {
+  for (int i = 0; i < line_samples; ++i) {
     const Vec2 u = contact.U * y.head(n);
     path.emplace_back(u(0), u(1));
-    AutonomousFlow::Result at = flow.go(y, cycle.period / samples, WithTangent::no);
+    AutonomousFlow::Result at = flow.go(y, cycle.period / line_samples, WithTangent::no);
     if (at.failure) return {};
     y = std::move(at.end);
   }
   std::array<int, 2> lines{};
   std::array<double, 2> sizes{};
-  for (int k = 1; k <= samples / 4; ++k) {  // 0 stands still seen from the rotor
+  for (int k = 1; k <= line_samples / 4; ++k) {  // 0 stands still seen from the rotor
     Complex forward = 0.0, backward = 0.0;
-    for (int i = 0; i < samples; ++i) {
-      const Complex turned = std::polar(1.0, turn * k * i / samples);
+    for (int i = 0; i < line_samples; ++i) {
+      const Complex turned = std::polar(1.0, turn * k * i / line_samples);
       forward += path[static_cast<std::size_t>(i)] * std::conj(turned);
       backward += path[static_cast<std::size_t>(i)] * turned;
     }

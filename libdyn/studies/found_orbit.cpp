@@ -14,8 +14,6 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr long most_recurrence = 64;  ///< revolutions in which a motion is to come back
-
 FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
   const Flow flow = flow_of(scene.contacts);
   PeriodicOrbit orbit = find_orbit(flow, start, {.period = period});

@@ -6,7 +6,7 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr std::size_t most_together = 256;  ///< points, in the lanes of one batch
+constexpr std::size_t most_points = 256;  ///< in the lanes of one batch
 
 }  // namespace
 
@@ -27,7 +27,7 @@ MapResult map(const StudyModels& models, const MapOptions& options,
     return rows;
   };
   run_points<ClassifiedMotion>(
-      {.most_together = most_together,
+      {.most_together = most_points,
        .threads = options.threads,
        .prepare = [&](const auto& piece) { return [&compute, piece] { return compute(piece); }; }},
       result, monitor);
