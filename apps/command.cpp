@@ -41,7 +41,7 @@ SpeedOptions speed_options(const CommandLine& line) {
   SpeedOptions given{.speed = line.speed.value_or(""),
                      .sets = call.sets,
                      .speeds = call.text("speeds"),
-                     .over = call.over,
+                     .over = call.values("over"),
                      .at = call.text("at")};
   if (line.speed) given.sets.pop_back();  // --speed is the last of them
   return given;
@@ -53,38 +53,39 @@ ModelError under_its_option(const ModelError& error, const std::optional<std::st
 }
 
 /// What a verb found goes to the terminal, to standard error and to --json; the status.
-int print(Report report, const CommandLine& line, const std::vector<BareSpeed>& bare) {
-  if (line.json != "-" && !line.is_quiet) {
+int print(Report report, const Invocation& call, const std::vector<BareSpeed>& bare) {
+  const std::string json = call.output.json.value_or("");
+  if (json != "-" && !call.output.quiet) {
     for (const BareSpeed& s : bare) fmt::print("{}\n", s.reading());
     fmt::print("{}{}", bare.empty() ? "" : "\n",
                folded(report.text + notes_text(report.notes), terminal_columns()));
   }
   if (report.failure) {
-    fmt::print(stderr, "{}: failed: {}\n", line.call.file, report.failure.text());
+    fmt::print(stderr, "{}: failed: {}\n", call.file, report.failure.text());
   }
   for (const BareSpeed& s : bare) report.notes.push_back(s.warning());
-  if (!line.json.empty()) write_json(report, line.json, line.call.picture_replaces());
+  if (!json.empty()) write_json(report, json, call.picture_replaces());
   return after_printing(report.status);
 }
 
-int execute(const Verb& verb, const CommandLine& line) {
-  const Invocation& call = line.call;
-  if (call.has("threads")) call.integer("threads");  // verbs that use none refuse a wrong one too
-  require_free_places(call.files(line.json));
+int execute(const Verb& verb, CommandLine& line) {
+  Invocation& call = line.call;
+  call.output = read_options<OutputOptions>(call.given);
+  require_free_places(call.files());
   const std::vector<BareSpeed> bare = bare_speeds(speed_options(line));
-  if (!line.is_quiet) {
+  if (!call.output.quiet) {
     for (const BareSpeed& s : bare) fmt::print(stderr, "whirl: warning: {}\n", s.warning());
   }
-  return print(verb.run(call), line, bare);
+  return print(verb.run.with(call), call, bare);
 }
 
 }  // namespace
 
 int run_command(const Verb& verb, const std::vector<std::string>& words,
                 const StoredModel& stored) {
-  const auto read = read_command_line(verb, words, stored);
+  auto read = read_command_line(verb, words, stored);
   if (const int* status = std::get_if<int>(&read)) return *status;
-  const CommandLine& line = std::get<CommandLine>(read);
+  CommandLine& line = std::get<CommandLine>(read);
   const std::string& file = line.call.file;
   try {
     return execute(verb, line);

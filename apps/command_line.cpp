@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <map>
 #include <span>
 
 #include "apps/program.hpp"
@@ -16,20 +15,17 @@ namespace whirl::inline cli {
 
 namespace {
 
-/// Places for the values of options, by their names.
-struct Values {
-  std::map<std::string, std::string> texts;
-  std::map<std::string, bool> flags;
-  std::map<std::string, std::vector<std::string>> lists;  ///< of options that may be repeated
-};
+std::string dashed(const OptionSpec& option) {
+  return "--" + std::string(option.name);
+}
 
 std::string help_of_file(std::string_view takes) {
   if (takes == "MODEL") return "model file (TOML)";
   return takes == "RESULT.h5" ? "result file (HDF5)" : "result file (HDF5) or model file (TOML)";
 }
 
-/// Tells CLI11 the files and options of a verb, and where their values go.
-void declare(const Verb& verb, CLI::App& app, Invocation& call, Values& values) {
+/// Tells CLI11 the files and options of a verb.
+void declare(const Verb& verb, CLI::App& app, Invocation& call) {
   app.name(fmt::format("whirl {}", verb.name));
   app.description(fmt::format("{}{}\n\nExample: {}", verb.summary,
                               verb.alias.empty() ? "" : fmt::format("\nAlso: whirl {}", verb.alias),
@@ -44,19 +40,16 @@ void declare(const Verb& verb, CLI::App& app, Invocation& call, Values& values) 
         ->type_name("");
   }
   for (const OptionSpec& option : options_of(verb)) {
-    const std::string name(option.name), dashed = "--" + name, help = help_of(option);
-    if (name == "set" || name == "over") {
-      app.add_option(dashed, values.lists[name], help)
-          ->type_name(std::string(option.value))
-          ->take_all()
-          ->expected(1);
-    } else if (option.is_flag()) {
-      app.add_flag(dashed, values.flags[name], help);
-    } else {
-      app.add_option(dashed, values.texts[name], help)
-          ->type_name(std::string(option.value))
-          ->take_last();
+    const std::string name = dashed(option), help = help_of(option);
+    if (option.is_flag()) {
+      app.add_flag(name, help);
+      continue;
     }
+    app.add_option(name, help)
+        ->type_name(std::string(option.value))
+        ->allow_extra_args(option.is_list)  // one --over may have several values, too
+        ->multi_option_policy(option.is_list ? CLI::MultiOptionPolicy::TakeAll
+                                             : CLI::MultiOptionPolicy::TakeLast);
   }
 }
 
@@ -73,30 +66,17 @@ std::string misplaced(const CLI::App& app, const std::vector<std::string>& words
 }
 
 /// Sorts what was given into a command line.
-CommandLine command_of(const CLI::App& app, const Values& values, Invocation call) {
-  call.sets = values.lists.at("set");
-  if (const auto over = values.lists.find("over"); over != values.lists.end()) {
-    call.over = over->second;
+CommandLine command_of(const Verb& verb, const CLI::App& app, Invocation call) {
+  for (const OptionSpec& option : options_of(verb)) {
+    const CLI::Option& read = *app.get_option(dashed(option));
+    if (read.count() == 0 || (option.is_flag() && !read.as<bool>())) continue;
+    std::vector<std::string>& values = call.given[std::string(option.name)] = read.results();
+    if (!option.is_list) values = {option.is_flag() ? "" : values.back()};
   }
-  CommandLine line;
-  for (const auto& [name, value] : values.texts) {
-    if (app.count("--" + name) == 0) continue;
-    if (name == "json") {
-      line.json = value;
-    } else if (name == "speed") {
-      line.speed = value;
-      call.sets.push_back("operation.speed=" + value);
-    } else {
-      call.given[name] = value;
-    }
-  }
-  for (const auto& [name, is_given] : values.flags) {
-    if (is_given && name != "quiet") call.given[name] = "";
-  }
-  line.is_quiet = values.flags.at("quiet");
-  call.shows_progress = !line.is_quiet;
-  line.call = std::move(call);
-  return line;
+  const auto model = read_options<ModelOptions>(call.given);
+  call.sets = model.sets.values;
+  if (model.speed) call.sets.push_back("operation.speed=" + *model.speed);
+  return {std::move(call), model.speed.value};
 }
 
 }  // namespace
@@ -110,8 +90,7 @@ std::variant<CommandLine, int> read_command_line(const Verb& verb,
   call.line = words;
   call.model_text = stored.text;
   call.sets_before = stored.sets;
-  Values values;
-  declare(verb, app, call, values);
+  declare(verb, app, call);
   try {
     std::vector<std::string> arguments(words.rbegin(), words.rend() - 2);
     app.parse(arguments);
@@ -127,7 +106,7 @@ std::variant<CommandLine, int> read_command_line(const Verb& verb,
     fmt::print(stderr, "whirl {}: the name of the file is empty\n", verb.name);
     return exit_status::wrong_input;
   }
-  return command_of(app, values, call);
+  return command_of(verb, app, std::move(call));
 }
 
 }  // namespace whirl::inline cli

@@ -20,9 +20,7 @@ struct StoredModel {
 /// What a command line asks for.
 struct CommandLine {
   Invocation call;
-  std::string json;                    ///< value of --json; empty: not given
   std::optional<std::string> speed{};  ///< value of --speed, which is the last of the sets too
-  bool is_quiet = false;
 };
 
 /// Reads the words of a command, the program and the verb first, as the options of its verb say.

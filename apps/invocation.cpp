@@ -9,34 +9,14 @@
 
 namespace whirl::inline cli {
 
-std::string Invocation::text(const std::string& option) const {
-  if (has(option)) return given.at(option);
-  const auto spec = option_named(*verb_named(verb), option);
-  return spec ? std::string(spec->otherwise) : "";
+std::vector<std::string> Invocation::values(std::string_view option) const {
+  const auto found = given.find(option);
+  return found == given.end() ? std::vector<std::string>{} : found->second;
 }
 
-std::string Invocation::text_or(const std::string& option, const std::string& otherwise) const {
-  return has(option) ? given.at(option) : otherwise;
-}
-
-ModelError Invocation::wrong(const std::string& option, std::string problem) const {
-  return wrong_option(option, text(option), std::move(problem));
-}
-
-long Invocation::integer(const std::string& option, long least) const {
-  return parsed(option, [&](const std::string& value) { return parse_whole(value, least); });
-}
-
-long Invocation::integer_or(const std::string& option, long otherwise, long least) const {
-  return has(option) ? integer(option, least) : otherwise;
-}
-
-double Invocation::number(const std::string& option, std::string_view unit) const {
-  return parsed(option, [&](const std::string& value) { return parse_as(value, unit); });
-}
-
-std::vector<double> Invocation::speeds(const Model& model) const {
-  return has("speeds") ? parsed("speeds", parse_speeds) : usual_speeds(model.speed);
+std::string Invocation::text(std::string_view option) const {
+  const std::vector<std::string> all = values(option);
+  return all.empty() ? "" : all.back();
 }
 
 Model Invocation::model() const {
@@ -47,39 +27,46 @@ Model Invocation::model() const {
 Call Invocation::parts() const {
   Call parts{.verb = verb, .file = file, .words = words, .sets = sets_before};
   parts.sets.insert(parts.sets.end(), sets.begin(), sets.end());
-  for (const std::string& values : over) parts.options.push_back("--over=" + values);
-  for (const auto& [name, value] : given) {
-    const bool is_flag = option_named(*verb_named(verb), name)->is_flag();
-    parts.options.push_back(is_flag ? "--" + name : "--" + name + "=" + value);
+  std::vector<std::string> lists, others;
+  for (const auto& [name, values] : given) {
+    const OptionSpec option = option_named(*verb_named(verb), name).value();
+    for (const std::string& value : values) {
+      (option.is_list ? lists : others)
+          .push_back(option.is_flag() ? "--" + name : "--" + name + "=" + value);
+    }
   }
+  lists.insert(lists.end(), others.begin(), others.end());
+  // what is set has its place, and how a call is told is no part of its result
+  parts.options = options_without(lists, {"set", "speed", "json", "quiet"});
   return parts;
 }
 
 Replaces Invocation::result_replaces() const {
-  return has("force") ? Replaces::anything : Replaces::own_results;
+  return output.force ? Replaces::anything : Replaces::own_results;
 }
 
 Replaces Invocation::picture_replaces() const {
-  return has("force") ? Replaces::anything : Replaces::own_pictures;
+  return output.force ? Replaces::anything : Replaces::own_pictures;
 }
 
-CommandFiles Invocation::files(const std::string& json) const {
+CommandFiles Invocation::files() const {
+  const std::string json = output.json.value_or("");
   const std::string_view kind = option_named(*verb_named(verb), "out")->value;
   return {.input = model_text.empty() ? file : "",  // a stored model needs no file
           .others = words,
           .from = text("from"),
-          .out = text("out"),
+          .out = output.out.value_or(""),
           .out_kind = kind == "FILE.h5" ? OutKind::result
                       : kind == "NAME"  ? OutKind::stem
                                         : OutKind::picture,
-          .svg = has("svg") ? std::optional(text("svg")) : std::nullopt,
+          .svg = given.contains("svg") ? std::optional(text("svg")) : std::nullopt,
           .json = json == "-" ? "" : json,
-          .is_forced = has("force")};
+          .is_forced = output.force};
 }
 
 std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const {
-  if (!has("out")) return nullptr;
-  auto writer = std::make_unique<ResultWriter>(given.at("out"), result_replaces());
+  if (!output.out) return nullptr;
+  auto writer = std::make_unique<ResultWriter>(*output.out, result_replaces());
   write_origin(*writer, {parts(), line, version}, model);
   return writer;
 }

@@ -1,17 +1,15 @@
 #pragma once
 /// One call of a verb, and what comes of it.
 
-#include <map>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "libbase/failure.hpp"
 #include "libdyn/system/model.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/command_files.hpp"
-#include "libio/text/option_values.hpp"
+#include "libio/text/option.hpp"
 #include "libio/text/record.hpp"
 
 namespace whirl::inline io {
@@ -20,44 +18,41 @@ class ResultWriter;
 
 namespace whirl::inline cli {
 
+/// Options of all verbs, before their own.
+struct ModelOptions {
+  ListOption sets{"set", "PATH=VALUE",
+                  "set a value of the model by its path; may be given several times"};
+  Option<std::string> speed{"speed", "S", "operating speed, such as 3650rpm"};
+  auto fields() { return std::tie(sets, speed); }
+};
+
+/// Options of all verbs, behind their own.
+struct OutputOptions {
+  Option<std::string> out{"out", "FILE.h5", "result file (HDF5)"};
+  Option<std::string> json{"json", "FILE", "write the result as JSON; - is standard output"};
+  Option<long> threads{"threads", "N", "processors to use at most; left out: all"};
+  Flag force{"force", "replace files that whirl did not write, too"};
+  Flag quiet{"quiet", "print nothing but errors"};
+  auto fields() { return std::tie(out, json, threads, force, quiet); }
+};
+
 /// One call of the program.
 class Invocation {
  public:
   std::string verb;
-  std::string file;                          ///< model or result
-  std::vector<std::string> words;            ///< after the file, of verbs that take more
-  std::vector<std::string> sets;             ///< PATH=VALUE lines, --speed included
-  std::vector<std::string> sets_before;      ///< those that model_text has in it already
-  std::vector<std::string> over;             ///< values of --over, which may be given several times
-  std::map<std::string, std::string> given;  ///< options and their values; flags have an empty one
-  std::vector<std::string> line;             ///< the command line, to be stored in results
-  std::string model_text;                    ///< of a result that is run again; else empty
-  bool shows_progress = false;
+  std::string file;                      ///< model or result
+  std::vector<std::string> words;        ///< after the file, of verbs that take more
+  std::vector<std::string> sets;         ///< PATH=VALUE lines, --speed included
+  std::vector<std::string> sets_before;  ///< those that model_text has in it already
+  GivenValues given;                     ///< all options, from which those of the verb are read
+  OutputOptions output;
+  std::vector<std::string> line;  ///< the command line, to be stored in results
+  std::string model_text;         ///< of a result that is run again; else empty
 
-  bool has(const std::string& option) const { return given.count(option) > 0; }
-
-  /// Value of an option; where it is left out, its default as the verb states it, or "".
-  std::string text(const std::string& option) const;
-  /// An option that means nothing, with its value.
-  /// @param problem  what would be right
-  ModelError wrong(const std::string& option, std::string problem) const;
-  /// Value of an option as a function reads it that gives a Parsed.
-  /// @throws ModelError  naming the option, if it means nothing
-  template <class Parse>
-  auto parsed(const std::string& option, const Parse& parse) const {
-    return parsed_option(option, text(option), parse);
-  }
-  /// Value of an option as a number; without a default, the option must be given.
-  /// @throws ModelError  naming the option, if it is none, or smaller than the least
-  long integer(const std::string& option, long least = 1) const;
-  double number(const std::string& option, std::string_view unit) const;
-
-  /// The same of options whose default the model or other options decide, as the help says.
-  std::string text_or(const std::string& option, const std::string& otherwise) const;
-  long integer_or(const std::string& option, long otherwise, long least = 1) const;
-
-  /// --speeds, or from zero to somewhat above the operating speed.
-  std::vector<double> speeds(const Model& model) const;
+  /// What is given of an option that several verbs have, for what all verbs do alike.
+  std::vector<std::string> values(std::string_view option) const;
+  /// The same of one that is given once; empty: it is not.
+  std::string text(std::string_view option) const;
 
   Model model() const;
 
@@ -69,8 +64,7 @@ class Invocation {
   Replaces picture_replaces() const;
 
   /// The files that it reads and writes.
-  /// @param json  value of --json
-  CommandFiles files(const std::string& json) const;
+  CommandFiles files() const;
 
   /// The file of --out with the facts of this call in it, or nothing.
   std::unique_ptr<ResultWriter> result_file(const Model& model) const;

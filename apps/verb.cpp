@@ -1,25 +1,10 @@
 #include "apps/verb.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "apps/invocation.hpp"
+
 namespace whirl::inline cli {
-
-namespace {
-
-// options of all verbs, before and behind those of a verb
-const std::vector<OptionSpec> first_options{
-    {"set", "PATH=VALUE", "set a value of the model by its path; may be given several times"},
-    {"speed", "S", "operating speed, such as 3650rpm"}};
-const std::vector<OptionSpec> last_options{
-    {"out", "FILE.h5", "result file (HDF5)"},
-    {"json", "FILE", "write the result as JSON; - is standard output"},
-    {"threads", "N", "processors to use at most; left out: all"},
-    {"force", "", "replace files that whirl did not write, too"},
-    {"quiet", "", "print nothing but errors"}};
-
-}  // namespace
 
 const Verb* verb_named(std::string_view name) {
   for (const Verb& verb : verbs()) {
@@ -28,13 +13,18 @@ const Verb* verb_named(std::string_view name) {
   return nullptr;
 }
 
+const std::vector<OptionSpec>& own_options(const Verb& verb) {
+  return verb.run_words ? verb.options_in_words : verb.run.options;
+}
+
 std::vector<OptionSpec> options_of(const Verb& verb) {
-  if (verb.takes.empty()) return verb.options;
-  std::vector<OptionSpec> all = first_options;
-  all.insert(all.end(), verb.options.begin(), verb.options.end());
-  for (const OptionSpec& option : last_options) {
-    const bool is_own = std::any_of(verb.options.begin(), verb.options.end(),
-                                    [&](const OptionSpec& own) { return own.name == option.name; });
+  const std::vector<OptionSpec>& own = own_options(verb);
+  if (verb.takes.empty()) return own;
+  std::vector<OptionSpec> all = specs_of<ModelOptions>();
+  all.insert(all.end(), own.begin(), own.end());
+  for (const OptionSpec& option : specs_of<OutputOptions>()) {
+    const bool is_own = std::any_of(own.begin(), own.end(),
+                                    [&](const OptionSpec& o) { return o.name == option.name; });
     if (!is_own) all.push_back(option);
   }
   return all;
@@ -45,11 +35,6 @@ std::optional<OptionSpec> option_named(const Verb& verb, std::string_view name) 
     if (option.name == name) return option;
   }
   return std::nullopt;
-}
-
-std::string help_of(const OptionSpec& option) {
-  if (option.otherwise.empty()) return std::string(option.help);
-  return fmt::format("{} ({})", option.help, option.otherwise);
 }
 
 }  // namespace whirl::inline cli

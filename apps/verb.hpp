@@ -1,26 +1,31 @@
 #pragma once
 /// What a verb of the command line is: how it is called, its options, and what runs it.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "libio/text/option.hpp"
 
 namespace whirl::inline cli {
 
 class Invocation;
 struct Report;
 
-/// An option of a verb.
-struct OptionSpec {
-  std::string_view name;   ///< without dashes
-  std::string_view value;  ///< placeholder of its value; empty: a flag
-  std::string_view help;   ///< without the default
-  /// Value where it is left out. Empty: none, or one that the model or other options decide; the
-  /// help says so then.
-  std::string_view otherwise = "";
+/// What runs a verb, and the options that it takes.
+struct VerbRun {
+  std::vector<OptionSpec> options{};
+  std::function<Report(const Invocation&)> with{};
 
-  bool is_flag() const { return value.empty(); }
+  VerbRun() = default;
+  template <std::same_as<Invocation> Call>
+  VerbRun(Report (*run)(const Call&)) : with(run) {}
+  template <class Options>
+  VerbRun(Report (*run)(const Invocation&, const Options&))
+      : options(specs_of<Options>()),
+        with([run](const auto& call) { return run(call, read_options<Options>(call.given)); }) {}
 };
 
 /// A verb; it is described in the file that runs it, which is named after it.
@@ -33,11 +38,11 @@ struct Verb {
   std::string_view takes_more = "";       ///< placeholder of words after the file; empty: none
   std::string_view takes_more_help = "";  ///< what they are
   std::string_view example;               ///< a command line
-  std::vector<OptionSpec> options{};      ///< beside those of all verbs
-  Report (*run)(const Invocation&) = nullptr;
+  VerbRun run{};
   /// Instead of run, of a verb that reads the words after it itself and prints: its exit status.
   int (*run_words)(const std::vector<std::string>&) = nullptr;
-  std::string_view usage = "";  ///< what --help prints then
+  std::string_view usage = "";                 ///< what --help prints then
+  std::vector<OptionSpec> options_in_words{};  ///< and what those words may be
 };
 
 /// All verbs, in the order of the help.
@@ -45,13 +50,12 @@ const std::vector<Verb>& verbs();
 /// The one of a name or alias; null: there is none.
 const Verb* verb_named(std::string_view name);
 
+/// The options of a verb beside those of all verbs.
+const std::vector<OptionSpec>& own_options(const Verb& verb);
 /// All options of a verb in the order of its help: those of all verbs around its own, which take
 /// their place where they have the same name. A verb that takes no file has only its own.
 std::vector<OptionSpec> options_of(const Verb& verb);
 /// The one of a name; nothing: there is none.
 std::optional<OptionSpec> option_named(const Verb& verb, std::string_view name);
-
-/// What the help says of an option, with its default in parentheses.
-std::string help_of(const OptionSpec& option);
 
 }  // namespace whirl::inline cli

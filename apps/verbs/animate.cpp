@@ -12,17 +12,31 @@ namespace whirl::inline cli {
 
 namespace {
 
-Report run_animate(const Invocation& call) {
+struct AnimateVerbOptions {
+  Option<std::string> out{
+      "out", "FILE", "video .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE"};
+  Option<long> mode{"mode", "N", "this mode; left out: the motion of a result, of others mode 1"};
+  WindowVerbOptions window{
+      .revolutions = {"revolutions", "N",
+                      "revolutions of a motion, given alone: the last ones; left out: 4"}};
+  Option<long> frames{"frames", "N",
+                      "pictures; left out: of a motion at most 120, of a mode's cycle 60"};
+  Option<std::string> size{"size", "WxH", "pixels", "960x540"};
+  Option<long> rate{"rate", "N", "pictures per second of a video", 25};
+  auto fields() { return std::tie(out, mode, window, frames, size, rate); }
+};
+
+Report run_animate(const Invocation& call, const AnimateVerbOptions& options) {
   const SceneSource source = scene_source(call);
   const std::filesystem::path beside = std::filesystem::path(call.file).replace_extension(".ogv");
-  VideoOptions video{.place = call.text_or("out", beside.string()),
-                     .size = call.parsed("size", parse_pixels),
-                     .rate = call.integer("rate"),
+  VideoOptions video{.place = options.out.value_or(beside.string()),
+                     .size = parsed_option("size", *options.size, parse_pixels),
+                     .rate = *options.rate,
                      .replaces = call.picture_replaces()};
   require_video_place(video);
-  const Clip clip = clip_of(source, {.mode = number_given(call, "mode"),
-                                     .window = window_of(call),
-                                     .frames = number_given(call, "frames")});
+  const Clip clip = clip_of(source, {.mode = options.mode.value,
+                                     .window = window_of(options.window),
+                                     .frames = options.frames.value});
   video.title = clip.title;
   const auto files = write_video(source.scene, clip.frames, video);
 
@@ -44,17 +58,6 @@ Verb animate_verb() {
       .summary = "a video of a motion or of a mode",
       .takes = "FILE",
       .example = "whirl animate run.h5 --out run.ogv",
-      .options = {{"out", "FILE",
-                   "video .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE"},
-                  {"mode", "N", "this mode; left out: the motion of a result, of others mode 1"},
-                  from_revolution_option,
-                  {"revolutions", "N",
-                   "revolutions of a motion, given alone: the last ones; left out: 4"},
-                  times_option,
-                  {"frames", "N",
-                   "pictures; left out: of a motion at most 120, of a mode's cycle 60"},
-                  {"size", "WxH", "pixels", "960x540"},
-                  {"rate", "N", "pictures per second of a video", "25"}},
       .run = run_animate,
   };
 }

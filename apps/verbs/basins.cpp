@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
 #include "libio/texts/basins_text.hpp"
 
@@ -10,7 +9,19 @@ namespace whirl::inline cli {
 
 namespace {
 
-BasinsOptions basins_options(const Invocation& call, const StudyPoints& points) {
+struct BasinsVerbOptions {
+  Option<long> starts{"starts", "N", "starts: that of the model, the others random around it", 256};
+  Option<std::uint64_t> seed{"seed", "S", "of the random starts", 1, Whole{0}};
+  Option<double> size = start_size_option();
+  AxesVerbOptions axes{.over = {"over", "PATH=A:B:STEP",
+                                "instead of random starts, values of the model's start: "
+                                "start.displaced.1.x=-1:1:0.1mm"}};
+  StudyVerbOptions study{};
+  auto fields() { return std::tie(starts, seed, size, axes, study); }
+};
+
+BasinsOptions basins_options(const Invocation& call, const BasinsVerbOptions& asked,
+                             const StudyPoints& points) {
   for (const ParameterAxis& axis : points.axes()) {
     if (axis.path.starts_with("start.")) continue;
     throw wrong_option("over", axis.path,
@@ -18,25 +29,25 @@ BasinsOptions basins_options(const Invocation& call, const StudyPoints& points) 
                        "vary anything");
   }
   BasinsOptions options{.grid = points.grid(),
-                        .size = call.number("size", ""),
-                        .seed = static_cast<std::uint64_t>(call.integer("seed", 0)),
-                        .classify = study_classify(call),
+                        .size = *asked.size,
+                        .seed = *asked.seed,
+                        .classify = study_classify(asked.study),
                         .threads = study_threads(call)};
   if (options.is_random()) {
-    options.starts = static_cast<std::size_t>(call.integer("starts"));
-  } else if (call.has("starts")) {
-    throw call.wrong("starts", "with --over the starts are those of its values");
+    options.starts = static_cast<std::size_t>(*asked.starts);
+  } else if (asked.starts.is_given) {
+    throw asked.starts.wrong("with --over the starts are those of its values");
   }
   return options;
 }
 
-Report run_basins(const Invocation& call) {
-  const StudyPoints points = study_points(call, 0, 2);
+Report run_basins(const Invocation& call, const BasinsVerbOptions& asked) {
+  const StudyPoints points = study_points(call, asked.axes, asked.study.kept, 0, 2);
   const StudyModels models = points.models();
-  const BasinsOptions options = basins_options(call, points);
+  const BasinsOptions options = basins_options(call, asked, points);
   points.first();
   const auto [result, outcome] = run_study<BasinsResult>(
-      study_keeping(call, points.model(), points.earlier(), "starting"), points, options.points(),
+      study_keeping(call, points.model(), asked.study.kept, "starting"), points, options.points(),
       [&](BasinsResult earlier, const auto& monitor) {
         return basins(models, options, monitor, std::move(earlier));
       },
@@ -60,14 +71,6 @@ Verb basins_verb() {
       .summary = "coexisting motions, and how much of the starts each attracts",
       .example =
           "whirl basins models/jeffcott_stator.toml --set contact.ring.stiffness=50e6 --starts 500",
-      .options = study_options(
-          {{"starts", "N", "starts: that of the model, the others random around it", "256"},
-           seed_option,
-           start_size_option,
-           {"over", "PATH=A:B:STEP",
-            "instead of random starts, values of the model's start: "
-            "start.displaced.1.x=-1:1:0.1mm"},
-           points_option}),
       .run = run_basins,
   };
 }

@@ -10,11 +10,16 @@ namespace whirl::inline cli {
 
 namespace {
 
-Report run_campbell(const Invocation& call) {
+struct CampbellVerbOptions {
+  Option<int> modes{"modes", "N", "how many modes", 8};
+  Option<std::vector<double>> speeds = speeds_option();
+  auto fields() { return std::tie(modes, speeds); }
+};
+
+Report run_campbell(const Invocation& call, const CampbellVerbOptions& options) {
   const Model model = call.model();
-  const std::vector<double> speeds = call.speeds(model);
-  const Campbell diagram =
-      campbell(Assembler(model.structure), speeds, static_cast<int>(call.integer("modes")));
+  const std::vector<double> speeds = options.speeds.value_or(usual_speeds(model.speed));
+  const Campbell diagram = campbell(Assembler(model.structure), speeds, *options.modes);
   Report report = begin_report(call, model, record_of(diagram));
   report.text = text_of(diagram);
   report.add_notes(linear_notes(model, speeds));
@@ -30,7 +35,6 @@ Verb campbell_verb() {
       .group = "Linear rotordynamics",
       .summary = "modes followed over speeds, with the critical speeds",
       .example = "whirl campbell models/two_disk_mac.toml --speeds 0:8000:50rpm",
-      .options = {{"modes", "N", "how many modes", "8"}, speeds_option},
       .run = run_campbell,
   };
 }

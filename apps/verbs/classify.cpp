@@ -8,11 +8,20 @@ namespace whirl::inline cli {
 
 namespace {
 
-ClassifyOptions classify_options(const Invocation& call) {
-  ClassifyOptions options{.discard = call.integer("discard", 0),
-                          .revolutions = call.integer("revolutions"),
-                          .tolerance = call.parsed("tolerance", parse_tolerance)};
-  options.exponents = options.revolutions;
+struct ClassifyVerbOptions {
+  Option<long> revolutions{"revolutions", "N",
+                           "revolutions over which Lyapunov exponents are averaged", 1000};
+  Option<long> discard = discard_option();
+  Option<double> tolerance = tolerance_option();
+  Option<std::string> from = from_option();
+  auto fields() { return std::tie(revolutions, discard, tolerance, from); }
+};
+
+ClassifyOptions classify_options(const Invocation& call, const ClassifyVerbOptions& asked) {
+  ClassifyOptions options{.discard = *asked.discard,
+                          .revolutions = *asked.revolutions,
+                          .exponents = *asked.revolutions,
+                          .tolerance = *asked.tolerance};
   options.watch = [progress = progress_of(call, "classifying"),
                    total = options.discard + options.revolutions](long done) {
     progress(done, total);
@@ -21,14 +30,15 @@ ClassifyOptions classify_options(const Invocation& call) {
   return options;
 }
 
-Report run_classify(const Invocation& call) {
+Report run_classify(const Invocation& call, const ClassifyVerbOptions& asked) {
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);
-  const ClassifyOptions options = classify_options(call);
+  const ClassifyOptions options = classify_options(call, asked);
   const Scene scene = make_scene(model);
   install_interrupt_handler();
-  const Classification c = classify(scene.contacts, starting_state(call, model, scene), options);
+  const Classification c =
+      classify(scene.contacts, starting_state(asked.from, model, scene), options);
   const ClassificationResult result{c, scene.contacts.period()};
 
   Report report = begin_report(call, model, record_of(result));
@@ -56,11 +66,6 @@ Verb classify_verb() {
       .group = "Contact",
       .summary = "tells the kind of the steady motion: periodic, quasi-periodic, chaotic",
       .example = "whirl classify models/jeffcott_stator.toml --set contact.ring.friction=0.15",
-      .options = {{"revolutions", "N", "revolutions over which Lyapunov exponents are averaged",
-                   "1000"},
-                  discard_option,
-                  tolerance_option,
-                  from_option},
       .run = run_classify,
   };
 }

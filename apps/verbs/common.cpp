@@ -19,14 +19,14 @@ Report begin_report(const Invocation& call, const Model& model, const Record& re
 
 std::function<void(long, long)> progress_of(const Invocation& call, std::string what) {
   return [shown = std::make_shared<std::optional<ProgressLine>>(), what = std::move(what),
-          shows = call.shows_progress](long done, long total) {
+          shows = !call.output.quiet](long done, long total) {
     if (!*shown) shown->emplace(what, total, shows);
     (*shown)->update(done);
   };
 }
 
 void note_tables(const Invocation& call, const Model& model, Report& report) {
-  report.add_notes(table_notes(model.structure, speeds_over(call.over, model.speed)));
+  report.add_notes(table_notes(model.structure, speeds_over(call.values("over"), model.speed)));
 }
 
 void write_notes(ResultWriter& file, const Report& report) {
@@ -35,7 +35,7 @@ void write_notes(ResultWriter& file, const Report& report) {
 }
 
 void tell_result(const Invocation& call, Report& report) {
-  if (call.has("out")) report.text += fmt::format("\n  result: {}\n", call.given.at("out"));
+  if (call.output.out) report.text += fmt::format("\n  result: {}\n", *call.output.out);
 }
 
 void commit(const Invocation& call, ResultWriter* file, Report& report) {

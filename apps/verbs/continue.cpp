@@ -1,4 +1,3 @@
-#include "apps/verbs/options.hpp"
 #include "apps/verbs/orbits.hpp"
 #include "libbase/error.hpp"
 #include "libio/results/columns.hpp"
@@ -9,51 +8,78 @@ namespace whirl::inline cli {
 
 namespace {
 
-/// @throws ModelError  for options that are wrong, or do not go together
-BranchSetup asked_branches(const Invocation& call, const Model& model) {
+struct ContinueVerbOptions {
+  AlongVerbOptions along{
+      .over = {"over", "PATH=A:B:STEP",
+               "a value of the model, from where to where, and the largest step; first:last: a "
+               "hundredth; a second one: bifurcation curves in the plane of both"},
+      .at = {"at", "VALUE[,VALUE]",
+             "where the first orbit is looked for, between first and last; left out: first"}};
+  Option<int> period{"period", "N", "revolutions after which the first orbit repeats", 1};
+  Option<OrbitFrame> frame = frame_option();
+  OrbitMethodVerbOptions how{};
+  Option<int> generations{"switch", "N",
+                          "generations of branches that begin at period doublings and pitchforks",
+                          0, Whole{0}};
+  Option<int> most{"most", "N", "points of a branch at most", 2000};
+  Option<std::string> stations{
+      "stations", "NAME,...",
+      "whose amplitude is said: names, node numbers, all; left out: as sweep"};
+  SettledVerbOptions settled{};
+  KeptVerbOptions kept{};
+  auto fields() {
+    return std::tie(along, period, frame, how, generations, most, stations, settled, kept);
+  }
+};
+
+/// @throws ModelError  for options that do not go together
+BranchSetup asked_branches(const ContinueVerbOptions& asked, const Model& model) {
   const auto refuse = [](const char* option, const char* why) {
     throw ModelError({option}, "", why);
   };
-  BranchTreeOptions tree{.frame = orbit_frame(call)};
-  const bool is_rotating = tree.frame == OrbitFrame::rotating;
-  if (is_rotating && (call.has("switch") || call.has("period"))) {
+  const bool is_rotating = *asked.frame == OrbitFrame::rotating;
+  if (is_rotating && (asked.generations.is_given || asked.period.is_given)) {
     refuse("--frame rotating", "expected neither --period nor --switch beside it");
   }
-  const BranchParameters parameters = asked_parameters(call, model);
+  const BranchParameters parameters = asked_parameters(asked.along, model);
   const bool has_curves = parameters.across.has_value();
   if (is_rotating && has_curves) refuse("--frame rotating", "expected one --over beside it");
-  tree.period = static_cast<int>(call.integer("period"));
-  tree.most_points = static_cast<int>(call.integer("most"));
-  tree.generations = static_cast<int>(call.integer("switch", 0));
-  tree.method = orbit_method(call);
-  if (tree.method == OrbitMethod::harmonic_balance) {
+  const OrbitMethod method = *asked.how.method;
+  require_balance(method, asked.how.harmonics.is_given, "--harmonics");
+  if (method == OrbitMethod::harmonic_balance) {
     constexpr auto only_shooting = "goes with --method shooting only";
-    if (tree.generations > 0) refuse("--switch", only_shooting);
+    if (*asked.generations > 0) refuse("--switch", only_shooting);
     if (is_rotating) refuse("--frame rotating", only_shooting);
     if (has_curves) refuse("--over", only_shooting);
   }
-  tree.harmonics = harmonics_of(call, tree.period);
-  return branch_setup(parameters, tree, call.text("stations"));
+  const int period = *asked.period;
+  return branch_setup(parameters,
+                      {.method = method,
+                       .frame = *asked.frame,
+                       .period = period,
+                       .harmonics = checked_harmonics(asked.how.harmonics, period),
+                       .generations = *asked.generations,
+                       .most_points = *asked.most},
+                      asked.stations.value_or(""));
 }
 
-Report run_continue(const Invocation& call) {
+Report run_continue(const Invocation& call, const ContinueVerbOptions& asked) {
   const Model model = call.model();
-  const BranchSetup asked = asked_branches(call, model);
+  const BranchSetup setup = asked_branches(asked, model);
   Report report =
-      orbit_report(call, model, "Periodic orbits along " + asked.parameters.along.axis.path);
+      orbit_report(call, model, "Periodic orbits along " + setup.parameters.along.axis.path);
   const auto settled = [&] {
-    return settled_state(after_transient(call, asked.at_first, *asked.scene));
+    return settled_state(
+        after_transient(call, asked.settled, asked.kept.from, setup.at_first, *setup.scene));
   };
   const auto [found, resumed] = keep_branches(
-      asked,
-      study_keeping(call, model, earlier_start(call, model), "points of branches", report.notes),
-      settled);
+      setup, study_keeping(call, model, asked.kept, "points of branches", report.notes), settled);
   report.status = found.is_complete() ? 0 : 130;
-  const BranchResult branches = asked.result(found.tree);
+  const BranchResult branches = setup.result(found.tree);
   report.record.merge(record_of(branches)).set("resumed", resumed);
   report.text += text_of(branches);
-  if (asked.has_curves()) {
-    const CurveResult curves = asked.result(found.curves);
+  if (setup.has_curves()) {
+    const CurveResult curves = setup.result(found.curves);
     report.record.merge(record_of(curves));
     report.text += text_of(curves);
   }
@@ -72,25 +98,6 @@ Verb continue_verb() {
       .example =
           "whirl continue models/jeffcott_stator.toml --speed 138.4rad/s --set "
           "contact.ring.stiffness=64e6 --over contact.ring.friction=0.1:0.15:0.002 --at 0.15",
-      .options = {{"over", "PATH=A:B:STEP",
-                   "a value of the model, from where to where, and the largest step; first:last: a "
-                   "hundredth; a second one: bifurcation curves in the plane of both"},
-                  branch_points_option,
-                  {"at", "VALUE[,VALUE]",
-                   "where the first orbit is looked for, between first and last; left out: first"},
-                  {"period", "N", "revolutions after which the first orbit repeats", "1"},
-                  frame_option,
-                  orbit_method_option,
-                  harmonics_option,
-                  {"switch", "N",
-                   "generations of branches that begin at period doublings and pitchforks", "0"},
-                  {"most", "N", "points of a branch at most", "2000"},
-                  {"stations", "NAME,...",
-                   "whose amplitude is said: names, node numbers, all; left out: as sweep"},
-                  branch_discard_option,
-                  tolerance_option,
-                  from_option,
-                  restart_option},
       .run = run_continue,
   };
 }

@@ -9,17 +9,23 @@ namespace whirl::inline cli {
 
 namespace {
 
-CriticalOptions critical_options(const Invocation& call) {
-  CriticalOptions options{.count = static_cast<int>(call.integer("modes")),
-                          .order = call.number("order", "")};
-  if (options.order > 0.0) return options;
-  throw call.wrong("order", "expected a number above zero");
+Parsed<double> parse_order(std::string_view text) {
+  const auto order = parse_as(text, "");
+  if (!order || *order > 0.0) return order;
+  return Parsed<double>::failed("expected a number above zero");
 }
 
-Report run_critical(const Invocation& call) {
+struct CriticalVerbOptions {
+  Option<int> modes{"modes", "N", "how many critical speeds", 6};
+  Option<double> order{"order", "N", "excitation frequency over speed", 1.0, parse_order};
+  auto fields() { return std::tie(modes, order); }
+};
+
+Report run_critical(const Invocation& call, const CriticalVerbOptions& options) {
   const Model model = call.model();
-  const CriticalOptions options = critical_options(call);
-  const CriticalSpeeds found{critical_speeds(Assembler(model.structure), options), options.order};
+  const CriticalSpeeds found{critical_speeds(Assembler(model.structure),
+                                             {.count = *options.modes, .order = *options.order}),
+                             *options.order};
   Report report = begin_report(call, model, record_of(found));
   report.text = text_of(found);
   std::vector<double> speeds;
@@ -38,8 +44,6 @@ Verb critical_verb() {
       .group = "Linear rotordynamics",
       .summary = "critical speeds, directly",
       .example = "whirl critical models/two_disk_mac.toml",
-      .options = {{"modes", "N", "how many critical speeds", "6"},
-                  {"order", "N", "excitation frequency over speed", "1"}},
       .run = run_critical,
   };
 }

@@ -11,14 +11,30 @@ namespace whirl::inline cli {
 
 namespace {
 
-Report run_export(const Invocation& call) {
-  const ExportFormat format = export_format(call.text("format"));
+struct ExportVerbOptions {
+  Option<std::string> format{
+      "format", "F",
+      "vtk: series for ParaView; xdmf: longer ones; csv: tables; vtu; with meshio abaqus, nastran, "
+      "gmsh, exodus, med, stl, ...",
+      "vtk"};
+  Option<std::string> out{"out", "NAME",
+                          "where the files go, without an ending; left out: beside FILE"};
+  WindowVerbOptions window{
+      .revolutions = {"revolutions", "N",
+                      "revolutions of a motion, given alone: the last ones; left out: 4, xdmf 64"}};
+  Option<long> frames{"frames", "N", "frames of a motion at most; left out: 128, xdmf all"};
+  Option<long> modes{"modes", "N", "mode shapes", 4};
+  auto fields() { return std::tie(format, out, window, frames, modes); }
+};
+
+Report run_export(const Invocation& call, const ExportVerbOptions& options) {
+  const ExportFormat format = export_format(*options.format);
   const SceneSource source = scene_source(call);
   const Exported written = export_scene(source, {.format = format,
-                                                 .stem = call.text_or("out", call.file),
-                                                 .window = window_of(call),
-                                                 .frames = number_given(call, "frames"),
-                                                 .modes = call.integer("modes"),
+                                                 .stem = options.out.value_or(call.file),
+                                                 .window = window_of(options.window),
+                                                 .frames = options.frames.value,
+                                                 .modes = *options.modes,
                                                  .replaces = call.picture_replaces()});
   Report report = begin_report(call, source.model);
   report.text = written.text;
@@ -35,17 +51,6 @@ Verb export_verb() {
       .summary = "a result or a model to other programs",
       .takes = "FILE",
       .example = "whirl export run.h5 --format vtk --out run",
-      .options = {{"format", "F",
-                   "vtk: series for ParaView; xdmf: longer ones; csv: tables; vtu; with meshio "
-                   "abaqus, nastran, gmsh, exodus, med, stl, ...",
-                   "vtk"},
-                  {"out", "NAME", "where the files go, without an ending; left out: beside FILE"},
-                  from_revolution_option,
-                  {"revolutions", "N",
-                   "revolutions of a motion, given alone: the last ones; left out: 4, xdmf 64"},
-                  times_option,
-                  {"frames", "N", "frames of a motion at most; left out: 128, xdmf all"},
-                  {"modes", "N", "mode shapes", "4"}},
       .run = run_export,
   };
 }

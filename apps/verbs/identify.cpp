@@ -8,6 +8,15 @@ namespace whirl::inline cli {
 
 namespace {
 
+struct IdentifyVerbOptions {
+  Option<int> modes{"modes", "N", "how many modes to compare with", 8};
+  Flag rotations{"rotations", "let tilts count too, times the rotor's length"};
+  Flag mass_weighted{"mass-weighted", "weight the MAC with the mass matrix"};
+  Flag stiffened{"stiffened", "modes of the rotor with its contacts closed for good"};
+  IntegrationVerbOptions integration{};
+  auto fields() { return std::tie(modes, rotations, mass_weighted, stiffened, integration); }
+};
+
 /// What a motion is made of; without a motion, nothing.
 void add_identification(const Model& model, const Run& run, const IdentifyOptions& options,
                         Report& report, ResultWriter* file) {
@@ -26,15 +35,15 @@ void add_identification(const Model& model, const Run& run, const IdentifyOption
   write_result(*file, id);
 }
 
-Report run_identify(const Invocation& call) {
+Report run_identify(const Invocation& call, const IdentifyVerbOptions& asked) {
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);
-  const IdentifyOptions options{.modes = static_cast<int>(call.integer("modes")),
-                                .rotations = call.has("rotations"),
-                                .mass_weighted = call.has("mass-weighted"),
-                                .stiffened = call.has("stiffened")};
-  const Run run = run_simulation(call, model);
+  const IdentifyOptions options{.modes = *asked.modes,
+                                .rotations = asked.rotations,
+                                .mass_weighted = asked.mass_weighted,
+                                .stiffened = asked.stiffened};
+  const Run run = run_simulation(call, model, asked.integration);
   Report report = motion_report(call, model, run, station_summaries(run), "Identification");
   if (file) write_run(*file, run, model);
   add_identification(model, run, options, report, file.get());
@@ -51,11 +60,6 @@ Verb identify_verb() {
       .group = "Contact",
       .summary = "says which complex modes make up the motion (MAC)",
       .example = "whirl identify models/two_disk_mac.toml --out run.h5",
-      .options = integration_options(
-          {{"modes", "N", "how many modes to compare with", "8"},
-           {"rotations", "", "let tilts count too, times the rotor's length"},
-           {"mass-weighted", "", "weight the MAC with the mass matrix"},
-           {"stiffened", "", "modes of the rotor with its contacts closed for good"}}),
       .run = run_identify,
   };
 }

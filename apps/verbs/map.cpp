@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
 #include "libio/results/grid_record.hpp"
 #include "libio/texts/map_text.hpp"
@@ -11,14 +10,21 @@ namespace whirl::inline cli {
 
 namespace {
 
-Report run_map(const Invocation& call) {
-  const StudyPoints points = study_points(call, 2, 3);
+struct MapVerbOptions {
+  AxesVerbOptions axes{};
+  StudyVerbOptions study{};
+  auto fields() { return std::tie(axes, study); }
+};
+
+Report run_map(const Invocation& call, const MapVerbOptions& asked) {
+  const StudyPoints points = study_points(call, asked.axes, asked.study.kept, 2, 3);
   const StudyModels models = points.models();
   points.first();
-  const MapOptions options{
-      .grid = points.grid(), .classify = study_classify(call), .threads = study_threads(call)};
+  const MapOptions options{.grid = points.grid(),
+                           .classify = study_classify(asked.study),
+                           .threads = study_threads(call)};
   const auto [result, outcome] = run_study<MapResult>(
-      study_keeping(call, points.model(), points.earlier(), "mapping"), points,
+      study_keeping(call, points.model(), asked.study.kept, "mapping"), points,
       options.grid.points(),
       [&](MapResult earlier, const auto& monitor) {
         return map(models, options, monitor, std::move(earlier));
@@ -47,7 +53,6 @@ Verb map_verb() {
       .example =
           "whirl map models/jeffcott_stator.toml --over operation.speed=130:160:2rad/s --over "
           "contact.ring.stiffness=10:150:10MN/m --out map.h5",
-      .options = study_options({over_option, points_option}),
       .run = run_map,
   };
 }

@@ -10,12 +10,16 @@ namespace whirl::inline cli {
 
 namespace {
 
-Report run_modes(const Invocation& call) {
+struct ModesVerbOptions {
+  Option<int> modes{"modes", "N", "how many modes", 8};
+  auto fields() { return std::tie(modes); }
+};
+
+Report run_modes(const Invocation& call, const ModesVerbOptions& options) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
   const System system = assembler.at(model.speed);
-  const ModesAtPoints modes(complex_modes(system, static_cast<int>(call.integer("modes"))),
-                            system.dofs);
+  const ModesAtPoints modes(complex_modes(system, *options.modes), system.dofs);
   Report report = begin_report(call, model, record_of(modes));
   report.text = fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, text_of(modes));
   report.add_notes(linear_notes(model, {model.speed}));
@@ -35,7 +39,6 @@ Verb modes_verb() {
       .group = "Linear rotordynamics",
       .summary = "complex modes at a speed",
       .example = "whirl modes models/two_disk_mac.toml --speed 4430rpm",
-      .options = {{"modes", "N", "how many modes", "8"}},
       .run = run_modes,
   };
 }

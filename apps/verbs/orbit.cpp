@@ -1,6 +1,6 @@
+#include "apps/verbs/orbit.hpp"
+
 #include "apps/program.hpp"
-#include "apps/verbs/options.hpp"
-#include "apps/verbs/orbits.hpp"
 #include "libbase/error.hpp"
 #include "libio/results/branch_point.hpp"
 #include "libio/results/columns.hpp"
@@ -11,12 +11,12 @@ namespace whirl::inline cli {
 
 namespace {
 
-OrbitOptions orbit_options(const Invocation& call, const std::optional<BranchStart>& point) {
-  OrbitOptions options{.method = orbit_method(call), .is_verified = call.has("verify")};
-  options.period =
-      point && !call.has("period") ? point->period : static_cast<int>(call.integer("period"));
-  options.harmonics = harmonics_of(call, options.period);
-  return options;
+OrbitOptions orbit_options(const OrbitVerbOptions& asked, const std::optional<BranchStart>& point) {
+  const int period = point && !asked.period.is_given ? point->period : *asked.period;
+  return {.method = *asked.how.method,
+          .period = period,
+          .harmonics = checked_harmonics(asked.how.harmonics, period),
+          .is_verified = asked.verify};
 }
 
 /// Report on an orbit, found or not, and its file.
@@ -34,26 +34,26 @@ Report orbit_found(const Invocation& call, const Model& model, const Scene& scen
   return report;
 }
 
-Report stationary_orbit(const Invocation& call, const Model& model,
+Report stationary_orbit(const Invocation& call, const OrbitVerbOptions& asked, const Model& model,
                         const std::optional<BranchStart>& point) {
-  const OrbitOptions options = orbit_options(call, point);
+  const OrbitOptions options = orbit_options(asked, point);
   const Scene scene = make_scene(model);
   // an unstable orbit is not to be left before it is looked for
   const Trajectory transient =
       point ? Trajectory{.system = &scene.contacts, .state = point->in(scene)}
-            : after_transient(call, model, scene);
+            : after_transient(call, asked.settled, asked.from, model, scene);
   Report report =
       orbit_found(call, model, scene, find_orbit_after(transient, scene, options), "Periodic orbit",
-                  Record().set("frame", "stationary").set("method", call.text("method")));
+                  Record().set("frame", "stationary").set("method", name_of(options.method)));
   if (transient.outcome != Outcome::reached_end) report.status = status_of(transient.outcome);
   return report;
 }
 
 /// An orbit that repeats as seen from the rotor, whose period is any.
-Report rotating_orbit(const Invocation& call, const Model& model) {
+Report rotating_orbit(const Invocation& call, const OrbitVerbOptions& asked, const Model& model) {
   const auto scene = std::make_shared<const Scene>(make_scene(model));
   const AutonomousFlow flow = rotating_flow(scene);
-  const auto state = settled_state(after_transient(call, model, *scene));
+  const auto state = settled_state(after_transient(call, asked.settled, asked.from, model, *scene));
   if (!state) {
     Report report = begin_report(call, model);
     report.failure = "stopped";
@@ -64,23 +64,27 @@ Report rotating_orbit(const Invocation& call, const Model& model) {
                      "Periodic orbit in the rotating frame", Record().set("frame", "rotating"));
 }
 
-Report run_orbit(const Invocation& given) {
+Report run_orbit(const Invocation& given, const OrbitVerbOptions& asked) {
   std::optional<BranchStart> point;
   Invocation call = given;
-  if (call.has("point")) {
-    if (!call.has("from")) {
-      throw call.wrong("point", "of which branches? give the result of whirl continue with --from");
+  if (asked.point) {
+    if (!asked.from) {
+      throw asked.point.wrong("of which branches? give the result of whirl continue with --from");
     }
-    point = read_branch_point(call.text("from"), call.integer("point"));
+    point = read_branch_point(*asked.from, *asked.point);
     call.sets.insert(call.sets.end(), point->sets.begin(), point->sets.end());
   }
   const Model model = call.model();
   require_speed(model);
-  const OrbitMethod method = orbit_method(call);
-  if (call.has("starts")) return search_orbits(call, model);
-  if (orbit_frame(call) == OrbitFrame::stationary) return stationary_orbit(call, model, point);
+  const OrbitMethod method = *asked.how.method;
+  require_balance(method, asked.how.harmonics.is_given, "--harmonics");
+  require_balance(method, asked.verify, "--verify");
+  if (asked.starts) return search_orbits(call, asked, model);
+  if (*asked.frame == OrbitFrame::stationary) {
+    return stationary_orbit(call, asked, model, point);
+  }
   if (point) throw ModelError({"--point"}, "", "expected an orbit of the stationary frame");
-  if (method == OrbitMethod::shooting) return rotating_orbit(call, model);
+  if (method == OrbitMethod::shooting) return rotating_orbit(call, asked, model);
   throw ModelError({"--frame rotating"}, "",
                    "harmonic balance finds orbits in the stationary frame only");
 }
@@ -93,22 +97,6 @@ Verb orbit_verb() {
       .group = "Contact",
       .summary = "one periodic orbit, stable or not, with its Floquet multipliers",
       .example = "whirl orbit models/jeffcott_stator.toml --period 1",
-      .options = {{"period", "N",
-                   "revolutions after which it repeats; with --point those of its branch", "1"},
-                  frame_option,
-                  {"point", "N",
-                   "begins at this point of the branches of --from, its value included"},
-                  orbit_method_option,
-                  harmonics_option,
-                  {"verify", "", "how far harmonic balance is from shooting"},
-                  {"starts", "N", "all orbits near so many random starts, unstable ones too"},
-                  seed_option,
-                  start_size_option,
-                  {"discard", "N",
-                   "revolutions before it, for the transient; with --from none, with --starts 10",
-                   "500"},
-                  tolerance_option,
-                  from_option},
       .run = run_orbit,
   };
 }

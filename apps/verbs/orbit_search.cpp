@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/orbits.hpp"
+#include "apps/verbs/orbit.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libio/results/columns.hpp"
@@ -15,23 +15,25 @@ namespace whirl::inline cli {
 
 namespace {
 
-OrbitSearchOptions search_options(const Invocation& call) {
-  for (const std::string option : {"frame", "method", "point", "from"}) {
-    if (call.has(option)) throw ModelError({"--" + option}, "", "does not go with --starts");
-  }
-  OrbitSearchOptions options{.period = static_cast<int>(call.integer("period")),
-                             .starts = call.integer("starts"),
-                             .size = call.number("size", ""),
-                             .seed = static_cast<std::uint64_t>(call.integer("seed"))};
-  if (call.has("discard")) options.discard = call.integer("discard", 0);
+OrbitSearchOptions search_options(const OrbitVerbOptions& asked) {
+  const auto refuse = [](bool is_given, const char* option) {
+    if (is_given) throw ModelError({option}, "", "does not go with --starts");
+  };
+  refuse(asked.frame.is_given, "--frame");
+  refuse(asked.how.method.is_given, "--method");
+  refuse(asked.point.is_given, "--point");
+  refuse(asked.from.is_given, "--from");
+  OrbitSearchOptions options{
+      .period = *asked.period, .starts = *asked.starts, .size = *asked.size, .seed = *asked.seed};
+  if (asked.settled.discard.is_given) options.discard = *asked.settled.discard;
   if (options.size > 0.0) return options;
-  throw call.wrong("size", "expected a number above 0");
+  throw asked.size.wrong("expected a number above 0");
 }
 
 }  // namespace
 
-Report search_orbits(const Invocation& call, const Model& model) {
-  const OrbitSearchOptions options = search_options(call);
+Report search_orbits(const Invocation& call, const OrbitVerbOptions& asked, const Model& model) {
+  const OrbitSearchOptions options = search_options(asked);
   const Scene scene = make_scene(model);
   install_interrupt_handler();
   const OrbitSearch search =

@@ -12,42 +12,32 @@ constexpr long most_harmonics = 10000;
 
 }  // namespace
 
-OrbitFrame orbit_frame(const Invocation& call) {
-  return call.parsed("frame", parse_choice<OrbitFrame>);
+void require_balance(OrbitMethod method, bool is_given, const char* option) {
+  if (method == OrbitMethod::harmonic_balance || !is_given) return;
+  throw ModelError({option}, "", "goes with --method harmonic-balance");
 }
 
-OrbitMethod orbit_method(const Invocation& call) {
-  const OrbitMethod method = call.parsed("method", parse_choice<OrbitMethod>);
-  for (const std::string option : {"harmonics", "verify"}) {
-    if (method == OrbitMethod::harmonic_balance || !call.has(option)) continue;
-    throw ModelError({"--" + option}, "", "goes with --method harmonic-balance");
+int checked_harmonics(const Option<long>& harmonics, int period) {
+  if (!harmonics) return 0;
+  if (*harmonics < period || *harmonics > most_harmonics) {
+    throw harmonics.wrong(fmt::format("expected {} to {}: the speed is harmonic {} of the orbit",
+                                      period, most_harmonics, period));
   }
-  return method;
+  return static_cast<int>(*harmonics);
 }
 
-int harmonics_of(const Invocation& call, int period) {
-  if (!call.has("harmonics")) return 0;
-  const long harmonics = call.integer("harmonics");
-  if (harmonics < period || harmonics > most_harmonics) {
-    throw call.wrong("harmonics",
-                     fmt::format("expected {} to {}: the speed is harmonic {} of the orbit", period,
-                                 most_harmonics, period));
-  }
-  return static_cast<int>(harmonics);
+BranchParameters asked_parameters(const AlongVerbOptions& options, const Model& model) {
+  return branch_parameters(model, options.over.values, options.at.value_or(""), *options.points);
 }
 
-BranchParameters asked_parameters(const Invocation& call, const Model& model) {
-  return branch_parameters(model, call.over, call.text("at"),
-                           static_cast<int>(call.integer("points", 2)));
-}
-
-Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene) {
-  const long discard = call.has("from") && !call.has("discard") ? 0 : call.integer("discard", 0);
-  const double tolerance = call.parsed("tolerance", parse_tolerance);
+Trajectory after_transient(const Invocation& call, const SettledVerbOptions& options,
+                           const Option<std::string>& from, const Model& model,
+                           const Scene& scene) {
   install_interrupt_handler();
-  return run_transient(scene, starting_state(call, model, scene),
-                       {.revolutions = discard,
-                        .tolerance = tolerance,
+  const bool goes_on = from && !options.discard.is_given;
+  return run_transient(scene, starting_state(from, model, scene),
+                       {.revolutions = goes_on ? 0 : *options.discard,
+                        .tolerance = *options.tolerance,
                         .progress = progress_of(call, "going through the transient"),
                         .is_stopped = is_interrupted});
 }
@@ -63,7 +53,7 @@ void add_kept(const Invocation& call, const std::string& points, long resumed, R
   if (resumed > 0) report.text += fmt::format("\n  {} {} were there already\n", resumed, points);
   if (report.status == 130) {
     report.text +=
-        fmt::format("\n  stopped{}\n", call.has("out") ? "; the same line goes on from there" : "");
+        fmt::format("\n  stopped{}\n", call.output.out ? "; the same line goes on from there" : "");
   }
   tell_result(call, report);
 }

@@ -1,7 +1,9 @@
 #pragma once
 /// What orbit, continue and torus share: options, and where they begin.
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/verbs/study.hpp"
 #include "libdyn/motions/transient.hpp"
@@ -10,32 +12,56 @@
 
 namespace whirl::inline cli {
 
-/// Where orbits are to be closed, as seen from there: --frame.
-/// @throws ModelError  for other frames than the stationary and the rotating one
-OrbitFrame orbit_frame(const Invocation& call);
+/// A motion that has settled.
+struct SettledVerbOptions {
+  Option<long> discard{"discard", "N", "revolutions before it, for the transient; with --from none",
+                       500, Whole{0}};
+  Option<double> tolerance = tolerance_option();
+  auto fields() { return std::tie(discard, tolerance); }
+};
 
-/// That of --method; --harmonics and --verify, if given, must go with it.
-/// @throws ModelError  for an unknown one, or for options of the other
-OrbitMethod orbit_method(const Invocation& call);
+/// How orbits are found, of orbit and continue.
+struct OrbitMethodVerbOptions {
+  Option<OrbitMethod> method{"method", "M", "shooting or harmonic-balance", OrbitMethod::shooting};
+  Option<long> harmonics{
+      "harmonics", "N",
+      "of harmonic balance, of the orbit's frequency; left out: as many as it takes"};
+  auto fields() { return std::tie(method, harmonics); }
+};
+
+/// What continue and torus follow motions along.
+struct AlongVerbOptions {
+  ListOption over;
+  Option<int> points{"points", "N", "how many values a range without a step has", 101, Whole{2}};
+  Option<std::string> at;
+  auto fields() { return std::tie(over, points, at); }
+};
+
+inline Option<OrbitFrame> frame_option() {
+  return {"frame", "F", "in which it repeats: stationary or rotating", OrbitFrame::stationary};
+}
+
+/// Checks that an option, if it is given, goes with the method.
+/// @param option  its name, with dashes
+/// @throws ModelError  if it is one of harmonic balance only
+void require_balance(OrbitMethod method, bool is_given, const char* option);
 
 /// --harmonics; 0: left out.
 /// @throws ModelError  if the speed itself, harmonic number `period`, is not among them
-int harmonics_of(const Invocation& call, int period);
+int checked_harmonics(const Option<long>& harmonics, int period);
 
-/// What --over, --at and --points say.
+/// The parameters of branches.
 /// @throws ModelError  as branch_parameters
-BranchParameters asked_parameters(const Invocation& call, const Model& model);
+BranchParameters asked_parameters(const AlongVerbOptions& options, const Model& model);
 
-/// The motion after --discard revolutions from the model's start, or from --from (there left out: 0).
-Trajectory after_transient(const Invocation& call, const Model& model, const Scene& scene);
+/// The motion after the transient, from the start of the model or the end of a result.
+Trajectory after_transient(const Invocation& call, const SettledVerbOptions& options,
+                           const Option<std::string>& from, const Model& model, const Scene& scene);
 
 /// A report with its headline, and with the notes on the model.
 Report orbit_report(const Invocation& call, const Model& model, const std::string& what);
 
 /// Says what was there already, that it was stopped, and where the result is.
 void add_kept(const Invocation& call, const std::string& points, long resumed, Report& report);
-
-/// Orbits near random starts: --starts.
-Report search_orbits(const Invocation& call, const Model& model);
 
 }  // namespace whirl::inline cli

@@ -16,11 +16,36 @@ namespace whirl::inline cli {
 
 namespace {
 
-/// What the result can be drawn as.
-Report list_of(const Invocation& call, const ResultView& result) {
-  for (const char* option : {"out", "with", "size", "font", "format", "no-title"}) {
-    if (call.has(option)) throw call.wrong(option, "which kind of figure?");
+struct PlotVerbOptions {
+  Option<std::string> out{"out", "FILE",
+                          "picture, .svg, .png or .pdf; left out: .svg beside the result"};
+  Option<std::string> which{
+      "which", "NAME", "of several of a kind: the station, contact or plane; left out: the first"};
+  Option<std::string> with{
+      "with", "OTHER.h5",
+      "branches over bifurcation, bifurcation curves over map, where both are of the same values"};
+  Option<PrintedSides> size{
+      "size", "WxHmm", "of the printed picture, such as 85x60mm; cm, in and pt too", parse_sides};
+  Option<double> font{
+      "font", "PT", "letters of axes and legend in points; left out: 9, with --size 8", parse_font};
+  Flag no_title{"no-title", "without title and subtitle, for a caption below"};
+  Option<PictureFormat> format{"format", "F", "svg, png or pdf, whatever --out ends in"};
+  WindowVerbOptions window{
+      .revolutions = {"revolutions", "N",
+                      "revolutions of a motion, given alone: the last ones; left out: 8, orbit 48, "
+                      "poincare all"}};
+  Option<std::string> frequency = frequency_option();
+  auto fields() {
+    return std::tie(out, which, with, size, font, no_title, format, window, frequency);
   }
+};
+
+/// What the result can be drawn as.
+Report list_of(const Invocation& call, const PlotVerbOptions& options, const ResultView& result) {
+  const auto refuse = [](const auto&... given) {
+    ((given.is_given ? throw given.wrong("which kind of figure?") : void()), ...);
+  };
+  refuse(options.out, options.with, options.size, options.font, options.format, options.no_title);
   const DrawableKinds all = drawable_kinds(result);
   Table table({"kind", "shows", "--which"});
   for (const DrawableKind& kind : all.kinds) {
@@ -35,37 +60,27 @@ Report list_of(const Invocation& call, const ResultView& result) {
   return report;
 }
 
-PictureSize size_of(const Invocation& call) {
-  PictureSize size{.has_title = !call.has("no-title")};
-  if (call.has("font")) size.font = call.parsed("font", parse_font);
-  if (call.has("size")) {
-    const PrintedSides sides = call.parsed("size", parse_sides);
-    size.width = sides.width;
-    size.height = sides.height;
-  }
-  return size;
+PictureFormat format_of(const PlotVerbOptions& options) {
+  if (options.format) return *options.format;
+  const std::string out = options.out.value_or("");
+  return out.empty() ? PictureFormat::svg : parsed_option("out", out, picture_format_of);
 }
 
-PictureFormat format_of(const Invocation& call) {
-  if (call.has("format")) return call.parsed("format", parse_choice<PictureFormat>);
-  if (call.text("out").empty()) return PictureFormat::svg;
-  return call.parsed("out", picture_format_of);
-}
-
-Report run_plot(const Invocation& call) {
+Report run_plot(const Invocation& call, const PlotVerbOptions& options) {
   require_result(call, call.words.empty() ? "" : call.words[0]);
   ResultView result(call.file);
-  set_frequency_unit(call, result);
+  set_frequency_unit(options.frequency, result);
   if (call.words.size() > 1) throw ModelError({call.words[1]}, "", "one kind of figure at a time");
-  if (call.words.empty()) return list_of(call, result);
-  result.window = window_of(call);
+  if (call.words.empty()) return list_of(call, options, result);
+  result.window = window_of(options.window);
   const Figure figure =
-      chosen_figure(result, {call.words[0], call.text("which"), call.text("with")});
-  const PictureSize size = size_of(call);
-  const PictureFormat format = format_of(call);
+      chosen_figure(result, {call.words[0], options.which.value_or(""), options.with.value_or("")});
+  const PrintedSides sides = options.size.value_or({});
+  const PictureSize size{sides.width, sides.height, options.font.value_or(0.0), !options.no_title};
+  const PictureFormat format = format_of(options);
   const std::string stem = std::filesystem::path(call.file).replace_extension("").string();
   const std::string out =
-      call.text_or("out", fmt::format("{}_{}.{}", stem, figure.kind, name_of(format)));
+      options.out.value_or(fmt::format("{}_{}.{}", stem, figure.kind, name_of(format)));
   const Picture picture = picture_of(figure, size);
   write_picture(picture.svg, out,
                 {.format = format,
@@ -96,22 +111,6 @@ Verb plot_verb() {
       .takes_more = "KIND",
       .takes_more_help = "what to draw; left out: lists what the result holds",
       .example = "whirl plot run.h5 orbit --out orbit.svg",
-      .options =
-          {{"out", "FILE", "picture, .svg, .png or .pdf; left out: .svg beside the result"},
-           {"which", "NAME",
-            "of several of a kind: the station, contact or plane; left out: the first"},
-           {"with", "OTHER.h5",
-            "branches over bifurcation, bifurcation curves over map, where both are of the same values"},
-           {"size", "WxHmm", "of the printed picture, such as 85x60mm; cm, in and pt too"},
-           {"font", "PT", "letters of axes and legend in points; left out: 9, with --size 8"},
-           {"no-title", "", "without title and subtitle, for a caption below"},
-           {"format", "F", "svg, png or pdf, whatever --out ends in"},
-           from_revolution_option,
-           {"revolutions", "N",
-            "revolutions of a motion, given alone: the last ones; left out: 8, orbit 48, poincare "
-            "all"},
-           times_option,
-           frequency_option},
       .run = run_plot,
   };
 }

@@ -15,14 +15,20 @@ namespace whirl::inline cli {
 
 namespace {
 
-Report run_report(const Invocation& call) {
+struct ReportVerbOptions {
+  Option<std::string> out{"out", "FILE.html", "the page; left out: beside the result"};
+  Option<std::string> frequency = frequency_option();
+  auto fields() { return std::tie(out, frequency); }
+};
+
+Report run_report(const Invocation& call, const ReportVerbOptions& options) {
   require_result(call, "");
   std::vector<std::unique_ptr<ResultView>> results;
   results.push_back(std::make_unique<ResultView>(call.file));
   for (const std::string& file : call.words) results.push_back(std::make_unique<ResultView>(file));
-  for (const auto& result : results) set_frequency_unit(call, *result);
+  for (const auto& result : results) set_frequency_unit(options.frequency, *result);
   const std::string out =
-      call.text_or("out", std::filesystem::path(call.file).replace_extension(".html").string());
+      options.out.value_or(std::filesystem::path(call.file).replace_extension(".html").string());
   FileReplacement{out, call.picture_replaces()};  // a wrong place is said before the work
   const ReportPage page = report_page(results, version);
   if (page.figures == 0) {
@@ -48,7 +54,6 @@ Verb report_verb() {
       .takes_more = "OTHER.h5",
       .takes_more_help = "further results on the same page",
       .example = "whirl report run.h5 --out run.html",
-      .options = {{"out", "FILE.html", "the page; left out: beside the result"}, frequency_option},
       .run = run_report,
   };
 }

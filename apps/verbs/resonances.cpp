@@ -12,25 +12,31 @@ namespace whirl::inline cli {
 
 namespace {
 
-ResonanceOptions resonance_options(const Invocation& call, const Model& model) {
-  ResonanceOptions options{
-      .speeds = call.speeds(model),
-      .modes = static_cast<int>(call.integer("modes")),
-      .largest = static_cast<int>(call.integer("largest")),
-      .confirms = call.has("confirm"),
-      .search = {.starts = static_cast<int>(call.integer("starts")),
-                 .seed = static_cast<std::uint64_t>(call.integer("seed"))},
-  };
-  if (options.confirms && model.contacts.empty()) {
+struct ResonancesVerbOptions {
+  Option<int> modes{"modes", "N", "how many modes", 4};
+  Option<std::vector<double>> speeds = speeds_option();
+  Option<int> largest{"largest", "N", "of p and q", 4};
+  Flag confirm{"confirm", "look for bouncing motions near each of them"};
+  Option<int> starts{"starts", "N", "of them at every speed that is tried", 16};
+  Option<std::uint64_t> seed = seed_option();
+  auto fields() { return std::tie(modes, speeds, largest, confirm, starts, seed); }
+};
+
+ResonanceOptions resonance_options(const ResonancesVerbOptions& asked, const Model& model) {
+  if (asked.confirm && model.contacts.empty()) {
     throw ModelError({"--confirm"}, "", "expected a model with contacts to bounce in");
   }
-  return options;
+  return {.speeds = asked.speeds.value_or(usual_speeds(model.speed)),
+          .modes = *asked.modes,
+          .largest = *asked.largest,
+          .confirms = asked.confirm,
+          .search = {.starts = *asked.starts, .seed = *asked.seed}};
 }
 
-Report run_resonances(const Invocation& call) {
+Report run_resonances(const Invocation& call, const ResonancesVerbOptions& asked) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
-  const ResonanceOptions options = resonance_options(call, model);
+  const ResonanceOptions options = resonance_options(asked, model);
   const auto file = call.result_file(model);
   if (options.confirms) install_interrupt_handler();
   const ResonanceStudy study =
@@ -61,12 +67,6 @@ Verb resonances_verb() {
       .summary =
           "speeds at which two modes are in p:q resonance seen from the rotor, where it may bounce",
       .example = "whirl resonances models/two_disk_mac.toml --speeds 1000:8000:50rpm --confirm",
-      .options = {{"modes", "N", "how many modes", "4"},
-                  speeds_option,
-                  {"largest", "N", "of p and q", "4"},
-                  {"confirm", "", "look for bouncing motions near each of them"},
-                  {"starts", "N", "of them at every speed that is tried", "16"},
-                  seed_option},
       .run = run_resonances,
   };
 }

@@ -21,28 +21,17 @@ void require_result(const Invocation& call, const std::string& kind) {
       call.file, shell_line({"whirl", verb_for(kind), call.file, "--out", out}), shell_line(then)));
 }
 
-void set_frequency_unit(const Invocation& call, ResultView& result) {
-  const auto unit = frequency_unit(call.text("frequency"));
-  if (!unit) throw call.wrong("frequency", "expected Hz, cpm or rad/s");
-  result.frequency = *unit;
+void set_frequency_unit(const Option<std::string>& unit, ResultView& result) {
+  const auto known = frequency_unit(*unit);
+  if (!known) throw unit.wrong("expected Hz, cpm or rad/s");
+  result.frequency = *known;
 }
 
-MotionWindow window_of(const Invocation& call) {
-  MotionWindow window;
-  if (call.has("times")) {
-    for (const char* other : {"from-revolution", "revolutions"}) {
-      if (!call.has(other)) continue;
-      throw call.wrong("times", fmt::format("does not go with --{}", other));
-    }
-    window.times = call.parsed("times", parse_times);
-  }
-  if (call.has("from-revolution")) {
-    window.from_revolution = static_cast<double>(call.integer("from-revolution", 0));
-  }
-  if (call.has("revolutions")) {
-    window.revolutions = static_cast<double>(call.integer("revolutions"));
-  }
-  return window;
+MotionWindow window_of(const WindowVerbOptions& options) {
+  const auto& [from, revolutions, times] = options;
+  if (times && from) throw times.wrong("does not go with --from-revolution");
+  if (times && revolutions) throw times.wrong("does not go with --revolutions");
+  return {from.value, revolutions.value, times.value};
 }
 
 SceneSource scene_source(const Invocation& call) {
@@ -51,10 +40,6 @@ SceneSource scene_source(const Invocation& call) {
   auto result = open_result(call.file);
   Model model = parse_model(result->strings("/model").at(0), call.file, call.sets);
   return SceneSource(std::move(model), std::move(result));
-}
-
-std::optional<long> number_given(const Invocation& call, const std::string& option) {
-  return call.has(option) ? std::optional(call.integer(option)) : std::nullopt;
 }
 
 Record file_list(const std::vector<fs::path>& files) {

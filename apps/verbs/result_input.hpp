@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/invocation.hpp"
+#include "apps/verbs/options.hpp"
 #include "libio/export/scene_source.hpp"
 #include "libio/figures/figures.hpp"
 
@@ -17,17 +18,15 @@ namespace whirl::inline cli {
 /// @throws FileError  if the call's file is TOML by its name, and no HDF5 file
 void require_result(const Invocation& call, const std::string& kind);
 
-/// Shows frequencies in the unit of --frequency, if it is given.
-void set_frequency_unit(const Invocation& call, ResultView& result);
+/// Shows frequencies in the unit of --frequency.
+/// @throws ModelError  for another than Hz, cpm and rad/s
+void set_frequency_unit(const Option<std::string>& unit, ResultView& result);
 
-/// The stretch of a motion that --from-revolution, --revolutions or --times ask for.
-MotionWindow window_of(const Invocation& call);
+/// @throws ModelError  if --times stands beside other options of a window
+MotionWindow window_of(const WindowVerbOptions& options);
 
 /// The model or result of a call, as a scene.
 SceneSource scene_source(const Invocation& call);
-
-/// Value of an option that asks for a number; nothing where it is left out.
-std::optional<long> number_given(const Invocation& call, const std::string& option);
 
 /// Files that were written, for JSON.
 Record file_list(const std::vector<std::filesystem::path>& files);

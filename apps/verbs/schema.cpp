@@ -46,10 +46,10 @@ Verb schema_verb() {
       .summary = "a JSON Schema of model files, for editors",
       .takes = "",
       .example = "whirl schema --out whirl.schema.json",
-      .options = {{"out", "FILE.json", "where it goes; left out: standard output"},
-                  {"force", "", "replace a file that whirl did not write, too"}},
       .run_words = run_schema,
       .usage = schema_usage,
+      .options_in_words = {{"out", "FILE.json", "where it goes; left out: standard output"},
+                           {"force", "", "replace a file that whirl did not write, too"}},
   };
 }
 

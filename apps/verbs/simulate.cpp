@@ -5,11 +5,11 @@ namespace whirl::inline cli {
 
 namespace {
 
-Report run_simulate(const Invocation& call) {
+Report run_simulate(const Invocation& call, const IntegrationVerbOptions& options) {
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);
-  const Run run = run_simulation(call, model);
+  const Run run = run_simulation(call, model, options);
   const std::vector<StationSummary> stations = station_summaries(run);
   Report report = motion_report(call, model, run, stations, "Simulation");
   report.record.set("stations", columns::record_value(stations, 1.0));
@@ -26,7 +26,6 @@ Verb simulate_verb() {
       .group = "Contact",
       .summary = "integrates in time, contacts and all",
       .example = "whirl simulate models/two_disk_mac.toml --speed 4430rpm --out run.h5",
-      .options = integration_options(),
       .run = run_simulate,
   };
 }

@@ -7,6 +7,7 @@
 
 #include "apps/invocation.hpp"
 #include "apps/verb.hpp"
+#include "apps/verbs/options.hpp"
 #include "libdyn/motions/run_model.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/columns.hpp"
@@ -15,19 +16,40 @@
 
 namespace whirl::inline cli {
 
-/// Options of simulate and identify, behind those of one of them.
-std::vector<OptionSpec> integration_options(std::vector<OptionSpec> own = {});
+/// Options of simulate, and of identify behind its own.
+struct IntegrationVerbOptions {
+  Option<long> revolutions{"revolutions", "N", "revolutions that are recorded", 512};
+  Option<long> discard = discard_option();
+  Option<int> samples{"samples", "N", "samples per revolution", 64, Whole{4}};
+  Option<std::string> method{
+      "method", "M",
+      "integrator: taylor, collocation (left out: the better of these), dop853, cvode-adams, "
+      "cvode-bdf, arkode, arkode-dirk, rk4",
+      [](const std::string& name) {
+        return name.empty() ? Parsed(name) : parse_method(name, method_names());
+      }};
+  Option<double> tolerance = tolerance_option();
+  Option<std::string> from = from_option();
+  Option<std::string> stations{
+      "stations", "NAME,...",
+      "what is recorded and shown: names, node numbers, all; left out: contacts, disks, bearings"};
+  auto fields() {
+    return std::tie(revolutions, discard, samples, method, tolerance, from, stations);
+  }
+};
 
-/// The start of a model's motions: with --from, where that result ended.
-Start start_of(const Invocation& call, const Model& model);
+/// The start of a model's motions.
+/// @param from  the result where they go on, if there is one
+Start start_of(const Option<std::string>& from, const Model& model);
 /// Where that, or the model's [start], is the end of another result; nothing: it is not.
-std::optional<EarlierEnd> earlier_start(const Invocation& call, const Model& model);
+std::optional<EarlierEnd> earlier_start(const Option<std::string>& from, const Model& model);
 /// Where a motion begins.
-MotionState starting_state(const Invocation& call, Model model, const Scene& scene);
+MotionState starting_state(const Option<std::string>& from, Model model, const Scene& scene);
 
-/// Integrates a model as an invocation says.
+/// Integrates a model.
 /// @throws ModelError  as run_model
-Run run_simulation(const Invocation& call, const Model& model);
+Run run_simulation(const Invocation& call, const Model& model,
+                   const IntegrationVerbOptions& options);
 
 /// Exit status of a run: 0, 3 (failed) or 130 (stopped by the user).
 int status_of(Outcome outcome);

@@ -13,24 +13,48 @@
 
 namespace whirl::inline cli {
 
-/// Options of all of them, behind those of one.
-std::vector<OptionSpec> study_options(std::vector<OptionSpec> own);
+/// What a study varies.
+struct AxesVerbOptions {
+  ListOption over{"over", "PATH=A:B:STEP",
+                  "a value of the model and what it runs over: first:last:step, first:last with "
+                  "--points, or value,value,..."};
+  Option<int> points{"points", "N", "how many values a range without a step has", Whole{2}};
+  auto fields() { return std::tie(over, points); }
+};
 
-/// Points of a study from the model, --over and --from.
+/// What goes on from a result, and where it is kept.
+struct KeptVerbOptions {
+  Option<std::string> from = from_option();
+  Flag restart{"restart", "begin anew, whatever the file of --out holds"};
+  auto fields() { return std::tie(from, restart); }
+};
+
+/// Further options of all studies.
+struct StudyVerbOptions {
+  Option<long> revolutions{"revolutions", "N", "revolutions that are measured", 1000};
+  Option<long> exponents{"exponents", "N",
+                         "of these, over which Lyapunov exponents are averaged at most", 1000};
+  Option<long> discard = discard_option();
+  Option<double> tolerance = tolerance_option();
+  KeptVerbOptions kept{};
+  auto fields() { return std::tie(revolutions, exponents, discard, tolerance, kept); }
+};
+
+/// Points of a study.
 /// @param least, most  numbers of axes that are right
 /// @throws ModelError  for a wrong model, option or axis, also at the ends of the axes
-StudyPoints study_points(const Invocation& call, std::size_t least, std::size_t most);
+StudyPoints study_points(const Invocation& call, const AxesVerbOptions& axes,
+                         const KeptVerbOptions& kept, std::size_t least, std::size_t most);
 
-ClassifyOptions study_classify(const Invocation& call);
+ClassifyOptions study_classify(const StudyVerbOptions& options);
 int study_threads(const Invocation& call);
 
 /// Where the study is kept that a call asks for, and how it is followed; from now on Ctrl-C asks it
 /// to stop.
-/// @param start  where its motions begin, where that is the end of another result
 /// @param what   is counted
 /// @param notes  for its file
 StudyKeeping study_keeping(const Invocation& call, const Model& model,
-                           std::optional<EarlierEnd> start, std::string what,
+                           const KeptVerbOptions& options, std::string what,
                            std::vector<std::string> notes = {});
 
 /// Report on a study under a headline.

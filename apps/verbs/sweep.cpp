@@ -1,6 +1,5 @@
 #include "libdyn/studies/sweep.hpp"
 
-#include "apps/verbs/options.hpp"
 #include "apps/verbs/study.hpp"
 #include "libio/texts/sweep_text.hpp"
 
@@ -8,29 +7,41 @@ namespace whirl::inline cli {
 
 namespace {
 
-SweepOptions sweep_options(const Invocation& call, const StudyPoints& points) {
+struct SweepVerbOptions {
+  AxesVerbOptions axes{};
+  Flag fresh{"fresh", "every value from the model's start, not from the one before"};
+  Option<long> sections{"sections", "N", "Poincare sections kept of a motion", 64};
+  Option<long> spectra{"spectra", "N", "revolutions of a value's spectrum, 0: none", 32, Whole{0}};
+  Option<std::string> stations{
+      "stations", "NAME,...",
+      "of sections and spectra: names, node numbers, all; left out: contacts, disks, bearings"};
+  StudyVerbOptions study{};
+  auto fields() { return std::tie(axes, fresh, sections, spectra, stations, study); }
+};
+
+SweepOptions sweep_options(const Invocation& call, const SweepVerbOptions& asked,
+                           const StudyPoints& points) {
   SweepOptions options{.values = points.axes()[0].values,
-                       .start = call.has("fresh") ? SweepStart::fresh : SweepStart::carried,
-                       .classify = study_classify(call),
+                       .start = asked.fresh ? SweepStart::fresh : SweepStart::carried,
+                       .classify = study_classify(asked.study),
                        .threads = study_threads(call)};
-  options.classify.sections = call.integer("sections");
+  options.classify.sections = *asked.sections;
   const StudyMember first = points.first();
   options.portrait = {
-      .stations = select_points(first.model, first.scene->assembler, call.text("stations")),
-      .spectrum_revolutions = call.integer("spectra", 0)};
+      .stations = select_points(first.model, first.scene->assembler, asked.stations.value_or("")),
+      .spectrum_revolutions = *asked.spectra};
   return options;
 }
 
-Report run_sweep(const Invocation& call) {
-  const StudyPoints points = study_points(call, 1, 1);
+Report run_sweep(const Invocation& call, const SweepVerbOptions& asked) {
+  const StudyPoints points = study_points(call, asked.axes, asked.study.kept, 1, 1);
   const ParameterAxis& axis = points.axes()[0];
   const StudyModels models = points.models();
-  const SweepOptions options = sweep_options(call, points);
+  const SweepOptions options = sweep_options(call, asked, points);
   const std::size_t values = axis.values.size();
-  const bool is_fresh = options.start == SweepStart::fresh;
   const auto [result, outcome] = run_study<SweepResult>(
-      study_keeping(call, points.model(), points.earlier(), "sweeping"), points,
-      is_fresh ? values : 2 * values,
+      study_keeping(call, points.model(), asked.study.kept, "sweeping"), points,
+      asked.fresh ? values : 2 * values,
       [&](SweepResult earlier, const auto& monitor) {
         return sweep(models, options, monitor, std::move(earlier));
       },
@@ -40,7 +51,7 @@ Report run_sweep(const Invocation& call) {
   const auto entries = [&](std::size_t way) {
     return columns::record_value(SweepWay{result, axis.values, way}.entries(), 1.0);
   };
-  record.set("up", entries(0)).set("down", is_fresh ? Record::array() : entries(1));
+  record.set("up", entries(0)).set("down", asked.fresh ? Record::array() : entries(1));
   return study_report(call, points.model(), outcome, record,
                       headline("Sweep", points.model()) + text_of(result, axis));
 }
@@ -55,15 +66,6 @@ Verb sweep_verb() {
       .example =
           "whirl sweep models/jeffcott_stator.toml --over operation.speed=130:140:0.5rad/s --out "
           "sweep.h5",
-      .options = study_options(
-          {over_option,
-           points_option,
-           {"fresh", "", "every value from the model's start, not from the one before"},
-           {"sections", "N", "Poincare sections kept of a motion", "64"},
-           {"spectra", "N", "revolutions of a value's spectrum, 0: none", "32"},
-           {"stations", "NAME,...",
-            "of sections and spectra: names, node numbers, all; left out: contacts, disks, "
-            "bearings"}}),
       .run = run_sweep,
   };
 }

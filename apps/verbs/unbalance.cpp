@@ -9,14 +9,20 @@ namespace whirl::inline cli {
 
 namespace {
 
-Report run_unbalance(const Invocation& call) {
+struct UnbalanceVerbOptions {
+  Option<std::vector<double>> speeds = speeds_option();
+  Option<std::string> stations{"stations", "NAME,...", "names, node numbers or all", "all"};
+  auto fields() { return std::tie(speeds, stations); }
+};
+
+Report run_unbalance(const Invocation& call, const UnbalanceVerbOptions& options) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
   const UnbalanceStudy study =
       unbalance_study(model, assembler,
-                      {.speeds = call.speeds(model),
-                       .has_given_speeds = call.has("speeds"),
-                       .stations = select_points(model, assembler, call.text("stations"))});
+                      {.speeds = options.speeds.value_or(usual_speeds(model.speed)),
+                       .has_given_speeds = options.speeds.is_given,
+                       .stations = select_points(model, assembler, *options.stations)});
   Report report = begin_report(call, model, record_of(study));
   report.text = text_of(study, model);
   report.notes = notes_of(study);
@@ -36,7 +42,6 @@ Verb unbalance_verb() {
       .group = "Linear rotordynamics",
       .summary = "steady unbalance response over speeds",
       .example = "whirl unbalance models/two_disk_mac.toml --speeds 0:8000:10rpm",
-      .options = {speeds_option, {"stations", "NAME,...", "names, node numbers or all", "all"}},
       .run = run_unbalance,
   };
 }

@@ -11,7 +11,7 @@ namespace help_test {
 std::vector<std::string> all_verbs() {
   std::vector<std::string> names;
   for (const Verb& verb : verbs()) {
-    if (verb.run) names.emplace_back(verb.name);
+    if (verb.run.with) names.emplace_back(verb.name);
   }
   return names;
 }

@@ -71,7 +71,7 @@ TEST(Verbs, AreWhole) {
     group = verb.group;
     EXPECT_FALSE(verb.summary.empty());
     EXPECT_TRUE(has(std::string(verb.example), "whirl " + std::string(verb.name)));
-    EXPECT_NE(verb.run == nullptr, verb.run_words == nullptr);
+    EXPECT_NE(verb.run.with == nullptr, verb.run_words == nullptr);
     EXPECT_EQ(verb.run_words != nullptr, !verb.usage.empty());
     std::set<std::string_view> options;
     for (const OptionSpec& option : options_of(verb)) {
@@ -111,7 +111,7 @@ TEST_F(VerbsOfTheProgram, HelpPrintsEveryOptionWithItsDefault) {
     return std::regex_replace(text, std::regex("[ \n]+"), " ");
   };
   for (const Verb& verb : verbs()) {
-    if (!verb.run) continue;
+    if (!verb.run.with) continue;
     SCOPED_TRACE(verb.name);
     const std::string help = in_one_line(whirl({std::string(verb.name), "--help"}).out);
     for (const OptionSpec& option : options_of(verb)) {
@@ -119,6 +119,31 @@ TEST_F(VerbsOfTheProgram, HelpPrintsEveryOptionWithItsDefault) {
       EXPECT_TRUE(has(help, in_one_line(line))) << line;
     }
   }
+}
+
+// Placeholders of values that may be any text stand for names, files and places; all others are read
+// before the work, and a wrong one is told with its option.
+TEST_F(VerbsOfTheProgram, RefuseValuesThatMeanNothingByTheNamesOfTheirOptions) {
+  static const std::regex any_text("FILE.*|OTHER.h5|NAME.*|PATH.*|VALUE.*");
+  write("rub.toml", rubbing);
+  ASSERT_EQ(whirl({"simulate", "rub.toml", "--discard", "0", "--revolutions", "2", "--out",
+                   "run.h5", "--quiet"})
+                .status,
+            0);
+  int refused = 0;
+  for (const Verb& verb : verbs()) {
+    if (!verb.run.with) continue;
+    const std::string file = verb.takes == "MODEL" ? "rub.toml" : "run.h5";
+    for (const OptionSpec& option : own_options(verb)) {
+      if (option.is_flag() || std::regex_match(std::string(option.value), any_text)) continue;
+      const std::string dashed = "--" + std::string(option.name);
+      const Outcome outcome = whirl({std::string(verb.name), file, dashed, "?"});
+      EXPECT_EQ(outcome.status, 2) << verb.name << " " << dashed;
+      EXPECT_TRUE(outcome.err.starts_with(dashed + " ?: ")) << verb.name << ": " << outcome.err;
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 70);
 }
 
 TEST(Manual, ListsTheVerbsInTheirOrder) {
@@ -154,7 +179,7 @@ TEST(Manual, ListsTheOptionsOfEveryVerb) {
     }
   }
   for (const Verb& verb : verbs()) {
-    for (const OptionSpec& option : verb.options) {
+    for (const OptionSpec& option : own_options(verb)) {
       SCOPED_TRACE(std::string(verb.name) + " " + written(option));
       const auto row = meanings.find({std::string(verb.name), written(option)});
       if (row == meanings.end()) {
