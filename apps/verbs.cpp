@@ -11,6 +11,7 @@
   resonances_verb(), \
   critical_verb(),   \
   unbalance_verb(),  \
+  frf_verb(),        \
   simulate_verb(),   \
   identify_verb(),   \
   classify_verb(),   \

@@ -20,6 +20,7 @@
   bode_kind(),           \
   polar_kind(),          \
   deflection_kind(),     \
+  frf_kind(),            \
   orbit_kind(),          \
   time_history_kind(),   \
   spectrum_kind(),       \

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
@@ -56,6 +57,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<ClassificationResult>());
   add(schema_of<CriticalSpeeds>());
   add(schema_of<UnbalanceStudy>());
+  add(schema_of<FrequencyResponse>());
   add(schema_of<BranchResult>());
   add(schema_of<CurveResult>());
   add(schema_of<TorusResult>());

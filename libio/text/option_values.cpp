@@ -14,7 +14,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr int default_speeds = 101;
+constexpr int default_speeds = 101, default_frequencies = 401;
 
 }  // namespace
 
@@ -45,12 +45,26 @@ Parsed<std::string> parse_method(const std::string& name,
       fmt::format("unknown method, expected one of {}", fmt::join(methods, ", ")));
 }
 
-Parsed<std::vector<double>> parse_speeds(std::string_view text) {
+namespace {
+
+/// Numbers of zero or more [rad/s].
+/// @param otherwise  how many there are without a step
+Parsed<std::vector<double>> parse_rates(std::string_view text, const char* what, int otherwise) {
   using Result = Parsed<std::vector<double>>;
   const auto range = parse_range(text, "rad/s");
   if (!range) return Result::failed(range.problem);
-  if (range->first < 0.0) return Result::failed("expected speeds of zero or more");
-  return range->step ? values(*range) : values(*range, default_speeds);
+  if (range->first < 0.0) return Result::failed(fmt::format("expected {} of zero or more", what));
+  return range->step ? values(*range) : values(*range, otherwise);
+}
+
+}  // namespace
+
+Parsed<std::vector<double>> parse_speeds(std::string_view text) {
+  return parse_rates(text, "speeds", default_speeds);
+}
+
+Parsed<std::vector<double>> parse_frequencies(std::string_view text) {
+  return parse_rates(text, "frequencies", default_frequencies);
 }
 
 std::vector<double> usual_speeds(double operating_speed) {

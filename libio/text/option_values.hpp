@@ -37,7 +37,9 @@ Parsed<std::string> parse_method(const std::string& name,
 
 /// Speeds of linear analyses [rad/s]; a range without a step has 101.
 Parsed<std::vector<double>> parse_speeds(std::string_view text);
-/// Those where none are given: from zero to somewhat above the operating speed [rad/s] (0: none).
+/// Frequencies of responses [rad/s]; a range without a step has 401.
+Parsed<std::vector<double>> parse_frequencies(std::string_view text);
+/// Speeds where none are given: from zero to somewhat above the operating speed [rad/s] (0: none).
 std::vector<double> usual_speeds(double operating_speed);
 
 /// The speeds that --over goes through, at least the first and the last [rad/s].

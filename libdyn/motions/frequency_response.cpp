@@ -1,0 +1,170 @@
+#include "libdyn/motions/frequency_response.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "libbase/error.hpp"
+#include "libfe/eigen/dynamic_stiffness.hpp"
+#include "libfe/modes.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+constexpr int shown_modes = 8;
+constexpr int even_frequencies = 400;
+
+/// What a direction is made of: factors of x, y, theta_x, theta_y.
+std::array<Complex, 4> force_parts(Direction direction) {
+  const Complex i(0.0, 1.0);
+  switch (direction) {
+    case Direction::x:
+      return {1.0, 0.0, 0.0, 0.0};
+    case Direction::y:
+      return {0.0, 1.0, 0.0, 0.0};
+    case Direction::theta_x:
+      return {0.0, 0.0, 1.0, 0.0};
+    case Direction::theta_y:
+      return {0.0, 0.0, 0.0, 1.0};
+    case Direction::forward:
+      return {1.0, -i, 0.0, 0.0};
+    case Direction::backward:
+      return {1.0, i, 0.0, 0.0};
+  }
+  return {};
+}
+
+/// Of a motion they are told by half the conjugates where it whirls.
+std::array<Complex, 4> motion_parts(Direction direction) {
+  std::array<Complex, 4> parts = force_parts(direction);
+  const bool whirls = direction == Direction::forward || direction == Direction::backward;
+  for (Complex& part : parts) part = std::conj(part) * (whirls ? 0.5 : 1.0);
+  return parts;
+}
+
+/// Full vector of a force or moment of size one.
+CVec load_of(const ResponseEnd& end, const DofMap& dofs) {
+  CVec load = CVec::Zero(dofs.full_size);
+  const auto parts = force_parts(end.direction);
+  for (int c = 0; c < 4; ++c) {
+    const int k = dofs.full_index(end.at.point, c);
+    if (k >= 0) load(k) = parts[static_cast<std::size_t>(c)];
+  }
+  return load;
+}
+
+Complex motion_of(const ResponseEnd& end, const DofMap& dofs, const CVec& full) {
+  Complex sum = 0.0;
+  const auto parts = motion_parts(end.direction);
+  for (int c = 0; c < 4; ++c) {
+    const int k = dofs.full_index(end.at.point, c);
+    if (k >= 0) sum += parts[static_cast<std::size_t>(c)] * full(k);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::string ResponseEnd::label() const {
+  return fmt::format("{} {}", at.label(), name_of(direction));
+}
+
+std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assembler,
+                                     const std::string& list) {
+  std::vector<ResponseEnd> ends;
+  if (list.empty()) {
+    for (const NamedPoint& point : select_points(model, assembler, "")) {
+      ends.push_back({point, Direction::x});
+      ends.push_back({point, Direction::y});
+    }
+    return ends;
+  }
+  for (std::size_t at = 0; at <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', at), list.size());
+    const std::string entry = list.substr(at, comma - at);
+    at = comma + 1;
+    const std::size_t colon = entry.rfind(':');
+    Direction direction = Direction::x;
+    if (colon != std::string::npos) {
+      const auto known = value_named<Direction>(entry.substr(colon + 1));
+      if (!known) {
+        throw ModelError({}, entry,
+                         "expected x, y, theta_x, theta_y, forward or backward behind the colon");
+      }
+      direction = *known;
+    }
+    const bool is_tilt = direction == Direction::theta_x || direction == Direction::theta_y;
+    for (const NamedPoint& point : select_points(model, assembler, entry.substr(0, colon))) {
+      const DofMap& dofs = assembler.uncondensed(0.0).dofs;
+      if (is_tilt && dofs.full_index(point.point, THETA_X) < 0) {
+        throw ModelError({}, entry, "this body does not tilt; give it tilts = true");
+      }
+      ends.push_back({point, direction});
+    }
+  }
+  return ends;
+}
+
+FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
+                                     const std::vector<double>& frequencies,
+                                     const std::vector<ResponseEnd>& from,
+                                     const std::vector<ResponseEnd>& to) {
+  FrequencyResponse result{.speed = Omega, .frequencies = frequencies};
+  const auto count = static_cast<Eigen::Index>(frequencies.size());
+  System system = assembler.uncondensed(Omega);
+  const DofMap dofs = system.dofs;
+  CMat loads(dofs.size(), static_cast<Eigen::Index>(from.size()));
+  for (std::size_t f = 0; f < from.size(); ++f) {
+    loads.col(static_cast<Eigen::Index>(f)) = dofs.T.transpose() * load_of(from[f], dofs);
+    for (const ResponseEnd& end : to) {
+      const CVec none = CVec::Zero(count);
+      result.pairs.push_back({from[f].label(), end.label(), none, none, none});
+    }
+  }
+  DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double w = frequencies[static_cast<std::size_t>(k)];
+    bool is_bounded = true;
+    for (std::size_t f = 0; f < from.size(); ++f) {
+      const auto q = stiffness.solve(w, Omega, loads.col(static_cast<Eigen::Index>(f)));
+      is_bounded = is_bounded && q.has_value();
+      const CVec full = q ? CVec(dofs.T * *q) : CVec();
+      for (std::size_t t = 0; t < to.size(); ++t) {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        const Complex H = q ? motion_of(to[t], dofs, full) : Complex(nan, nan);
+        ResponsePair& pair = result.pairs[f * to.size() + t];
+        pair.receptance(k) = H;
+        pair.mobility(k) = Complex(0.0, w) * H;
+        pair.accelerance(k) = -w * w * H;
+      }
+    }
+    if (!is_bounded) result.unbounded.push_back(w);
+  }
+  return result;
+}
+
+std::vector<double> usual_frequencies(const Assembler& assembler, double Omega) {
+  const Modes modes = complex_modes(assembler.at(Omega), shown_modes);
+  if (modes.oscillatory.empty()) {
+    throw NumericalError("no mode oscillates: give the frequencies of the response");
+  }
+  const double top = 1.2 * modes.oscillatory.back().frequency();
+  std::vector<double> all;
+  for (int i = 0; i <= even_frequencies; ++i) all.push_back(top * i / even_frequencies);
+  for (const Mode& mode : modes.oscillatory) {
+    all.push_back(mode.frequency());
+    for (const double widths : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+      for (const double side : {-1.0, 1.0}) {
+        const double w = mode.frequency() + side * widths * std::abs(mode.lambda.real());
+        if (w > 0.0 && w < top) all.push_back(w);
+      }
+    }
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,107 @@
+#pragma once
+/// Frequency responses of the linear rotor at a speed: receptances, mobilities, accelerances between
+/// stations, along x, y or a sense of whirl.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libbase/field.hpp"
+#include "libdyn/system/stations.hpp"
+#include "libfe/assemble.hpp"
+
+namespace whirl::inline dyn {
+
+/// Along what a force acts, or a motion is told.
+///
+/// A forward force is one of constant size that turns with the spin, f_x + i f_y = F e^(i w t), a
+/// backward one turns against it. Of a motion x + i y = r_f e^(i w t) + conj(r_b) e^(-i w t), forward
+/// tells r_f and backward r_b.
+enum class Direction { x, y, theta_x, theta_y, forward, backward };
+
+constexpr std::array<Choice<Direction>, 6> choices(Direction) {
+  using enum Direction;
+  return {{{"x", x},
+           {"y", y},
+           {"theta_x", theta_x},
+           {"theta_y", theta_y},
+           {"forward", forward},
+           {"backward", backward}}};
+}
+
+/// A place and a direction.
+struct ResponseEnd {
+  NamedPoint at;
+  Direction direction = Direction::x;
+
+  /// "7 seal x"
+  std::string label() const;
+};
+
+/// Those of a list "left disk:y,7,seal:forward": a station as in select_points, x if there is no
+/// direction. An empty list stands for x and y of everything with a contact, a disk or a bearing.
+/// @throws ModelError  for an unknown station or direction, and for tilts of what has none
+std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assembler,
+                                     const std::string& list);
+
+/// Complex amplitude of a motion by a force of size one, over frequency: u = Re(H f e^(i w t)).
+struct ResponsePair {
+  std::string from, to;  ///< the force, the motion
+  CVec receptance;       ///< displacement; tilts are in rad, of moments by N.m [m/N]
+  CVec mobility;         ///< velocity, i w times that [m/(N.s)]
+  CVec accelerance;      ///< acceleration, -w^2 times that [1/kg]
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("from", &ResponsePair::from, "", "station and direction of the force"),
+        column("to", &ResponsePair::to, "", "station and direction of the motion"),
+        column("receptance", &ResponsePair::receptance, "m/N", "displacement by force")
+            .along("frequencies")
+            .as("receptance"),
+        column("mobility", &ResponsePair::mobility, "m/(N.s)", "velocity by force")
+            .along("frequencies")
+            .as("mobility"),
+        column("accelerance", &ResponsePair::accelerance, "1/kg", "acceleration by force")
+            .along("frequencies")
+            .as("accelerance")};
+  }
+};
+
+/// Frequency responses at a speed; group /frf.
+struct FrequencyResponse {
+  double speed = 0.0;               ///< [rad/s]
+  std::vector<double> frequencies;  ///< [rad/s]
+  std::vector<ResponsePair> pairs;
+  std::vector<double> unbounded;  ///< undamped resonances, where responses are NaN [rad/s]
+
+  static constexpr std::string_view group = "/frf";
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("speed", &FrequencyResponse::speed, "rad/s", "rotor speed").only(in_file),
+        column("frequency", &FrequencyResponse::frequencies, "rad/s", "frequency of the force")
+            .axis("frequencies+")
+            .within(valid::finite)
+            .as("frequencies_rpm"),
+        rows(&FrequencyResponse::pairs, "pairs+"),
+        column("unbounded", &FrequencyResponse::unbounded, "rad/s", "undamped resonances")
+            .only(in_json)};
+  }
+};
+
+/// Solves (K - w^2 M + i w (C + Omega G)) q = f for a force at each end of `from`.
+///
+/// Coefficients of bearings are those of a journal that whirls with the frequency of the force.
+/// @param Omega        spin speed [rad/s]
+/// @param frequencies  0 or more [rad/s]
+FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
+                                     const std::vector<double>& frequencies,
+                                     const std::vector<ResponseEnd>& from,
+                                     const std::vector<ResponseEnd>& to);
+
+/// Frequencies that show the lowest modes at a speed: even ones up to 1.2 times the highest of them,
+/// and some within the width of each peak [rad/s].
+std::vector<double> usual_frequencies(const Assembler& assembler, double Omega);
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,38 @@
+#include "libio/texts/frequency_response_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libfe/amplification.hpp"
+#include "libio/text/table.hpp"
+
+namespace whirl::inline io {
+
+std::string text_of(const FrequencyResponse& found) {
+  constexpr std::size_t most = 6;
+  Table table({"from", "to", "peak [Hz]", "receptance [m/N]", "phase [deg]", "amplification"});
+  for (const ResponsePair& pair : found.pairs) {
+    const Mat amplitude = pair.receptance.cwiseAbs().transpose();
+    std::string from = pair.from, to = pair.to;
+    for (const ResponsePeak& peak : response_peaks(found.frequencies, amplitude, most)) {
+      const auto at = std::min_element(
+          found.frequencies.begin(), found.frequencies.end(),
+          [&](double a, double b) { return std::abs(a - peak.speed) < std::abs(b - peak.speed); });
+      const Complex H = pair.receptance(at - found.frequencies.begin());
+      const double factor = peak.amplification();
+      table.row({from, to, fmt::format("{:.4g}", peak.speed / hertz),
+                 fmt::format("{:.4g}", peak.amplitude), fmt::format("{:.0f}", std::arg(H) / degree),
+                 std::isfinite(factor) ? fmt::format("{:.3g}", factor) : "-"});
+      from = to = "";
+    }
+    if (!from.empty()) table.row({from, to, "none", "-", "-", "-"});
+  }
+  return fmt::format("Frequency responses at {:.0f} rpm, {:.4g} to {:.4g} Hz\n\n{}",
+                     found.speed / rpm, found.frequencies.front() / hertz,
+                     found.frequencies.back() / hertz, table.text());
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "libdyn/motions/frequency_response.hpp"
+
+namespace whirl::inline io {
+
+/// Peaks of every response, with their phases and how sharp they are.
+std::string text_of(const FrequencyResponse& found);
+
+}  // namespace whirl::inline io
