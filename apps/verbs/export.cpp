@@ -14,7 +14,7 @@ namespace {
 struct ExportVerbOptions {
   Option<std::string> format{
       "format", "F",
-      "vtk: series for ParaView; xdmf: longer ones; csv: tables; vtu; with meshio abaqus, nastran, "
+      "vtk: series for ParaView; xdmf: longer ones; csv: tables; mtx, mat: M, C, G, K; vtu; with meshio abaqus, nastran, "
       "gmsh, exodus, med, stl, ...",
       "vtk"};
   Option<std::string> out{"out", "NAME",

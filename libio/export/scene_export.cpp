@@ -5,7 +5,9 @@
 
 #include <array>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libio/export/matrices.hpp"
 #include "libio/export/rotor_mesh.hpp"
 #include "libio/export/xdmf.hpp"
 #include "libio/results/csv_tables.hpp"
@@ -25,8 +27,8 @@ constexpr double all_revolutions = 1e9;
 struct OwnFormat {
   std::string_view name, ending;
 };
-constexpr std::array<OwnFormat, 3> own_formats{
-    {{"vtk", ".pvd"}, {"xdmf", ".xdmf"}, {"csv", ".csv"}}};
+constexpr std::array<OwnFormat, 5> own_formats{
+    {{"vtk", ".pvd"}, {"xdmf", ".xdmf"}, {"csv", ".csv"}, {"mtx", ".mtx"}, {"mat", ".mat"}}};
 
 /// A name without the ending of a file that this program knows; other points in it stay.
 fs::path without_ending(fs::path file, const std::string& of_format) {
@@ -79,6 +81,18 @@ Exported export_csv(const SceneSource& source, const ExportOptions& options, con
   if (samples) written.text = fmt::format("  of the motion {}\n", samples->text);
   for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
   if (written.files.empty()) written.text = "There are no tables in this result\n";
+  return written;
+}
+
+/// The matrices at the operating speed.
+Exported export_matrices(const SceneSource& source, const ExportOptions& options,
+                         const fs::path& stem) {
+  const auto write = options.format.name == "mat" ? write_matlab : write_matrix_market;
+  const double Omega = source.model.speed;
+  Exported written{
+      write(stem, source.model, source.assembler, Omega, options.replaces),
+      fmt::format("M q'' + (C + Omega G) q' + K q = f at {:.6g} rpm\n\n", Omega / rpm)};
+  for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
   return written;
 }
 
@@ -142,6 +156,9 @@ Exported export_scene(const SceneSource& source, const ExportOptions& options) {
   const fs::path stem = without_ending(options.stem, options.format.ending);
   if (options.format.mesh) return export_mesh(source, options, stem);
   if (options.format.name == "csv") return export_csv(source, options, stem);
+  if (options.format.name == "mtx" || options.format.name == "mat") {
+    return export_matrices(source, options, stem);
+  }
   return export_series(source, options, stem);
 }
 

@@ -1,0 +1,164 @@
+#include "libio/export/matrices.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <matio.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <memory>
+
+#include "libdyn/system/stations.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view mtx_head =
+    "%%MatrixMarket matrix coordinate real general\n% written by whirl\n";
+constexpr std::string_view dofs_head = "coordinate,what,z [m]\n";
+constexpr const char* matlab_head = "MATLAB 5.0 MAT-file, written by whirl";
+
+struct NamedMatrix {
+  const char* name;
+  const Sparse* values;
+};
+
+std::array<NamedMatrix, 4> matrices_of(const System& system) {
+  return {{{"M", &system.M}, {"C", &system.C}, {"G", &system.G}, {"K", &system.K}}};
+}
+
+/// What may be replaced: any file that begins as ours do.
+Replaces replaces_own(const fs::path& place, std::string_view head, Replaces replaces) {
+  std::string begin(head.size(), '\0');
+  std::ifstream(place, std::ios::binary).read(begin.data(), static_cast<long>(begin.size()));
+  return begin == head ? Replaces::anything : replaces;
+}
+
+std::string market_text(const Sparse& A) {
+  std::string text(mtx_head);
+  fmt::format_to(std::back_inserter(text), "{} {} {}\n", A.rows(), A.cols(), A.nonZeros());
+  for (int j = 0; j < A.outerSize(); ++j) {
+    for (Sparse::InnerIterator it(A, j); it; ++it) {
+      fmt::format_to(std::back_inserter(text), "{} {} {}\n", it.row() + 1, j + 1, it.value());
+    }
+  }
+  return text;
+}
+
+using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
+
+/// A sparse matrix as MATLAB has it: by columns, rows ascending.
+Variable sparse_variable(const char* name, Sparse A) {
+  A.makeCompressed();
+  std::vector<mat_uint32_t> rows(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+  std::vector<mat_uint32_t> columns(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
+  mat_sparse_t data{};
+  data.nzmax = static_cast<mat_uint32_t>(A.nonZeros());
+  data.ir = rows.data();
+  data.nir = data.nzmax;
+  data.jc = columns.data();
+  data.njc = static_cast<mat_uint32_t>(columns.size());
+  data.ndata = data.nzmax;
+  data.data = A.valuePtr();
+  std::array<std::size_t, 2> size{static_cast<std::size_t>(A.rows()),
+                                  static_cast<std::size_t>(A.cols())};
+  return {Mat_VarCreate(name, MAT_C_SPARSE, MAT_T_DOUBLE, 2, size.data(), &data, 0), &Mat_VarFree};
+}
+
+/// Texts as rows of equally many characters.
+Variable text_variable(const char* name, const std::vector<std::string>& texts) {
+  std::size_t width = 1;
+  for (const std::string& t : texts) width = std::max(width, t.size());
+  std::string columns(texts.size() * width, ' ');  // characters column by column
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    for (std::size_t k = 0; k < texts[i].size(); ++k) columns[k * texts.size() + i] = texts[i][k];
+  }
+  std::array<std::size_t, 2> size{texts.size(), width};
+  return {Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UINT8, 2, size.data(), columns.data(), 0),
+          &Mat_VarFree};
+}
+
+Variable number_variable(const char* name, double value) {
+  std::array<std::size_t, 2> size{1, 1};
+  return {Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), &value, 0), &Mat_VarFree};
+}
+
+}  // namespace
+
+std::vector<std::string> coordinate_names(const DofMap& dofs, const Model& model) {
+  constexpr std::array<const char*, 4> components{"x", "y", "theta_x", "theta_y"};
+  std::vector<std::string> of_full(static_cast<std::size_t>(dofs.full_size));
+  for (const Point& p : dofs.points()) {
+    const auto i = static_cast<std::size_t>(p.index);
+    const std::string at = p.kind == Point::Kind::body ? model.structure.bodies.at(i).name
+                                                       : fmt::format("node {}", p.index + 1);
+    for (int c = 0; c < 4; ++c) {
+      const int k = dofs.full_index(p, c);
+      if (k >= 0) of_full[static_cast<std::size_t>(k)] = fmt::format("{} {}", at, components[c]);
+    }
+  }
+  std::vector<std::string> names(static_cast<std::size_t>(dofs.size()));
+  for (int q = 0; q < dofs.size(); ++q) {
+    std::string& name = names[static_cast<std::size_t>(q)];
+    for (Sparse::InnerIterator it(dofs.T, q); it; ++it) {
+      const std::string& one = of_full[static_cast<std::size_t>(it.row())];
+      name += (name.empty() ? "" : " = ") + (one.empty() ? "internal shape function" : one);
+    }
+  }
+  return names;
+}
+
+std::vector<fs::path> write_matrix_market(const fs::path& stem, const Model& model,
+                                          const Assembler& assembler, double Omega,
+                                          Replaces replaces) {
+  const System system = assembler.uncondensed(Omega);
+  std::vector<fs::path> files;
+  for (const auto& [name, values] : matrices_of(system)) {
+    files.emplace_back(fmt::format("{}_{}.mtx", stem.string(), name));
+    replace_file(files.back(), market_text(*values),
+                 replaces_own(files.back(), mtx_head, replaces));
+  }
+  const std::vector<std::string> names = coordinate_names(system.dofs, model);
+  const Vec z = point_names(model, assembler).z;
+  std::string table(dofs_head);
+  for (std::size_t q = 0; q < names.size(); ++q) {
+    std::string at;
+    for (Sparse::InnerIterator it(system.dofs.T, static_cast<int>(q)); it && at.empty(); ++it) {
+      if (it.row() < 4 * system.dofs.nodes) at = fmt::format("{}", z(it.row() / 4));
+    }
+    table += fmt::format("{},\"{}\",{}\n", q + 1, names[q], at);
+  }
+  files.emplace_back(stem.string() + "_dofs.csv");
+  replace_file(files.back(), table, replaces_own(files.back(), dofs_head, replaces));
+  return files;
+}
+
+std::vector<fs::path> write_matlab(const fs::path& stem, const Model& model,
+                                   const Assembler& assembler, double Omega, Replaces replaces) {
+  const System system = assembler.uncondensed(Omega);
+  const fs::path place = stem.string() + ".mat";
+  FileReplacement file(place, replaces_own(place, matlab_head, replaces));
+  {
+    const std::unique_ptr<mat_t, decltype(&Mat_Close)> mat(
+        Mat_CreateVer(file.temporary().c_str(), matlab_head, MAT_FT_MAT5), &Mat_Close);
+    std::vector<Variable> variables;
+    for (const auto& [name, values] : matrices_of(system)) {
+      variables.push_back(sparse_variable(name, *values));
+    }
+    variables.push_back(number_variable("Omega", Omega));
+    variables.push_back(text_variable("dofs", coordinate_names(system.dofs, model)));
+    for (const Variable& v : variables) {
+      if (!mat || !v || Mat_VarWrite(mat.get(), v.get(), MAT_COMPRESSION_NONE) != 0) {
+        throw FileError(place.string() + " cannot be written");
+      }
+    }
+  }
+  file.commit();
+  return {place};
+}
+
+}  // namespace whirl::inline io
