@@ -8,9 +8,11 @@
 #include <optional>
 
 #include "libbase/sparse_lu.hpp"
+#include "libfe/bow.hpp"
 #include "libfe/elements/body.hpp"
 #include "libfe/elements/connection.hpp"
 #include "libfe/elements/disk.hpp"
+#include "libfe/modal_damping.hpp"
 #include "libfe/shaft_elements.hpp"
 
 namespace whirl::inline fe {
@@ -217,6 +219,12 @@ Assembler::Assembler(Structure structure)
     collector.add(e, index);
   }
   dofs_.full_size = next;
+  for (const MeshLayer& piece : mesh_.layers) {
+    const MeshElement& beside = mesh_.elements[static_cast<std::size_t>(piece.element)];
+    collector.add(
+        matrices(beam_of(piece, structure_, mesh_)),
+        indices(dofs_, {Point::Kind::node, beside.left}, {Point::Kind::node, beside.right}));
+  }
   for (const Disk& disk : structure_.disks) {
     collector.add(matrices(disk), indices(dofs_, point(disk.at)));
   }
@@ -266,6 +274,10 @@ Assembler::Assembler(Structure structure)
   fixed_ = {collector.M(next), collector.C(next), collector.G(next), collector.K(next),
             collector.H(next)};
   if (fixed_.H.nonZeros() > 0) depends_on_speed_ = true;
+  if (!structure_.modal_damping.ratios.empty()) {
+    const auto at_rest = [&] { return at(0.0); };
+    modal_ = modal_damping_matrix(structure_.modal_damping, at_rest, fixed_.M);
+  }
 }
 
 Assembler::FullMatrices Assembler::full(double Omega) const {
@@ -287,6 +299,7 @@ Assembler::FullMatrices Assembler::full(double Omega) const {
   const Rayleigh& r = structure_.damping;
   if (r.mass != 0.0) f.C += r.mass * f.M;
   if (r.stiffness != 0.0) f.C += r.stiffness * f.K;
+  if (modal_.nonZeros() > 0) f.C += modal_;
   return f;
 }
 
@@ -329,6 +342,33 @@ CVec Assembler::unbalance() const {
     u(dofs_.full_index(p, Y)) += Complex(0.0, -1.0) * amplitude;
   }
   return u;
+}
+
+CVec Assembler::bow() const {
+  CVec force = CVec::Zero(dofs_.full_size);
+  const std::vector<BowState> states = bow_states(structure_.bow, mesh_.z);
+  if (states.empty()) return force;
+  // x + i y = r turns with the shaft: u_x = r, u_y = -i r, and theta_y = x', theta_x = -y'
+  CVec displacement = CVec::Zero(dofs_.full_size);
+  for (int i = 0; i < mesh_.nodes(); ++i) {
+    const auto& [r, slope] = states[static_cast<std::size_t>(i)];
+    displacement.segment<4>(4 * i) << r, Complex(0.0, -1.0) * r, Complex(0.0, 1.0) * slope, slope;
+  }
+  for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
+    const std::vector<int> index = indices(dofs_, {Point::Kind::node, mesh_.elements[e].left},
+                                           {Point::Kind::node, mesh_.elements[e].right});
+    for (Beam beam : beams_along(e, structure_, mesh_)) {
+      beam.axial_force = beam.torque = 0.0;  // these act along the true line, not the unbent one
+      const Mat K = matrices(beam).K.topLeftCorner<8, 8>();
+      force(index) += K * displacement(index);
+    }
+  }
+  return force;
+}
+
+CVec Assembler::turning_load(double Omega) const {
+  const CVec u = Omega * Omega * unbalance();
+  return structure_.bow.z.empty() ? u : CVec(u + bow());
 }
 
 Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) const {

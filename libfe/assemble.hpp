@@ -25,7 +25,8 @@ struct System {
 class Assembler {
  public:
   /// @throws ModelError  as make_mesh, and for connections that cannot be (clamping a body without
-  ///                     tilts, a rigid bearing whose ends are held already, ...) or hold everything
+  ///                     tilts, a rigid bearing whose ends are held already, ...) or hold everything,
+  ///                     and for modal damping where the modes at rest cannot be computed
   explicit Assembler(Structure structure);
 
   const Structure& structure() const { return structure_; }
@@ -53,6 +54,18 @@ class Assembler {
   /// f(t) = Omega^2 Re(u exp(i Omega t)), u_x = U e^(i phase), u_y = -i u_x.
   CVec unbalance() const;
 
+  /// Complex amplitude of the force that holds a straight shaft in its bow, a full vector
+  /// [N, N.m]: f(t) = Re(f exp(i Omega t)), f = K_shaft bow, with the elastic stiffness of segments
+  /// and layers. A bow in a shaft without forces is what it does under this force; rigid parts of
+  /// it need none. Between nodes the bow is the line that the shape functions make of its
+  /// deflections and slopes there.
+  ///
+  /// @source [Nicholas1976]
+  CVec bow() const;
+
+  /// Amplitude of all that turns with the shaft at a speed: Omega^2 unbalance() + bow() [N, N.m].
+  CVec turning_load(double Omega) const;
+
   /// Forces that supports must exert on the full vector so that K T q = f holds there [N, N.m].
   Vec support_forces(double Omega, const Vec& q, const Vec& full_load) const;
 
@@ -67,6 +80,7 @@ class Assembler {
   Mesh mesh_;
   DofMap dofs_;         // supports eliminated, nothing condensed
   FullMatrices fixed_;  // all that does not depend on speed
+  Sparse modal_;        // damping of modes at rest; empty: none
   bool depends_on_speed_ = false;
 };
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 #include <array>
+#include <limits>
+#include <vector>
 
 #include "libbase/quadrature.hpp"
 #include "libfe/shaft_elements.hpp"
@@ -21,10 +23,11 @@ struct Bent {
   Vec w = Vec::Zero(pieces + 1), theta = Vec::Zero(pieces + 1);
 };
 
-/// Integrals along one beam.
+/// Integrals along beams beside each other, which bend as one.
 class BeamIntegrals {
  public:
-  explicit BeamIntegrals(const Beam& beam) : beam_(beam), h_(beam.L / pieces) {}
+  explicit BeamIntegrals(const std::vector<Beam>& beams)
+      : beams_(beams), h_(beams.front().L / pieces) {}
 
   /// @param moment, shear  functions of the position from the left end [N.m], [N]
   Bent bend(const auto& moment, const auto& shear) const {
@@ -33,12 +36,9 @@ class BeamIntegrals {
       Vec curvature(points_of_piece), slip(points_of_piece);
       for (Eigen::Index i = 0; i < points_of_piece; ++i) {
         const double s = h_ * (k + rule().x(i));
-        const Section section = this->section(s);
-        curvature(i) = moment(s) / (beam_.material.E * section.I());
-        slip(i) = 0.0;
-        if (beam_.theory != Theory::timoshenko) continue;
-        const double kappa = shear_coefficient(beam_.shear, section, beam_.material.nu);
-        slip(i) = shear(s) / (kappa * beam_.material.G * section.A());
+        const Stiffness stiffness = this->stiffness(s);
+        curvature(i) = moment(s) / stiffness.bending;
+        slip(i) = shear(s) / stiffness.shear;
       }
       const Vec slope = (h_ * (rule().S * curvature)).array() + bent.theta(k) + slip.array();
       bent.theta(k + 1) = bent.theta(k) + h_ * rule().w.dot(curvature);
@@ -52,23 +52,38 @@ class BeamIntegrals {
     Vec2 sum = Vec2::Zero();
     for (Eigen::Index i = 0; i < points_of_piece; ++i) {
       const double t = s * rule().x(i);
-      sum += s * rule().w(i) * beam_.material.rho * section(t).A() * Vec2(1.0, s - t);
+      for (const Beam& beam : beams_) {
+        if (beam.carries == Carries::stiffness) continue;
+        sum += s * rule().w(i) * beam.material.rho * section(beam, t).A() * Vec2(1.0, s - t);
+      }
     }
     return sum;
   }
 
  private:
+  /// E I and kappa G A of all beams; without shear in one of them the latter is infinite.
+  struct Stiffness {
+    double bending = 0.0, shear = 0.0;
+  };
+  Stiffness stiffness(double s) const {
+    Stiffness sum;
+    for (const Beam& beam : beams_) {
+      if (beam.carries == Carries::mass) continue;
+      const Section section = this->section(beam, s);
+      sum.bending += beam.material.E * section.I();
+      const double kappa = shear_coefficient(beam.shear, section, beam.material.nu);
+      sum.shear += beam.theory == Theory::timoshenko ? kappa * beam.material.G * section.A()
+                                                     : std::numeric_limits<double>::infinity();
+    }
+    return sum;
+  }
   static const Quadrature& rule() {
     static const Quadrature rule = Quadrature::gauss(points_of_piece);
     return rule;
   }
-  Section section(double s) const {
-    const double share = s / beam_.L;
-    return {beam_.left.outer + share * (beam_.right.outer - beam_.left.outer),
-            beam_.left.inner + share * (beam_.right.inner - beam_.left.inner)};
-  }
+  static Section section(const Beam& beam, double s) { return beam.at(s / beam.L); }
 
-  const Beam& beam_;
+  const std::vector<Beam>& beams_;
   double h_;
 };
 
@@ -124,8 +139,10 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
   int internal = 4 * dofs.nodes;  // index of the amplitudes of the next beam's own functions
   for (const bool tilts : dofs.body_tilts) internal += tilts ? 4 : 2;
   Eigen::Index at = 0;
-  for (const MeshElement& element : mesh.elements) {
-    const Beam beam = beam_of(element, assembler.structure(), mesh);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const MeshElement& element = mesh.elements[e];
+    const std::vector<Beam> beams = beams_along(e, assembler.structure(), mesh);
+    const Beam& beam = beams.front();  // of the shaft itself; it alone has functions of its own
     const auto matrices = whirl::matrices(beam);
     const Eigen::Index n = matrices.K.rows();
     Vec q(n), acceleration = Vec::Zero(n);
@@ -134,8 +151,13 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
     q.tail(n - 8) = displacement.segment(internal, n - 8);
     internal += static_cast<int>(n) - 8;
     acceleration(plane_y[0]) = acceleration(plane_y[2]) = -assembler.structure().gravity;
-    const Vec f = matrices.K * q + Omega * (matrices.H * q) - matrices.M * acceleration;
-    const BeamIntegrals integrals(beam);
+    Vec f = matrices.K * q + Omega * (matrices.H * q) - matrices.M * acceleration;
+    for (std::size_t i = 1; i < beams.size(); ++i) {
+      const auto layer = whirl::matrices(beams[i]);
+      f.head(8) +=
+          layer.K * q.head(8) + Omega * (layer.H * q.head(8)) - layer.M * acceleration.head(8);
+    }
+    const BeamIntegrals integrals(beams);
     for (const int plane : {0, 1}) {
       Plane p{.ends = {}, .forces = {}, .acceleration = acceleration(plane == 0 ? 0 : 1)};
       for (std::size_t i = 0; i < 4; ++i) {

@@ -35,8 +35,14 @@ Structure undamped(Structure s) {
       c.coefficients = constant_bearing(at_rest);
     }
   }
-  for (Segment& segment : s.shaft) segment.material.eta = 0.0;
+  const auto release = [](auto& part) {
+    part.material.eta = 0.0;
+    part.damping = {};
+  };
+  for (Segment& segment : s.shaft) release(segment);
+  for (Layer& layer : s.layers) release(layer);
   s.damping = {};
+  s.modal_damping = {};
   return s;
 }
 

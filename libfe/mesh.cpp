@@ -161,6 +161,32 @@ void add_elements(Mesh& mesh, const Structure& structure) {
   }
 }
 
+/// Adds the layers beside the elements of a mesh.
+void add_layers(Mesh& mesh, const Structure& structure) {
+  const double slack = same_place * structure.length();
+  std::vector<Problem> problems;
+  std::vector<LayerSpan> spans;
+  for (const Layer& layer : structure.layers) {
+    spans.push_back(span_of(layer, structure, mesh));
+    if (spans.back().to > spans.back().from + slack) continue;
+    problems.push_back({layer.to.where, layer.to.key,
+                        fmt::format("the layer ends at {:g} mm, expected a place to the right of "
+                                    "{:g} mm, where it begins",
+                                    1e3 * spans.back().to, 1e3 * spans.back().from)});
+  }
+  if (!problems.empty()) throw ModelError(problems);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const double left = mesh.z[static_cast<std::size_t>(mesh.elements[e].left)];
+    const double right = mesh.z[static_cast<std::size_t>(mesh.elements[e].right)];
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+      const auto [from, to] = spans[i];
+      if (left < from - slack || right > to + slack) continue;
+      mesh.layers.push_back({static_cast<int>(e), static_cast<int>(i), (left - from) / (to - from),
+                             (right - from) / (to - from)});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<const Station*> all_stations(const Structure& structure) {
@@ -173,20 +199,42 @@ std::vector<const Station*> all_stations(const Structure& structure) {
     }
   }
   for (const Unbalance& unbalance : structure.unbalances) stations.push_back(&unbalance.at);
+  for (const Layer& layer : structure.layers) {
+    stations.push_back(&layer.from);
+    stations.push_back(&layer.to);
+  }
   for (const Station& station : structure.stations) stations.push_back(&station);
   return stations;
 }
 
-double shaft_diameter(const Structure& structure, double z) {
+LayerSpan span_of(const Layer& layer, const Structure& structure, const Mesh& mesh) {
+  const auto z = [&](const Station& station) {
+    return mesh.z[static_cast<std::size_t>(resolve(station, structure, mesh).index)];
+  };
+  for (const Station* end : {&layer.from, &layer.to}) {
+    const bool is_on_shaft =
+        end->kind == Station::Kind::position || end->kind == Station::Kind::node;
+    if (is_on_shaft && mesh.nodes() > 0) continue;
+    throw ModelError(end->where, end->key, "a layer lies on the shaft, from one place to another");
+  }
+  return {z(layer.from), z(layer.to)};
+}
+
+double shaft_diameter(const Structure& structure, const Mesh& mesh, double z) {
   double start = 0.0, largest = 0.0;
   const double slack = same_place * structure.length();
+  const auto add = [&](const Section& left, const Section& right, double from, double length) {
+    const double s = (z - from) / length;
+    if (z < from - slack || z > from + length + slack) return;
+    largest = std::max(largest, between(left, right, std::clamp(s, 0.0, 1.0)).outer);
+  };
   for (const Segment& segment : structure.shaft) {
-    const double s = (z - start) / segment.length;
-    const double end = start + segment.length;
-    if (z >= start - slack && z <= end + slack) {
-      largest = std::max(largest, segment.at(std::clamp(s, 0.0, 1.0)).outer);
-    }
-    start = end;
+    add(segment.left, segment.right, start, segment.length);
+    start += segment.length;
+  }
+  for (const Layer& layer : structure.layers) {
+    const LayerSpan span = span_of(layer, structure, mesh);
+    add(layer.left, layer.right, span.from, span.to - span.from);
   }
   return largest;
 }
@@ -195,13 +243,17 @@ Mesh make_mesh(const Structure& structure) {
   check_segments(structure);
   const std::vector<double> wanted = wanted_positions(structure);
   Mesh mesh;
-  if (structure.shaft.empty()) return mesh;
+  if (structure.shaft.empty()) {
+    add_layers(mesh, structure);
+    return mesh;
+  }
   mesh.z = node_positions(structure, wanted);
   mesh.left_to_right.resize(mesh.z.size());
   std::iota(mesh.left_to_right.begin(), mesh.left_to_right.end(), 0);
   std::sort(mesh.left_to_right.begin(), mesh.left_to_right.end(),
             [&](int a, int b) { return mesh.z[a] < mesh.z[b]; });
   add_elements(mesh, structure);
+  add_layers(mesh, structure);
   return mesh;
 }
 

@@ -23,6 +23,13 @@ struct MeshElement {
   double from = 0.0, to = 1.0;  ///< fractions of the segment's length
 };
 
+/// A piece of a layer beside one element of the shaft.
+struct MeshLayer {
+  int element = 0;              ///< that it lies beside, from 0
+  int layer = 0;                ///< from 0
+  double from = 0.0, to = 1.0;  ///< fractions of the layer's length
+};
+
 /// Nodes in the order of their numbers.
 ///
 /// Segments with a given number of elements make equal ones; their nodes are numbered left to
@@ -33,22 +40,31 @@ struct Mesh {
   std::vector<double> z;              ///< position of each node [m]
   std::vector<int> left_to_right;     ///< nodes ordered by position
   std::vector<MeshElement> elements;  ///< left to right
+  std::vector<MeshLayer> layers{};    ///< element by element
 
   int nodes() const { return static_cast<int>(z.size()); }
 };
 
-/// @throws ModelError  for stations off the shaft, unknown nodes or bodies, unfit segments, and two
-///                     positions nearer than 1e-5 of the shaft's length without being the same
+/// @throws ModelError  for stations off the shaft, unknown nodes or bodies, unfit segments, layers
+///                     that do not end right of where they begin, and two positions nearer than
+///                     1e-5 of the shaft's length without being the same
 Mesh make_mesh(const Structure& structure);
 
 /// The point that a station stands for; the mesh has a node there.
 /// @throws ModelError  if there is none
 Point resolve(const Station& station, const Structure& structure, const Mesh& mesh);
 
-/// Outer diameter of the shaft at a position [m]; the larger one at a step.
-double shaft_diameter(const Structure& structure, double z);
+/// Where a layer begins and ends along the shaft [m].
+struct LayerSpan {
+  double from = 0.0, to = 0.0;
+};
+/// @throws ModelError  as resolve
+LayerSpan span_of(const Layer& layer, const Structure& structure, const Mesh& mesh);
 
-/// All stations of a structure, in the order disks, bearings, links, unbalances, others.
+/// Outer diameter of the shaft and its layers at a position [m]; the larger one at a step.
+double shaft_diameter(const Structure& structure, const Mesh& mesh, double z);
+
+/// All stations of a structure, in the order disks, bearings, links, unbalances, layers, others.
 std::vector<const Station*> all_stations(const Structure& structure);
 
 }  // namespace whirl::inline fe

@@ -8,16 +8,24 @@ RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
   RotorProperties p;
   double on_shaft = 0.0, moment = 0.0, start = 0.0;
   const Quadrature q = Quadrature::gauss(3);  // of polynomials of the fourth degree
-  for (const Segment& segment : structure.shaft) {
+  const auto add_part = [&](const auto& part, double from, double whole) {
     for (int i = 0; i < 3; ++i) {
-      const Section section = segment.at(q.x(i));
-      const double length = q.w(i) * segment.length;
-      const double mass = segment.material.rho * section.A() * length;
+      const Section section = between(part.left, part.right, q.x(i));
+      const double length = q.w(i) * whole;
+      const double mass = part.material.rho * section.A() * length;
       on_shaft += mass;
-      moment += mass * (start + q.x(i) * segment.length);
-      p.Ip += segment.material.rho * 2.0 * section.I() * length;
+      moment += mass * (from + q.x(i) * whole);
+      p.Ip += part.material.rho * 2.0 * section.I() * length;
     }
+  };
+  for (const Segment& segment : structure.shaft) {
+    add_part(segment, start, segment.length);
     start += segment.length;
+  }
+  for (const Layer& layer : structure.layers) {
+    if (layer.carries == Carries::stiffness) continue;
+    const LayerSpan span = span_of(layer, structure, mesh);
+    add_part(layer, span.from, span.to - span.from);
   }
   for (const Disk& disk : structure.disks) {
     const Point point = resolve(disk.at, structure, mesh);
@@ -29,7 +37,7 @@ RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
   p.center_of_mass = on_shaft > 0.0 ? moment / on_shaft : 0.0;
   for (const Body& body : structure.bodies) {
     if (!body.spins) continue;
-    p.mass += body.m;
+    p.mass += body.m.x;
     p.Ip += body.Ip;
   }
   return p;

@@ -22,6 +22,11 @@ struct Section {
   }
 };
 
+/// Section at a fraction s of the way from one to another, diameters linear between.
+constexpr Section between(const Section& left, const Section& right, double s) {
+  return {left.outer + s * (right.outer - left.outer), left.inner + s * (right.inner - left.inner)};
+}
+
 /// What a beam element takes into account.
 enum class Theory {
   timoshenko,      ///< bending, shear, rotary inertia, gyroscopics

@@ -1,6 +1,7 @@
 #pragma once
 /// What a model file says about the rotor and its surroundings, checked and in SI, before any mesh.
 
+#include <array>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -24,6 +25,19 @@ struct Station {
   std::string key{};  ///< path of the entry in the model file, for messages
 };
 
+/// Damping in proportion to mass and stiffness: C = mass M + stiffness K.
+struct Rayleigh {
+  double mass = 0.0;       ///< [1/s]
+  double stiffness = 0.0;  ///< [s]
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        optional("mass", &Rayleigh::mass, "1/s", nonnegative, "a in C = a M + b K"),
+        optional("stiffness", &Rayleigh::stiffness, "s", nonnegative, "b in C = a M + b K")};
+  }
+};
+
 /// Part of the shaft between two planes: a cylinder or a cone of one material.
 struct Segment {
   Material material;
@@ -35,13 +49,11 @@ struct Segment {
   ShearCoefficient shear;
   double axial_force = 0.0;  ///< tension > 0 [N]
   double torque = 0.0;       ///< about +z on the face that looks to +z [N.m]
+  Rayleigh damping{};        ///< of this segment, at rest
   Where where{};
 
   /// Section at a fraction s of the length, 0 <= s <= 1.
-  Section at(double s) const {
-    return {left.outer + s * (right.outer - left.outer),
-            left.inner + s * (right.inner - left.inner)};
-  }
+  Section at(double s) const { return between(left, right, s); }
 
   static constexpr auto fields() {
     using enum Range;
@@ -55,6 +67,38 @@ struct Segment {
         optional("theory", &Segment::theory, "", any, "beam theory"),
         optional("axial_force", &Segment::axial_force, "N", any, "tension > 0"),
         optional("torque", &Segment::torque, "N.m", any, "about +z on the face that looks to +z")};
+  }
+};
+
+/// What of a part of the shaft counts.
+enum class Carries {
+  both,
+  stiffness,  ///< no mass, no rotary inertia
+  mass        ///< neither stiffness nor damping
+};
+constexpr auto choices(Carries) {
+  return std::array{Choice<Carries>{"both", Carries::both},
+                    Choice<Carries>{"stiffness", Carries::stiffness},
+                    Choice<Carries>{"mass", Carries::mass}};
+}
+
+/// A sleeve, hub or tube that goes with the shaft: its beams lie beside those of the segments,
+/// between the same nodes.
+struct Layer {
+  std::string name;
+  Station from, to;  ///< on the shaft, from left of to; the mesh gets nodes there
+  Material material;
+  Section left, right;  ///< sections at both ends; diameters vary linearly between
+  Carries carries = Carries::both;
+  Theory theory = Theory::timoshenko;
+  ShearCoefficient shear{};
+  Rayleigh damping{};  ///< of this layer, at rest
+  Where where{};
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{optional("carries", &Layer::carries, "", any, "what of the layer counts"),
+                      optional("theory", &Layer::theory, "", any, "beam theory")};
   }
 };
 
@@ -81,10 +125,18 @@ struct Disk {
   }
 };
 
+/// A mass that moves along x and y, as a pedestal's share that differs [kg].
+struct PlanarMass {
+  double x = 0.0, y = 0.0;
+
+  constexpr PlanarMass(double both = 0.0) : x(both), y(both) {}
+  constexpr PlanarMass(double along_x, double along_y) : x(along_x), y(along_y) {}
+};
+
 /// A lumped mass: a stator, a pedestal, the mass of a Jeffcott rotor.
 struct Body {
   std::string name;
-  double m = 0.0;             ///< mass [kg]
+  PlanarMass m;               ///< [kg]; of a body that spins the same along x and y
   bool spins = false;         ///< part of the rotor: unbalance and gyroscopics
   bool tilts = false;         ///< has theta_x, theta_y
   double Id = 0.0, Ip = 0.0;  ///< moments of inertia [kg.m^2], if it tilts
@@ -93,7 +145,7 @@ struct Body {
   static constexpr auto fields() {
     using enum Range;
     return std::tuple{
-        required("mass", &Body::m, "kg", nonnegative, "mass of the body"),
+        required("mass", &Body::m, "kg", nonnegative, "mass of the body, or [along x, along y]"),
         optional("spins", &Body::spins, "", any, "it is part of the rotor"),
         optional("tilts", &Body::tilts, "", any, "it has theta_x and theta_y"),
         optional("diametral_inertia", &Body::Id, "kg.m^2", nonnegative, "if it tilts"),
@@ -118,18 +170,21 @@ struct Connection {
   Where where{};
 };
 
-/// Damping in proportion to mass and stiffness: C = mass M + stiffness K.
-struct Rayleigh {
-  double mass = 0.0;       ///< [1/s]
-  double stiffness = 0.0;  ///< [s]
-
-  static constexpr auto fields() {
-    using enum Range;
-    return std::tuple{
-        optional("mass", &Rayleigh::mass, "1/s", nonnegative, "a in C = a M + b K"),
-        optional("stiffness", &Rayleigh::stiffness, "s", nonnegative, "b in C = a M + b K")};
-  }
+/// Deflections of the shaft without any force on it, at t = 0; they turn with the shaft.
+///
+/// Between its positions the bow is the natural cubic spline, beyond them straight.
+struct Bow {
+  std::vector<double> z;     ///< positions, ascending [m]; empty: the shaft is straight
+  std::vector<double> x, y;  ///< deflection there [m]
 };
+
+/// Damping ratios of modes at rest, beside all other damping.
+struct ModalDamping {
+  std::vector<double> ratios;  ///< of the lowest modes that deform; empty: none
+  bool is_common = false;      ///< one ratio stands for all modes, up to most_damped_modes
+};
+/// That one common ratio damps.
+inline constexpr int most_damped_modes = 100;
 
 struct Structure {
   std::vector<Segment> shaft;  ///< left to right from z = 0
@@ -141,6 +196,9 @@ struct Structure {
   std::vector<Station> stations;  ///< further places that need a node (contacts, probes)
   Rayleigh damping;
   double gravity = 0.0;  ///< acceleration along -y [m/s^2]
+  std::vector<Layer> layers{};
+  ModalDamping modal_damping{};
+  Bow bow{};
 
   double length() const {
     double sum = 0.0;

@@ -10,16 +10,19 @@ namespace whirl::inline fe {
 struct UnbalanceSolver::State {
   const Assembler& assembler;
   System system;
-  CVec force;  ///< over Omega^2, in the coordinates of the system
+  CVec force;  ///< of unbalance over Omega^2, in the coordinates of the system
+  CVec bow;    ///< force of the bow, likewise; empty: none
   DynamicStiffness stiffness;
 };
 
 UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
   System system = assembler.uncondensed(0.0);
   CVec force = system.dofs.T.transpose() * assembler.unbalance();
+  CVec bow;
+  if (!assembler.structure().bow.z.empty()) bow = system.dofs.T.transpose() * assembler.bow();
   DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
   state_ = std::make_unique<State>(
-      State{assembler, std::move(system), std::move(force), std::move(stiffness)});
+      State{assembler, std::move(system), std::move(force), std::move(bow), std::move(stiffness)});
 }
 
 UnbalanceSolver::~UnbalanceSolver() = default;
@@ -30,12 +33,14 @@ const DofMap& UnbalanceSolver::dofs() const {
 
 std::optional<CVec> UnbalanceSolver::at(double Omega) {
   State& s = *state_;
-  if (Omega == 0.0) return CVec(CVec::Zero(s.system.dofs.full_size));
+  if (Omega == 0.0 && s.bow.size() == 0) return CVec(CVec::Zero(s.system.dofs.full_size));
   if (s.assembler.depends_on_speed()) {
     s.system = s.assembler.uncondensed(Omega);
     s.stiffness = DynamicStiffness(s.system.M, s.system.C, s.system.G, s.system.K);
   }
-  const auto q = s.stiffness.solve(Omega, Omega, Omega * Omega * s.force);
+  CVec force = Omega * Omega * s.force;
+  if (s.bow.size() > 0) force += s.bow;
+  const auto q = s.stiffness.solve(Omega, Omega, force);
   if (!q) return {};
   return CVec(s.system.dofs.T * *q);
 }

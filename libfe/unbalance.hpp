@@ -1,5 +1,5 @@
 #pragma once
-/// Steady response to unbalance.
+/// Steady response to what turns with the shaft: unbalance, and a bow of it.
 
 #include <memory>
 #include <optional>
@@ -16,7 +16,8 @@ struct UnbalanceResponse {
   CMat x, y;  ///< points x speeds [m]
 };
 
-/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u at any speed.
+/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u + f at any speed, f the force of the
+/// bow: displacements are those of the shaft's axis from the straight line, bow and all.
 class UnbalanceSolver {
  public:
   explicit UnbalanceSolver(const Assembler& assembler);

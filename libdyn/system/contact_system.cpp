@@ -126,7 +126,7 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
   D_ = mass.solve(reduced.D());
   const Mat back = reduced.dofs.T * reduced.Phi;  // full displacement of each coordinate
   const auto load = [&](const Vec& full) -> Vec { return mass.solve(back.transpose() * full); };
-  const CVec u = Omega_ * Omega_ * assembler.unbalance();
+  const CVec u = assembler.turning_load(Omega_);
   f0_ = load(assembler.gravity_load());
   fc_ = load(u.real());  // Re(u e^(i phase)) = Re u cos - Im u sin
   fs_ = load(-u.imag());

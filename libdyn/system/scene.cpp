@@ -71,6 +71,12 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
     require_inertia(assembler, system, u.at, "unbalance");
     add_rows(others, system.dofs, assembler.point(u.at), {});
   }
+  if (!model.structure.bow.z.empty()) {
+    const CVec bow = system.dofs.T.transpose() * assembler.bow();
+    for (const Vec& part : {Vec(bow.real()), Vec(bow.imag())}) {
+      if (part.squaredNorm() > 0.0) others.push_back(part);
+    }
+  }
   for (const auto* list : {&model.structure.bearings, &model.structure.links}) {
     for (const Connection& c : *list) {
       if (coefficients(c.coefficients, model.speed).C.isZero(0.0)) continue;

@@ -31,9 +31,7 @@ Along properties(const Beam& beam, const Quadrature& q) {
   const auto n = q.x.size();
   Along a{Vec(n), Vec::Zero(n), Vec(n), Vec::Zero(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double s = q.x(i);
-    const Section section{beam.left.outer + s * (beam.right.outer - beam.left.outer),
-                          beam.left.inner + s * (beam.right.inner - beam.left.inner)};
+    const Section section = beam.at(q.x(i));
     a.bending_flexibility(i) = 1.0 / (beam.material.E * section.I());
     a.rho_A(i) = beam.material.rho * section.A();
     if (beam.theory != Theory::euler_bernoulli) a.rho_I(i) = beam.material.rho * section.I();
@@ -167,17 +165,23 @@ ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam) {
       }
     }
   };
+  const bool has_mass = beam.carries != Carries::stiffness;
+  const bool has_stiffness = beam.carries != Carries::mass;
   for (const int plane : {0, 1}) {
-    add(e.M, plane, plane, 1.0, M);
+    if (has_mass) add(e.M, plane, plane, 1.0, M);
+    if (has_mass && beam.damping.mass != 0.0) add(e.C, plane, plane, beam.damping.mass, M);
+    if (!has_stiffness) continue;
     add(e.K, plane, plane, 1.0, K);
     add(e.C, plane, plane, beam.material.eta, elastic);
+    if (beam.damping.stiffness != 0.0) add(e.C, plane, plane, beam.damping.stiffness, K);
   }
   // each pair of planes: rotor inertia 2 rho I, damping seen from the rotating shaft, torque
   const bool gyroscopic = beam.theory != Theory::euler_bernoulli;
-  if (gyroscopic) {
+  if (gyroscopic && has_mass) {
     add(e.G, 0, 1, +2.0, rotary);
     add(e.G, 1, 0, -2.0, rotary);
   }
+  if (!has_stiffness) return e;
   add(e.H, 0, 1, +beam.material.eta, elastic);
   add(e.H, 1, 0, -beam.material.eta, elastic);
   if (beam.torque != 0.0) {

@@ -2,7 +2,7 @@
 
 #include "libfe/elements/element.hpp"
 #include "libfe/material.hpp"
-#include "libfe/section.hpp"
+#include "libfe/structure.hpp"
 
 namespace whirl::inline fe {
 
@@ -16,6 +16,11 @@ struct Beam {
   double axial_force = 0.0;    ///< tension > 0 [N]
   double torque = 0.0;         ///< about +z on the face that looks to +z [N.m]
   int internal_functions = 0;  ///< pairs of internal shape functions per plane, 0 to 4
+  Rayleigh damping{};          ///< at rest
+  Carries carries = Carries::both;
+
+  /// Section at a fraction s of the length, 0 <= s <= 1.
+  Section at(double s) const { return between(left, right, s); }
 };
 
 /// Matrices of a shaft element.
@@ -39,6 +44,9 @@ struct Beam {
 ///
 /// Axial force: N integral w' w'. Torque: each section turns its axis, T integral
 /// (theta_y_i' theta_x_j ...), the skew remainder kept: the torque vector stays along z.
+/// Rayleigh damping is a M + b K of the element, without the torque's share; a beam that carries
+/// one of mass and stiffness has nothing of the other, neither axial force nor torque without
+/// stiffness.
 ///
 /// @throws OptionError  if internal_functions is out of range
 /// @source [NelsonMcVaugh1976], [Nelson1980], [Przemieniecki1968] ch. 11 for the functions;

@@ -10,7 +10,7 @@ namespace whirl::inline fe {
 /// A body that spins has the gyroscopic matrix of a disk.
 inline ElementMatrices<4> matrices(const Body& body) {
   ElementMatrices<4> e;
-  e.M.diagonal() << body.m, body.m, body.Id, body.Id;
+  e.M.diagonal() << body.m.x, body.m.y, body.Id, body.Id;
   if (body.spins) {
     e.G(2, 3) = +body.Ip;
     e.G(3, 2) = -body.Ip;

@@ -61,13 +61,15 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
   std::vector<double> shaft(static_cast<std::size_t>(columns)), disk(shaft.size());
   double largest = 0.0;
   for (int c = 0; c < columns; ++c) {
-    shaft[static_cast<std::size_t>(c)] = 0.5 * shaft_diameter(s, length * (c + 0.5) / columns);
+    shaft[static_cast<std::size_t>(c)] =
+        0.5 * shaft_diameter(s, assembler.mesh(), length * (c + 0.5) / columns);
     largest = std::max(largest, shaft[static_cast<std::size_t>(c)]);
   }
   for (const Disk& d : s.disks) {
     const double z = assembler.mesh().z[static_cast<std::size_t>(assembler.point(d.at).index)];
-    const double radius =
-        d.outer_diameter > 0.0 ? 0.5 * d.outer_diameter : 2.5 * 0.5 * shaft_diameter(s, z);
+    const double radius = d.outer_diameter > 0.0
+                              ? 0.5 * d.outer_diameter
+                              : 2.5 * 0.5 * shaft_diameter(s, assembler.mesh(), z);
     const int middle = column(z),
               half = std::max(0, static_cast<int>(std::lround(0.5 * d.width / length * columns)));
     for (int c = std::max(0, middle - half); c <= std::min(columns - 1, middle + half); ++c) {

@@ -40,8 +40,9 @@ double contact_radius(const Model& model, const Assembler& assembler, const Cont
   if (c.friction.radius > 0.0) return c.friction.radius;
   const Point p = assembler.point(c.at);
   if (p.kind == Point::Kind::node) {
+    const Mesh& mesh = assembler.mesh();
     return 0.5 *
-           shaft_diameter(model.structure, assembler.mesh().z[static_cast<std::size_t>(p.index)]);
+           shaft_diameter(model.structure, mesh, mesh.z[static_cast<std::size_t>(p.index)]);
   }
   return 5.0 * c.clearance;
 }
@@ -63,7 +64,7 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
   }
   for (const Disk& d : s.disks) {
     const int node = assembler.point(d.at).index;
-    const double shaft = shaft_diameter(s, mesh.z[static_cast<std::size_t>(node)]);
+    const double shaft = shaft_diameter(s, mesh, mesh.z[static_cast<std::size_t>(node)]);
     VtkDisk disk{d.name, node, 0.5 * d.outer_diameter, 0.5 * std::max(d.inner_diameter, 0.0),
                  d.width};
     if (disk.outer_radius <= 0.0) disk.outer_radius = 2.5 * shaft;

@@ -144,7 +144,7 @@ struct SideView {
     return point.kind == Point::Kind::node ? mm * z[static_cast<std::size_t>(point.index)] : -1.0;
   }
   double shaft_radius(double at) const {
-    return 0.5 * mm * shaft_diameter(model.structure, at / mm);
+    return 0.5 * mm * shaft_diameter(model.structure, assembler.mesh(), at / mm);
   }
   /// A part whose name stands beyond its outermost radius.
   void add_name(double at, double radius, const std::string& name, Paint paint, bool is_below) {
@@ -178,7 +178,7 @@ void add_disks(SideView& v) {
     const Disk& d = s.disks[i];
     const double at = v.position(d.at), half = 0.5 * mm * scene.disks[i].width;
     const double outer = 2.0 * mm * scene.disks[i].outer_radius;
-    const double inner = mm * shaft_diameter(s, at / mm);
+    const double inner = mm * shaft_diameter(s, v.assembler.mesh(), at / mm);
     add_body(v.panel, "disk", Paint::disk, at - half, at + half, {outer, inner}, {outer, inner},
              fmt::format("{}: {:.4g} kg, Ip {:.4g}, Id {:.4g} kg.m²{}", d.name, d.m, d.Ip, d.Id,
                          d.outer_diameter > 0.0 ? "" : ", its size unknown"));

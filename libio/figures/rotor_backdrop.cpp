@@ -79,7 +79,7 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   const auto add_bearing = [&](const Station& station, const std::string& name) {
     const double at = mm * position(station);
     if (at < 0.0) return;
-    const double top = axis - 0.5 * factor * shaft_diameter(s, at / mm);
+    const double top = axis - 0.5 * factor * shaft_diameter(s, mesh, at / mm);
     panel.curves.push_back(
         area("bearing", Paint::bearing, {at, at + half, at - half, at},
              {top, top - bearing_height * height, top - bearing_height * height, top}, 0.75, name));
@@ -90,7 +90,7 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
     const double at = mm * position(c.at);
     if (at < 0.0) continue;
     const double radius =
-        c.friction.radius > 0.0 ? c.friction.radius : 0.5 * shaft_diameter(s, at / mm);
+        c.friction.radius > 0.0 ? c.friction.radius : 0.5 * shaft_diameter(s, mesh, at / mm);
     for (const double side : {1.0, -1.0}) {
       const double low = axis + side * 1.08 * factor * radius;
       panel.curves.push_back(box("contact", Paint::stator, at - half, at + half, low,

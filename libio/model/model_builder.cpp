@@ -22,7 +22,7 @@ bool has_any_mass(const Structure& s) {
   };
   return any(s.shaft, [](const Segment& segment) { return segment.material.rho; }) ||
          any(s.disks, [](const Disk& disk) { return disk.m; }) ||
-         any(s.bodies, [](const Body& body) { return body.m; });
+         any(s.bodies, [](const Body& body) { return std::max(body.m.x, body.m.y); });
 }
 
 }  // namespace
@@ -292,7 +292,7 @@ void ModelBuilder::set_radii(const Mesh& mesh) {
       continue;
     }
     contact.friction.radius =
-        0.5 * shaft_diameter(s, mesh.z[static_cast<std::size_t>(point.index)]);
+        0.5 * shaft_diameter(s, mesh, mesh.z[static_cast<std::size_t>(point.index)]);
   }
 }
 

@@ -202,7 +202,10 @@ void ModelBuilder::read_bodies() {
       table.problem("name", "a body needs a name that is not empty");
     if (body.name == "ground")
       table.problem("name", "\"ground\" is what does not move; choose another name");
-    table.read(body);
+    table.read(body, [&](const auto& field, PlanarMass& to) {
+      const auto mass = table.quantity(field.name, field.unit, field.range, field.is_required);
+      if (mass) to = *mass;
+    });
     if (!body.tilts) {
       for (const char* key : {"diametral_inertia", "polar_inertia"}) {
         if (table.has(key))
@@ -221,7 +224,7 @@ void ModelBuilder::read_unbalances() {
     if (at && at->kind == Station::Kind::body) {
       for (const Body& body : model_.structure.bodies) {
         if (body.name != at->body) continue;
-        mass = body.m;
+        mass = body.m.x;
         if (!body.spins)
           table.problem("body",
                         "this body does not spin and has no unbalance; give it spins = true");

@@ -184,12 +184,13 @@ TEST(Mesh, StationsComeInTheOrderDisksBearingsLinksUnbalancesOthers) {
 // Diameters are linear along a cone; a step has the larger of its two; off the shaft there is none.
 TEST(ShaftDiameter, IsThatOfTheSegmentAndTheLargerOneAtAStep) {
   const Structure s{.shaft = {test::cone(0.4, 0.02, 0.06, 2), test::cylinder(0.6, 0.05, 2)}};
-  EXPECT_NEAR(shaft_diameter(s, 0.0), 0.02, rounding);
-  EXPECT_NEAR(shaft_diameter(s, 0.1), 0.03, rounding);
-  EXPECT_NEAR(shaft_diameter(s, 0.4), 0.06, rounding);
-  EXPECT_NEAR(shaft_diameter(s, 0.7), 0.05, rounding);
-  EXPECT_NEAR(shaft_diameter(s, 1.0), 0.05, rounding);
-  EXPECT_EQ(shaft_diameter(s, 1.1), 0.0);
+  const Mesh mesh = make_mesh(s);
+  EXPECT_NEAR(shaft_diameter(s, mesh, 0.0), 0.02, rounding);
+  EXPECT_NEAR(shaft_diameter(s, mesh, 0.1), 0.03, rounding);
+  EXPECT_NEAR(shaft_diameter(s, mesh, 0.4), 0.06, rounding);
+  EXPECT_NEAR(shaft_diameter(s, mesh, 0.7), 0.05, rounding);
+  EXPECT_NEAR(shaft_diameter(s, mesh, 1.0), 0.05, rounding);
+  EXPECT_EQ(shaft_diameter(s, mesh, 1.1), 0.0);
 }
 
 // ---- wrong models -------------------------------------------------------------------------------

@@ -235,10 +235,10 @@ polar_inertia = 4
   const auto& bodies = model.structure.bodies;
   ASSERT_EQ(bodies.size(), 2u);
   EXPECT_EQ(bodies[0].name, "stator");
-  EXPECT_EQ(bodies[0].m, 50.0);
+  EXPECT_EQ(bodies[0].m.x, 50.0);
   EXPECT_FALSE(bodies[0].spins);
   EXPECT_FALSE(bodies[0].tilts);
-  EXPECT_EQ(bodies[1].m, 2000.0);
+  EXPECT_EQ(bodies[1].m.x, 2000.0);
   EXPECT_TRUE(bodies[1].spins);
   EXPECT_TRUE(bodies[1].tilts);
   EXPECT_EQ(bodies[1].Id, 3.0);
@@ -391,7 +391,7 @@ TEST(ModelFile, TheSourceIsTheTextItselfOrTheTreeWithWhatWasSet) {
   EXPECT_EQ(parse_model(text).source, text);
   const std::string set = parse_model(text, "m", {"body.m.mass=2 kg"}).source;
   EXPECT_NE(set, text);
-  EXPECT_EQ(parse_model(set).structure.bodies.at(0).m, 2.0);
+  EXPECT_EQ(parse_model(set).structure.bodies.at(0).m.x, 2.0);
   EXPECT_EQ(parse_model(set).source, set);
 }
 

@@ -1,0 +1,71 @@
+// A bent shaft in the equations of motion that simulations and orbits are integrated with.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "libbase/dense.hpp"
+#include "libdyn/system/scene.hpp"
+#include "libfe/bow.hpp"
+#include "libfe/unbalance.hpp"
+#include "tests/support/rotors.hpp"
+
+namespace whirl::bow_motion_test {
+
+using namespace test;
+
+Model bent_rotor(double Omega, ReductionMethod method) {
+  Model model;
+  model.speed = Omega;
+  model.has_speed = true;
+  model.reduction.method = method;
+  model.structure = {.shaft = {cylinder(0.8, 0.03, 8)},
+                     .disks = {{.at = node(4), .m = 6.0, .Id = 0.02, .Ip = 0.04}},
+                     .bearings = {bearing(node(1), orthotropic(4e6, 6e6, 800.0, 500.0)),
+                                  bearing(node(9), orthotropic(5e6, 7e6, 600.0, 900.0))},
+                     .unbalances = {{.at = node(4), .moment = 2e-4, .phase = 0.5}},
+                     .bow = {.z = {0.0, 0.3, 0.8}, .x = {0.0, 8e-5, 0.0}, .y = {0.0, 5e-5, 0.0}}};
+  return model;
+}
+
+// The steady response of `unbalance` is a motion: its accelerations are -Omega^2 times itself.
+TEST(BowMotion, HasTheSteadyResponseForAMotion) {
+  for (const double Omega : {50.0, 300.0}) {
+    const Scene scene = make_scene(bent_rotor(Omega, ReductionMethod::none));
+    const auto q = UnbalanceSolver(scene.assembler).at(Omega);
+    ASSERT_TRUE(q);
+    const auto n = q->size();
+    ASSERT_EQ(scene.contacts.coordinates(), n);
+    for (const double phase : {0.0, 1.1, 4.0}) {
+      const Complex turn = std::polar(1.0, phase);
+      Vec y(2 * n), a(n);
+      y << (*q * turn).real(), (*q * turn * Complex(0.0, Omega)).real();
+      scene.contacts.acceleration(phase, y.data(), a.data());
+      const Vec expected = -Omega * Omega * (*q * turn).real();
+      // accelerations are differences of elastic forces that are some 1e6 times as large
+      EXPECT_LT((a - expected).norm(), 1e-6 * expected.norm()) << phase;
+    }
+  }
+}
+
+// The reduction has the shape of the bow: at a speed of nearly nothing the shaft lies in it.
+TEST(BowMotion, IsInTheFewShapesOfAReduction) {
+  const double Omega = 0.01;
+  const Model model = bent_rotor(Omega, ReductionMethod::modal_residual);
+  const Scene scene = make_scene(model);
+  const ReducedSystem& r = scene.reduced;
+  EXPECT_LT(r.size(), 20);
+  const CMat Z =
+      (r.K - Omega * Omega * r.M).cast<Complex>() + Complex(0.0, Omega) * r.D().cast<Complex>();
+  CVec load(r.size());
+  load.real() = scene.contacts.cosine_load();
+  load.imag() = -scene.contacts.sine_load();
+  const CVec eta = DenseLu<CMat>(Z).solve(CMat(r.M * load));
+  const CVec full = scene.displacement_map() * eta;
+  const auto states = bow_states(model.structure.bow, scene.assembler.mesh().z);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    EXPECT_NEAR(std::abs(full(static_cast<Eigen::Index>(4 * i)) - states[i].r), 0.0, 1e-9) << i;
+  }
+}
+
+}  // namespace whirl::bow_motion_test

@@ -1,0 +1,106 @@
+// Shafts that are bent without any force on them.
+
+#include "libfe/bow.hpp"
+
+#include <gtest/gtest.h>
+
+#include "libfe/unbalance.hpp"
+#include "tests/support/rotors.hpp"
+
+namespace whirl::bow_test {
+
+using namespace test;
+
+// Through supports and the middle the natural cubic spline is the line of a beam under a load there:
+// r (3 s - 4 s^3), s = z / L up to the middle, and straight beyond the supports.
+TEST(Bow, IsTheElasticLineBetweenItsPoints) {
+  const double L = 0.8, r = 2e-4;
+  const Bow bow{.z = {0.0, L / 2.0, L}, .x = {0.0, r, 0.0}, .y = {0.0, -2.0 * r, 0.0}};
+  const std::vector<double> z{-0.1, 0.0, 0.1, 0.25, 0.4, 0.55, 0.8, 0.9};
+  const auto states = bow_states(bow, z);
+  ASSERT_EQ(states.size(), z.size());
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double mirrored = z[i] <= L / 2.0 ? z[i] : L - z[i], s = mirrored / L;
+    const double w = mirrored < 0.0 ? 3.0 * s : 3.0 * s - 4.0 * s * s * s;
+    const double slope = (mirrored < 0.0 ? 3.0 : 3.0 - 12.0 * s * s) / L;
+    EXPECT_NEAR(states[i].r.real(), r * w, 1e-18) << z[i];
+    EXPECT_NEAR(states[i].r.imag(), -2.0 * r * w, 1e-18) << z[i];
+    EXPECT_NEAR(states[i].slope.real(), (z[i] <= L / 2.0 ? r : -r) * slope, 1e-17) << z[i];
+  }
+}
+
+TEST(Bow, OfTwoPointsIsStraightAndNeedsNoForce) {
+  Structure s{.shaft = {cylinder(0.8, 0.04, 8)},
+              .bow = {.z = {0.1, 0.6}, .x = {1e-4, 3e-4}, .y = {0.0, 1e-4}}};
+  const auto states = bow_states(s.bow, {0.0, 0.8});
+  EXPECT_NEAR(states[0].r.real(), 0.6e-4, 1e-18);
+  EXPECT_NEAR(states[1].r.real(), 3.8e-4, 1e-18);
+  const double stiffness = 4.0 * EI(s.shaft[0]) / 1e-3;  // of an element, for scale
+  EXPECT_LT(Assembler(s).bow().cwiseAbs().maxCoeff(), 1e-12 * stiffness * 3e-4);
+}
+
+/// A disk on a massless shaft on rigid bearings, damped, whose shaft is bent by r at the disk.
+struct Jeffcott {
+  double m = 5.0, c = 60.0, e = 3e-5, phase = 0.7, r = 1e-4, angle = -0.4;
+  double k = 0.0;
+  Structure structure() {
+    const Segment shaft = massless_cylinder(0.8, 0.03, 8);
+    k = 48.0 * EI(shaft) / (0.8 * 0.8 * 0.8);
+    const Complex at_disk = std::polar(r, angle);
+    return {.shaft = {shaft},
+            .disks = {{.at = node(5), .m = m}},
+            .bearings = {rigid(node(1)), rigid(node(9)), bearing(node(5), isotropic(0.0, c))},
+            .unbalances = {{.at = node(5), .moment = m * e, .phase = phase}},
+            .bow = {.z = {0.0, 0.4, 0.8},
+                    .x = {0.0, at_disk.real(), 0.0},
+                    .y = {0.0, at_disk.imag(), 0.0}}};
+  }
+};
+
+// [Nicholas1976], eq. (4): m u'' + c u' + k u = (m e Omega^2 e^(i phase) + k r e^(i angle)) e^(i Omega t)
+TEST(Bow, OfAJeffcottRotorRespondsAsInClosedForm) {
+  Jeffcott jeffcott;
+  const Structure s = jeffcott.structure();
+  const auto& [m, c, e, phase, r, angle, k] = jeffcott;
+  const double critical = std::sqrt(k / m);
+  const Assembler assembler(s);
+  UnbalanceSolver solver(assembler);
+  const std::vector<Point> disk{assembler.point(node(5))};
+  for (const double share : {0.0, 0.2, 0.9, 1.0, 1.1, 3.0}) {
+    const double Omega = share * critical;
+    const Complex load = m * e * Omega * Omega * std::polar(1.0, phase) + k * std::polar(r, angle);
+    const Complex expected = load / Complex(k - m * Omega * Omega, c * Omega);
+    const auto u = solver.at(Omega, disk);
+    ASSERT_TRUE(u);
+    const double tolerance = 1e-10 * std::abs(expected);
+    EXPECT_NEAR(std::abs((*u)(0) - expected), 0.0, tolerance) << share;
+    EXPECT_NEAR(std::abs((*u)(1) - Complex(0.0, -1.0) * expected), 0.0, tolerance) << share;
+  }
+}
+
+// At rest nothing else acts: the shaft is where its bow has it, at every node, whatever it consists of.
+TEST(Bow, IsTheDeflectionAtRest) {
+  Structure s{
+      .shaft = {cylinder(0.3, 0.03, 3), cone(0.5, 0.03, 0.05, 5)},
+      .bearings = {bearing(node(1), isotropic(1e7)), bearing(node(9), isotropic(2e7))},
+      .bow = {
+          .z = {0.0, 0.2, 0.5, 0.8}, .x = {0.0, 1e-4, 2e-4, 0.0}, .y = {0.0, -3e-5, 1e-5, 0.0}}};
+  s.shaft[1].axial_force = 0.0;
+  s.layers = {{.from = node(3),
+               .to = node(6),
+               .material = steel(),
+               .left = {0.06, 0.03},
+               .right = {0.06, 0.05}}};
+  const Assembler assembler(s);
+  const auto full = UnbalanceSolver(assembler).at(0.0);
+  ASSERT_TRUE(full);
+  const auto states = bow_states(s.bow, assembler.mesh().z);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const auto x = static_cast<Eigen::Index>(4 * i);
+    EXPECT_NEAR(std::abs((*full)(x)-states[i].r), 0.0, 1e-14) << i;
+    EXPECT_NEAR(std::abs((*full)(x + 3) - states[i].slope), 0.0, 1e-13) << i;
+    EXPECT_NEAR(std::abs((*full)(x + 2) - Complex(0.0, 1.0) * states[i].slope), 0.0, 1e-13) << i;
+  }
+}
+
+}  // namespace whirl::bow_test
