@@ -3,32 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <sstream>
 
+#include "libio/model/delimited_table.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
 
 namespace {
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1));
-}
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> result;
-  std::size_t start = 0;
-  for (;;) {
-    const auto comma = line.find_first_of(",;", start);
-    result.push_back(trimmed(std::string_view(line).substr(start, comma - start)));
-    if (comma == std::string::npos) return result;
-    start = comma + 1;
-  }
-}
 
 /// What a column means: an entry of a matrix, or the speed.
 struct NumberColumn {
@@ -57,18 +40,15 @@ const std::vector<NumberColumn>& known_columns() {
   return columns;
 }
 
-/// Reports a problem of a line: the column's name, and what is wrong.
-using Report = std::function<void(std::string, std::string)>;
-
 /// The columns that the first line names.
 std::vector<NumberColumn> named_columns(const std::vector<std::string>& parts,
-                                        const Report& report) {
+                                        const ReportOfLine& report) {
   std::vector<std::string> names;
   for (const NumberColumn& c : known_columns()) names.push_back(c.name);
   std::vector<NumberColumn> columns;
   for (const std::string& part : parts) {
     const auto bracket = part.find('[');
-    const std::string name = trimmed(std::string_view(part).substr(0, bracket));
+    const std::string name = trimmed_cell(std::string_view(part).substr(0, bracket));
     const auto known = std::find(names.begin(), names.end(), name);
     NumberColumn column;
     if (known == names.end()) {
@@ -80,7 +60,7 @@ std::vector<NumberColumn> named_columns(const std::vector<std::string>& parts,
     }
     if (bracket != std::string::npos) {
       column.unit =
-          trimmed(std::string_view(part).substr(bracket + 1, part.find(']') - bracket - 1));
+          trimmed_cell(std::string_view(part).substr(bracket + 1, part.find(']') - bracket - 1));
     }
     if (known != names.end() && !column.unit.empty()) {
       const auto one = parse_as("1 " + column.unit, column.si_unit);
@@ -100,7 +80,7 @@ std::vector<NumberColumn> named_columns(const std::vector<std::string>& parts,
 
 /// Adds the row of a line.
 void add_row(CoefficientTable& table, const std::vector<NumberColumn>& columns,
-             const std::vector<std::string>& parts, const Report& report) {
+             const std::vector<std::string>& parts, const ReportOfLine& report) {
   if (parts.size() != columns.size()) {
     report("", fmt::format("found {} columns, expected {} as in the first line", parts.size(),
                            columns.size()));
@@ -137,15 +117,15 @@ CoefficientTable parse_bearing_table(const std::string& text, const std::string&
   std::vector<NumberColumn> columns;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
-    const Report report = [&](std::string key, std::string message) {
+    const ReportOfLine report = [&](std::string key, std::string message) {
       problems.push_back({{file, number, 1}, std::move(key), std::move(message)});
     };
-    if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
+    if (trimmed_cell(line).empty() || trimmed_cell(line)[0] == '#') continue;
     if (!columns.empty()) {
-      add_row(table, columns, cells(line), report);
+      add_row(table, columns, cells_of(line), report);
       continue;
     }
-    columns = named_columns(cells(line), report);
+    columns = named_columns(cells_of(line), report);
     if (!problems.empty()) return table;
   }
   if (table.rows.empty() && problems.empty()) {

@@ -1,0 +1,63 @@
+#pragma once
+/// Tables as spreadsheets save them: a line of column names with units in brackets, then rows.
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libbase/error.hpp"
+#include "libbase/field.hpp"
+
+namespace whirl::inline io {
+
+/// A text without blanks and quotation marks at its ends.
+std::string trimmed_cell(std::string_view text);
+
+/// The cells of a line, between commas or semicolons.
+std::vector<std::string> cells_of(const std::string& line);
+
+/// Reports a problem of a line: the column's name, and what is wrong.
+using ReportOfLine = std::function<void(std::string, std::string)>;
+
+/// A column that a table may have.
+struct ColumnKind {
+  std::string name;
+  std::string unit{};                   ///< SI unit of its numbers; empty: numbers without one
+  Range range = Range::any;             ///< of its numbers
+  bool is_text = false;                 ///< words, no numbers
+  std::vector<std::string> synonyms{};  ///< other names of it, as columns are compared
+};
+
+/// A line of a table. A cell that is empty or wrong is left out.
+struct DelimitedRow {
+  int line = 0;                                        ///< in the file, from 1
+  std::map<std::string, double, std::less<>> numbers;  ///< by the columns' names [SI]
+  std::map<std::string, std::string, std::less<>> texts;
+
+  std::optional<double> number(std::string_view column) const;
+};
+
+struct DelimitedTable {
+  int header = 0;                    ///< line of the column names; 0: there is none
+  std::vector<std::string> columns;  ///< names of those that are there
+  std::vector<DelimitedRow> rows;
+
+  bool has(std::string_view column) const;
+};
+
+/// Reads a table. Lines that are empty or begin with # are left out.
+///
+/// Column names are compared in small letters, with _ for blanks and hyphens: "OD left [mm]" is
+/// od_left in mm. Without a unit in brackets numbers are SI; a number may have a unit of its own.
+///
+/// @param file      for messages
+/// @param kinds     columns that are known
+/// @param problems  receives what is wrong, with file and line
+DelimitedTable parse_delimited(const std::string& text, const std::string& file,
+                               const std::vector<ColumnKind>& kinds,
+                               std::vector<Problem>& problems);
+
+}  // namespace whirl::inline io
