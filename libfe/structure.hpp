@@ -58,7 +58,7 @@ struct Segment {
   static constexpr auto fields() {
     using enum Range;
     return std::tuple{
-        required("length", &Segment::length, "m", positive, "length of the segment"),
+        alternative("length", &Segment::length, "m", positive, "length of the segment"),
         alternative("elements", &Segment::elements, "", positive,
                     "number of equal elements; left out: chosen from the shape and the stations"),
         optional(

@@ -97,19 +97,30 @@ RotorMesh line_mesh(const Model& model, const Assembler& assembler,
   MeshArray segment{"segment"}, outer_left{"outer_diameter_left_m"},
       outer_right{"outer_diameter_right_m"}, inner_left{"inner_diameter_left_m"},
       inner_right{"inner_diameter_right_m"}, modulus{"youngs_modulus_pa"}, density{"density_kg_m3"};
-  for (const MeshElement& e : mesh.elements) {
+  MeshArray number{"layer"};
+  const auto add_cell = [&](const MeshElement& e, const auto& part, double from, double to) {
     result.cells.push_back({e.left, e.right, 0});
-    const Segment& of = s.shaft[static_cast<std::size_t>(e.segment)];
-    const Section left = of.at(e.from), right = of.at(e.to);
+    const Section left = between(part.left, part.right, from),
+                  right = between(part.left, part.right, to);
     segment.values.push_back(e.segment + 1);
     outer_left.values.push_back(left.outer);
     outer_right.values.push_back(right.outer);
     inner_left.values.push_back(left.inner);
     inner_right.values.push_back(right.inner);
-    modulus.values.push_back(of.material.E);
-    density.values.push_back(of.material.rho);
+    modulus.values.push_back(part.material.E);
+    density.values.push_back(part.material.rho);
+  };
+  for (const MeshElement& e : mesh.elements) {
+    add_cell(e, s.shaft[static_cast<std::size_t>(e.segment)], e.from, e.to);
+    number.values.push_back(0);
+  }
+  for (const MeshLayer& piece : mesh.layers) {
+    add_cell(mesh.elements[static_cast<std::size_t>(piece.element)],
+             s.layers[static_cast<std::size_t>(piece.layer)], piece.from, piece.to);
+    number.values.push_back(piece.layer + 1);
   }
   result.cell_data = {segment, outer_left, outer_right, inner_left, inner_right, modulus, density};
+  if (!s.layers.empty()) result.cell_data.push_back(number);
   if (!group.empty()) {
     result.cell_data.push_back({group, 1, segment.values, true});
   }

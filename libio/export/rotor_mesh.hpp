@@ -38,7 +38,8 @@ struct RotorMesh {
 /// Point data: "node" from 1; "disk", "bearing" and "contact", numbers from 1 of what is there, or 0;
 /// "disk_mass_kg"; of every field the displacement [m] under its name, and the tilts [rad] with
 /// "_tilt". Cell data: "segment" from 1, the diameters at both ends, "youngs_modulus_pa",
-/// "density_kg_m3".
+/// "density_kg_m3"; if there are layers, whose cells lie on those of the shaft, "layer" from 1, 0 of
+/// the shaft.
 ///
 /// @param group  name of integer cell data with the segment's number; empty: none
 /// @throws ModelError  if the model has no shaft

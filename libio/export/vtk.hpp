@@ -11,7 +11,7 @@
 
 namespace whirl::inline io {
 
-/// A piece of the shaft between two points, a cone or cylinder.
+/// A piece of the shaft or of a layer between two points, a cone or cylinder.
 struct VtkShaftPiece {
   int left = 0, right = 0;                       ///< points, from 0, left before right
   double left_radius = 0.0, right_radius = 0.0;  ///< outer ones [m]

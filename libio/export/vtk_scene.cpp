@@ -41,8 +41,7 @@ double contact_radius(const Model& model, const Assembler& assembler, const Cont
   const Point p = assembler.point(c.at);
   if (p.kind == Point::Kind::node) {
     const Mesh& mesh = assembler.mesh();
-    return 0.5 *
-           shaft_diameter(model.structure, mesh, mesh.z[static_cast<std::size_t>(p.index)]);
+    return 0.5 * shaft_diameter(model.structure, mesh, mesh.z[static_cast<std::size_t>(p.index)]);
   }
   return 5.0 * c.clearance;
 }
@@ -61,6 +60,13 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
     const Segment& segment = s.shaft[static_cast<std::size_t>(e.segment)];
     scene.shaft.push_back(
         {e.left, e.right, 0.5 * segment.at(e.from).outer, 0.5 * segment.at(e.to).outer});
+  }
+  for (const MeshLayer& piece : mesh.layers) {
+    const Layer& layer = s.layers[static_cast<std::size_t>(piece.layer)];
+    const MeshElement& e = mesh.elements[static_cast<std::size_t>(piece.element)];
+    scene.shaft.push_back({e.left, e.right,
+                           0.5 * between(layer.left, layer.right, piece.from).outer,
+                           0.5 * between(layer.left, layer.right, piece.to).outer});
   }
   for (const Disk& d : s.disks) {
     const int node = assembler.point(d.at).index;

@@ -8,7 +8,7 @@
 
 namespace whirl::inline io {
 
-/// Shaft with its diameters, disks, spinning bodies, stators of all contacts.
+/// Shaft with its diameters and layers, disks, spinning bodies, stators of all contacts.
 ///
 /// Bodies have no place along the shaft: each is put where a contact, bearing or link joins it to
 /// the shaft. Sizes that the model does not tell (disks by mass, bodies) are plausible ones.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <set>
+#include <utility>
 
 #include "libio/results/hdf5.hpp"
 #include "libio/results/own_file.hpp"
@@ -48,8 +50,11 @@ std::vector<fs::path> write_xdmf_series(const fs::path& xdmf_path, const VtkScen
   Vec radius = Vec::Zero(points);
   for (Eigen::Index i = 0; i < points; ++i) rest(i, 2) = scene.z[static_cast<std::size_t>(i)];
   std::vector<int> lines;
+  std::set<std::pair<int, int>> drawn;
   for (const VtkShaftPiece& piece : scene.shaft) {
-    lines.insert(lines.end(), {piece.left, piece.right});
+    const bool is_layer =
+        !drawn.insert({piece.left, piece.right}).second;  // on a line that is there
+    if (!is_layer) lines.insert(lines.end(), {piece.left, piece.right});
     radius(piece.left) = std::max(radius(piece.left), piece.left_radius);
     radius(piece.right) = std::max(radius(piece.right), piece.right_radius);
   }

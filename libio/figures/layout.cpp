@@ -14,13 +14,15 @@ using namespace figures;
 
 namespace {
 
+constexpr double of_parts = 0.55, of_layers = 0.9;  ///< how dense areas are painted
+
 Curve area(const std::string& name, Paint paint, std::vector<double> x, std::vector<double> y,
            const std::string& hover) {
   Curve c{.name = name, .paint = paint};
   c.x = std::move(x);
   c.y = std::move(y);
   c.width = 1.0;
-  c.fill = 0.55;
+  c.fill = of_parts;
   c.hover.assign(c.x.size(), hover);
   return c;
 }
@@ -146,6 +148,19 @@ struct SideView {
   double shaft_radius(double at) const {
     return 0.5 * mm * shaft_diameter(model.structure, assembler.mesh(), at / mm);
   }
+  /// A piece of the shaft, or a layer on it [mm].
+  /// @param fill  how dense it is painted
+  void add_part(const std::string& kind, const std::string& name, const auto& part, double from,
+                double to, double fill) {
+    const std::size_t before = panel.curves.size();
+    const auto shown = [](const Section& c) { return Section{mm * c.outer, mm * c.inner}; };
+    const double left = mm * part.left.outer, right = mm * part.right.outer;
+    add_body(panel, kind, Paint::shaft, from, to, shown(part.left), shown(part.right),
+             fmt::format("{}: {:g} to {:g} mm, diameter {:g}{} mm", name, from, to, left,
+                         right == left ? "" : fmt::format(" to {:g}", right)));
+    for (std::size_t i = before; i < panel.curves.size(); ++i) panel.curves[i].fill = fill;
+    top = std::max({top, 0.5 * left, 0.5 * right});
+  }
   /// A part whose name stands beyond its outermost radius.
   void add_name(double at, double radius, const std::string& name, Paint paint, bool is_below) {
     names.push_back({at, radius, name, paint, is_below});
@@ -158,16 +173,14 @@ void add_shaft(SideView& v) {
   double z = 0.0;
   for (std::size_t i = 0; i < shaft.size(); ++i) {
     const Segment& segment = shaft[i];
-    const auto shown = [](const Section& c) { return Section{mm * c.outer, mm * c.inner}; };
     const double to = z + mm * segment.length;
-    add_body(v.panel, "shaft", Paint::shaft, z, to, shown(segment.left), shown(segment.right),
-             fmt::format("section {}: {:g} to {:g} mm, diameter {:g}{} mm", i + 1, z, to,
-                         mm * segment.left.outer,
-                         segment.right.outer == segment.left.outer
-                             ? ""
-                             : fmt::format(" to {:g}", mm * segment.right.outer)));
-    v.top = std::max({v.top, 0.5 * mm * segment.left.outer, 0.5 * mm * segment.right.outer});
+    v.add_part("shaft", fmt::format("section {}", i + 1), segment, z, to, of_parts);
     z = to;
+  }
+  const Structure& s = v.model.structure;
+  for (const Layer& layer : s.layers) {
+    const LayerSpan span = span_of(layer, s, v.assembler.mesh());
+    v.add_part("layer", layer.name, layer, mm * span.from, mm * span.to, of_layers);
   }
 }
 

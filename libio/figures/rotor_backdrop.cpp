@@ -58,14 +58,19 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   };
 
   double z = 0.0;
+  const auto add_part = [&](const auto& part, double from, double to) {
+    const double left = 0.5 * factor * part.left.outer, right = 0.5 * factor * part.right.outer;
+    panel.curves.push_back(
+        area("", Paint::shaft, {mm * from, mm * to, mm * to, mm * from, mm * from},
+             {axis + left, axis + right, axis - right, axis - left, axis + left}, 0.3));
+  };
   for (const Segment& segment : s.shaft) {
-    const double to = z + segment.length;
-    const double left = 0.5 * factor * segment.left.outer,
-                 right = 0.5 * factor * segment.right.outer;
-    panel.curves.push_back(area("", Paint::shaft, {mm * z, mm * to, mm * to, mm * z, mm * z},
-                                {axis + left, axis + right, axis - right, axis - left, axis + left},
-                                0.3));
-    z = to;
+    add_part(segment, z, z + segment.length);
+    z += segment.length;
+  }
+  for (const Layer& layer : s.layers) {
+    const LayerSpan span = span_of(layer, s, mesh);
+    add_part(layer, span.from, span.to);
   }
   for (std::size_t i = 0; i < s.disks.size(); ++i) {
     const double at = position(s.disks[i].at);

@@ -14,6 +14,7 @@ struct AskedKey {
     known,     ///< any; other entries with its path say which
     quantity,  ///< a number or a text with a unit
     pair,      ///< a list of two quantities
+    list,      ///< a list of one or more quantities
     integer,
     boolean,
     text,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 #include <utility>
 
 #include "libfe/assemble.hpp"
@@ -20,8 +22,11 @@ bool has_any_mass(const Structure& s) {
     return std::any_of(parts.begin(), parts.end(),
                        [&](const auto& part) { return mass(part) > 0.0; });
   };
+  const auto of_layer = [](const Layer& layer) {
+    return layer.carries == Carries::stiffness ? 0.0 : layer.material.rho;
+  };
   return any(s.shaft, [](const Segment& segment) { return segment.material.rho; }) ||
-         any(s.disks, [](const Disk& disk) { return disk.m; }) ||
+         any(s.layers, of_layer) || any(s.disks, [](const Disk& disk) { return disk.m; }) ||
          any(s.bodies, [](const Body& body) { return std::max(body.m.x, body.m.y); });
 }
 
@@ -36,12 +41,14 @@ Model ModelBuilder::build() {
   read_materials();
   read_bodies();
   read_shaft();
+  read_layers();
   read_disks();
   read_bearings();
   read_links();
   read_unbalances();
   read_contacts();
   read_films();
+  read_bow();
   read_settings();
   check_places();
   throw_problems();
@@ -64,7 +71,7 @@ Model ModelBuilder::rebuild(const Model& base) {
 
 void ModelBuilder::throw_problems() {
   if (problems_.empty()) return;
-  // in the order of the file; what is in other files (bearing tables) comes behind
+  // in the order of the file; what is in other files (tables) comes behind
   const auto place = [&](const Problem& p) {
     const bool is_elsewhere = p.where.line > 0 && p.where.file != root_.where.file;
     return std::tuple(is_elsewhere, p.where.line, p.where.column);
@@ -90,11 +97,35 @@ void ModelBuilder::read_top() {
   if (const auto g = top.quantity("gravity", "m/s^2", Range::nonnegative))
     model_.structure.gravity = *g;
   for (const char* table :
-       {"operation", "material", "shaft", "disk", "unbalance", "body", "bearing", "link",
-        "oil_film", "contact", "damping", "reduction", "start"}) {
+       {"operation", "material", "shaft", "layer", "disk", "unbalance", "bow", "body", "bearing",
+        "link", "oil_film", "contact", "damping", "reduction", "start"}) {
     top.node(table);
   }
   top.finish();
+}
+
+/// Results keep the text, so that they can be run again: it may stand at the key itself.
+std::optional<ModelBuilder::NamedText> ModelBuilder::table_text(TableReader& table,
+                                                                std::string_view key,
+                                                                const char* owner,
+                                                                std::size_t item) {
+  const auto name = table.string(key);
+  if (!name) return std::nullopt;
+  NamedText result{table.path(key), *name};
+  if (name->find('\n') == std::string::npos) {
+    const std::filesystem::path path = directory_ / *name;
+    std::ifstream file(path);
+    std::error_code ignored;
+    if (!file || std::filesystem::is_directory(path, ignored)) {
+      table.problem(key, fmt::format("cannot read the file \"{}\"", path.string()));
+      return std::nullopt;
+    }
+    std::ostringstream content;
+    content << file.rdbuf();
+    result = {path.string(), content.str()};
+  }
+  tables_.push_back({owner, item, std::string(key), result.text});
+  return result;
 }
 
 std::optional<Station> ModelBuilder::station(TableReader& table) {
@@ -161,9 +192,8 @@ void ModelBuilder::read_settings() {
   }
   {
     TableReader table(root_.find("damping"), "damping", problems_, asked_);
-    TableReader rayleigh(table.node("rayleigh"), "damping.rayleigh", problems_, asked_);
-    rayleigh.read(model_.structure.damping);
-    rayleigh.finish();
+    read_rayleigh(table, model_.structure.damping);
+    read_modal_damping(table);
     table.finish();
   }
   {
@@ -172,6 +202,29 @@ void ModelBuilder::read_settings() {
     table.finish();
   }
   read_start();
+}
+
+void ModelBuilder::read_rayleigh(TableReader& table, Rayleigh& to) {
+  TableReader rayleigh(table.node("rayleigh"), table.path("rayleigh"), problems_, asked_);
+  rayleigh.read(to);
+  rayleigh.finish();
+}
+
+/// One damping ratio for all modes, or a list of them.
+void ModelBuilder::read_modal_damping(TableReader& table) {
+  ModalDamping& modal = model_.structure.modal_damping;
+  modal = {};
+  const ConfigNode* node = table.node("modal");
+  if (node && node->kind == ConfigNode::Kind::array) {
+    modal.ratios = table.list("modal", "", Range::nonnegative);
+  } else if (const auto common = table.quantity("modal", "", Range::nonnegative)) {
+    modal = {{*common}, true};
+  }
+  for (const double ratio : modal.ratios) {
+    if (ratio < 1.0) continue;
+    table.problem("modal", fmt::format("found {}, expected damping ratios below 1", ratio));
+    break;
+  }
 }
 
 /// Calls f(reader) for every element of an array in a table.

@@ -32,10 +32,11 @@ class ModelBuilder {
   /// @throws ModelError  likewise
   Model rebuild(const Model& base);
 
-  /// Text of a bearing table that came from a file of its own.
+  /// Text of a table that came from a file of its own.
   struct Table {
-    std::size_t bearing = 0;  ///< from 0
-    std::string key;          ///< which named the file
+    std::string owner;     ///< "bearing", "shaft", "bow"
+    std::size_t item = 0;  ///< of an array of owners, from 0
+    std::string key;       ///< which named the file
     std::string text;
   };
   /// Those that build() read: a model that is stored has them in it.
@@ -46,6 +47,7 @@ class ModelBuilder {
   void throw_problems();
   void read_top();
   void read_settings();
+  void read_modal_damping(TableReader& table);
   void read_start();
   template <class F>
   void each_item(TableReader& table, const char* key, const char* expected, F f);
@@ -56,15 +58,31 @@ class ModelBuilder {
   std::optional<Station> station(TableReader& table);
   std::optional<Station> named_station(const std::string& name, TableReader& table,
                                        std::string_view key, bool may_be_ground = true);
+  /// A text that a key names by its file, or that stands there itself.
+  struct NamedText {
+    std::string name;  ///< for messages
+    std::string text;
+  };
+  std::optional<NamedText> table_text(TableReader& table, std::string_view key, const char* owner,
+                                      std::size_t item);
+  // model_shaft.cpp
+  void read_shaft();
+  void add_shaft_table(TableReader& table, const Segment& common, std::size_t number);
+  void read_layers();
+  void read_bow();
+  std::optional<Station> place_on_shaft(TableReader& table, std::string_view key);
+  void read_diameters(TableReader& table, Section& left, Section& right,
+                      const std::vector<std::string>& instead, bool needs_inner);
+  std::optional<std::pair<double, double>> diameters(TableReader& table, std::string_view key,
+                                                     Range range);
+  void read_rayleigh(TableReader& table, Rayleigh& to);
   // model_rotor.cpp
   void read_materials();
-  void read_shaft();
   void read_disks();
   void read_bodies();
   void read_unbalances();
   std::optional<Material> material(TableReader& table);
-  std::optional<std::pair<double, double>> diameters(TableReader& table, std::string_view key,
-                                                     bool is_required);
+  std::vector<std::string> material_names() const;
   std::optional<Unbalance> unbalance(TableReader& table, const Station& at,
                                      std::optional<double> mass);
   // model_contacts.cpp

@@ -2,8 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "libbase/family.hpp"
 #include "libio/model/bearing_table.hpp"
@@ -86,32 +84,14 @@ void check_kind(TableReader& table, const ToldKind& told, bool is_rigid, bool ha
 
 }  // namespace
 
-/// The file of a name that stands at a key, or the text that stands there itself: results keep the
-/// text, so that they can be run again.
 std::optional<CoefficientTable> ModelBuilder::coefficient_table(TableReader& table,
                                                                 std::string_view key,
                                                                 std::size_t bearing) {
-  const auto name = table.string(key);
-  if (!name) return std::nullopt;
-  std::string text = *name;
-  const bool is_file = text.find('\n') == std::string::npos;
-  const std::filesystem::path path = directory_ / text;
-  if (is_file) {
-    std::ifstream file(path);
-    std::error_code ignored;
-    if (!file || std::filesystem::is_directory(path, ignored)) {
-      table.problem(key, fmt::format("cannot read the file \"{}\"", path.string()));
-      return std::nullopt;
-    }
-    std::ostringstream content;
-    content << file.rdbuf();
-    text = content.str();
-  }
+  const auto from = table_text(table, key, "bearing", bearing);
+  if (!from) return std::nullopt;
   std::vector<Problem> wrong;
-  const CoefficientTable read =
-      parse_bearing_table(text, is_file ? path.string() : table.path(key), wrong);
+  const CoefficientTable read = parse_bearing_table(from->text, from->name, wrong);
   problems_.insert(problems_.end(), wrong.begin(), wrong.end());
-  tables_.push_back({bearing, std::string(key), text});
   return read;
 }
 

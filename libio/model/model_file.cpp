@@ -16,8 +16,10 @@ Model parse_model(const std::string& text, const std::string& name,
   for (const std::string& set : sets) set_value(root, set);
   ModelBuilder builder(root, directory);
   Model model = builder.build();
-  for (const auto& [bearing, key, table] : builder.tables()) {
-    root.find("bearing")->items[bearing].find(key)->text = table;
+  for (const ModelBuilder::Table& table : builder.tables()) {
+    ConfigNode* owner = root.find(table.owner);
+    if (owner->kind == ConfigNode::Kind::array) owner = &owner->items[table.item];
+    owner->find(table.key)->text = table.text;
   }
   model.path = name;
   // the text as it was, comments and all, where nothing from outside (--set, tables) came into it

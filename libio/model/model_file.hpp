@@ -9,7 +9,7 @@
 
 namespace whirl::inline io {
 
-/// Reads a model file and everything it names (bearing tables).
+/// Reads a model file and everything it names (tables of bearings, of the shaft, of its bow).
 ///
 /// @param sets  "PATH=VALUE" lines of the command line; they count as if they stood in the file
 /// @throws ModelError  with every problem of the file

@@ -45,8 +45,10 @@ constexpr const char* bare = R"(
 [operation]
 [material.m]
 [[shaft]]
+[[layer]]
 [[disk]]
 [[unbalance]]
+[bow]
 [[body]]
 [[bearing]]
 [[link]]
@@ -66,14 +68,30 @@ constexpr const char* as_tables = R"(
 outer_diameter = [1, 1]
 inner_diameter = [0, 0]
 shear_coefficient = "cowper"
+[[layer]]
+from = {}
+to = {}
+outer_diameter = [1, 1]
+inner_diameter = [0, 0]
+shear_coefficient = "cowper"
 [[disk]]
 unbalance = {}
+[[body]]
+mass = [1, 1]
+[damping]
+modal = [0.1]
 [[link]]
 from = {}
 to = {}
 )";
 constexpr const char* as_values = R"(
 [[shaft]]
+outer_diameter = 1
+inner_diameter = 0
+shear_coefficient = 1
+[[layer]]
+from = 0
+to = 1
 outer_diameter = 1
 inner_diameter = 0
 shear_coefficient = 1

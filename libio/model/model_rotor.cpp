@@ -14,6 +14,18 @@ namespace {
 
 constexpr double same_modulus = 1e-3;  ///< relative distance of moduli that are given twice
 
+/// A mass, or [along x, along y].
+void read_mass(TableReader& table, const auto& field, PlanarMass& to) {
+  const ConfigNode* node = table.node(field.name);
+  if (node && node->kind == ConfigNode::Kind::array) {
+    const auto both =
+        table.pair(field.name, field.unit, field.range, "one mass, or [along x, along y]");
+    if (both) to = {both->front(), both->back()};
+  } else if (const auto mass = table.quantity(field.name, field.unit, field.range, true)) {
+    to = *mass;
+  }
+}
+
 }  // namespace
 
 void ModelBuilder::read_materials() {
@@ -57,72 +69,18 @@ std::optional<Material> ModelBuilder::material(TableReader& table) {
   if (!name) return std::nullopt;
   const auto found = materials_.find(*name);
   if (found != materials_.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& [key, value] : materials_) known.push_back(key);
-  if (known.empty()) {
+  if (materials_.empty()) {
     table.problem("material", fmt::format("there is no [material.{}]", *name));
   } else {
-    table.unknown_choice("material", *name, known);
+    table.unknown_choice("material", *name, material_names());
   }
   return std::nullopt;
 }
 
-std::optional<std::pair<double, double>> ModelBuilder::diameters(TableReader& table,
-                                                                 std::string_view key,
-                                                                 bool is_required) {
-  const Range range = is_required ? Range::positive : Range::nonnegative;
-  const ConfigNode* node = table.node(key);
-  if (!node || node->kind != ConfigNode::Kind::array) {
-    const auto both = table.quantity(key, "m", range, is_required);
-    if (!both) return std::nullopt;
-    return std::pair(*both, *both);
-  }
-  const auto ends = table.pair(key, "m", range, "one value, or [left, right]");
-  if (!ends) return std::nullopt;
-  return std::pair(ends->front(), ends->back());
-}
-
-void ModelBuilder::read_shaft() {
-  for_each("shaft", [&](TableReader& table, std::size_t) {
-    table.string("name");
-    Segment segment;
-    segment.where = table.where();
-    if (const auto m = material(table)) segment.material = *m;
-    table.read(segment);
-    const auto outer = diameters(table, "outer_diameter", true);
-    const auto inner = diameters(table, "inner_diameter", false);
-    if (outer) {
-      segment.left.outer = outer->first;
-      segment.right.outer = outer->second;
-    }
-    if (inner) {
-      segment.left.inner = inner->first;
-      segment.right.inner = inner->second;
-    }
-    for (const auto& [in, out] : {std::pair(segment.left.inner, segment.left.outer),
-                                  std::pair(segment.right.inner, segment.right.outer)}) {
-      if (!outer || !inner || in < out) continue;
-      table.problem("inner_diameter",
-                    fmt::format("found {:g} mm, expected less than the outer diameter "
-                                "of {:g} mm",
-                                1e3 * in, 1e3 * out));
-      break;
-    }
-    const ConfigNode* shear = table.node("shear_coefficient");
-    if (shear && shear->kind == ConfigNode::Kind::string) {
-      if (const auto formula = table.choice<ShearFormula>("shear_coefficient"))
-        segment.shear.formula = *formula;
-    } else if (shear) {
-      segment.shear.formula = ShearFormula::given;
-      if (const auto value = table.quantity("shear_coefficient", "", Range::positive))
-        segment.shear.value = *value;
-    }
-    constexpr int most_elements = 100'000;
-    table.at_most("elements", segment.elements, most_elements);
-    if (segment.elements > most_elements) segment.elements = 1;
-    table.at_most("internal_functions", segment.internal_functions, 4);
-    model_.structure.shaft.push_back(segment);
-  });
+std::vector<std::string> ModelBuilder::material_names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : materials_) names.push_back(name);
+  return names;
 }
 
 std::optional<Unbalance> ModelBuilder::unbalance(TableReader& table, const Station& at,
@@ -202,10 +160,11 @@ void ModelBuilder::read_bodies() {
       table.problem("name", "a body needs a name that is not empty");
     if (body.name == "ground")
       table.problem("name", "\"ground\" is what does not move; choose another name");
-    table.read(body, [&](const auto& field, PlanarMass& to) {
-      const auto mass = table.quantity(field.name, field.unit, field.range, field.is_required);
-      if (mass) to = *mass;
-    });
+    table.read(body, [&](const auto& field, PlanarMass& to) { read_mass(table, field, to); });
+    if (body.spins && body.m.x != body.m.y) {
+      table.problem("mass",
+                    "a body that spins has the same mass along x and y, expected one value");
+    }
     if (!body.tilts) {
       for (const char* key : {"diametral_inertia", "polar_inertia"}) {
         if (table.has(key))

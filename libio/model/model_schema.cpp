@@ -27,8 +27,11 @@ constexpr Note notes[] = {
     {"operation", "how the rotor is run"},
     {"operation.speed", "spin about +z"},
     {"material", "[material.NAME]: isotropic, linear elastic materials"},
-    {"material.*", "a material; segments and disks name it"},
+    {"material.*", "a material; segments, layers and disks name it"},
     {"shaft", "segments of the shaft, one after another from z = 0"},
+    {"layer", "sleeves, hubs and tubes that go with the shaft, beside its segments"},
+    {"bow", "how the shaft is bent without forces; it turns with the shaft"},
+    {"bow.table", "file with deflections against position, beside the model"},
     {"disk", "rigid disks on the shaft, by their shape or by their mass"},
     {"unbalance", "masses off the axis"},
     {"body", "lumped masses: stators, pedestals, the mass of a Jeffcott rotor"},
@@ -38,6 +41,9 @@ constexpr Note notes[] = {
     {"contact", "where the rotor may touch a stator"},
     {"damping", "damping of the whole rotor"},
     {"damping.rayleigh", "adds mass M + stiffness K to C"},
+    {"damping.modal", "damping ratios of the modes at rest: one for all, or a list"},
+    {"shaft.[].rayleigh", "adds mass M + stiffness K of this segment to C"},
+    {"layer.[].rayleigh", "adds mass M + stiffness K of this layer to C"},
     {"reduction", "how many shapes a simulation computes with"},
     {"start", "start of a simulation"},
     {"start.from",
@@ -60,6 +66,13 @@ constexpr Note notes[] = {
     {"material.name", "name of a [material.NAME]"},
     {"shaft.[].material", "name of a [material.NAME]"},
     {"disk.[].material", "name of a [material.NAME], of a disk that is given by its shape"},
+    {"shaft.[].table", "file with segments and layers row by row (CSV), beside the model"},
+    {"layer.[].material", "name of a [material.NAME]"},
+    {"layer.[].from", "where it begins: a position, or a table with at or node"},
+    {"layer.[].to", "where it ends, to the right of from"},
+    {"layer.[].outer_diameter", "one value, or [left, right] of a cone"},
+    {"layer.[].inner_diameter", "one value, or [left, right]; 0: solid"},
+    {"layer.[].shear_coefficient", "formula of the shear coefficient, or a number", "\"cowper\""},
     {"shaft.[].outer_diameter", "one value, or [left, right] of a cone"},
     {"shaft.[].inner_diameter", "one value, or [left, right] of a cone; left out: solid", "0"},
     {"shaft.[].shear_coefficient", "formula of the shear coefficient, or a number", "\"cowper\""},
@@ -194,7 +207,7 @@ class SchemaWriter {
     const bool is_list = !key.entries.empty() && key.entries.front().name == "[]";
     bool has_reference = false;
     for (const AskedKey& a : key.asked) {
-      if (a.form == quantity || a.form == pair) has_reference = true;
+      if (a.form == quantity || a.form == pair || a.form == list) has_reference = true;
       if (a.form == quantity) add(reference(a));
       if (a.form == pair) {
         add(Record()
@@ -202,6 +215,9 @@ class SchemaWriter {
                 .set("items", reference(a))
                 .set("minItems", 2)
                 .set("maxItems", 2));
+      }
+      if (a.form == list) {
+        add(Record().set("type", "array").set("items", reference(a)).set("minItems", 1));
       }
       if (a.form == integer) {
         Record form;

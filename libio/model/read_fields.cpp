@@ -131,6 +131,24 @@ std::optional<std::array<double, 2>> TableReader::pair(std::string_view key, std
   return std::array{*first, *second};
 }
 
+std::vector<double> TableReader::list(std::string_view key, std::string_view unit, Range range) {
+  const ConfigNode* value = node(key);
+  note(key, {.form = AskedKey::Form::list, .unit = std::string(unit), .range = range});
+  std::vector<double> numbers;
+  if (!value) return numbers;
+  if (value->kind != ConfigNode::Kind::array || value->items.empty()) {
+    problem(key, fmt::format("found {}, expected a list of one or more",
+                             value->items.empty() && value->kind == ConfigNode::Kind::array
+                                 ? "an empty list"
+                                 : value->as_written()));
+    return numbers;
+  }
+  for (const ConfigNode& item : value->items) {
+    if (const auto number = quantity(item, path(key), unit, range)) numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 std::optional<Mat2> TableReader::matrix(std::string_view key, std::string_view unit, Range range) {
   const auto entries = [&](const ConfigNode* of) {
     TableReader table(of, path(key), problems_, asked_);

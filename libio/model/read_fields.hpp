@@ -53,6 +53,8 @@ class TableReader {
   /// @param expected  for messages: "[x, y]"
   std::optional<std::array<double, 2>> pair(std::string_view key, std::string_view unit,
                                             Range range, std::string_view expected);
+  /// A list of one or more.
+  std::vector<double> list(std::string_view key, std::string_view unit, Range range);
   /// A matrix of two rows: one value stands for both of its diagonal, { xx, yy, xy, yx } for each;
   /// xy and yx are zero if left out.
   /// @param range  of the one value; each of four may be any

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "libbase/constants.hpp"
 #include "libbase/names.hpp"
@@ -21,6 +22,15 @@ std::string names_of(const auto& members, const char* kind) {
     names += (names.empty() ? "" : ", ") + named(kind, member.name);
   }
   return names;
+}
+
+/// Largest deflection of a bow's table [m].
+double largest_deflection(const Bow& bow) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < bow.z.size(); ++i) {
+    largest = std::max(largest, std::hypot(bow.x[i], bow.y[i]));
+  }
+  return largest;
 }
 
 /// Which contacts and oil films a linear analysis leaves out; empty: none.
@@ -57,6 +67,10 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
                              : fmt::format("{}", facts.dofs)});
   table.row({"disks, bearings, links",
              fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
+  if (!s.layers.empty()) table.row({"layers", fmt::format("{}", s.layers.size())});
+  if (!s.bow.z.empty()) {
+    table.row({"bow", format_length(largest_deflection(s.bow)) + " at most"});
+  }
   if (!model.films.empty()) table.row({"oil films", fmt::format("{}", model.films.size())});
   table.row({"contacts", fmt::format("{}", model.contacts.size())});
   table.row({"operating speed", model.has_speed ? format_speed(model.speed) : "not given"});

@@ -96,7 +96,9 @@ std::string text_of(const UnbalanceStudy& study, const Model& model) {
         }}});
   return fmt::format("Unbalance response, {} (major semi-axes)\n\n{}{}{}", range_text(study.speeds),
                      stations, peaks_text(study, model),
-                     model.structure.unbalances.empty() ? "\n  The model has no unbalance.\n" : "");
+                     model.structure.unbalances.empty() && model.structure.bow.z.empty()
+                         ? "\n  The model has no unbalance.\n"
+                         : "");
 }
 
 std::vector<std::string> notes_of(const UnbalanceStudy& study) {

@@ -58,6 +58,50 @@ TEST(ModelFamily, MembersAreThoseOfTheWholeModel) {
   }
 }
 
+// Layers, and a shaft whose table stands in the text by now.
+TEST(ModelFamily, LayersAndTablesAreReadAgain) {
+  const Model base = parse_model(R"(format = 1
+[operation]
+speed = 300
+[material.steel]
+density = 7800
+youngs_modulus = "211 GPa"
+poisson_ratio = 0.3
+[[shaft]]
+material = "steel"
+table = """
+length [mm], od [mm], elements
+600, 20, 6
+"""
+[[layer]]
+name = "sleeve"
+from = 0.2
+to = 0.3
+material = "steel"
+outer_diameter = 0.05
+inner_diameter = 0.02
+[[bearing]]
+at = 0
+stiffness = 1e6
+[[bearing]]
+at = 0.6
+stiffness = 1e6
+)");
+  for (const char* text : {"layer.sleeve.outer_diameter=40,60 mm", "layer.sleeve.to=250,400 mm",
+                           "material.steel.density=7000,8000 kg/m^3"}) {
+    SCOPED_TRACE(text);
+    const ParameterAxis one = axis(text);
+    const ModelFamily family(base, {one});
+    std::vector<std::vector<double>> seen;
+    for (const double value : one.values) {
+      const Model whole = parse_model(base.source, base.path, one.assignments_of(value));
+      seen.push_back(numbers_of(*family.scene(std::vector{value})));
+      EXPECT_EQ(seen.back(), numbers_of(make_scene(whole, ReductionEstimate::no))) << value;
+    }
+    EXPECT_NE(seen.front(), seen.back());
+  }
+}
+
 TEST(ModelFamily, SeveralParametersGoTogether) {
   const Model base = read_model(two_disk);
   const std::string contact = "contact." + base.contacts.at(0).name;

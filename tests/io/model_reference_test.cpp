@@ -66,6 +66,13 @@ spins = true
        "qqqqqqqq = 1\n"},
       {"## `[[shaft]]`",
        "[[shaft]]\nmaterial = \"m\"\nlength = 1\nouter_diameter = 1\nqqqqqqqq = 1\n"},
+      {"## `[[shaft]]`",
+       "[[shaft]]\nmaterial = \"m\"\nlength = 1\nouter_diameter = 1\n"
+       "rayleigh = { qqqqqqqq = 1 }\n"},
+      {"## `[[layer]]`",
+       "[[layer]]\nfrom = 0\nto = 1\nmaterial = \"m\"\nouter_diameter = 2\ninner_diameter = 1\n"
+       "qqqqqqqq = 1\n"},
+      {"## `[bow]`", "[bow]\ntable = \"z, x\\n0, 0\\n1, 1\"\nqqqqqqqq = 1\n"},
       {"## `[[disk]]`",
        "[[disk]]\nnode = 1\nmaterial = \"m\"\nouter_diameter = 1\nwidth = 1\n"
        "qqqqqqqq = 1\n"},

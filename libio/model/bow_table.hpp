@@ -1,0 +1,23 @@
+#pragma once
+/// The bow of a shaft, as it is measured: run-out against position.
+
+#include <string>
+#include <vector>
+
+#include "libbase/error.hpp"
+#include "libfe/structure.hpp"
+
+namespace whirl::inline io {
+
+/// Reads a bow from CSV.
+///
+/// The first line that is not a comment (#) names the columns, in any order, each with its unit in
+/// brackets (without one, SI): position; x and y, of which one may be left out, or deflection and
+/// angle (from +x to +y; left out: 0). Positions ascend; two are needed.
+///
+/// @param file      for messages
+/// @param problems  receives what is wrong, with file and line
+Bow parse_bow_table(const std::string& text, const std::string& file,
+                    std::vector<Problem>& problems);
+
+}  // namespace whirl::inline io

@@ -1,0 +1,191 @@
+#include "libio/model/shaft_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "libio/model/delimited_table.hpp"
+#include "libio/text/nearest.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+constexpr double same_length = 1e-9;  ///< relative: rounding of units
+constexpr double most_in_row = 100'000, most_layers = 1000;
+
+const std::vector<ColumnKind>& shaft_columns() {
+  using enum Range;
+  static const std::vector<ColumnKind> columns{
+      {.name = "length", .unit = "m", .range = positive, .synonyms = {"l"}},
+      {.name = "outer_diameter", .unit = "m", .range = positive, .synonyms = {"od", "outer"}},
+      {.name = "outer_left",
+       .unit = "m",
+       .range = positive,
+       .synonyms = {"od_left", "odl", "outer_diameter_left"}},
+      {.name = "outer_right",
+       .unit = "m",
+       .range = positive,
+       .synonyms = {"od_right", "odr", "outer_diameter_right"}},
+      {.name = "inner_diameter", .unit = "m", .range = nonnegative, .synonyms = {"id", "inner"}},
+      {.name = "inner_left",
+       .unit = "m",
+       .range = nonnegative,
+       .synonyms = {"id_left", "idl", "inner_diameter_left"}},
+      {.name = "inner_right",
+       .unit = "m",
+       .range = nonnegative,
+       .synonyms = {"id_right", "idr", "inner_diameter_right"}},
+      {.name = "material", .is_text = true},
+      {.name = "layer", .range = positive},
+      {.name = "elements", .range = positive},
+      {.name = "carries", .is_text = true},
+      {.name = "rayleigh_mass", .unit = "1/s", .range = nonnegative, .synonyms = {"alpha"}},
+      {.name = "rayleigh_stiffness", .unit = "s", .range = nonnegative, .synonyms = {"beta"}}};
+  return columns;
+}
+
+/// Columns that are needed, and those that say the same twice.
+void check_columns(const DelimitedTable& table, const std::string& file,
+                   std::vector<Problem>& problems) {
+  const Where where{file, table.header, 1};
+  const auto missing = [&](const char* column, const char* expected) {
+    problems.push_back({where, column, fmt::format("missing, expected {}", expected)});
+  };
+  if (!table.has("length")) missing("length", "a column of lengths, as length [mm]");
+  for (const std::string side : {"outer", "inner"}) {
+    const bool has_both = table.has(side + "_diameter"), has_left = table.has(side + "_left"),
+               has_right = table.has(side + "_right");
+    if (has_both && (has_left || has_right)) {
+      problems.push_back({where, side + "_diameter",
+                          fmt::format("found {0}_diameter and {0}_left or {0}_right, expected one "
+                                      "value or one for each end",
+                                      side)});
+    } else if (has_left != has_right) {
+      missing((side + (has_left ? "_right" : "_left")).c_str(), "a column for the other end, too");
+    } else if (!has_both && !has_left && side == "outer") {
+      missing("outer_diameter", "a column outer_diameter, or outer_left and outer_right");
+    }
+  }
+}
+
+/// A whole number from a cell.
+std::optional<int> whole(const DelimitedRow& row, const char* column, double most,
+                         const ReportOfLine& report) {
+  const auto value = row.number(column);
+  if (!value) return std::nullopt;
+  if (*value == std::floor(*value) && *value <= most) return static_cast<int>(*value);
+  report(column, fmt::format("found {:g}, expected a whole number from 1 to {:g}", *value, most));
+  return std::nullopt;
+}
+
+/// The diameters of a side: one column for both ends, or two.
+std::pair<std::optional<double>, std::optional<double>> ends(const DelimitedRow& row,
+                                                             const std::string& side) {
+  const auto both = row.number(side + "_diameter");
+  if (both) return {both, both};
+  return {row.number(side + "_left"), row.number(side + "_right")};
+}
+
+void read_diameters(const DelimitedRow& from, bool is_layer, ShaftRow& row,
+                    const ReportOfLine& report) {
+  const auto outer = ends(from, "outer"), inner = ends(from, "inner");
+  if (!outer.first || !outer.second) {
+    report("outer_diameter", "missing, expected an outer diameter (m) at both ends");
+    return;
+  }
+  if (is_layer && (!inner.first || !inner.second)) {
+    report("inner_diameter", "missing, expected the inner diameter (m) of the layer at both ends");
+    return;
+  }
+  row.left = {*outer.first, inner.first.value_or(0.0)};
+  row.right = {*outer.second, inner.second.value_or(0.0)};
+  for (const Section& end : {row.left, row.right}) {
+    if (end.inner < end.outer) continue;
+    report("inner_diameter",
+           fmt::format("found {:g} mm, expected less than the outer diameter of {:g} mm",
+                       1e3 * end.inner, 1e3 * end.outer));
+    return;
+  }
+}
+
+/// What of a row does not go with its being a layer, or the shaft itself.
+void check_place(const DelimitedRow& from, const ShaftRow* base, ShaftRow& row,
+                 const ReportOfLine& report) {
+  const auto length = from.number("length");
+  if (row.layer == 1) {
+    if (!length) report("length", "missing, expected a length (m)");
+    if (row.carries != Carries::both) {
+      report("carries", "the shaft itself carries both; layers have a number above 1");
+    }
+    row.length = length.value_or(0.0);
+    return;
+  }
+  if (!base) {
+    report("layer", fmt::format("found {}, expected a row of layer 1 before it, on which it lies",
+                                row.layer));
+    return;
+  }
+  if (row.elements > 0) {
+    report("elements", "a layer has the elements of the row that it lies on; leave them out");
+  }
+  row.length = length.value_or(base->length);
+  if (std::abs(row.length - base->length) > same_length * base->length) {
+    report("length", fmt::format("found {:.9g} mm, expected the {:.9g} mm of line {}, on which the "
+                                 "layer lies",
+                                 1e3 * row.length, 1e3 * base->length, base->line));
+  }
+}
+
+void read_carries(const DelimitedRow& from, ShaftRow& row, const ReportOfLine& report) {
+  const auto found = from.texts.find("carries");
+  if (found == from.texts.end()) return;
+  for (const auto& [name, value] : choices(Carries{})) {
+    if (name != found->second) continue;
+    row.carries = value;
+    return;
+  }
+  report("carries",
+         fmt::format("found \"{}\", expected one of both, stiffness, mass", found->second));
+}
+
+}  // namespace
+
+std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::string& file,
+                                        std::vector<Problem>& problems) {
+  const std::size_t before = problems.size();
+  const DelimitedTable table = parse_delimited(text, file, shaft_columns(), problems);
+  std::vector<ShaftRow> rows;
+  if (table.header > 0 && problems.size() == before) check_columns(table, file, problems);
+  if (problems.size() > before) return rows;
+  if (table.rows.empty()) {
+    problems.push_back(
+        {{file}, "", "the table has no rows; expected a line of column names and one per segment"});
+    return rows;
+  }
+  std::optional<ShaftRow> base;
+  for (const DelimitedRow& from : table.rows) {
+    const ReportOfLine report = [&](std::string key, std::string message) {
+      problems.push_back({{file, from.line, 1}, std::move(key), std::move(message)});
+    };
+    ShaftRow row{.line = from.line};
+    row.layer = whole(from, "layer", most_layers, report).value_or(1);
+    row.elements = whole(from, "elements", most_in_row, report).value_or(0);
+    if (const auto name = from.texts.find("material"); name != from.texts.end()) {
+      row.material = name->second;
+    }
+    row.damping = {from.number("rayleigh_mass").value_or(0.0),
+                   from.number("rayleigh_stiffness").value_or(0.0)};
+    row.has_damping = from.number("rayleigh_mass") || from.number("rayleigh_stiffness");
+    read_carries(from, row, report);
+    read_diameters(from, row.layer > 1, row, report);
+    check_place(from, base ? &*base : nullptr, row, report);
+    if (row.layer == 1) base = row;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace whirl::inline io

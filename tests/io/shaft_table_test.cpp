@@ -1,0 +1,244 @@
+// Shafts from tables, as engineers keep them in spreadsheets.
+
+#include "libio/model/shaft_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "libfe/assemble.hpp"
+#include "tests/io/problems.hpp"
+#include "tests/io/result_folder.hpp"
+
+namespace whirl::test {
+namespace shaft_table_test {
+
+std::vector<ShaftRow> rows(const std::string& text) {
+  std::vector<Problem> found;
+  const std::vector<ShaftRow> result = parse_shaft_table(text, "shaft.csv", found);
+  for (const Problem& p : found) ADD_FAILURE() << describe(p);
+  return result;
+}
+
+std::string problems_in(const std::string& text) {
+  std::vector<Problem> found;
+  parse_shaft_table(text, "shaft.csv", found);
+  std::string all;
+  for (const Problem& p : found) all += describe(p) + "\n";
+  return all;
+}
+
+TEST(ShaftTable, ReadsEveryColumnInSi) {
+  const auto t = rows(
+      "length [mm], outer_left [mm], outer_right [mm], inner_left [in], inner_right [in], "
+      "material, "
+      "layer, elements, carries, rayleigh_mass [1/s], rayleigh_stiffness [us]\n"
+      "100, 50, 60, 0, 1, steel, 1, 4, , 3, 2\n"
+      ", 80, 90, 2, 2, bronze, 2, , mass, , \n"
+      "25.4, 60, 60, 0, 0, steel, 1, , , , \n");
+  ASSERT_EQ(t.size(), 3u);
+  EXPECT_EQ(t[0].line, 2);
+  EXPECT_DOUBLE_EQ(t[0].length, 0.1);
+  EXPECT_DOUBLE_EQ(t[0].left.outer, 0.05);
+  EXPECT_DOUBLE_EQ(t[0].right.outer, 0.06);
+  EXPECT_DOUBLE_EQ(t[0].right.inner, 0.0254);
+  EXPECT_EQ(t[0].material, "steel");
+  EXPECT_EQ(t[0].layer, 1);
+  EXPECT_EQ(t[0].elements, 4);
+  EXPECT_DOUBLE_EQ(t[0].damping.mass, 3.0);
+  EXPECT_DOUBLE_EQ(t[0].damping.stiffness, 2e-6);
+  EXPECT_EQ(t[1].layer, 2);
+  EXPECT_DOUBLE_EQ(t[1].length, 0.1);  // that of the row on which it lies
+  EXPECT_EQ(t[1].carries, Carries::mass);
+  EXPECT_FALSE(t[1].has_damping);
+  EXPECT_DOUBLE_EQ(t[2].length, 0.0254);
+}
+
+TEST(ShaftTable, NamesOfColumnsAreTakenInAnyOrderAndSpelling) {
+  const auto t = rows(
+      "\xEF\xBB\xBF# station table, drawing 4711\r\n"
+      "\"OD left [in]\"; \"OD-right [in]\"; L [in]; Material;;\r\n"
+      "2; 3; 10; \"AISI 4340\";;\r\n"
+      ";;;;;\r\n");
+  ASSERT_EQ(t.size(), 1u);
+  EXPECT_DOUBLE_EQ(t[0].length, 0.254);
+  EXPECT_DOUBLE_EQ(t[0].right.outer, 0.0762);
+  EXPECT_EQ(t[0].left.inner, 0.0);
+  EXPECT_EQ(t[0].material, "AISI 4340");
+  EXPECT_DOUBLE_EQ(rows("length,od\n1,2 mm\n")[0].right.outer, 0.002);
+}
+
+TEST(ShaftTable, ProblemsNameTheirLines) {
+  EXPECT_EQ(problems_in("length,outer_diameter\n1,0.1\n# \nx,0.1\n1,-2\n2\n"),
+            "shaft.csv:4:1: length: \"x\" is not a number, expected a length (m)\n"
+            "shaft.csv:5:1: outer_diameter: found \"-2\", expected a length (m) above zero\n"
+            "shaft.csv:6:1: found 1 columns, expected 2 as in the first line\n");
+  EXPECT_EQ(problems_in("length,outer_diameter,inner_diameter\n,0.1,\n1,,\n1,0.1,0.1\n"),
+            "shaft.csv:2:1: length: missing, expected a length (m)\n"
+            "shaft.csv:3:1: outer_diameter: missing, expected an outer diameter (m) at both ends\n"
+            "shaft.csv:4:1: inner_diameter: found 100 mm, expected less than the outer diameter of "
+            "100 mm\n");
+}
+
+TEST(ShaftTable, LayersLieOnTheRowBefore) {
+  const std::string head = "length,outer_diameter,inner_diameter,layer,elements,carries\n";
+  EXPECT_EQ(
+      problems_in(head + "1,0.1,0,2,,\n"),
+      "shaft.csv:2:1: layer: found 2, expected a row of layer 1 before it, on which it lies\n");
+  EXPECT_EQ(
+      problems_in(head + "1,0.1,0,1,,\n0.5,0.2,0.1,2,,\n"),
+      "shaft.csv:3:1: length: found 500 mm, expected the 1000 mm of line 2, on which the layer "
+      "lies\n");
+  EXPECT_EQ(
+      problems_in(head + "1,0.1,0,1,,\n,0.2,0.1,2,3,\n"),
+      "shaft.csv:3:1: elements: a layer has the elements of the row that it lies on; leave them "
+      "out\n");
+  EXPECT_EQ(
+      problems_in(head + "1,0.1,0,1,,\n,0.2,,2,,\n"),
+      "shaft.csv:3:1: inner_diameter: missing, expected the inner diameter (m) of the layer at "
+      "both ends\n");
+  EXPECT_EQ(problems_in(head + "1,0.1,0,1.5,,\n"),
+            "shaft.csv:2:1: layer: found 1.5, expected a whole number from 1 to 1000\n");
+  EXPECT_EQ(
+      problems_in(head + "1,0.1,0,1,,mass\n"),
+      "shaft.csv:2:1: carries: the shaft itself carries both; layers have a number above 1\n");
+  EXPECT_EQ(problems_in(head + "1,0.1,0,1,,\n,0.2,0.1,2,,weight\n"),
+            "shaft.csv:3:1: carries: found \"weight\", expected one of both, stiffness, mass\n");
+}
+
+TEST(ShaftTable, ColumnsThatCannotBe) {
+  EXPECT_EQ(problems_in("lenght,outer_diameter\n1,2\n"),
+            "shaft.csv:1:1: lenght: unknown column, did you mean \"length\"?\n");
+  EXPECT_EQ(problems_in("outer_diameter\n2\n"),
+            "shaft.csv:1:1: length: missing, expected a column of lengths, as length [mm]\n");
+  EXPECT_EQ(
+      problems_in("length\n2\n"),
+      "shaft.csv:1:1: outer_diameter: missing, expected a column outer_diameter, or outer_left "
+      "and outer_right\n");
+  EXPECT_EQ(problems_in("length,outer_left\n2,1\n"),
+            "shaft.csv:1:1: outer_right: missing, expected a column for the other end, too\n");
+  EXPECT_EQ(problems_in("length,od,outer_left\n2,1,1\n"),
+            "shaft.csv:1:1: outer_diameter: found outer_diameter and outer_left or outer_right, "
+            "expected one value or one for each end\n");
+  EXPECT_EQ(problems_in("length [kg],od\n2,1\n"),
+            "shaft.csv:1:1: length: the unit [kg] does not fit: found \"1 kg\", expected a length "
+            "(m)\n");
+  EXPECT_EQ(problems_in("length,od,material [m]\n2,1,a\n"),
+            "shaft.csv:1:1: material: a column of words has no unit\n");
+  EXPECT_EQ(problems_in("length,od,l\n2,1,2\n"),
+            "shaft.csv:1:1: length: this column is there already\n");
+  for (const char* text : {"", "# nothing\n", "length,od\n"}) {
+    EXPECT_NE(problems_in(text).find("shaft.csv: the table has no rows"), std::string::npos)
+        << text;
+  }
+}
+
+using ShaftTableFile = InResultFolder;
+
+constexpr const char* head = R"(format = 1
+[material.steel]
+density = 7800
+youngs_modulus = "211 GPa"
+poisson_ratio = 0.3
+[material.bronze]
+density = 8800
+youngs_modulus = "100 GPa"
+poisson_ratio = 0.34
+)";
+
+// A shaft by a table is that of the same segments and layers, and results keep the table's text.
+TEST_F(ShaftTableFile, IsTheShaftOfTheSameSegments) {
+  std::ofstream(folder / "stations.csv")
+      << "length [mm], od [mm], id [mm], material, layer, elements\n"
+         "200, 40, 0, , 1, 4\n"
+         ", 70, 40, bronze, 2,\n"
+         "300, 50, 0, , 1, 5\n";
+  const std::string by_table = std::string(head) + R"([[shaft]]
+table = "stations.csv"
+material = "steel"
+theory = "rayleigh"
+rayleigh = { stiffness = "2 us" }
+[[shaft]]
+material = "bronze"
+length = "100 mm"
+outer_diameter = "30 mm"
+elements = 2
+)";
+  const std::string by_hand = std::string(head) + R"([[shaft]]
+material = "steel"
+length = "200 mm"
+outer_diameter = "40 mm"
+elements = 4
+theory = "rayleigh"
+rayleigh = { stiffness = "2 us" }
+[[shaft]]
+material = "steel"
+length = "300 mm"
+outer_diameter = "50 mm"
+elements = 5
+theory = "rayleigh"
+rayleigh = { stiffness = "2 us" }
+[[shaft]]
+material = "bronze"
+length = "100 mm"
+outer_diameter = "30 mm"
+elements = 2
+[[layer]]
+from = 0
+to = "200 mm"
+material = "bronze"
+outer_diameter = "70 mm"
+inner_diameter = "40 mm"
+theory = "rayleigh"
+rayleigh = { stiffness = "2 us" }
+)";
+  const Model model = parse_model(by_table, "m.toml", {}, folder);
+  const System a = assemble(model.structure, 100.0),
+               b = assemble(parse_model(by_hand).structure, 100.0);
+  EXPECT_EQ(Mat(a.M - b.M).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_EQ(Mat(a.K - b.K).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_EQ(Mat(a.C - b.C).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_GT(Mat(a.C).cwiseAbs().maxCoeff(), 0.0);
+
+  std::filesystem::remove(folder / "stations.csv");
+  const Model again = parse_model(model.source, "result.h5");
+  EXPECT_EQ(again.structure.shaft.size(), 3u);
+  EXPECT_EQ(again.structure.layers.size(), 1u);
+  EXPECT_EQ(again.structure.shaft[1].where.file, "shaft.1.table");
+}
+
+TEST_F(ShaftTableFile, ProblemsOfTableAndModelAreToldTogether) {
+  const auto problem_of = [&](const std::string& table, const std::string& keys) {
+    std::ofstream(folder / "t.csv") << table;
+    std::string all;
+    try {
+      parse_model(std::string(head) + "[[shaft]]\ntable = \"t.csv\"\n" + keys, "m", {}, folder);
+    } catch (const ModelError& error) {
+      for (const Problem& p : error.problems()) {
+        const std::string text = describe(p), beside = (folder / "").string();
+        all += (text.starts_with(beside) ? text.substr(beside.size()) : text) + "\n";
+      }
+    }
+    return all;
+  };
+  const std::string good = "length,od,material\n1,0.1,steel\n";
+  EXPECT_EQ(problem_of(good, "[[disk]]\nat = 0.5\nmass = 1\n"), "");
+  EXPECT_EQ(
+      problem_of("length,od,material\n1,0.1,steal\n1,0.1,\n", "[[disk]]\nat = 0.5\nmas = 1\n"),
+      "m:14:1: disk.1.mas: unknown key, did you mean \"mass\"?\n"
+      "t.csv:2:1: material: found \"steal\", expected one of bronze, steel; did you mean "
+      "\"steel\"?\n"
+      "t.csv:3:1: material: missing, expected the name of a material\n");
+  EXPECT_EQ(problem_of(good, "length = 2\n"),
+            "m:12:10: shaft.1.length: stands in the table; leave it out\n");
+  EXPECT_EQ(problem_of(good, "[[shaft]]\ntable = \"other.csv\"\n")
+                .find("m:13:9: shaft.2.table: cannot read the file"),
+            0u);
+  // stations beyond the ends of a shaft that is not whole are no matter
+  EXPECT_EQ(problem_of("length,od\n1,0.1\n", "[[disk]]\nat = 5\nmass = 1\n"),
+            "t.csv:2:1: material: missing, expected the name of a material\n");
+}
+
+}  // namespace shaft_table_test
+}  // namespace whirl::test
