@@ -4,6 +4,7 @@
 /// A law is a struct with
 ///
 ///   static constexpr std::string_view name;      the word in the model file
+///   static constexpr bool is_dragged;            whether the journal's spin drags the oil along
 ///   static double factor(bearing);               of the force [N.s]
 ///   static auto force(x, y, a, b);               the force over the factor [1/s], a pair
 ///
@@ -12,9 +13,10 @@
 ///
 ///   a = Omega x - 2 y',   b = Omega y + 2 x'
 ///
-/// Rates have a dimension, so that nothing is singular without spin. `force` grows in proportion to
-/// (a, b), is written once for any number type (doubles, packs, Taylor series; `sqrt` and
-/// `arc_cotangent` are found by their arguments) and is no number where x^2 + y^2 >= 1.
+/// and Omega is zero if the oil is not dragged. Rates have a dimension, so that nothing is singular
+/// without spin. `force` grows in proportion to (a, b), is written once for any number type (doubles,
+/// packs, Taylor series; `sqrt` and `arc_cotangent` are found by their arguments) and is no number
+/// where x^2 + y^2 >= 1.
 
 #include <cmath>
 #include <tuple>

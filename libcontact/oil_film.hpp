@@ -15,6 +15,7 @@ struct OilFilm {
   JournalBearing bearing;
   Vec2 offset = Vec2::Zero();  ///< center of the bearing [m]
   AnyFilmLaw law;
+  bool is_linearized = true;  ///< in linear analyses; else they leave it out
   Where where{};
 };
 

@@ -273,7 +273,7 @@ Assembler::Assembler(Structure structure)
   }
   fixed_ = {collector.M(next), collector.C(next), collector.G(next), collector.K(next),
             collector.H(next)};
-  if (fixed_.H.nonZeros() > 0) depends_on_speed_ = true;
+  if (fixed_.H.nonZeros() > 0 || !structure_.linearized.empty()) depends_on_speed_ = true;
   if (!structure_.modal_damping.ratios.empty()) {
     const auto at_rest = [&] { return at(0.0); };
     modal_ = modal_damping_matrix(structure_.modal_damping, at_rest, fixed_.M);
@@ -300,6 +300,13 @@ Assembler::FullMatrices Assembler::full(double Omega) const {
   if (r.mass != 0.0) f.C += r.mass * f.M;
   if (r.stiffness != 0.0) f.C += r.stiffness * f.K;
   if (modal_.nonZeros() > 0) f.C += modal_;
+  if (structure_.linearized.empty()) return f;
+  Collector linearized;  // damping of the rotor is not in proportion to their stiffness
+  for (const LinearizedConnection& c : structure_.linearized) {
+    linearized.add(matrices(c.at(Omega, Omega)), indices(dofs_, point(c.from), point(c.to)));
+  }
+  f.K += linearized.K(dofs_.full_size);
+  f.C += linearized.C(dofs_.full_size);
   return f;
 }
 

@@ -31,9 +31,11 @@ class Assembler {
 
   const Structure& structure() const { return structure_; }
   const Mesh& mesh() const { return mesh_; }
+  /// Of the coordinates that supports leave, nothing condensed.
+  const DofMap& dofs() const { return dofs_; }
   Point point(const Station& station) const { return resolve(station, structure_, mesh_); }
 
-  /// Whether K or C change with speed, beyond Omega G (tables, rotating damping).
+  /// Whether K or C change with speed, beyond Omega G (tables, films, rotating damping).
   bool depends_on_speed() const { return depends_on_speed_; }
 
   /// Matrices at a speed [rad/s], dofs without inertia condensed.
@@ -41,7 +43,8 @@ class Assembler {
   /// Condensed exactly are those without mass whose damping is none or proportional to stiffness;
   /// a massless freedom with a damper of its own stays, and makes M singular.
   ///
-  /// @throws NumericalError  if a freedom has neither inertia nor stiffness, or if none has inertia
+  /// @throws NumericalError  if a freedom has neither inertia nor stiffness, if none has inertia, or
+  ///                         if a linearized connection has no coefficients at this speed
   System at(double Omega) const;
 
   /// The same with every freedom that supports leave; M is singular where there is no inertia.

@@ -15,6 +15,8 @@ namespace {
 constexpr double sure = 0.8;            ///< MAC from which a match needs no second look
 constexpr int deepest = 6;              ///< halvings of a speed interval
 constexpr int spare_modes = 2;          ///< computed beyond those followed, for newcomers
+constexpr double clear = 1e-8;          ///< real part over size from which a mode grows, or decays
+constexpr double rootless = 1e-6;       ///< real part over size that is no root
 constexpr double crossing_tol = 1e-10;  ///< of the speed at a crossing; eigenvalues have 1e-11
 
 /// Shapes with their eigenvalues, in the order of the branches.
@@ -22,6 +24,8 @@ struct Front {
   double Omega = 0.0;
   std::vector<Mode> modes;
   std::vector<bool> is_alive;
+  std::vector<Mode> others{};        ///< modes found that no branch is
+  std::vector<Complex> eigenvalues;  ///< of all oscillatory modes found, the fastest growing first
   bool is_gap = false;  ///< nothing could be computed; the modes are those of a neighbor
 };
 
@@ -62,15 +66,30 @@ double follow(const Front& from, const Modes& found, const Sparse& M, Front& to)
   for (std::size_t b = 0; b < branches; ++b) {
     if (from.is_alive[b] && !to.is_alive[b]) poorest = 0.0;
   }
+  for (std::size_t c = 0; c < candidates; ++c) {
+    if (!is_taken[c]) to.others.push_back(found.oscillatory[c]);
+  }
   return poorest;
+}
+
+/// Eigenvalues of oscillatory modes, the largest real part first.
+std::vector<Complex> by_growth(const Modes& modes) {
+  std::vector<Complex> all;
+  for (const Mode& mode : modes.oscillatory) all.push_back(mode.lambda);
+  std::stable_sort(all.begin(), all.end(),
+                   [](Complex a, Complex b) { return a.real() > b.real(); });
+  return all;
 }
 
 class Tracker {
  public:
-  Tracker(const ModeFinder& finder, int branches) : finder_(finder), branches_(branches) {}
+  /// @param adds  whether modes that begin to oscillate become branches
+  Tracker(const ModeFinder& finder, int branches, bool adds)
+      : finder_(finder), branches_(branches), adds_(adds) {}
 
   Front start(double Omega) const {
-    Front front{.Omega = Omega, .modes = modes(Omega).oscillatory};
+    const Modes found = modes(Omega);
+    Front front{.Omega = Omega, .modes = found.oscillatory, .eigenvalues = by_growth(found)};
     if (static_cast<int>(front.modes.size()) > branches_) front.modes.resize(branches_);
     front.is_alive.assign(front.modes.size(), true);
     return front;
@@ -78,6 +97,16 @@ class Tracker {
 
   /// Follows all branches to another speed, halving the way where shapes change much.
   Front advance(const Front& from, double Omega) const { return advance(from, look(Omega), 0); }
+
+  /// Makes branches of other modes, the lowest first, where some have ended or there were too few.
+  void add_others(Front& front) const {
+    auto missing = branches_ - std::count(front.is_alive.begin(), front.is_alive.end(), true);
+    for (const Mode& mode : front.others) {
+      if (!adds_ || missing-- <= 0) return;
+      front.modes.push_back(mode);
+      front.is_alive.push_back(true);
+    }
+  }
 
  private:
   /// What there is at a speed.
@@ -91,7 +120,7 @@ class Tracker {
   Look look(double Omega) const { return {Omega, modes(Omega), finder_.system(Omega).M}; }
 
   Front advance(const Front& from, const Look& end, int depth) const {
-    Front to{.Omega = end.Omega};
+    Front to{.Omega = end.Omega, .eigenvalues = by_growth(end.modes)};
     const double poorest = follow(from, end.modes, end.M, to);
     // at rest equal pairs of planar modes match either sense of whirl by half: nothing to refine
     const bool is_degenerate = from.Omega == 0.0 || end.Omega == 0.0;
@@ -102,6 +131,7 @@ class Tracker {
 
   const ModeFinder& finder_;
   int branches_;
+  bool adds_;
 };
 
 /// Fronts at all speeds. Numbers are those at the first speed that spins; rest is reached from
@@ -114,6 +144,7 @@ std::vector<Front> all_fronts(const Tracker& tracker, const std::vector<double>&
   const auto compute = [&](std::size_t i) {
     try {
       fronts[i] = last ? tracker.advance(fronts[*last], speeds[i]) : tracker.start(speeds[i]);
+      tracker.add_others(fronts[i]);
       last = i;
       if (!first) first = i;
     } catch (const NumericalError& error) {
@@ -133,6 +164,14 @@ std::vector<Front> all_fronts(const Tracker& tracker, const std::vector<double>&
     if (!front.is_gap) continue;
     front.modes = fronts[*first].modes;
     front.is_alive.assign(front.modes.size(), false);
+  }
+  const std::vector<Mode> all =
+      std::max_element(fronts.begin(), fronts.end(), [](const Front& a, const Front& b) {
+        return a.modes.size() < b.modes.size();
+      })->modes;
+  for (Front& front : fronts) {  // branches begin at any speed
+    front.is_alive.resize(all.size(), false);
+    for (std::size_t b = front.modes.size(); b < all.size(); ++b) front.modes.push_back(all[b]);
   }
   return fronts;
 }
@@ -155,6 +194,63 @@ double crossing(const Tracker& tracker, const Front& low, const Front& high, std
   } catch (const NumericalError&) {
     return nan;
   }
+}
+
+/// How many modes grow.
+std::size_t growing(const std::vector<Complex>& by_growth) {
+  return static_cast<std::size_t>(
+      std::count_if(by_growth.begin(), by_growth.end(),
+                    [](Complex lambda) { return lambda.real() > clear * std::abs(lambda); }));
+}
+
+/// The threshold between two fronts of the eigenvalue that grows fastest but `number`, if it decays at
+/// one of them and grows at the other.
+std::optional<Threshold> threshold(const Tracker& tracker, const Front& low, const Front& high,
+                                   std::size_t number) {
+  Front near = low;
+  const auto growth = [&](double Omega) {
+    if (Omega == low.Omega || Omega == high.Omega) {
+      near = Omega == low.Omega ? low : high;
+    } else {
+      near = tracker.advance(near, Omega);
+    }
+    // a mode that does not oscillate does not whirl by itself, either
+    return number < near.eigenvalues.size() ? near.eigenvalues[number].real() : -high.Omega;
+  };
+  double speed = nan;
+  try {
+    speed = bracketed_root(growth, low.Omega, high.Omega, crossing_tol * high.Omega);
+    if (!std::isfinite(speed)) return std::nullopt;
+    if (growth(speed) == -high.Omega) return std::nullopt;
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+  const Complex lambda = near.eigenvalues[number];
+  if (std::abs(lambda.real()) > rootless * std::abs(lambda)) return std::nullopt;  // a jump
+  Threshold found{.speed = speed, .frequency = lambda.imag()};
+  for (std::size_t b = 0; b < near.modes.size(); ++b) {
+    if (near.is_alive[b] && near.modes[b].lambda == lambda) found.branch = static_cast<int>(b);
+  }
+  return found;
+}
+
+/// Thresholds between neighboring fronts.
+std::vector<Threshold> all_thresholds(const Tracker& tracker, const std::vector<Front>& fronts) {
+  std::vector<Threshold> found;
+  const Front* before = nullptr;
+  for (const Front& front : fronts) {
+    if (front.is_gap) continue;
+    if (before) {
+      const std::size_t a = growing(before->eigenvalues), b = growing(front.eigenvalues);
+      for (std::size_t number = std::min(a, b); number < std::max(a, b); ++number) {
+        if (const auto t = threshold(tracker, *before, front, number)) found.push_back(*t);
+      }
+    }
+    before = &front;
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Threshold& a, const Threshold& b) { return a.speed < b.speed; });
+  return found;
 }
 
 Whirl usual_whirl(const std::vector<Whirl>& seen) {
@@ -188,7 +284,7 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
     throw OptionError("speeds of a Campbell diagram must ascend from zero or above");
   }
   const ModeFinder finder(assembler);
-  const Tracker tracker(finder, branches);
+  const Tracker tracker(finder, branches, !assembler.structure().linearized.empty());
 
   const std::vector<Front> fronts = all_fronts(tracker, speeds, result.gaps);
   const std::size_t branch_count = fronts.back().modes.size();
@@ -214,6 +310,7 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
     }
     result.branches.push_back(std::move(branch));
   }
+  result.thresholds = all_thresholds(tracker, fronts);
   std::stable_sort(result.crossings.begin(), result.crossings.end(),
                    [](const Crossing& a, const Crossing& b) { return a.speed < b.speed; });
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 /// Modes followed over speed.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,30 @@ struct Crossing {
   }
 };
 
+/// A speed at which a mode begins to grow by itself, or ceases to.
+struct Threshold {
+  double speed = 0.0;      ///< [rad/s]
+  double frequency = 0.0;  ///< at which it whirls there [rad/s]
+  int branch = -1;         ///< from 0; -1: the mode is none of those that are followed
+
+  bool is_followed() const { return branch >= 0; }
+  /// From 1.
+  std::optional<int> mode() const {
+    return is_followed() ? std::optional(branch + 1) : std::nullopt;
+  }
+
+  static constexpr auto columns() {
+    using enum Written;
+    return std::tuple{
+        column("speed", &Threshold::speed, "rad/s", "threshold of instability"),
+        column("frequency", &Threshold::frequency, "rad/s", "of the whirl at the threshold"),
+        column("branch", &Threshold::branch, "", "branch that loses its damping; 0: none of these")
+            .from_one()
+            .only(in_file),
+        column("mode", &Threshold::mode, "", "branch that loses its damping").only(in_json)};
+  }
+};
+
 /// A speed whose modes cannot be computed.
 struct CampbellGap {
   double speed = 0.0;  ///< [rad/s]
@@ -52,8 +77,9 @@ struct CampbellGap {
 struct Campbell {
   std::vector<double> speeds;  ///< [rad/s]
   std::vector<CampbellBranch> branches;
-  std::vector<Crossing> crossings;  ///< with frequency = order * Omega, ascending speed
-  std::vector<CampbellGap> gaps;    ///< speeds at which every branch is NaN; most have none
+  std::vector<Crossing> crossings;    ///< with frequency = order * Omega, ascending speed
+  std::vector<Threshold> thresholds;  ///< of the modes computed, ascending speed
+  std::vector<CampbellGap> gaps;      ///< speeds at which every branch is NaN; most have none
 
   /// Speeds of the crossings [rad/s].
   std::vector<double> criticals() const;
@@ -69,6 +95,7 @@ struct Campbell {
         rows(&Campbell::branches, "branches").numbered("branch", "branch"),
         column("criticals", &Campbell::criticals, "rad/s", "critical speeds").only(in_json),
         rows(&Campbell::crossings, "crossings").prefixed("critical_").maybe().only(in_file),
+        rows(&Campbell::thresholds, "thresholds").prefixed("threshold_").maybe(),
         rows(&Campbell::gaps, "gaps").maybe().only(in_json)};
   }
 };
@@ -78,6 +105,10 @@ struct Campbell {
 /// Modes of neighboring speeds belong together if their shapes agree (MAC weighted with M); where
 /// they do not agree well, speeds between are computed too until they do. A speed whose modes cannot
 /// be computed is left out and told, and its neighbors are compared with one another.
+///
+/// Where more modes, or fewer, grow at a speed than at the one before, thresholds of instability lie
+/// between: the roots over speed of the real parts of the eigenvalues, the largest one first. Modes
+/// that do not oscillate at first, as those of bearings with oil films, count as others do.
 ///
 /// @param speeds    ascending, nonnegative [rad/s]
 /// @param branches  how many of the lowest modes at the first speed above zero are followed

@@ -146,8 +146,8 @@ std::string Critical::excitation() const {
 }
 
 std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options) {
-  require_supports(assembler, 0.0, "critical speeds need");
-  std::vector<Critical> criticals = undamped_criticals(assembler.at(0.0), options);
+  require_supports(assembler, options.start, "critical speeds need");
+  std::vector<Critical> criticals = undamped_criticals(assembler.at(options.start), options);
   if (assembler.depends_on_speed()) {
     std::vector<Critical> iterated;
     for (std::size_t i = 0; i < criticals.size(); ++i) {

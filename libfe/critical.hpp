@@ -13,6 +13,7 @@ namespace whirl::inline fe {
 struct CriticalOptions {
   int count = 6;           ///< lowest ones wanted
   double order = 1.0;      ///< excitation frequency over spin speed; 1: unbalance
+  double start = 0.0;      ///< speed whose stiffness the search begins with [rad/s]
   bool has_damped = true;  ///< look for the damped ones too, which takes most of the time
 };
 

@@ -52,9 +52,10 @@ FreeBody free_body(const System& system) {
   return {true, real.first_flexible()};
 }
 
-/// Strain energy per kinetic energy at unit frequency, q^H K q / q^H M q.
+/// Size of the strain energy per kinetic energy at unit frequency, |q^H K q| / q^H M q: what skew
+/// stiffness does to a whirl counts, too.
 double stiffness_ratio(const System& system, const CVec& q) {
-  const double strain = (q.adjoint() * (system.K * q))(0).real();
+  const double strain = std::abs((q.adjoint() * (system.K * q))(0));
   const double inertia = (q.adjoint() * (system.M * q))(0).real();
   return inertia > 0.0 ? strain / inertia : std::numeric_limits<double>::infinity();
 }
@@ -133,8 +134,8 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
     const Complex lambda = found.lambda(i);
     const CVec q = found.q.col(i);
     const bool is_rigid =
-        body.is_free && std::abs(stiffness_ratio(system, q)) <=
-                            rigid_share * body.first_flexible * body.first_flexible;
+        body.is_free &&
+        stiffness_ratio(system, q) <= rigid_share * body.first_flexible * body.first_flexible;
     if (is_rigid) {
       modes.rigid_body.push_back(describe(lambda, q, system.dofs));
     } else if (lambda.imag() <= overdamped * std::abs(lambda.real())) {
@@ -320,8 +321,9 @@ struct ModeFinder::State {
 };
 
 ModeFinder::ModeFinder(const Assembler& assembler)
-    : state_(std::make_unique<State>(State{assembler, assembler.at(0.0), {}})) {
+    : state_(std::make_unique<State>(State{assembler, {}, {}})) {
   if (assembler.depends_on_speed()) return;
+  state_->base = assembler.at(0.0);
   if (state_->base.size() >= dense_below) {
     state_->known = knowledge_of(state_->base);
   } else {

@@ -42,7 +42,13 @@ StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {
   if (!solver.is_regular()) {
     throw NumericalError("the stiffness is singular at this speed");
   }
-  const Vec q = solver.solve(Vec(system.dofs.T.transpose() * load));
+  return with_bearing_loads(assembler, system, solver.solve(Vec(system.dofs.T.transpose() * load)),
+                            load);
+}
+
+StaticEquilibrium with_bearing_loads(const Assembler& assembler, const System& system, const Vec& q,
+                                     const Vec& load) {
+  const double Omega = system.Omega;
   StaticEquilibrium result{system.dofs.T * q, {}};
   const Vec support = assembler.support_forces(Omega, q, load);
   for (const Connection& c : assembler.structure().bearings) {

@@ -47,6 +47,11 @@ struct StaticEquilibrium {
 /// @throws ModelError  if the rotor is free
 StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega);
 
+/// What the bearings carry where the rotor rests at q under a full load [N, N.m].
+/// @param system  of the assembler, nothing condensed
+StaticEquilibrium with_bearing_loads(const Assembler& assembler, const System& system, const Vec& q,
+                                     const Vec& load);
+
 /// Checks that no rigid-body motion is free at a speed.
 /// @param what  begins the message, "the static sag needs"
 /// @throws ModelError  if one is

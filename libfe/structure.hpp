@@ -2,6 +2,7 @@
 /// What a model file says about the rotor and its surroundings, checked and in SI, before any mesh.
 
 #include <array>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -170,6 +171,16 @@ struct Connection {
   Where where{};
 };
 
+/// A connection whose coefficients follow from the state of the rotor at a speed, as those of an oil
+/// film follow from where its journal runs.
+struct LinearizedConnection {
+  std::string name;
+  Station from, to;
+  /// Coefficients at a spin and a whirl frequency, as a kind of bearing has them (bearings.hpp)
+  /// [rad/s]; throws a NumericalError where the state is not found.
+  std::function<BearingCoefficients(double Omega, double omega)> at;
+};
+
 /// Deflections of the shaft without any force on it, at t = 0; they turn with the shaft.
 ///
 /// Between its positions the bow is the natural cubic spline, beyond them straight.
@@ -192,6 +203,7 @@ struct Structure {
   std::vector<Body> bodies;
   std::vector<Connection> bearings;
   std::vector<Connection> links;
+  std::vector<LinearizedConnection> linearized;  ///< in linear analyses only
   std::vector<Unbalance> unbalances;
   std::vector<Station> stations;  ///< further places that need a node (contacts, probes)
   Rayleigh damping;

@@ -9,40 +9,37 @@ namespace whirl::inline fe {
 
 struct UnbalanceSolver::State {
   const Assembler& assembler;
-  System system;
   CVec force;  ///< of unbalance over Omega^2, in the coordinates of the system
   CVec bow;    ///< force of the bow, likewise; empty: none
-  DynamicStiffness stiffness;
+  std::optional<DynamicStiffness> stiffness{};  ///< of the last speed, if it depends on that
 };
 
 UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
-  System system = assembler.uncondensed(0.0);
-  CVec force = system.dofs.T.transpose() * assembler.unbalance();
+  const Sparse& T = assembler.dofs().T;
+  CVec force = T.transpose() * assembler.unbalance();
   CVec bow;
-  if (!assembler.structure().bow.z.empty()) bow = system.dofs.T.transpose() * assembler.bow();
-  DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
-  state_ = std::make_unique<State>(
-      State{assembler, std::move(system), std::move(force), std::move(bow), std::move(stiffness)});
+  if (!assembler.structure().bow.z.empty()) bow = T.transpose() * assembler.bow();
+  state_ = std::make_unique<State>(State{assembler, std::move(force), std::move(bow)});
 }
 
 UnbalanceSolver::~UnbalanceSolver() = default;
 
 const DofMap& UnbalanceSolver::dofs() const {
-  return state_->system.dofs;
+  return state_->assembler.dofs();
 }
 
 std::optional<CVec> UnbalanceSolver::at(double Omega) {
   State& s = *state_;
-  if (Omega == 0.0 && s.bow.size() == 0) return CVec(CVec::Zero(s.system.dofs.full_size));
-  if (s.assembler.depends_on_speed()) {
-    s.system = s.assembler.uncondensed(Omega);
-    s.stiffness = DynamicStiffness(s.system.M, s.system.C, s.system.G, s.system.K);
+  if (Omega == 0.0 && s.bow.size() == 0) return CVec(CVec::Zero(dofs().full_size));
+  if (!s.stiffness || s.assembler.depends_on_speed()) {
+    const System system = s.assembler.uncondensed(Omega);
+    s.stiffness.emplace(system.M, system.C, system.G, system.K);
   }
   CVec force = Omega * Omega * s.force;
   if (s.bow.size() > 0) force += s.bow;
-  const auto q = s.stiffness.solve(Omega, Omega, force);
+  const auto q = s.stiffness->solve(Omega, Omega, force);
   if (!q) return {};
-  return CVec(s.system.dofs.T * *q);
+  return CVec(dofs().T * *q);
 }
 
 std::optional<CVec> UnbalanceSolver::at(double Omega, const std::vector<Point>& points) {

@@ -3,6 +3,7 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/modes_text.hpp"
 
@@ -19,7 +20,7 @@ struct CampbellVerbOptions {
 Report run_campbell(const Invocation& call, const CampbellVerbOptions& options) {
   const Model model = call.model();
   const std::vector<double> speeds = options.speeds.value_or(usual_speeds(model.speed));
-  const Campbell diagram = campbell(Assembler(model.structure), speeds, *options.modes);
+  const Campbell diagram = campbell(Assembler(linear_structure(model)), speeds, *options.modes);
   Report report = begin_report(call, model, record_of(diagram));
   report.text = text_of(diagram);
   report.add_notes(linear_notes(model, speeds));

@@ -2,6 +2,7 @@
 
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/modes_text.hpp"
 
@@ -23,9 +24,12 @@ struct CriticalVerbOptions {
 
 Report run_critical(const Invocation& call, const CriticalVerbOptions& options) {
   const Model model = call.model();
-  const CriticalSpeeds found{critical_speeds(Assembler(model.structure),
-                                             {.count = *options.modes, .order = *options.order}),
-                             *options.order};
+  const CriticalSpeeds found{
+      critical_speeds(Assembler(linear_structure(model)),
+                      {.count = *options.modes,
+                       .order = *options.order,
+                       .start = has_linear_films(model) ? model.speed : 0.0}),
+      *options.order};
   Report report = begin_report(call, model, record_of(found));
   report.text = text_of(found);
   std::vector<double> speeds;

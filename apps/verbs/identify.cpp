@@ -24,6 +24,7 @@ void add_identification(const Model& model, const Run& run, const IdentifyOption
   if (run.has_motion()) id = identify(model, run.scene, run.simulation.recording, options);
   const ModesAtPoints modes({.oscillatory = id.modes}, run.scene.system.dofs);
   report.record.merge(record_of(id)).merge(record_of(modes));
+  report.add_notes(film_notes(model));
   if (!run.has_motion()) return;
   report.text += fmt::format(
       "\nMAC of deflection shapes (rows) against complex modes at {:.6g} rpm{} (columns: number, "

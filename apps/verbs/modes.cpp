@@ -2,6 +2,7 @@
 
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/texts/modes_text.hpp"
@@ -17,7 +18,7 @@ struct ModesVerbOptions {
 
 Report run_modes(const Invocation& call, const ModesVerbOptions& options) {
   const Model model = call.model();
-  const Assembler assembler(model.structure);
+  const Assembler assembler(linear_structure(model));
   const System system = assembler.at(model.speed);
   const ModesAtPoints modes(complex_modes(system, *options.modes), system.dofs);
   Report report = begin_report(call, model, record_of(modes));

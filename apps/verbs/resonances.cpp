@@ -3,6 +3,7 @@
 #include "apps/verbs/options.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/studies/resonance_study.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/text/interrupt.hpp"
@@ -35,7 +36,7 @@ ResonanceOptions resonance_options(const ResonancesVerbOptions& asked, const Mod
 
 Report run_resonances(const Invocation& call, const ResonancesVerbOptions& asked) {
   const Model model = call.model();
-  const Assembler assembler(model.structure);
+  const Assembler assembler(linear_structure(model));
   const ResonanceOptions options = resonance_options(asked, model);
   const auto file = call.result_file(model);
   if (options.confirms) install_interrupt_handler();
@@ -48,6 +49,7 @@ Report run_resonances(const Invocation& call, const ResonancesVerbOptions& asked
   report.text = headline("Internal resonances seen from the rotor", model) + "\n" + text_of(study) +
                 (study.is_whole ? "" : "\n  stopped\n");
   if (options.confirms) {
+    report.add_notes(film_notes(model));
     report.add_notes(table_notes(model.structure, options.speeds));
   } else {
     report.add_notes(linear_notes(model, options.speeds));

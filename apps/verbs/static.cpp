@@ -14,10 +14,11 @@ Report run_static(const Invocation& call) {
   const StaticStudy study = static_study(model, assembler);
   Report report = begin_report(call, model, record_of(study));
   report.text = text_of(study);
-  report.add_notes(linear_notes(model, {model.speed}));
+  report.add_notes(left_out_notes(model, {model.speed}));
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
     write_result(file, study.at_rest);
+    if (!study.on_films.films.empty()) write_result(file, study.on_films);
     if (study.line.z.size() > 0) write_result(file, study.line);
   });
   return report;

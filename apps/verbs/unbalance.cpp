@@ -1,6 +1,7 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/texts/unbalance_text.hpp"
@@ -17,7 +18,7 @@ struct UnbalanceVerbOptions {
 
 Report run_unbalance(const Invocation& call, const UnbalanceVerbOptions& options) {
   const Model model = call.model();
-  const Assembler assembler(model.structure);
+  const Assembler assembler(linear_structure(model));
   const UnbalanceStudy study =
       unbalance_study(model, assembler,
                       {.speeds = options.speeds.value_or(usual_speeds(model.speed)),

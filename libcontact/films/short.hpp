@@ -29,6 +29,7 @@ namespace whirl::inline contact {
 /// @source [Capone1991] for the closed form; the sign of the S term in y by quadrature
 struct Short {
   static constexpr std::string_view name = "short";
+  static constexpr bool is_dragged = true;
 
   static double factor(const JournalBearing& b) {
     return 0.25 * b.viscosity * b.radius * b.length * b.length * b.length /

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/campbell.hpp"
 
 namespace whirl::inline dyn {
@@ -92,7 +93,7 @@ Sparse mac_weights(const DofMap& dofs, double length) {
 }
 
 System stiffened(const Model& model, const Scene& scene) {
-  System system = scene.system;
+  System system = linear_system(model, scene);
   int owner = -1;
   for (const ReducedContact& reduced : scene.contacts.contacts()) {
     if (reduced.owner == owner) continue;  // another place
@@ -116,7 +117,7 @@ System stiffened(const Model& model, const Scene& scene) {
 Identification identify(const Model& model, const Scene& scene, const Recording& recording,
                         const IdentifyOptions& options) {
   Identification result;
-  const System system = options.stiffened ? stiffened(model, scene) : scene.system;
+  const System system = options.stiffened ? stiffened(model, scene) : linear_system(model, scene);
   result.modes = complex_modes(system, options.modes).oscillatory;
 
   const double length = scene.assembler.structure().length();

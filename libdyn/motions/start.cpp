@@ -8,6 +8,7 @@
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/equilibrium.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/static.hpp"
 
@@ -88,8 +89,9 @@ int modes_of(const Start& start) {
 
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end) {
   const bool has_whirl = !model.start.whirl.empty();
-  return start_state(model, scene, end,
-                     has_whirl ? complex_modes(scene.system, modes_of(model.start)) : Modes{});
+  return start_state(
+      model, scene, end,
+      has_whirl ? complex_modes(linear_system(model, scene), modes_of(model.start)) : Modes{});
 }
 
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end,

@@ -1,12 +1,28 @@
 #include "libdyn/motions/static_study.hpp"
 
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libdyn/system/stations.hpp"
 
 namespace whirl::inline dyn {
 
+namespace {
+
+/// The sag, with films where there are any.
+void find_equilibrium(const Model& model, const Assembler& assembler, StaticStudy& study) {
+  if (!has_linear_films(model)) {
+    study.at_rest = static_equilibrium(assembler, model.speed);
+    return;
+  }
+  const auto rotor = FilmEquilibrium(model).at(model.speed);
+  study.at_rest = with_bearing_loads(assembler, rotor->system, rotor->q, rotor->load);
+  study.on_films = {rotor->films};
+}
+
+}  // namespace
+
 StaticStudy static_study(const Model& model, const Assembler& assembler) {
-  StaticStudy study{.at_rest = static_equilibrium(assembler, model.speed),
-                    .has_gravity = model.structure.gravity != 0.0};
+  StaticStudy study{.speed = model.speed, .has_gravity = model.structure.gravity != 0.0};
+  find_equilibrium(model, assembler, study);
   const Vec& displacement = study.at_rest.displacement;
   study.line = bending_line(assembler, model.speed, displacement);
   const DofMap dofs = assembler.uncondensed(model.speed).dofs;

@@ -1,5 +1,6 @@
 #pragma once
-/// A rotor at rest under gravity as a result: its sag, what its bearings carry, how its shaft bends.
+/// A rotor at rest under gravity as a result: its sag, what its bearings carry, where its journals run
+/// on their oil films, how its shaft bends.
 
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "libbase/column.hpp"
 #include "libdyn/system/model.hpp"
+#include "libdyn/system/running_film.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/bending.hpp"
 #include "libfe/static.hpp"
@@ -32,7 +34,9 @@ struct RestingStation {
 struct StaticStudy {
   std::vector<RestingStation> stations;  ///< all named places
   StaticEquilibrium at_rest;
+  RunningFilms on_films;
   BendingLine line;
+  double speed = 0.0;  ///< [rad/s]
   bool has_gravity = true;
 
   static constexpr auto columns() {
@@ -40,12 +44,17 @@ struct StaticStudy {
     return std::tuple{rows(&S::stations, "stations"),
                       rows(
                           [](const S& s) -> const auto& { return s.at_rest.bearings; }, "bearings"),
+                      rows(
+                          [](const S& s) -> const auto& { return s.on_films.films; }, "films")
+                          .maybe()
+                          .only(Written::in_json),
                       column("shaft", &S::line, "", "how the shaft bends")};
   }
 };
 
-/// The equilibrium of a model at its speed.
-/// @throws ModelError  as static_equilibrium
+/// The equilibrium of a model at its speed; films carry as they do there, contacts are left out.
+/// @throws ModelError      as static_equilibrium
+/// @throws NumericalError  as FilmEquilibrium::at
 StaticStudy static_study(const Model& model, const Assembler& assembler);
 
 }  // namespace whirl::inline dyn

@@ -136,27 +136,11 @@ void sample_contact(const ReducedContact& c, const Periodic& motion, const Gauss
 }
 
 bool film_law(const ReducedFilm& film, const PortVec& u, const PortVec& rate, PortSample& s) {
-  using D = Dual<4>;
-  D d[2], v[2];
-  for (int i = 0; i < 2; ++i) {
-    d[i] = (D::variable(u(i), i) - film.offset(i)) / film.clearance;
-    v[i] = D::variable(rate(i), 2 + i) / (film.clearance * film.rate);
-  }
-  if (!(d[0].value * d[0].value + d[1].value * d[1].value < 1.0)) return false;
-  const auto [fx, fy] = std::visit(
-      [&](const auto& law) {
-        const auto force = law.force(d[0], d[1], D(film.spin * d[0] - 2.0 * v[1]),
-                                     D(film.spin * d[1] + 2.0 * v[0]));
-        return std::pair<D, D>(force);
-      },
-      film.law);
-  const D* f[] = {&fx, &fy};
-  for (int i = 0; i < 2; ++i) {
-    const double factor = film.factor * film.rate;
-    s.g(i) = factor * f[i]->value;
-    s.by_u.row(i) = factor * f[i]->slopes.head<2>();
-    s.by_rate.row(i) = factor * f[i]->slopes.tail<2>();
-  }
+  const auto slopes = film_slopes(film, u.head<2>(), rate.head<2>());
+  if (!slopes) return false;
+  s.g.head<2>() = slopes->force;
+  s.by_u.topLeftCorner<2, 2>() = slopes->by_u;
+  s.by_rate.topLeftCorner<2, 2>() = slopes->by_u_rate;
   return true;
 }
 

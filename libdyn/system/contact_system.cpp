@@ -157,14 +157,7 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
   find_slip_groups();
 
   for (const OilFilm& film : films) {
-    ReducedFilm r{
-        .name = film.name,
-        .offset = film.offset,
-        .clearance = film.bearing.clearance,
-        .factor = std::visit([&](const auto& law) { return law.factor(film.bearing); }, film.law),
-        .spin = Omega_ / phase_rate(),
-        .rate = phase_rate(),
-        .law = film.law};
+    ReducedFilm r{at_speed(film, Omega_), film.name, {}, {}};
     r.U = relative_rows(Closing::lateral, reduced.dofs, assembler.point(film.at),
                         assembler.point(film.against)) *
           reduced.Phi;

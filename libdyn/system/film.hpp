@@ -1,6 +1,7 @@
 #pragma once
-/// Oil films in reduced coordinates: where the journals are, and what the oil does to them.
+/// Oil films at a speed: where their journals are, and what the oil does to them.
 
+#include <optional>
 #include <string>
 
 #include "libbase/linalg.hpp"
@@ -8,17 +9,24 @@
 
 namespace whirl::inline dyn {
 
-/// An oil film in reduced coordinates eta.
-struct ReducedFilm {
-  std::string name;
-  Eigen::Matrix<double, 2, Eigen::Dynamic> U;  ///< displacement from the bearing u = U eta [m]
-  Eigen::Matrix<double, Eigen::Dynamic, 2> B;  ///< acceleration eta'' = B (force on the journal)
+/// An oil film at a speed. The rate that makes numbers of its rates is that of the phase.
+struct FilmAtSpeed {
   Vec2 offset;
   double clearance;  ///< [m]
   double factor;     ///< of the force [N.s]
-  double spin;       ///< Omega over the rate of the phase: 1, or 0 without spin
-  double rate;       ///< of the phase [rad/s]
+  double spin;  ///< Omega over the rate of the phase: 1; 0 without spin, or if it does not drag
+  double rate;  ///< of the phase [rad/s]
   AnyFilmLaw law;
+};
+
+/// A film of a model at a speed [rad/s].
+FilmAtSpeed at_speed(const OilFilm& film, double Omega);
+
+/// An oil film in reduced coordinates eta.
+struct ReducedFilm : FilmAtSpeed {
+  std::string name;
+  Eigen::Matrix<double, 2, Eigen::Dynamic> U;  ///< displacement from the bearing u = U eta [m]
+  Eigen::Matrix<double, Eigen::Dynamic, 2> B;  ///< acceleration eta'' = B (force on the journal)
 };
 
 /// Eccentricity of the journal over the clearance; the film is torn where it is 1 or more.
@@ -26,5 +34,19 @@ double eccentricity(const ReducedFilm& film, const double* y, int coordinates);
 
 /// Force on the journal [N]; no number outside the bearing.
 Vec2 film_force(const ReducedFilm& film, const double* y, int coordinates);
+
+/// Force on a journal and its exact slopes.
+struct FilmSlopes {
+  Vec2 force;      ///< [N]
+  Mat2 by_u;       ///< by the displacement [N/m]
+  Mat2 by_u_rate;  ///< by the velocity [N.s/m]
+};
+
+/// What the oil does at a displacement from the bearing [m] and a velocity [m/s]; nothing outside.
+std::optional<FilmSlopes> film_slopes(const FilmAtSpeed& film, const Vec2& u, const Vec2& u_rate);
+
+/// Where the film alone carries a load [N], a displacement from the bearing [m]; nothing where it
+/// cannot: without spin, or nearer to the wall than 1e-12 of the clearance.
+std::optional<Vec2> place_under(const FilmAtSpeed& film, const Vec2& load);
 
 }  // namespace whirl::inline dyn

@@ -7,6 +7,7 @@
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/run_result.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 
 namespace whirl::inline io {
@@ -53,7 +54,7 @@ std::vector<VtkFrame> SceneSource::motion(const MotionSamples& samples, long mos
 void SceneSource::each_mode(
     long count, int frames,
     const std::function<void(int, const Mode&, const std::vector<VtkFrame>&)>& use) const {
-  const System system = assembler.at(model.speed);
+  const System system = Assembler(linear_structure(model)).at(model.speed);
   const Modes modes = complex_modes(system, static_cast<int>(count));
   int number = 0;
   for (const Mode& mode : modes.oscillatory) {

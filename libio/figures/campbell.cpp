@@ -230,7 +230,11 @@ std::vector<Figure> log_decrement_figures(const ResultView& result) {
       const double before = b.decrement(i, k - 1), now = b.decrement(i, k);
       if (!(before > 1e-9 && now < -1e-9)) continue;
       const auto j = static_cast<std::size_t>(k);
-      const double speed = b.speed[j - 1] + (b.speed[j] - b.speed[j - 1]) * before / (before - now);
+      double speed = b.speed[j - 1] + (b.speed[j] - b.speed[j - 1]) * before / (before - now);
+      for (const Threshold& t : b.diagram.thresholds) {  // of older files there are none
+        const bool is_here = t.speed >= b.diagram.speeds[j - 1] && t.speed <= b.diagram.speeds[j];
+        if (t.branch == i && is_here) speed = t.speed / rpm;
+      }
       p.rules.push_back({Rule::Kind::vertical, speed,
                          fmt::format("{} unstable from {:.0f} rpm", b.name(i), speed), Paint::alarm,
                          Dash::dashed});

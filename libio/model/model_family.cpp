@@ -6,6 +6,7 @@
 #include <mutex>
 #include <utility>
 
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
 
@@ -136,7 +137,7 @@ MotionState ModelFamily::start(const Model& member, const Scene& scene,
   }
   if (!known || known->Omega != member.speed || known->count != count) {
     known = std::make_shared<const State::KnownModes>(
-        State::KnownModes{member.speed, count, complex_modes(scene.system, count)});
+        State::KnownModes{member.speed, count, complex_modes(linear_system(member, scene), count)});
     const std::lock_guard lock(state_->mutex);
     state_->modes = known;
   }

@@ -42,6 +42,7 @@ void ModelBuilder::read_films() {
     }
     table.read(film.bearing);
     film.offset = center(table);
+    film.is_linearized = table.boolean("linearize").value_or(true);
     if (const auto law = table.choice("law", member_names<AnyFilmLaw>())) {
       film.law = member_named<AnyFilmLaw>(*law);
     }

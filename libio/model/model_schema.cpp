@@ -96,6 +96,8 @@ constexpr Note notes[] = {
     {"contact.[].offset", "[x, y] of the center of the clearance circle", "[0, 0]"},
     {"oil_film.[].law", "theory of the film", "\"short\""},
     {"oil_film.[].offset", "[x, y] of the bearing's center", "[0, 0]"},
+    {"oil_film.[].linearize", "linear verbs take its coefficients; false: they leave it out",
+     "true"},
 };
 
 const Note* note_of(const std::string& path) {

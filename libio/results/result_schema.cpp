@@ -16,6 +16,7 @@
 #include "libdyn/studies/sweep.hpp"
 #include "libdyn/studies/torus_result.hpp"
 #include "libdyn/studies/work_precision_study.hpp"
+#include "libdyn/system/running_film.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/bending.hpp"
 #include "libfe/campbell.hpp"
@@ -47,6 +48,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<StationSpectra>());
   add(schema_of<Identification>());
   add(schema_of<StaticEquilibrium>());
+  add(schema_of<RunningFilms>());
   add(schema_of<BendingLine>());
   add(schema_of<ModesAtPoints>());
   add(schema_of<Campbell>());

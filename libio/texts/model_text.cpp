@@ -33,17 +33,25 @@ double largest_deflection(const Bow& bow) {
   return largest;
 }
 
+/// Films that linear analyses have, or leave out.
+std::vector<OilFilm> films_of(const Model& model, bool is_linearized) {
+  std::vector<OilFilm> films;
+  for (const OilFilm& film : model.films) {
+    if (film.is_linearized == is_linearized) films.push_back(film);
+  }
+  return films;
+}
+
 /// Which contacts and oil films a linear analysis leaves out; empty: none.
 std::string left_out_note(const Model& model) {
   const std::string contacts = names_of(model.contacts, "contact");
-  const std::string films = names_of(model.films, "oil film");
+  const std::string films = names_of(films_of(model, false), "oil film");
   if (contacts.empty() && films.empty()) return "";
-  return fmt::format(
-      "left out: {}{}{}{}", contacts, contacts.empty() || films.empty() ? "" : ", ", films,
-      films.empty()
-          ? ""
-          : " (oil films have no linear coefficients here: nothing holds the rotor there)");
+  return fmt::format("left out: {}{}{}{}", contacts, contacts.empty() || films.empty() ? "" : ", ",
+                     films,
+                     films.empty() ? "" : " (linearize = false: nothing holds the rotor there)");
 }
+
 
 }  // namespace
 
@@ -98,10 +106,22 @@ std::vector<std::string> table_notes(const Structure& structure,
   return notes;
 }
 
-std::vector<std::string> linear_notes(const Model& model, const std::vector<double>& speeds) {
+std::vector<std::string> left_out_notes(const Model& model, const std::vector<double>& speeds) {
   std::vector<std::string> notes = table_notes(model.structure, speeds);
   const std::string left_out = left_out_note(model);
   if (!left_out.empty()) notes.insert(notes.begin(), left_out);
+  return notes;
+}
+
+std::vector<std::string> film_notes(const Model& model) {
+  const std::string films = names_of(films_of(model, true), "oil film");
+  if (films.empty()) return {};
+  return {"linearized about the static equilibrium at each speed: " + films};
+}
+
+std::vector<std::string> linear_notes(const Model& model, const std::vector<double>& speeds) {
+  std::vector<std::string> notes = film_notes(model);
+  for (std::string& note : left_out_notes(model, speeds)) notes.push_back(std::move(note));
   return notes;
 }
 

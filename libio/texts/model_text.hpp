@@ -18,7 +18,13 @@ std::string text_of(const ModelFacts& facts, const Model& model);
 /// Which bearing tables are held constant at their ends for some speeds, one or more [rad/s].
 std::vector<std::string> table_notes(const Structure& structure, const std::vector<double>& speeds);
 
-/// Which contacts and oil films a linear analysis leaves out, and the same of tables.
+/// Which contacts and oil films the static sag leaves out, and the same of tables.
+std::vector<std::string> left_out_notes(const Model& model, const std::vector<double>& speeds);
+
+/// Which oil films linear modes have about their equilibrium; none: no note.
+std::vector<std::string> film_notes(const Model& model);
+
+/// The same of a linear analysis, and which oil films it linearizes.
 std::vector<std::string> linear_notes(const Model& model, const std::vector<double>& speeds);
 
 }  // namespace whirl::inline io

@@ -68,6 +68,11 @@ std::string crossings_text(const Campbell& diagram) {
     }
     text += "\n";
   }
+  for (const Threshold& t : diagram.thresholds) {
+    text += fmt::format(
+        "\n  threshold of instability: {:.2f} rpm, where {} whirls at {:.2f} rpm\n", t.speed / rpm,
+        t.is_followed() ? fmt::format("mode {}", t.branch + 1) : "another mode", t.frequency / rpm);
+  }
   for (const CampbellGap& gap : diagram.gaps) {
     text += fmt::format("\n  not computed at {:.1f} rpm: {}\n", gap.speed / rpm, gap.why);
   }

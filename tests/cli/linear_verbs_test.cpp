@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "tests/cli/program.hpp"
 
@@ -319,8 +320,9 @@ TEST_F(Linear, UnbalanceBeyondAClearanceSaysWhereAndByHowMuch) {
   EXPECT_EQ(small["clearances"][0]["beyond_rpm"].size(), 0u);
 }
 
-TEST_F(Linear, VerbsThatLeaveContactsAndOilFilmsOutSaySo) {
-  write("oil.toml", R"(format = 1
+/// A mass that an oil film carries.
+constexpr const char* on_oil = R"(format = 1
+gravity = 9.81
 [operation]
 speed = "3000 rpm"
 [[body]]
@@ -334,11 +336,19 @@ radius = "25 mm"
 length = "12 mm"
 clearance = "0.11 mm"
 viscosity = "18 mPa.s"
-)");
+[[unbalance]]
+body = "journal"
+offset = "1 um"
+)";
+
+TEST_F(Linear, VerbsThatLeaveContactsAndOilFilmsOutSaySo) {
+  write("oil.toml", on_oil);
   write("rubbing.toml", rubbing);
   for (const std::string verb : {"modes", "campbell", "unbalance", "resonances"}) {
     SCOPED_TRACE(verb);
-    EXPECT_TRUE(has(result({verb, "oil.toml"})["notes"].at(0), "left out: oil film left"));
+    EXPECT_TRUE(
+        has(result({verb, "oil.toml", "--set", "oil_film.left.linearize=false"})["notes"].at(0),
+            "left out: oil film left"));
   }
   for (const std::string verb : {"static", "modes", "campbell", "critical", "unbalance"}) {
     SCOPED_TRACE(verb);
@@ -348,6 +358,62 @@ viscosity = "18 mPa.s"
   const Outcome stored = whirl({"modes", "rubbing.toml", "--out", "r.h5"});
   EXPECT_EQ(stored.status, 0) << stored.err;
   EXPECT_TRUE(has(stored.out, "note: left out: contact ring")) << stored.out;
+}
+
+// Every linear verb has the film, where its journal runs at each speed, and says so.
+TEST_F(Linear, VerbsLinearizeOilFilmsAndSaySo) {
+  write("oil.toml", on_oil);
+  for (const std::string verb : {"modes", "campbell", "critical", "unbalance", "resonances"}) {
+    SCOPED_TRACE(verb);
+    EXPECT_TRUE(has(result({verb, "oil.toml"})["notes"].at(0),
+                    "linearized about the static equilibrium at each speed: oil film left"));
+  }
+  const json at_rest = result({"static", "oil.toml", "--out", "static.h5"});
+  EXPECT_EQ(at_rest["notes"].size(), 0u);
+  ASSERT_EQ(at_rest["films"].size(), 1u);
+  const json& film = at_rest["films"][0];
+  EXPECT_EQ(film["name"], "left");
+  const double ratio = film["eccentricity"], Q = 1.0 - ratio * ratio, W = 20 * 9.81,
+               pi = std::numbers::pi;
+  EXPECT_NEAR(film["attitude_deg"], std::atan(pi * std::sqrt(Q) / (4.0 * ratio)) * 180.0 / pi,
+              1e-6);
+  EXPECT_NEAR(film["film_m"], (1.0 - ratio) * 1.1e-4, 1e-12);
+  EXPECT_NEAR(film["fy_n"], -W, 1e-8 * W);
+  EXPECT_NEAR(film["sommerfeld"], 0.018 * 50.0 * 0.05 * 0.012 / W * std::pow(0.025 / 1.1e-4, 2),
+              1e-9);
+  for (const char* part : {"xx", "xy", "yx", "yy"}) {
+    EXPECT_TRUE(film["stiffness"][part].is_number()) << part;
+    EXPECT_TRUE(film["damping"][part].is_number()) << part;
+  }
+  EXPECT_GT(film["power_loss_w"], 0.0);
+  const Outcome text = whirl({"static", "oil.toml"});
+  EXPECT_TRUE(has(text.out, "Journals on their oil films at 3000 rpm")) << text.out;
+  // the threshold lies between the speeds where its branch loses its damping
+  const std::string speeds = "5000:15000:1000rpm";
+  const json diagram = result({"campbell", "oil.toml", "--speeds", speeds, "--out", "c.h5"});
+  ASSERT_EQ(diagram["thresholds"].size(), 1u) << diagram["thresholds"];
+  const json& threshold = diagram["thresholds"][0];
+  const double speed = threshold["speed_rpm"], frequency = threshold["frequency_rpm"];
+  EXPECT_GT(frequency, 0.0);
+  EXPECT_LT(frequency, 0.5 * speed);
+  const json& branch = diagram["branches"].at(threshold["mode"].get<std::size_t>() - 1);
+  const auto below = static_cast<std::size_t>((speed - 5000.0) / 1000.0);
+  EXPECT_GT(branch["log_decrement"].at(below), 0.0);
+  EXPECT_LT(branch["log_decrement"].at(below + 1), 0.0);
+  EXPECT_TRUE(
+      has(whirl({"campbell", "oil.toml", "--speeds", speeds}).out, "threshold of instability: "));
+  EXPECT_GE(result({"critical", "oil.toml"})["criticals"].size(), 1u);
+  EXPECT_GT(result({"unbalance", "oil.toml"})["stations"][0]["major_m"].back(), 0.0);
+}
+
+TEST_F(Linear, OilFilmsWithoutSpeedCarryNothing) {
+  write("oil.toml", on_oil);
+  const Outcome modes = whirl({"modes", "oil.toml", "--speed", "0rpm"});
+  EXPECT_EQ(modes.status, 3);
+  EXPECT_TRUE(has(modes.err, "without speed a film carries nothing")) << modes.err;
+  const json diagram = result({"campbell", "oil.toml", "--speeds", "0:3000:1000rpm"});
+  ASSERT_EQ(diagram["gaps"].size(), 1u);
+  EXPECT_EQ(diagram["gaps"][0]["speed_rpm"], 0.0);
 }
 
 TEST_F(Linear, BearingTablesHeldConstantBeyondTheirEndsAreTold) {

@@ -56,6 +56,11 @@ TEST(OilFilmTable, IsReadInItsUnits) {
   EXPECT_DOUBLE_EQ(scene.contacts.length_scale(), 1.1e-4);
 }
 
+TEST(OilFilmTable, SaysWhetherItIsLinearized) {
+  EXPECT_TRUE(parse_model(rotor + film, "test").films[0].is_linearized);
+  EXPECT_FALSE(parse_model(rotor + film + "linearize = false\n", "test").films[0].is_linearized);
+}
+
 /// The complaint about a model that is wrong.
 std::string complaint(const std::string& text) {
   try {
@@ -88,6 +93,7 @@ TEST(OilFilmTable, TellsWhatIsWrong) {
   expect_complaint(changed("\"journal\"", "\"housing\""), "spins = true");
   expect_complaint(rotor + film + "against = \"journal\"", "its own bearing");
   expect_complaint(rotor + film + "law = \"long\"", "oil_film.1.law");
+  expect_complaint(rotor + film + "linearize = 1", "oil_film.1.linearize");
   expect_complaint(rotor + film + "offset = 1", "oil_film.1.offset");
   expect_complaint(rotor + "[oil_film]\nbody = \"journal\"\n", "[[oil_film]]");
   EXPECT_NE(complaint(rotor + film + "against = \"journal\"").find("test:20"), std::string::npos);
