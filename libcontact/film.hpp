@@ -5,8 +5,10 @@
 ///
 ///   static constexpr std::string_view name;      the word in the model file
 ///   static constexpr bool is_dragged;            whether the journal's spin drags the oil along
-///   static double factor(bearing);               of the force [N.s]
-///   static auto force(x, y, a, b);               the force over the factor [1/s], a pair
+///   static constexpr auto fields();              keys of its own, units, ranges, meanings
+///   int formula();                               number of the formula, if the fields choose one
+///   double factor(bearing);                      of the force [N.s]
+///   auto force(x, y, a, b);                      the force over the factor [1/s], a pair
 ///
 /// where (x, y) is the displacement of the journal from the bearing's center over the clearance,
 /// and (a, b) says how the film is squeezed and dragged [1/s]:

@@ -31,6 +31,9 @@ struct Short {
   static constexpr std::string_view name = "short";
   static constexpr bool is_dragged = true;
 
+  static constexpr auto fields() { return std::tuple{}; }
+  static constexpr int formula() { return 0; }
+
   static double factor(const JournalBearing& b) {
     return 0.25 * b.viscosity * b.radius * b.length * b.length * b.length /
            (b.clearance * b.clearance);

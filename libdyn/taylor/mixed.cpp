@@ -18,7 +18,7 @@ void integrate_mixed(std::vector<Trajectory>& all, const BatchOptions& options) 
       shape.push_back(c.law.index());
       shape.push_back(c.geometry.index());
     }
-    for (const ReducedFilm& f : all[i].system->films()) shape.push_back(100 + f.law.index());
+    for (const ReducedFilm& f : all[i].system->films()) shape.push_back(100 + formula_of(f.law));
     groups[shape].push_back(i);
   }
   for (const auto& [shape, members] : groups) {

@@ -50,7 +50,7 @@ void add_films(Pattern& p, const ContactSystem& s) {
   for (std::size_t f = 0; is_alike && f < films; ++f) {
     const ReducedFilm& film = s.films()[f];
     Pattern::FilmRows& rows = p.films[f];
-    is_alike = film.law.index() == rows.law.index();
+    is_alike = formula_of(film.law) == formula_of(rows.law);
     for (int j = 0; j < p.n; ++j) {
       if (film.U(0, j) != 0.0) insert(rows.of_x, j);
       if (film.U(1, j) != 0.0) insert(rows.of_y, j);

@@ -6,47 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/family.hpp"
 #include "libio/model/model_builder.hpp"
+#include "libio/model/read_member.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
 
 namespace {
-
-/// Calls f with every member of a family that has keys of its own.
-template <class List, class F>
-void for_each_with_keys(const F& f) {
-  for_each_member<List>([&](const auto& member) {
-    if constexpr (requires { member.fields(); }) f(member);
-  });
-}
-template <class Member>
-std::vector<std::string> keys_of_member(const Member&) {
-  return keys_of<Member>();
-}
-
-/// Reads a member of a list, whose name a key gives; returns whether there is one of that name.
-template <class List>
-bool read_member(TableReader& table, std::string_view key, List& to) {
-  std::vector<std::string> names;
-  for_each_with_keys<List>([&](const auto& member) { names.emplace_back(member.name); });
-  const auto found = table.choice(key, names);
-  if (!found && table.has(key)) {  // one mistake, and not many: the keys of all of them are known
-    for_each_with_keys<List>([&](const auto& member) {
-      for (const std::string& name : keys_of_member(member)) table.node(name);
-    });
-    return false;
-  }
-  const std::string name = found.value_or(names.front());
-  for_each_with_keys<List>([&](auto member) {
-    if (member.name != name) return;
-    table.read(member);
-    to = member;
-  });
-  return true;
-}
 
 /// Keys that only members have which were not chosen: each is told once, with all that have it.
 template <class List>

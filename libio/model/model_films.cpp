@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "libbase/family.hpp"
 #include "libio/model/model_builder.hpp"
+#include "libio/model/read_member.hpp"
 #include "libio/text/nearest.hpp"
 
 namespace whirl::inline io {
@@ -24,9 +24,10 @@ void ModelBuilder::read_films() {
       return s.kind == Station::Kind::position || s.kind == Station::Kind::node;
     };
     const auto at = station(table);
+    read_member(table, "law", film.law);
     if (at) {
       film.at = *at;
-      if (!spins(*at)) {
+      if (is_dragged(film.law) && !spins(*at)) {
         table.problem("body", "the journal of an oil film spins: give the body spins = true");
       }
     }
@@ -43,8 +44,13 @@ void ModelBuilder::read_films() {
     table.read(film.bearing);
     film.offset = center(table);
     film.is_linearized = table.boolean("linearize").value_or(true);
-    if (const auto law = table.choice("law", member_names<AnyFilmLaw>())) {
-      film.law = member_named<AnyFilmLaw>(*law);
+    if (const double k = spring_of(film.law); at && k > 0.0) {
+      model_.structure.bearings.push_back(
+          {.name = film.name + " spring",
+           .from = film.at,
+           .to = film.against,
+           .coefficients = constant_bearing({.K = k * Mat2::Identity()}),
+           .where = film.where});
     }
     if (at) model_.structure.stations.push_back(*at);
     model_.films.push_back(film);

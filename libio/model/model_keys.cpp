@@ -160,6 +160,7 @@ struct Switch {
 constexpr Switch switches[] = {{"bearing.[]", "kind", "[[bearing]]", ""},
                                {"contact.[]", "law", "[[contact]]", "radial"},
                                {"contact.[]", "geometry", "[[contact]]", "ring"},
+                               {"oil_film.[]", "law", "[[oil_film]]", "short"},
                                {"start", "from", "[start]", "static"}};
 
 void add_switch(Key& root, const Switch& s) {

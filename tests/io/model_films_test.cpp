@@ -56,6 +56,26 @@ TEST(OilFilmTable, IsReadInItsUnits) {
   EXPECT_DOUBLE_EQ(scene.contacts.length_scale(), 1.1e-4);
 }
 
+TEST(OilFilmTable, OfADamperHasItsKeysAndASpring) {
+  std::string text = rotor + film;
+  text.replace(text.find("spins = true\n"), 13, "");  // a ring that does not turn
+  const Model plain = parse_model(text + "law = \"squeeze\"\n", "test");
+  EXPECT_EQ(formula_of(plain.films.at(0).law), formula_of(AnyFilmLaw(Squeeze{})));
+  EXPECT_EQ(plain.structure.bearings.size(), 1u);
+  const Model model = parse_model(text +
+                                      "law = \"squeeze\"\ntheory = \"long\"\nextent = \"full\"\n"
+                                      "spring = \"2 MN/m\"\nagainst = \"housing\"\n",
+                                  "test");
+  const Squeeze expected{.theory = FilmTheory::long_bearing, .extent = FilmExtent::full};
+  EXPECT_EQ(formula_of(model.films.at(0).law), formula_of(AnyFilmLaw(expected)));
+  ASSERT_EQ(model.structure.bearings.size(), 2u);
+  const Connection& spring = model.structure.bearings[1];
+  EXPECT_EQ(spring.name, "oil film 1 spring");
+  EXPECT_EQ(spring.from.body, "journal");
+  EXPECT_EQ(spring.to.body, "housing");
+  EXPECT_EQ(coefficients(spring.coefficients, 0.0).K, Mat2(2e6 * Mat2::Identity()));
+}
+
 TEST(OilFilmTable, SaysWhetherItIsLinearized) {
   EXPECT_TRUE(parse_model(rotor + film, "test").films[0].is_linearized);
   EXPECT_FALSE(parse_model(rotor + film + "linearize = false\n", "test").films[0].is_linearized);
@@ -93,6 +113,10 @@ TEST(OilFilmTable, TellsWhatIsWrong) {
   expect_complaint(changed("\"journal\"", "\"housing\""), "spins = true");
   expect_complaint(rotor + film + "against = \"journal\"", "its own bearing");
   expect_complaint(rotor + film + "law = \"long\"", "oil_film.1.law");
+  expect_complaint(rotor + film + "law = \"squeeze\"\ntheory = \"wide\"", "oil_film.1.theory");
+  expect_complaint(rotor + film + "law = \"squeeze\"\nextent = \"third\"", "oil_film.1.extent");
+  expect_complaint(rotor + film + "law = \"squeeze\"\nspring = -1", "oil_film.1.spring");
+  expect_complaint(rotor + film + "spring = 1", "oil_film.1.spring: unknown key");
   expect_complaint(rotor + film + "linearize = 1", "oil_film.1.linearize");
   expect_complaint(rotor + film + "offset = 1", "oil_film.1.offset");
   expect_complaint(rotor + "[oil_film]\nbody = \"journal\"\n", "[[oil_film]]");

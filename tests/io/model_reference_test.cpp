@@ -84,6 +84,9 @@ spins = true
       {"## `[[link]]`", "[[link]]\nfrom = \"b\"\nto = \"ground\"\nstiffness = 1\nqqqqqqqq = 1\n"},
       {"## `[[contact]]`",
        "[[contact]]\nbody = \"b\"\nclearance = 1\nstiffness = 1\nqqqqqqqq = 1\n"},
+      {"## `[[oil_film]]`",
+       "[[oil_film]]\nbody = \"b\"\nradius = 1\nlength = 1\nclearance = 1\nviscosity = 1\n"
+       "law = \"squeeze\"\nqqqqqqqq = 1\n"},
       {"## `[damping]`", "[damping]\nqqqqqqqq = 1\n"},
       {"## `[damping]`", "[damping]\nrayleigh = { qqqqqqqq = 1 }\n"},
       {"## `[reduction]`", "[reduction]\nqqqqqqqq = 1\n"},
