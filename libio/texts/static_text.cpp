@@ -62,9 +62,11 @@ std::string text_of(const StaticStudy& study) {
                                         }},
                                        shown("x", "um", ".3f"),
                                        shown("y", "um", ".3f")});
-  text += "\n" +
-          table_of(study.at_rest.bearings, {shown("bearing"), shown("fx", "N", ".4f").as("load x"),
-                                            shown("fy", "N", ".4f").as("load y")});
+  if (!study.at_rest.bearings.empty() || study.on_films.films.empty()) {
+    text += "\n" + table_of(study.at_rest.bearings,
+                            {shown("bearing"), shown("fx", "N", ".4f").as("load x"),
+                             shown("fy", "N", ".4f").as("load y")});
+  }
   text += films_text(study.on_films.films, study.speed);
   return text + "\n  A load is the force of the rotor on its bearing; y points up.\n" +
          bending_text(study.line);
