@@ -130,12 +130,15 @@ Vec row_sizes(const Sparse& A) {
 
 /// Degrees of freedom without inertia whose damping is beta times their stiffness, with one common
 /// beta.
-std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K) {
+/// @param stays  those that are not taken all the same; empty: none
+std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K,
+                             const std::vector<bool>& stays) {
   constexpr double tolerance = 1e-12;
   const Vec mass = row_sizes(M), gyroscopic = row_sizes(G), stiffness = row_sizes(K);
   std::vector<int> massless;
   for (int i = 0; i < mass.size(); ++i) {
-    if (mass(i) == 0.0 && gyroscopic(i) == 0.0) massless.push_back(i);
+    const bool is_kept = !stays.empty() && stays[static_cast<std::size_t>(i)];
+    if (mass(i) == 0.0 && gyroscopic(i) == 0.0 && !is_kept) massless.push_back(i);
   }
   if (massless.empty()) return massless;
   const Vec damping = C.diagonal(), stiff = K.diagonal();
@@ -233,10 +236,12 @@ Assembler::Assembler(Structure structure)
                   indices(dofs_, {Point::Kind::body, static_cast<int>(i)}));
   }
 
+  weighing_ = collector.M(next);
+
   std::vector<Problem> problems;
   Ties ties(next);
-  for (const auto* list : {&structure_.bearings, &structure_.links}) {
-    for (const Connection& c : *list) {
+  for (const auto& [kind, list] : structure_.connections()) {
+    for (const Connection& c : list) {
       const Point from = point(c.from), to = point(c.to);
       if (from == to) {
         problems.push_back({c.where, c.name, "both ends are at the same place"});
@@ -244,6 +249,7 @@ Assembler::Assembler(Structure structure)
       }
       if (whirl::depends_on_speed(c.coefficients)) {
         depends_on_speed_ = true;
+        if (whirl::depends_on_whirl(c.coefficients)) depends_on_whirl_ = true;
       } else {
         collector.add(matrices(coefficients(c.coefficients, 0.0)), indices(dofs_, from, to));
       }
@@ -280,19 +286,20 @@ Assembler::Assembler(Structure structure)
   }
 }
 
-Assembler::FullMatrices Assembler::full(double Omega) const {
+Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
   FullMatrices f = fixed_;
   Collector collector;
   bool any = false;
-  for (const auto* list : {&structure_.bearings, &structure_.links}) {
-    for (const Connection& c : *list) {
+  for (const auto& [kind, list] : structure_.connections()) {
+    for (const Connection& c : list) {
       if (!whirl::depends_on_speed(c.coefficients)) continue;
       any = true;
-      collector.add(matrices(coefficients(c.coefficients, Omega)),
+      collector.add(matrices(coefficients(c.coefficients, Omega, omega)),
                     indices(dofs_, point(c.from), point(c.to)));
     }
   }
   if (any) {
+    f.M += collector.M(dofs_.full_size);
     f.K += collector.K(dofs_.full_size);
     f.C += collector.C(dofs_.full_size);
   }
@@ -303,7 +310,7 @@ Assembler::FullMatrices Assembler::full(double Omega) const {
   if (structure_.linearized.empty()) return f;
   Collector linearized;  // damping of the rotor is not in proportion to their stiffness
   for (const LinearizedConnection& c : structure_.linearized) {
-    linearized.add(matrices(c.at(Omega, Omega)), indices(dofs_, point(c.from), point(c.to)));
+    linearized.add(matrices(c.at(Omega, omega)), indices(dofs_, point(c.from), point(c.to)));
   }
   f.K += linearized.K(dofs_.full_size);
   f.C += linearized.C(dofs_.full_size);
@@ -317,27 +324,48 @@ System Assembler::system_of(const FullMatrices& f, const Sparse& T, double Omega
   return s;
 }
 
-System Assembler::uncondensed(double Omega) const {
-  return system_of(full(Omega), dofs_.T, Omega);
+System Assembler::uncondensed(double Omega, double omega) const {
+  return system_of(full(Omega, omega), dofs_.T, Omega);
 }
 
-System Assembler::at(double Omega) const {
-  const FullMatrices f = full(Omega);
+System Assembler::at(double Omega, double omega) const {
+  const FullMatrices f = full(Omega, omega);
   const Sparse& T = dofs_.T;
   // condensation follows the conservative part of K: rotating damping vanishes with it
   const Sparse K = project(T, f.K);
   const std::vector<int> condensed =
-      condensable(project(T, f.M), project(T, f.C), project(T, f.G), K);
+      condensable(project(T, f.M), project(T, f.C), project(T, f.G), K, touched_by_whirl());
   if (condensed.empty()) return system_of(f, T, Omega);
   System s = system_of(f, Sparse(T * condensation(K, condensed)), Omega);
   s.dofs.condensed = static_cast<int>(condensed.size());
   return s;
 }
 
+/// Coordinates on which coefficients act that depend on the frequency; empty: none.
+std::vector<bool> Assembler::touched_by_whirl() const {
+  if (!depends_on_whirl_) return {};
+  std::vector<bool> is_end(static_cast<std::size_t>(dofs_.full_size), false);
+  for (const auto& [kind, list] : structure_.connections()) {
+    for (const Connection& c : list) {
+      if (!whirl::depends_on_whirl(c.coefficients)) continue;
+      for (const int i : indices(dofs_, point(c.from), point(c.to))) {
+        if (i >= 0) is_end[static_cast<std::size_t>(i)] = true;
+      }
+    }
+  }
+  std::vector<bool> touched(static_cast<std::size_t>(dofs_.T.cols()), false);
+  for (int j = 0; j < dofs_.T.outerSize(); ++j) {
+    for (Sparse::InnerIterator it(dofs_.T, j); it; ++it) {
+      if (is_end[static_cast<std::size_t>(it.row())]) touched[static_cast<std::size_t>(j)] = true;
+    }
+  }
+  return touched;
+}
+
 Vec Assembler::gravity_load() const {
   Vec acceleration = Vec::Zero(dofs_.full_size);
   for (const Point& p : dofs_.points()) acceleration(dofs_.full_index(p, Y)) = -structure_.gravity;
-  return fixed_.M * acceleration;
+  return weighing_ * acceleration;
 }
 
 CVec Assembler::unbalance() const {
@@ -379,7 +407,7 @@ CVec Assembler::turning_load(double Omega) const {
 }
 
 Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) const {
-  const FullMatrices f = full(Omega);
+  const FullMatrices f = full(Omega, 0.0);
   const Vec displacement = dofs_.T * q;
   return f.K * displacement + Omega * (f.H * displacement) - full_load;
 }

@@ -35,22 +35,30 @@ class Assembler {
   const DofMap& dofs() const { return dofs_; }
   Point point(const Station& station) const { return resolve(station, structure_, mesh_); }
 
-  /// Whether K or C change with speed, beyond Omega G (tables, films, rotating damping).
+  /// Whether M, K or C change with speed, beyond Omega G (tables, films, rotating damping).
   bool depends_on_speed() const { return depends_on_speed_; }
+  /// Whether they change with the frequency of a motion, too.
+  bool depends_on_whirl() const { return depends_on_whirl_; }
 
-  /// Matrices at a speed [rad/s], dofs without inertia condensed.
+  /// Matrices at a speed [rad/s] for motions of a frequency omega >= 0 [rad/s], dofs without inertia
+  /// condensed.
   ///
   /// Condensed exactly are those without mass whose damping is none or proportional to stiffness;
-  /// a massless freedom with a damper of its own stays, and makes M singular.
+  /// a massless freedom with a damper of its own stays, and makes M singular. So do those on which
+  /// coefficients act that depend on omega: coordinates are the same at every frequency.
   ///
   /// @throws NumericalError  if a freedom has neither inertia nor stiffness, if none has inertia, or
   ///                         if a linearized connection has no coefficients at this speed
-  System at(double Omega) const;
+  System at(double Omega, double omega) const;
+  /// The same for motions whose frequency is the speed, as unbalance lets them be.
+  System at(double Omega) const { return at(Omega, Omega); }
 
   /// The same with every freedom that supports leave; M is singular where there is no inertia.
-  System uncondensed(double Omega) const;
+  System uncondensed(double Omega, double omega) const;
+  System uncondensed(double Omega) const { return uncondensed(Omega, Omega); }
 
   /// Weight of everything, a full vector of forces and moments [N, N.m], internal ones included.
+  /// Added mass has none.
   Vec gravity_load() const;
 
   /// Complex amplitude of the unbalance force over Omega^2, a full vector [kg.m]:
@@ -69,14 +77,16 @@ class Assembler {
   /// Amplitude of all that turns with the shaft at a speed: Omega^2 unbalance() + bow() [N, N.m].
   CVec turning_load(double Omega) const;
 
-  /// Forces that supports must exert on the full vector so that K T q = f holds there [N, N.m].
+  /// Forces that supports must exert on the full vector so that K T q = f holds there [N, N.m], for
+  /// displacements that last.
   Vec support_forces(double Omega, const Vec& q, const Vec& full_load) const;
 
  private:
   struct FullMatrices {
     Sparse M, C, G, K, H;
   };
-  FullMatrices full(double Omega) const;
+  FullMatrices full(double Omega, double omega) const;
+  std::vector<bool> touched_by_whirl() const;
   System system_of(const FullMatrices& f, const Sparse& T, double Omega) const;
 
   Structure structure_;
@@ -84,7 +94,9 @@ class Assembler {
   DofMap dofs_;         // supports eliminated, nothing condensed
   FullMatrices fixed_;  // all that does not depend on speed
   Sparse modal_;        // damping of modes at rest; empty: none
+  Sparse weighing_;     // inertia that has weight, of the full vector
   bool depends_on_speed_ = false;
+  bool depends_on_whirl_ = false;
 };
 
 /// Matrices of a structure at a speed [rad/s]; see Assembler::at.

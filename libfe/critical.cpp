@@ -26,8 +26,8 @@ constexpr double rounding = 1e-13;    ///< of the largest nu: smaller ones have 
 
 std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options) {
   const Sparse K = symmetric_part(system.K);
-  const HermitianModes modes =
-      largest_hermitian(system.M, system.G, 1.0 / options.order, K, options.count);
+  const HermitianModes modes = largest_hermitian(symmetric_inertia(system.M), system.G,
+                                                 1.0 / options.order, K, options.count);
   std::vector<Critical> criticals;
   for (Eigen::Index i = 0; i < modes.nu.size(); ++i) {
     // no real speed: a disk that stiffens faster than it spins, or dofs without inertia
@@ -49,7 +49,8 @@ namespace {
 Critical self_consistent(const Assembler& assembler, const CriticalOptions& options, std::size_t i,
                          Critical start) {
   const auto at = [&](double Omega) {
-    std::vector<Critical> all = undamped_criticals(assembler.at(Omega), options);
+    std::vector<Critical> all =
+        undamped_criticals(assembler.at(Omega, options.order * Omega), options);
     return i < all.size() ? all[i] : Critical{.speed = nan};
   };
   double a = start.speed;

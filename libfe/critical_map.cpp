@@ -28,7 +28,7 @@ bool is_flexible(const Connection& b) {
 
 /// The structure without damping, its bearings as they are at rest.
 Structure undamped(Structure s) {
-  for (auto* list : {&s.bearings, &s.links}) {
+  for (auto* list : {&s.bearings, &s.links, &s.seals}) {
     for (Connection& c : *list) {
       BearingCoefficients at_rest = coefficients(c.coefficients, 0.0);
       at_rest.C = at_rest.Ct = Mat2::Zero();
@@ -57,8 +57,9 @@ StiffnessRange range_of(const Structure& s, double beyond) {
   bool is_variable = false, is_same = true;
   for (const Connection& b : s.bearings) {
     if (!is_flexible(b)) continue;
-    const auto told = told_speeds(b.coefficients);
+    const auto told = told_speeds(b.coefficients), whirls = told_whirls(b.coefficients);
     std::vector<double> speeds(told.begin(), told.end());
+    speeds.insert(speeds.end(), whirls.begin(), whirls.end());
     if (speeds.empty()) speeds.push_back(0.0);
     for (const double Omega : speeds) {
       const Mat2 K = coefficients(b.coefficients, Omega).K;

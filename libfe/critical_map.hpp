@@ -54,7 +54,7 @@ struct CriticalMap {
 /// With bearings that are alike, or that change with speed, x is a stiffness that all of them have
 /// in all directions, and their own stiffness goes on top, so that critical speeds are where these
 /// cross [API684]. With bearings that differ, x is a factor of all of them. Rigid bearings stay as
-/// they are, damping is left out.
+/// they are, and so do seals with their stiffness at rest; damping is left out.
 ///
 /// Critical speeds are followed by their shapes. They rise with stiffness, no faster than its square
 /// root, so that a branch leaves the map at its top only; where gyroscopics keep a mode from being

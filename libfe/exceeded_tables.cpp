@@ -12,11 +12,9 @@ std::vector<ExceededTable> exceeded_tables(const Structure& structure, double lo
                                            double highest) {
   constexpr double rounding = 1e-12;  // of a speed that was told in another unit
   std::vector<ExceededTable> exceeded;
-  const std::pair<const char*, const std::vector<Connection>*> lists[] = {
-      {"bearing", &structure.bearings}, {"link", &structure.links}};
-  for (const auto& [kind, list] : lists) {
-    for (std::size_t i = 0; i < list->size(); ++i) {
-      const Connection& c = (*list)[i];
+  for (const auto& [kind, list] : structure.connections()) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Connection& c = list[i];
       const auto told = told_speeds(c.coefficients);
       if (told.empty() || c.is_clamped) continue;
       const double first = told.front(), last = told.back();

@@ -8,7 +8,7 @@
 
 namespace whirl::inline fe {
 
-/// A bearing or link with a table that ends before some of the speeds.
+/// A bearing, seal or link with a table that ends before some of the speeds.
 struct ExceededTable {
   std::string name;                ///< "bearing left"
   double first = 0.0, last = 0.0;  ///< speeds between which the table is known [rad/s]

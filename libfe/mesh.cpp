@@ -192,8 +192,8 @@ void add_layers(Mesh& mesh, const Structure& structure) {
 std::vector<const Station*> all_stations(const Structure& structure) {
   std::vector<const Station*> stations;
   for (const Disk& disk : structure.disks) stations.push_back(&disk.at);
-  for (const auto* list : {&structure.bearings, &structure.links}) {
-    for (const Connection& connection : *list) {
+  for (const auto& [kind, list] : structure.connections()) {
+    for (const Connection& connection : list) {
       stations.push_back(&connection.from);
       stations.push_back(&connection.to);
     }

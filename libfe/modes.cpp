@@ -15,6 +15,7 @@
 #include "libfe/eigen/quadratic.hpp"
 #include "libfe/eigen/refine.hpp"
 #include "libfe/eigen/symmetric.hpp"
+#include "libfe/own_frequency_modes.hpp"
 
 namespace whirl::inline fe {
 
@@ -25,7 +26,6 @@ constexpr int dense_after = 160;         ///< dofs; where Arnoldi failed, dense 
 constexpr double visible = 1e-3;         ///< of the largest orbit: smaller ones have no sense
 constexpr double flat = 1e-4;            ///< axis ratio below which an orbit is a line
 constexpr double rigid_share = 1e-5;     ///< of the first flexible omega^2: does not deform
-constexpr double overdamped = 0.2;       ///< |Im| over |Re| of an eigenvalue that hardly oscillates
 constexpr int most_others = 40;          ///< modes that do not oscillate, beyond those expected
 constexpr double cut_pair = 1e-6;        ///< of the farthest eigenvalue: its twin may be missing
 constexpr double off_axis = 0.05;        ///< Re over Im of a center for modes near a frequency
@@ -43,7 +43,8 @@ struct FreeBody {
 FreeBody free_body(const System& system) {
   const Sparse K = symmetric_part(system.K);
   if (is_supported(K)) return {};
-  Sparse M = system.M;  // joints without mass get plenty, which makes first_flexible low: safe
+  Sparse M = symmetric_inertia(
+      system.M);  // joints without mass get plenty, which makes first_flexible low: safe
   const double plenty = M.diagonal().maxCoeff();
   for (int i = 0; i < system.size(); ++i) {
     if (system.M.coeff(i, i) <= 0.0) M.coeffRef(i, i) = plenty;
@@ -95,29 +96,6 @@ void separate_planes(QuadraticModes& modes, const DofMap& dofs) {
   }
 }
 
-Mode describe(Complex lambda, const CVec& q, const DofMap& dofs) {
-  Mode mode{.lambda = lambda, .shape = q};
-  const std::vector<Orbit> at = orbits(dofs, q);
-  std::size_t largest = 0;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    if (at[i].major() > at[largest].major()) largest = i;
-    mode.kappas.push_back(at[i].kappa());
-  }
-  mode.whirl = whirl_of(at);
-  if (!at.empty() && at[largest].major() > 0.0) {
-    // phase: the largest orbit is at its major axis at t = 0
-    const CVec full = dofs.T * q;
-    const Point p = dofs.points()[largest];
-    const Complex x = full(dofs.full_index(p, X)), y = full(dofs.full_index(p, Y));
-    const Complex square = x * x + y * y;
-    const double angle =
-        std::abs(square) > 1e-12 * std::norm(x) ? 0.5 * std::arg(square) : std::arg(x);
-    mode.shape *= std::polar(1.0 / at[largest].major(), -angle);
-    mode.kappa = at[largest].kappa();
-  }
-  return mode;
-}
-
 /// How far refinement may move an eigenvalue.
 double reach_of(Complex lambda, const CVec& all) {
   double next = std::numeric_limits<double>::infinity();  // distance of the nearest other one
@@ -137,11 +115,11 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
         body.is_free &&
         stiffness_ratio(system, q) <= rigid_share * body.first_flexible * body.first_flexible;
     if (is_rigid) {
-      modes.rigid_body.push_back(describe(lambda, q, system.dofs));
-    } else if (lambda.imag() <= overdamped * std::abs(lambda.real())) {
+      modes.rigid_body.push_back(mode_of(lambda, q, system.dofs));
+    } else if (lambda.imag() <= hardly_oscillating * std::abs(lambda.real())) {
       modes.overdamped.push_back(lambda);
     } else {
-      modes.oscillatory.push_back(describe(lambda, q, system.dofs));
+      modes.oscillatory.push_back(mode_of(lambda, q, system.dofs));
     }
   }
   const auto by_frequency = [](const Mode& a, const Mode& b) {
@@ -159,7 +137,7 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
     Complex lambda = mode.lambda;
     CVec q = mode.shape;
     if (!refinement.improve(lambda, q, reach_of(lambda, found.lambda))) continue;
-    if (lambda != mode.lambda) mode = describe(lambda, q, system.dofs);
+    if (lambda != mode.lambda) mode = mode_of(lambda, q, system.dofs);
     refined.push_back(std::move(mode));
   }
   modes.oscillatory = std::move(refined);
@@ -199,7 +177,8 @@ std::optional<Modes> arnoldi_modes(const System& system, Knowledge& known, int c
     const int missing = count - static_cast<int>(modes.oscillatory.size());
     if (missing <= 0) {
       const double top = count > 0 ? modes.oscillatory.back().frequency() : 0.0;
-      if (!covers_sector(shift, radius, top, {.slope = 1.0 / overdamped, .bounds = known.bounds})) {
+      if (!covers_sector(shift, radius, top,
+                         {.slope = 1.0 / hardly_oscillating, .bounds = known.bounds})) {
         return std::nullopt;
       }
       return modes;
@@ -214,7 +193,7 @@ std::optional<Modes> searched_modes(const System& system, const Knowledge& known
   int rigid = 0;
   while (2 * (count + rigid) < system.size()) {
     const FrequencySearch search{.count = count + rigid,
-                                 .slope = 1.0 / overdamped,
+                                 .slope = 1.0 / hardly_oscillating,
                                  .center = shift_for(known.body),
                                  .bounds = known.bounds};
     QuadraticModes found;
@@ -304,6 +283,29 @@ Whirl whirl_of(const std::vector<Orbit>& orbits) {
   return backward ? Whirl::backward : Whirl::planar;
 }
 
+Mode mode_of(Complex lambda, const CVec& q, const DofMap& dofs) {
+  Mode mode{.lambda = lambda, .shape = q};
+  const std::vector<Orbit> at = orbits(dofs, q);
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (at[i].major() > at[largest].major()) largest = i;
+    mode.kappas.push_back(at[i].kappa());
+  }
+  mode.whirl = whirl_of(at);
+  if (!at.empty() && at[largest].major() > 0.0) {
+    // phase: the largest orbit is at its major axis at t = 0
+    const CVec full = dofs.T * q;
+    const Point p = dofs.points()[largest];
+    const Complex x = full(dofs.full_index(p, X)), y = full(dofs.full_index(p, Y));
+    const Complex square = x * x + y * y;
+    const double angle =
+        std::abs(square) > 1e-12 * std::norm(x) ? 0.5 * std::arg(square) : std::arg(x);
+    mode.shape *= std::polar(1.0 / at[largest].major(), -angle);
+    mode.kappa = at[largest].kappa();
+  }
+  return mode;
+}
+
 Modes complex_modes(const System& system, int count) {
   if (system.size() >= dense_below) {
     Knowledge known = knowledge_of(system);
@@ -312,6 +314,11 @@ Modes complex_modes(const System& system, int count) {
   const FreeBody body = free_body(system);
   return sorted(dense_quadratic_modes(system.M, system.D(), system.K, shift_for(body)), system,
                 body, count);
+}
+
+Modes complex_modes(const Assembler& assembler, double Omega, int count) {
+  if (!assembler.depends_on_whirl()) return complex_modes(assembler.at(Omega), count);
+  return own_frequency_modes([&](double omega) { return assembler.at(Omega, omega); }, count);
 }
 
 struct ModeFinder::State {
@@ -341,8 +348,8 @@ System ModeFinder::system(double Omega) const {
 }
 
 Modes ModeFinder::at(double Omega, int count) const {
+  if (state_->assembler.depends_on_speed()) return complex_modes(state_->assembler, Omega, count);
   const System at_speed = system(Omega);
-  if (state_->assembler.depends_on_speed()) return complex_modes(at_speed, count);
   if (at_speed.size() >= dense_below) return sparse_modes(at_speed, state_->known, count);
   const FreeBody& body = state_->known.body;
   return sorted(dense_quadratic_modes(at_speed.M, at_speed.D(), at_speed.K, shift_for(body)),
@@ -350,15 +357,17 @@ Modes ModeFinder::at(double Omega, int count) const {
 }
 
 Modes ModeFinder::near(double Omega, double frequency, int count) const {
-  const System at_speed = system(Omega);
-  if (at_speed.size() < dense_below) return at(Omega, count);
+  const bool is_own = state_->assembler.depends_on_whirl();
+  const System at_speed = is_own ? state_->assembler.at(Omega, frequency) : system(Omega);
+  const auto all = [&] { return is_own ? complex_modes(at_speed, count) : at(Omega, count); };
+  if (at_speed.size() < dense_below) return all();
   const FreeBody body = state_->assembler.depends_on_speed() ? FreeBody{} : state_->known.body;
   // undamped eigenvalues are on the axis: the center is not
   const Complex center{off_axis * frequency, frequency};
   const double everywhere = std::numeric_limits<double>::infinity();
   DiscModes disc =
       DiscSolver(at_speed.M, at_speed.D(), at_speed.K).around(center, everywhere, count);
-  if (disc.lambda.size() == 0) return at(Omega, count);
+  if (disc.lambda.size() == 0) return all();
   QuadraticModes found{std::move(disc.lambda), std::move(disc.q)};
   for (Eigen::Index i = 0; i < found.lambda.size(); ++i) {
     if (found.lambda(i).imag() >= 0.0) continue;

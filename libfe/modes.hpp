@@ -38,6 +38,9 @@ struct Orbit {
 /// Damping ratio above which a mode is hardly a critical speed: that of a bearing, in most cases.
 constexpr double heavy_damping = 0.5;
 
+/// |Im| over |Re| of an eigenvalue below which it hardly oscillates.
+constexpr double hardly_oscillating = 0.2;
+
 /// One oscillatory mode, q = Re(shape e^(lambda t)).
 struct Mode {
   Complex lambda;  ///< eigenvalue, Im > 0 [rad/s]
@@ -85,6 +88,14 @@ struct Modes {
 /// @throws NumericalError  if an eigensolver fails
 Modes complex_modes(const System& system, int count);
 
+/// Complex modes of a structure at a speed [rad/s]. Where coefficients depend on the frequency of a
+/// motion, each mode has those of its own (own_frequency_modes); shapes are those of
+/// assembler.at(Omega).
+Modes complex_modes(const Assembler& assembler, double Omega, int count);
+
+/// The mode of an eigenpair of a system with these dofs.
+Mode mode_of(Complex lambda, const CVec& q, const DofMap& dofs);
+
 /// Modes with their shapes at all points, as a result.
 struct ModesAtPoints : Modes {
   ModesAtPoints() = default;
@@ -119,9 +130,10 @@ class ModeFinder {
  public:
   explicit ModeFinder(const Assembler& assembler);
   ~ModeFinder();
+  /// As complex_modes.
   Modes at(double Omega, int count) const;
   /// Modes around i * frequency [rad/s]: all of a small system's lowest `count`, or about so many
-  /// that are nearest in the complex plane.
+  /// that are nearest in the complex plane. Coefficients are those of this frequency.
   Modes near(double Omega, double frequency, int count) const;
   System system(double Omega) const;
 

@@ -74,7 +74,7 @@ ReducedSystem unreduced(const System& system) {
 
 ReducedSystem project(const System& system, const Mat& basis) {
   if (basis.cols() == 0) throw NumericalError("the reduction has no shape: nothing oscillates");
-  const Mat M = basis.transpose() * (system.M * basis);
+  const Mat M = basis.transpose() * (symmetric_inertia(system.M) * basis);
   const Mat K = basis.transpose() * (system.K * basis);
   const auto ritz = symmetric_modes(0.5 * (K + K.transpose()), M);
   if (!ritz) {
@@ -163,7 +163,7 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
     return unreduced(system);
   }
 
-  const Sparse K = symmetric_part(system.K);
+  const Sparse K = symmetric_part(system.K), M = symmetric_inertia(system.M);
   const int most = how.modes > 0 ? how.modes : std::min(n, largest_basis);
   double band = how.band > 0.0 ? how.band : 2.0 * std::abs(system.Omega);
 
@@ -172,13 +172,13 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   Mat residual(n, 0);
   if (method == ReductionMethod::damped) {
     damped = complex_modes(system, (most + 1) / 2);
-    if (!damped.rigid_body.empty()) real = lowest_real_modes(K, system.M, std::min(n, 16));
+    if (!damped.rigid_body.empty()) real = lowest_real_modes(K, M, std::min(n, 16));
     if (band == 0.0 && !damped.oscillatory.empty()) {
       band = 3.0 * damped.oscillatory.front().frequency();
     }
   } else {
     for (int count = most + 1;; count *= 2) {  // beyond the rigid ones of a free system
-      real = lowest_real_modes(K, system.M, count);
+      real = lowest_real_modes(K, M, count);
       if (real.first_flexible() > 0.0 || count >= n) break;
     }
     if (band == 0.0) band = 3.0 * real.first_flexible();
@@ -186,14 +186,14 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   if (method == ReductionMethod::modal_residual) {
     std::vector<Vec> rows = ports;
     rows.insert(rows.end(), others.begin(), others.end());
-    if (!rows.empty()) residual = static_shapes(K, system.M, rows, real);
+    if (!rows.empty()) residual = static_shapes(K, M, rows, real);
   }
   const auto with = [&](int modes) {
     if (method == ReductionMethod::damped) {
-      return project(system, damped_basis(damped, real.Phi.leftCols(real.rigid), system.M, modes));
+      return project(system, damped_basis(damped, real.Phi.leftCols(real.rigid), M, modes));
     }
     Mat basis = real.Phi.leftCols(std::min<Eigen::Index>(modes, real.Phi.cols()));
-    append_orthonormal(basis, residual, system.M);
+    append_orthonormal(basis, residual, M);
     return project(system, basis);
   };
 

@@ -13,7 +13,7 @@ namespace {
 BearingLoad load_of(const Connection& c, const Assembler& assembler, const System& system,
                     const Vec& full, const Vec& support) {
   const Point from = assembler.point(c.from), to = assembler.point(c.to);
-  const Mat2 K = coefficients(c.coefficients, system.Omega).K;
+  const Mat2 K = coefficients(c.coefficients, system.Omega, 0.0).K;
   Vec2 stretch = Vec2::Zero(), held = Vec2::Zero();
   for (int k = 0; k < 2; ++k) {
     const int a = system.dofs.full_index(from, k), b = system.dofs.full_index(to, k);
@@ -27,7 +27,7 @@ BearingLoad load_of(const Connection& c, const Assembler& assembler, const Syste
 }  // namespace
 
 void require_supports(const Assembler& assembler, double Omega, std::string_view what) {
-  if (is_supported(symmetric_part(assembler.uncondensed(Omega).K))) return;
+  if (is_supported(symmetric_part(assembler.uncondensed(Omega, 0.0).K))) return;
   throw ModelError({}, "",
                    fmt::format("{} supports, but the rotor or a body is free to move: "
                                "add a [[bearing]] or a [[link]] that holds it",
@@ -36,7 +36,7 @@ void require_supports(const Assembler& assembler, double Omega, std::string_view
 
 StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {
   require_supports(assembler, Omega, "the static sag needs");
-  const System system = assembler.uncondensed(Omega);
+  const System system = assembler.uncondensed(Omega, 0.0);
   const Vec load = assembler.gravity_load();
   const SparseLu solver(system.K);
   if (!solver.is_regular()) {
@@ -51,8 +51,11 @@ StaticEquilibrium with_bearing_loads(const Assembler& assembler, const System& s
   const double Omega = system.Omega;
   StaticEquilibrium result{system.dofs.T * q, {}};
   const Vec support = assembler.support_forces(Omega, q, load);
-  for (const Connection& c : assembler.structure().bearings) {
-    result.bearings.push_back(load_of(c, assembler, system, result.displacement, support));
+  const Structure& s = assembler.structure();
+  for (const auto* list : {&s.bearings, &s.seals}) {
+    for (const Connection& c : *list) {
+      result.bearings.push_back(load_of(c, assembler, system, result.displacement, support));
+    }
   }
   return result;
 }

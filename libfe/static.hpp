@@ -29,8 +29,8 @@ struct BearingLoad {
 };
 
 struct StaticEquilibrium {
-  Vec displacement;  ///< full vector, see DofMap [m, rad]
-  std::vector<BearingLoad> bearings;
+  Vec displacement;                   ///< full vector, see DofMap [m, rad]
+  std::vector<BearingLoad> bearings;  ///< of bearings, then of seals
 
   static constexpr std::string_view group = "/static";
   static constexpr auto columns() {

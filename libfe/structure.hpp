@@ -161,7 +161,7 @@ struct Unbalance {
   double phase = 0.0;   ///< angle from +x at t = 0 [rad]
 };
 
-/// A bearing (station to ground or body) or a link (any two stations).
+/// A bearing or a seal (station to ground or body), or a link (any two stations).
 struct Connection {
   std::string name;
   Station from, to;
@@ -203,6 +203,7 @@ struct Structure {
   std::vector<Body> bodies;
   std::vector<Connection> bearings;
   std::vector<Connection> links;
+  std::vector<Connection> seals;
   std::vector<LinearizedConnection> linearized;  ///< in linear analyses only
   std::vector<Unbalance> unbalances;
   std::vector<Station> stations;  ///< further places that need a node (contacts, probes)
@@ -211,6 +212,16 @@ struct Structure {
   std::vector<Layer> layers{};
   ModalDamping modal_damping{};
   Bow bow{};
+
+  /// Connections of one kind, with its word in model files.
+  struct Connections {
+    const char* kind;
+    const std::vector<Connection>& list;
+  };
+  /// All of them.
+  std::array<Connections, 3> connections() const {
+    return {{{"bearing", bearings}, {"link", links}, {"seal", seals}}};
+  }
 
   double length() const {
     double sum = 0.0;

@@ -27,6 +27,7 @@ std::function<void(long, long)> progress_of(const Invocation& call, std::string 
 
 void note_tables(const Invocation& call, const Model& model, Report& report) {
   report.add_notes(table_notes(model.structure, speeds_over(call.values("over"), model.speed)));
+  report.add_notes(frequency_notes(model.structure));
 }
 
 void write_notes(ResultWriter& file, const Report& report) {

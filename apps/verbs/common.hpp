@@ -17,7 +17,7 @@ namespace whirl::inline cli {
 Report begin_report(const Invocation& call, const Model& model, const Record& result = {});
 
 /// Notes the bearing tables that are held constant at the speed of the model, or at one that --over
-/// goes through.
+/// goes through, and those of whose whirl frequencies a motion takes one.
 void note_tables(const Invocation& call, const Model& model, Report& report);
 
 /// Writes the report's notes into a result file, where there are any.

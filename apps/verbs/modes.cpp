@@ -19,8 +19,8 @@ struct ModesVerbOptions {
 Report run_modes(const Invocation& call, const ModesVerbOptions& options) {
   const Model model = call.model();
   const Assembler assembler(linear_structure(model));
-  const System system = assembler.at(model.speed);
-  const ModesAtPoints modes(complex_modes(system, *options.modes), system.dofs);
+  const ModesAtPoints modes(complex_modes(assembler, model.speed, *options.modes),
+                            assembler.at(model.speed).dofs);
   Report report = begin_report(call, model, record_of(modes));
   report.text = fmt::format("Complex modes at {:.6g} rpm\n\n{}", model.speed / rpm, text_of(modes));
   report.add_notes(linear_notes(model, {model.speed}));

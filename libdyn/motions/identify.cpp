@@ -7,6 +7,7 @@
 
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/campbell.hpp"
+#include "libfe/own_frequency_modes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -93,7 +94,10 @@ Sparse mac_weights(const DofMap& dofs, double length) {
 }
 
 System stiffened(const Model& model, const Scene& scene) {
-  System system = linear_system(model, scene);
+  return stiffened(model, scene, linear_system(model, scene));
+}
+
+System stiffened(const Model& model, const Scene& scene, System system) {
   int owner = -1;
   for (const ReducedContact& reduced : scene.contacts.contacts()) {
     if (reduced.owner == owner) continue;  // another place
@@ -117,8 +121,19 @@ System stiffened(const Model& model, const Scene& scene) {
 Identification identify(const Model& model, const Scene& scene, const Recording& recording,
                         const IdentifyOptions& options) {
   Identification result;
-  const System system = options.stiffened ? stiffened(model, scene) : linear_system(model, scene);
-  result.modes = complex_modes(system, options.modes).oscillatory;
+  const auto closed = [&](System at) {
+    return options.stiffened ? stiffened(model, scene, std::move(at)) : at;
+  };
+  const System system = closed(linear_system(model, scene));
+  if (scene.assembler.depends_on_whirl()) {
+    const Assembler linear(linear_structure(model));
+    const SystemAtFrequency at_frequency = [&](double omega) {
+      return closed(linear.at(system.Omega, omega));
+    };
+    result.modes = own_frequency_modes(at_frequency, options.modes).oscillatory;
+  } else {
+    result.modes = complex_modes(system, options.modes).oscillatory;
+  }
 
   const double length = scene.assembler.structure().length();
   const double arm = !options.rotations ? 0.0 : length > 0.0 ? length : 1.0;

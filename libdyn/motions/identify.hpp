@@ -119,5 +119,7 @@ bool is_forced(double frequency, double Omega, double bin);
 /// The system with the stiffness of its contacts added at their stations, as if closed for good: of
 /// rings and blades to lateral displacements, of faces to tilts.
 System stiffened(const Model& model, const Scene& scene);
+/// The same of the rotor's matrices at another frequency.
+System stiffened(const Model& model, const Scene& scene, System system);
 
 }  // namespace whirl::inline dyn

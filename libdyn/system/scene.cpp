@@ -77,8 +77,8 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
       if (part.squaredNorm() > 0.0) others.push_back(part);
     }
   }
-  for (const auto* list : {&model.structure.bearings, &model.structure.links}) {
-    for (const Connection& c : *list) {
+  for (const auto& [kind, list] : model.structure.connections()) {
+    for (const Connection& c : list) {
       if (coefficients(c.coefficients, model.speed).C.isZero(0.0)) continue;
       add_rows(others, system.dofs, assembler.point(c.from), assembler.point(c.to));
     }

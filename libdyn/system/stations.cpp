@@ -22,8 +22,9 @@ std::vector<Label> labels(const Model& model, const Assembler& assembler) {
   for (const Disk& d : model.structure.disks) all.push_back({assembler.point(d.at), d.name});
   for (const Contact& c : model.contacts) all.push_back({assembler.point(c.at), c.name});
   for (const OilFilm& f : model.films) all.push_back({assembler.point(f.at), f.name});
-  for (const Connection& b : model.structure.bearings)
-    all.push_back({assembler.point(b.from), b.name});
+  for (const auto* list : {&model.structure.bearings, &model.structure.seals}) {
+    for (const Connection& c : *list) all.push_back({assembler.point(c.from), c.name});
+  }
   return all;
 }
 

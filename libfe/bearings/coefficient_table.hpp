@@ -1,31 +1,29 @@
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <vector>
 
+#include "libbase/interpolation.hpp"
 #include "libfe/bearings/coefficients.hpp"
 
 namespace whirl::inline fe {
 
-/// Coefficients over speed: linear between its rows, constant beyond its ends.
+/// Coefficients over the speed, the whirl frequency, or both; constant beyond the ends.
 ///
-/// At least one row; speeds strictly increasing.
+/// At least one row. Speeds do not descend; whirl frequencies ascend among rows of one speed, and
+/// need not be the same at every speed. Without whirl frequencies, speeds ascend.
 struct CoefficientTable {
-  std::vector<double> speed;              ///< [rad/s]
-  std::vector<BearingCoefficients> rows;  ///< one per speed
+  std::vector<double> speed;  ///< of every row [rad/s]; empty: no matter what it is
+  std::vector<BearingCoefficients> rows;
+  std::vector<double> whirl{};  ///< of every row [rad/s], not negative; empty likewise
 
-  BearingCoefficients at(double Omega) const {
-    const auto above = std::upper_bound(speed.begin(), speed.end(), Omega);
-    if (above == speed.begin()) return rows.front();
-    if (above == speed.end()) return rows.back();
-    const auto i = static_cast<std::size_t>(above - speed.begin());
-    const double s = (Omega - speed[i - 1]) / (speed[i] - speed[i - 1]);
-    const auto mix = [&](Mat2 BearingCoefficients::*part) -> Mat2 {
-      return (1.0 - s) * (rows[i - 1].*part) + s * (rows[i].*part);
-    };
-    return {mix(&BearingCoefficients::K), mix(&BearingCoefficients::C),
-            mix(&BearingCoefficients::Kt), mix(&BearingCoefficients::Ct)};
-  }
+  /// Coefficients at a speed and a whirl frequency: over the whirl frequency at every speed around
+  /// Omega first, then over the speed.
+  BearingCoefficients at(double Omega, double omega,
+                         Interpolation how = Interpolation::linear) const;
+
+  /// The same of a table that does not know whirl frequencies, or where they are the speed.
+  BearingCoefficients at(double Omega) const { return at(Omega, Omega); }
 };
 
 }  // namespace whirl::inline fe

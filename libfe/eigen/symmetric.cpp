@@ -148,6 +148,10 @@ bool is_symmetric(const Sparse& A) {
   return largest(skew) <= 1e-12 * largest(A);
 }
 
+Sparse symmetric_inertia(const Sparse& M) {
+  return is_symmetric(M) ? M : symmetric_part(M);
+}
+
 bool is_supported(const Sparse& K) {
   if (K.rows() == 0) return true;
   const Ldlt factor(K);

@@ -10,7 +10,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr std::array<PaintColors, 34> paints{{
+constexpr std::array<PaintColors, 35> paints{{
     {"ink", "#222222", "#222222", "#e6e6e6"},
     {"gray", "#707070", "#606060", "#9a9a9a"},
     {"faint", "#e4e4e4", "#707070", "#33373d"},
@@ -24,6 +24,7 @@ constexpr std::array<PaintColors, 34> paints{{
     {"disk", "#4f6d8a", "#3a5167", "#a3bdd6"},
     {"stator", "#b07d2b", "#805a1c", "#dcae62"},
     {"bearing", "#2e7d32", "#205a24", "#7cc47f"},
+    {"seal", "#7b4fa3", "#5e3a80", "#c3a3e6"},
     {"rest", "#f2efe6", "#77746a", "#5d5b54"},
     {"period_1", "#cfe3f5", "#4a7090", "#27506f"},
     {"period_2", "#7fb8e6", "#37719e", "#3f86ba"},

@@ -26,6 +26,7 @@ enum class Paint {
   disk,
   stator,
   bearing,
+  seal,
   rest,
   period_1,
   period_2,

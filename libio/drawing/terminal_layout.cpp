@@ -29,6 +29,7 @@ std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
                                        : -1.0;
   };
   for (const Connection& b : model.structure.bearings) all.push_back({place(b.from), "▲", b.name});
+  for (const Connection& s : model.structure.seals) all.push_back({place(s.from), "≋", s.name});
   for (const Contact& c : model.contacts) all.push_back({place(c.at), "◯", c.name});
   for (const OilFilm& f : model.films) all.push_back({place(f.at), "▲", f.name});
   for (const Disk& d : model.structure.disks) all.push_back({place(d.at), "┃", d.name});
@@ -122,7 +123,7 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
     line.erase(line.find_last_not_of(' ') + 1);
     text += "  " + line + "\n";
   }
-  return text + "\n  ▲ bearing   ◯ contact   ▓ disk\n";
+  return text + "\n  ▲ bearing   " + (s.seals.empty() ? "" : "≋ seal   ") + "◯ contact   ▓ disk\n";
 }
 
 }  // namespace whirl::inline io

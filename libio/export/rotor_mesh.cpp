@@ -85,6 +85,14 @@ RotorMesh line_mesh(const Model& model, const Assembler& assembler,
             return std::vector{c.at, c.against};
           },
           assembler)};
+  if (!s.seals.empty()) {
+    result.point_data.push_back(numbers_at_nodes(
+        "seal", s.seals,
+        [](const Connection& c) {
+          return std::vector{c.from, c.to};
+        },
+        assembler));
+  }
   for (const MeshField& field : fields) {
     MeshArray displacement{field.name, 3}, tilt{field.name + "_tilt", 3};
     for (Eigen::Index i = 0; i < std::ssize(mesh.z); ++i) {

@@ -35,7 +35,8 @@ struct RotorMesh {
 
 /// Nodes and elements of the shaft, in the model's numbering. Bodies have no place in it.
 ///
-/// Point data: "node" from 1; "disk", "bearing" and "contact", numbers from 1 of what is there, or 0;
+/// Point data: "node" from 1; "disk", "bearing" and "contact", numbers from 1 of what is there, or 0,
+/// and "seal" of a model that has some;
 /// "disk_mass_kg"; of every field the displacement [m] under its name, and the tilts [rad] with
 /// "_tilt". Cell data: "segment" from 1, the diameters at both ends, "youngs_modulus_pa",
 /// "density_kg_m3"; if there are layers, whose cells lie on those of the shaft, "layer" from 1, 0 of

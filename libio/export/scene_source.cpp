@@ -54,8 +54,9 @@ std::vector<VtkFrame> SceneSource::motion(const MotionSamples& samples, long mos
 void SceneSource::each_mode(
     long count, int frames,
     const std::function<void(int, const Mode&, const std::vector<VtkFrame>&)>& use) const {
-  const System system = Assembler(linear_structure(model)).at(model.speed);
-  const Modes modes = complex_modes(system, static_cast<int>(count));
+  const Assembler linear(linear_structure(model));
+  const System system = linear.at(model.speed);
+  const Modes modes = complex_modes(linear, model.speed, static_cast<int>(count));
   int number = 0;
   for (const Mode& mode : modes.oscillatory) {
     ++number;

@@ -23,8 +23,8 @@ double position(const Model& model, const Assembler& assembler, const Point& poi
   for (const Contact& c : model.contacts) {
     if (const double z = partner(c.at, c.against); z >= 0.0) return z;
   }
-  for (const auto* list : {&model.structure.bearings, &model.structure.links}) {
-    for (const Connection& c : *list) {
+  for (const auto& [kind, list] : model.structure.connections()) {
+    for (const Connection& c : list) {
       if (const double z = partner(c.from, c.to); z >= 0.0) return z;
     }
   }

@@ -217,4 +217,27 @@ std::vector<std::string> Motion::notes(double revolutions) const {
   return {fmt::format("The last {:g} revolutions.", revolutions)};
 }
 
+SealShape seal_shape(double at, double half, double tip, double top) {
+  constexpr int teeth = 4;
+  const double root = 0.5 * (tip + top);
+  const double pitch = 2.0 * half / (2 * teeth - 1);  // teeth are as wide as what is between them
+  SealShape shape{{at - half}, {top}};
+  for (int i = 0; i < teeth; ++i) {
+    const double from = at - half + 2 * i * pitch, to = from + pitch;
+    if (i > 0) {
+      shape.x.push_back(from);
+      shape.y.push_back(root);
+    }
+    shape.x.insert(shape.x.end(), {from, to});
+    shape.y.insert(shape.y.end(), {tip, tip});
+    if (i + 1 < teeth) {
+      shape.x.push_back(to);
+      shape.y.push_back(root);
+    }
+  }
+  shape.x.insert(shape.x.end(), {at + half, at - half});
+  shape.y.insert(shape.y.end(), {top, top});
+  return shape;
+}
+
 }  // namespace whirl::inline io::figures

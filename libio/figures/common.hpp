@@ -98,6 +98,15 @@ struct Motion : RecordedMotion {
   bool ends_revolution(Eigen::Index i) const;
 };
 
+/// Outline of half a seal seen from the side: a ring with teeth that end near the shaft.
+struct SealShape {
+  std::vector<double> x, y;
+};
+/// @param at    its middle
+/// @param half  of its width
+/// @param tip   where the teeth end; top: the ring's far side
+SealShape seal_shape(double at, double half, double tip, double top);
+
 }  // namespace figures
 
 }  // namespace whirl::inline io

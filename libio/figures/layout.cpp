@@ -215,6 +215,22 @@ void add_bearings(SideView& v) {
   }
 }
 
+/// Seals as rings with teeth towards the shaft.
+void add_seals(SideView& v) {
+  const double symbol = v.symbol(), gap = 0.004 * v.length;
+  for (const Connection& s : v.model.structure.seals) {
+    const double at = v.position(s.from);
+    if (at < 0.0) continue;
+    const double tip = v.shaft_radius(at) + gap, top = tip + 0.7 * symbol;
+    for (const double side : {1.0, -1.0}) {
+      const SealShape shape = seal_shape(at, 0.8 * symbol, side * tip, side * top);
+      v.panel.curves.push_back(area("seal", Paint::seal, shape.x, shape.y,
+                                    fmt::format("seal {}: {}", s.name, stiffness_text(s))));
+    }
+    v.add_name(at, top, s.name, Paint::seal, true);
+  }
+}
+
 void add_contacts(SideView& v) {
   const double symbol = v.symbol();
   for (const Contact& c : v.model.contacts) {
@@ -265,6 +281,7 @@ std::vector<Figure> layout_figures(const ResultView& result) {
   add_shaft(v);
   add_disks(v);
   add_bearings(v);
+  add_seals(v);
   add_contacts(v);
   add_nodes(v);
   const double pitch = 0.034 * v.length;
@@ -291,7 +308,7 @@ FigureKind layout_kind() {
   return {
       .name = "layout",
       .title = "Layout",
-      .summary = "the rotor to scale, with disks, bearings and contacts",
+      .summary = "the rotor to scale, with disks, bearings, seals and contacts",
       .needs_model = true,
       .make = layout_figures,
   };

@@ -91,6 +91,16 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   };
   for (const Connection& b : s.bearings) add_bearing(b.from, b.name);
   for (const OilFilm& f : model.films) add_bearing(f.at, f.name);
+  for (const Connection& seal : s.seals) {
+    const double at = mm * position(seal.from);
+    if (at < 0.0) continue;
+    const double radius = 0.5 * shaft_diameter(s, at / mm);
+    for (const double side : {1.0, -1.0}) {
+      const double tip = axis + side * 1.08 * factor * radius;
+      const SealShape shape = seal_shape(at, half, tip, tip + side * contact_height * height);
+      panel.curves.push_back(area("seal", Paint::seal, shape.x, shape.y, 0.75, seal.name));
+    }
+  }
   for (const Contact& c : model.contacts) {
     const double at = mm * position(c.at);
     if (at < 0.0) continue;

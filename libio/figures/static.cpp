@@ -109,8 +109,12 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
       return with_minus(fmt::format("{:.4g}", std::abs(force) > still * largest ? shown : 0.0));
     };
     table.rows.push_back({bearings[i].name, text(bearings[i].fx()), text(bearings[i].fy())});
-    if (!result.assembler || i >= result.model->structure.bearings.size()) continue;
-    const Point at = result.assembler->point(result.model->structure.bearings[i].from);
+    if (!result.assembler) continue;
+    const Structure& s = result.model->structure;
+    const std::size_t seal = i - std::min(i, s.bearings.size());  // they follow the bearings
+    if (i >= s.bearings.size() && seal >= s.seals.size()) continue;
+    const Connection& c = i < s.bearings.size() ? s.bearings[i] : s.seals[seal];
+    const Point at = result.assembler->point(c.from);
     if (at.kind != Point::Kind::node) continue;
     const double z = mm * result.assembler->mesh().z[static_cast<std::size_t>(at.index)];
     const double reaction = -unit.factor * bearings[i].fy();
@@ -119,7 +123,7 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
     const double along = (z - p.x.first) / (p.x.last - p.x.first);
     l.anchor = along < 0.1 ? Anchor::start : along > 0.9 ? Anchor::end : Anchor::middle;
     l.dx = l.dy = 0.0;
-    l.paint = Paint::bearing;
+    l.paint = i < s.bearings.size() ? Paint::bearing : Paint::seal;
     p.labels.push_back(l);
   }
 }

@@ -3,138 +3,169 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
-#include "libio/model/delimited_table.hpp"
-#include "libio/text/nearest.hpp"
+#include "libio/model/table_columns.hpp"
+#include "libio/text/delimited.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
-/// What a column means: an entry of a matrix, or the speed.
-struct NumberColumn {
-  std::string name, unit, si_unit;
-  Mat2 BearingCoefficients::*matrix = nullptr;  ///< null: the speed
-  int row = 0, column = 0;
+using Kind = CoefficientColumn::Kind;
+
+/// A table while its lines are read.
+struct OpenTable {
+  CoefficientTable table{};
+  std::vector<int> lines{};  ///< where its rows stand
+  Delimiter delimiter = Delimiter::comma;
+  std::vector<CoefficientColumn> columns{};
+
+  bool has(Kind kind) const {
+    return std::any_of(columns.begin(), columns.end(),
+                       [&](const CoefficientColumn& c) { return c.kind == kind; });
+  }
 };
 
-const std::vector<NumberColumn>& known_columns() {
-  static const std::vector<NumberColumn> columns = [] {
-    std::vector<NumberColumn> all{{"speed", "", "rad/s"}};
-    const std::tuple<const char*, const char*, Mat2 BearingCoefficients::*> groups[] = {
-        {"k", "N/m", &BearingCoefficients::K},
-        {"c", "N.s/m", &BearingCoefficients::C},
-        {"kt", "N.m/rad", &BearingCoefficients::Kt},
-        {"ct", "N.m.s/rad", &BearingCoefficients::Ct}};
-    for (const auto& [prefix, unit, matrix] : groups) {
-      for (const int i : {0, 1}) {
-        for (const int j : {0, 1}) {
-          all.push_back({std::string(prefix) + "xy"[i] + "xy"[j], "", unit, matrix, i, j});
-        }
-      }
-    }
-    return all;
-  }();
-  return columns;
-}
-
-/// The columns that the first line names.
-std::vector<NumberColumn> named_columns(const std::vector<std::string>& parts,
-                                        const ReportOfLine& report) {
-  std::vector<std::string> names;
-  for (const NumberColumn& c : known_columns()) names.push_back(c.name);
-  std::vector<NumberColumn> columns;
-  for (const std::string& part : parts) {
-    const auto bracket = part.find('[');
-    const std::string name = trimmed_cell(std::string_view(part).substr(0, bracket));
-    const auto known = std::find(names.begin(), names.end(), name);
-    NumberColumn column;
-    if (known == names.end()) {
-      const auto near = nearest(name, names);
-      report(name, near ? fmt::format("unknown column, did you mean \"{}\"?", *near)
-                        : fmt::format("unknown column, known are {}", fmt::join(names, ", ")));
-    } else {
-      column = known_columns()[static_cast<std::size_t>(known - names.begin())];
-    }
-    if (bracket != std::string::npos) {
-      column.unit =
-          trimmed_cell(std::string_view(part).substr(bracket + 1, part.find(']') - bracket - 1));
-    }
-    if (known != names.end() && !column.unit.empty()) {
-      const auto one = parse_as("1 " + column.unit, column.si_unit);
-      if (!one) {
-        report(name, fmt::format("the unit [{}] does not fit: {}", column.unit, one.problem));
-      }
-    }
-    const bool is_double = std::any_of(columns.begin(), columns.end(), [&](const NumberColumn& c) {
-      return !c.name.empty() && c.name == column.name;
-    });
-    if (is_double) report(name, "this column is there already");
-    columns.push_back(column);
+std::optional<double> value_of(const std::string& cell, const CoefficientColumn& column,
+                               Delimiter delimiter, const ReportProblem& report) {
+  const auto number = plain_number(cell, delimiter);
+  if (!number) {
+    report(column.name, number.problem);
+    return std::nullopt;
   }
-  if (columns.front().name != "speed") report("", "the first column must be speed");
-  return columns;
+  const auto value =
+      parse_as(*number + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
+  if (!value) report(column.name, value.problem);
+  return value.value;
 }
 
 /// Adds the row of a line.
-void add_row(CoefficientTable& table, const std::vector<NumberColumn>& columns,
-             const std::vector<std::string>& parts, const ReportOfLine& report) {
-  if (parts.size() != columns.size()) {
+void add_row(OpenTable& open, const std::vector<std::string>& parts, int line,
+             const ReportProblem& report) {
+  if (parts.size() != open.columns.size()) {
     report("", fmt::format("found {} columns, expected {} as in the first line", parts.size(),
-                           columns.size()));
+                           open.columns.size()));
     return;
   }
   BearingCoefficients row;
-  double speed = 0.0;
+  double speed = 0.0, whirl = 0.0;
+  bool has_place = true;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const NumberColumn& column = columns[i];
-    const auto value =
-        parse_as(parts[i] + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
+    const CoefficientColumn& column = open.columns[i];
+    const auto value = value_of(parts[i], column, open.delimiter, report);
     if (!value) {
-      report(column.name, value.problem);
-    } else if (!column.matrix) {
+      has_place = has_place && column.kind == Kind::entry;
+      continue;
+    }
+    if (column.kind == Kind::speed) {
       speed = *value;
+    } else if (column.kind == Kind::whirl) {
+      whirl = *value;
+      if (whirl < 0.0) report("whirl", "a whirl frequency is zero or more, for either sense");
     } else {
       (row.*column.matrix)(column.row, column.column) = *value;
     }
   }
-  if (!table.speed.empty() && speed <= table.speed.back()) {
-    report("speed", "speeds must ascend from line to line");
+  if (!has_place) return;
+  if (open.has(Kind::speed)) open.table.speed.push_back(speed);
+  if (open.has(Kind::whirl)) open.table.whirl.push_back(whirl);
+  open.table.rows.push_back(row);
+  open.lines.push_back(line);
+}
+
+/// Rows of a table over both in the order of speeds, at one speed in that of frequencies.
+void sort_rows(OpenTable& open) {
+  const CoefficientTable& t = open.table;
+  std::vector<std::size_t> order(t.rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(t.speed[a], t.whirl[a]) < std::pair(t.speed[b], t.whirl[b]);
+  });
+  CoefficientTable sorted;
+  std::vector<int> lines;
+  for (const std::size_t i : order) {
+    sorted.speed.push_back(t.speed[i]);
+    sorted.whirl.push_back(t.whirl[i]);
+    sorted.rows.push_back(t.rows[i]);
+    lines.push_back(open.lines[i]);
   }
-  table.speed.push_back(speed);
-  table.rows.push_back(row);
+  open.table = std::move(sorted);
+  open.lines = std::move(lines);
+}
+
+/// Reports rows that do not ascend, of a table over one of both, or that are there twice.
+void check_order(OpenTable& open, const std::function<ReportProblem(int)>& report_at) {
+  const bool has_both = open.has(Kind::speed) && open.has(Kind::whirl);
+  if (has_both) sort_rows(open);
+  const CoefficientTable& t = open.table;
+  for (std::size_t i = 1; i < t.rows.size(); ++i) {
+    if (has_both) {
+      if (t.speed[i] != t.speed[i - 1] || t.whirl[i] != t.whirl[i - 1]) continue;
+      report_at(open.lines[i])(
+          "whirl",
+          fmt::format("this speed and whirl frequency are in line {} already", open.lines[i - 1]));
+    } else if (!t.speed.empty() && t.speed[i] <= t.speed[i - 1]) {
+      report_at(open.lines[i])("speed", "speeds must ascend from line to line");
+    } else if (!t.whirl.empty() && t.whirl[i] <= t.whirl[i - 1]) {
+      report_at(open.lines[i])("whirl", "whirl frequencies must ascend from line to line");
+    }
+  }
+}
+
+bool is_comment(const std::string& line) {
+  const std::string text = trimmed(line);
+  return text.empty() || text[0] == '#' || text[0] == '!' || text[0] == '%' ||
+         text.starts_with("//");
 }
 
 }  // namespace
 
 CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
                                      std::vector<Problem>& problems) {
-  CoefficientTable table;
-  std::istringstream lines(text);
-  std::string line;
-  std::vector<NumberColumn> columns;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
-    const ReportOfLine report = [&](std::string key, std::string message) {
+  OpenTable open;
+  const std::size_t others = problems.size();  // of other tables
+  const auto report_at = [&](int number) -> ReportProblem {
+    return [&problems, &file, number](std::string key, std::string message) {
       problems.push_back({{file, number, 1}, std::move(key), std::move(message)});
     };
-    if (trimmed_cell(line).empty() || trimmed_cell(line)[0] == '#') continue;
-    if (!columns.empty()) {
-      add_row(table, columns, cells_of(line), report);
+  };
+  std::istringstream lines(text);
+  std::string line;
+  int names = 0;  // line of the names
+  bool is_below_names = true;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
+    if (is_comment(line)) continue;
+    if (names == 0) {
+      names = number;
+      open.delimiter = delimiter_of(line);
+      open.columns = columns_named(line, open.delimiter, report_at(number));
+      if (problems.size() > others) return open.table;  // what is wrong here is so in every row
       continue;
     }
-    columns = named_columns(cells_of(line), report);
-    if (!problems.empty()) return table;
+    std::vector<std::string> cells = cells_of(line, open.delimiter);
+    while (cells.size() > open.columns.size() && cells.back().empty()) cells.pop_back();
+    if (is_below_names) {
+      is_below_names = false;
+      const bool has_units = is_line_of_units(cells);
+      if (has_units) take_units(open.columns, cells, report_at(number));
+      check_columns(open.columns, report_at(names));
+      if (problems.size() > others) return open.table;
+      if (has_units) continue;
+    }
+    add_row(open, cells, number, report_at(number));
   }
-  if (table.rows.empty() && problems.empty()) {
-    problems.push_back(
-        {{file},
-         "",
-         "the table has no rows; expected a line of column names and one line per speed"});
+  check_order(open, report_at);
+  if (open.table.rows.empty() && problems.size() == others) {
+    problems.push_back({{file},
+                        "",
+                        "the table has no rows; expected a line of column names and one line per "
+                        "speed or whirl frequency"});
   }
-  return table;
+  return open.table;
 }
 
 }  // namespace whirl::inline io

@@ -8,11 +8,15 @@
 
 namespace whirl::inline io {
 
-/// Reads bearing coefficients against speed from CSV.
+/// Reads bearing coefficients against speed, whirl frequency or both.
 ///
-/// The first line that is not a comment (#) names the columns: `speed` and any of kxx, kxy, kyx,
-/// kyy, cxx, cxy, cyx, cyy, and the same for tilts with a t (ktxx, ctxx, ...); what is absent is
-/// zero. A unit may follow in brackets, "speed [rpm]"; without one, SI. Speeds must ascend.
+/// The first line that is not a comment (#, !, %, //) names the columns in any order: `speed`,
+/// `whirl` or both, and any of kxx ... kyy, cxx ... cyy, mxx ... myy (added mass), and of tilts
+/// ktxx ... ktyy, ctxx ... ctyy; what is absent is zero. Names of other programs are known, too (see
+/// columns_named). Units stand in brackets behind names, in a line below them, or with the values;
+/// without any, SI. Commas, semicolons, tabs or blanks delimit; where commas do not, decimals may
+/// have them. Speeds must ascend, or whirl frequencies where there are no speeds; rows over both may
+/// come in any order.
 ///
 /// @param file      for messages
 /// @param problems  receives what is wrong, with file and line

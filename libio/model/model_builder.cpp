@@ -43,7 +43,8 @@ Model ModelBuilder::build() {
   read_shaft();
   read_layers();
   read_disks();
-  read_bearings();
+  read_supports("bearing", model_.structure.bearings);
+  read_supports("seal", model_.structure.seals);
   read_links();
   read_unbalances();
   read_contacts();
@@ -98,7 +99,7 @@ void ModelBuilder::read_top() {
     model_.structure.gravity = *g;
   for (const char* table :
        {"operation", "material", "shaft", "layer", "disk", "unbalance", "bow", "body", "bearing",
-        "link", "oil_film", "contact", "damping", "reduction", "start"}) {
+        "seal", "link", "oil_film", "contact", "damping", "reduction", "start"}) {
     top.node(table);
   }
   top.finish();
@@ -357,13 +358,12 @@ void ModelBuilder::check_movable() {
       throw ModelError({}, "", "all that has a mass is held: nothing that can move has one");
     }
   } catch (const ModelError& error) {
-    // these speak of a bearing or link by its name; here its path is known
+    // these speak of a bearing, seal or link by its name; here its path is known
     for (Problem problem : error.problems()) {
-      for (const auto& [list, array] :
-           {std::pair(&s.bearings, "bearing"), std::pair(&s.links, "link")}) {
-        for (const Connection& c : *list) {
+      for (const auto& [kind, list] : s.connections()) {
+        for (const Connection& c : list) {
           if (problem.where == c.where && problem.key == c.name)
-            problem.key = fmt::format("{}.{}", array, c.name);
+            problem.key = fmt::format("{}.{}", kind, c.name);
         }
       }
       if (problem.where.file.empty()) problem.where = root_.where;

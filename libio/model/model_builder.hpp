@@ -34,7 +34,7 @@ class ModelBuilder {
 
   /// Text of a table that came from a file of its own.
   struct Table {
-    std::string owner;     ///< "bearing", "shaft", "bow"
+    std::string owner;     ///< "bearing", "seal", "shaft", "bow"
     std::size_t item = 0;  ///< of an array of owners, from 0
     std::string key;       ///< which named the file
     std::string text;
@@ -91,11 +91,10 @@ class ModelBuilder {
   void read_films();
   static Vec2 center(TableReader& table);
   // model_connections.cpp
-  void read_bearings();
+  void read_supports(const char* array, std::vector<Connection>& to);
   void read_links();
-  bool read_kind(TableReader& table, std::size_t number, AnyBearing& to);
-  std::optional<CoefficientTable> coefficient_table(TableReader& table, std::string_view key,
-                                                    std::size_t bearing);
+  bool read_kind(TableReader& table, AnyBearing& to);
+  std::optional<CoefficientTable> coefficient_table(TableReader& table, std::string_view key);
 
   /// Calls f(reader, number from 0) for every element of an array of tables, by name if it has one.
   template <class F>

@@ -51,6 +51,20 @@ std::optional<ToldKind> kind_of(TableReader& table) {
   return told;
 }
 
+/// Reports keys of kinds that nothing tells: what says how a table is read, where there is none.
+void report_left_over(TableReader& table, const ToldKind& told) {
+  if (told.key == "kind") return;  // such keys are unknown then
+  const std::vector<std::string> own = keys_of_kind(told.bearing);
+  for_each_member<AnyBearing>([&](const auto& kind) {
+    if (kind.told_by.empty() || kind.told_by == told.key) return;
+    for (const std::string& key : keys_of_kind(kind)) {
+      if (key == kind.told_by || std::find(own.begin(), own.end(), key) != own.end()) continue;
+      if (!table.has(key)) continue;
+      table.problem(key, fmt::format("belongs to a {}, which is missing", kind.told_by));
+    }
+  });
+}
+
 /// Says what a bearing needs that has no coefficients.
 void report_no_values(TableReader& table, const ToldKind& told) {
   std::vector<std::string> keys = keys_of_kind(told.bearing);
@@ -85,9 +99,8 @@ void check_kind(TableReader& table, const ToldKind& told, bool is_rigid, bool ha
 }  // namespace
 
 std::optional<CoefficientTable> ModelBuilder::coefficient_table(TableReader& table,
-                                                                std::string_view key,
-                                                                std::size_t bearing) {
-  const auto from = table_text(table, key, "bearing", bearing);
+                                                                std::string_view key) {
+  const auto from = table_text(table, key, "", 0);  // who owns it, its reader knows
   if (!from) return std::nullopt;
   std::vector<Problem> wrong;
   const CoefficientTable read = parse_bearing_table(from->text, from->name, wrong);
@@ -96,10 +109,9 @@ std::optional<CoefficientTable> ModelBuilder::coefficient_table(TableReader& tab
 }
 
 /// Reads the keys of a kind; whether any is there.
-/// @param number  of the bearing from 0
-bool ModelBuilder::read_kind(TableReader& table, std::size_t number, AnyBearing& to) {
+bool ModelBuilder::read_kind(TableReader& table, AnyBearing& to) {
   const auto read_table = [&](const auto& field, CoefficientTable& member) {
-    if (auto read = coefficient_table(table, field.name, number)) member = std::move(*read);
+    if (auto read = coefficient_table(table, field.name)) member = std::move(*read);
     if (field.is_required && !table.has(field.name)) {
       table.missing(field.name, "a file with coefficients against speed (CSV)");
     }
@@ -108,27 +120,34 @@ bool ModelBuilder::read_kind(TableReader& table, std::size_t number, AnyBearing&
   return has_any(table, keys_of_kind(to));
 }
 
-void ModelBuilder::read_bearings() {
-  for_each("bearing", [&](TableReader& table, std::size_t i) {
+/// Reads bearings or seals.
+void ModelBuilder::read_supports(const char* array, std::vector<Connection>& to) {
+  for_each(array, [&](TableReader& table, std::size_t i) {
     Connection c;
     c.where = table.where();
-    c.name = table.string("name").value_or(fmt::format("bearing {}", i + 1));
+    c.name = table.string("name").value_or(fmt::format("{} {}", array, i + 1));
     if (const auto at = station(table)) c.from = *at;
-    if (const auto to = table.string("to")) {
-      if (const auto s = named_station(*to, table, "to")) c.to = *s;
+    if (const auto body = table.string("to")) {
+      if (const auto s = named_station(*body, table, "to")) c.to = *s;
     }
     const auto told = kind_of(table);
     if (told) c.coefficients = told->bearing;
-    const bool has_values = told && read_kind(table, i, c.coefficients);
+    const std::size_t known_tables = tables_.size();
+    const bool has_values = told && read_kind(table, c.coefficients);
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
     const bool is_by_file = told && !told->key.empty() && told->key != "kind";
-    if (AnyBearing coefficients; is_by_file && read_kind(table, i, coefficients)) {
+    if (AnyBearing coefficients; is_by_file && read_kind(table, coefficients)) {
       table.problem(told->key,
                     fmt::format("found a {} and coefficients, expected one of them", told->key));
     }
     if (told) check_kind(table, *told, c.is_rigid, has_values);
-    model_.structure.bearings.push_back(c);
+    if (told) report_left_over(table, *told);
+    for (std::size_t k = known_tables; k < tables_.size(); ++k) {
+      tables_[k].owner = array;
+      tables_[k].item = i;
+    }
+    to.push_back(c);
   });
 }
 
@@ -149,12 +168,13 @@ void ModelBuilder::read_links() {
         if (const auto s = named_station(*name, table, key)) *end = *s;
       }
     }
-    const bool has_values = read_kind(table, i, c.coefficients);
+    const bool has_values = read_kind(table, c.coefficients);
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
     if (!has_values && !c.is_rigid) {
-      table.missing("stiffness", "a stiffness (N/m), damping, rigid = true or clamped = true",
-                    {"damping", "tilt_stiffness", "tilt_damping", "rigid", "clamped"});
+      table.missing(
+          "stiffness", "a stiffness (N/m), damping, rigid = true or clamped = true",
+          {"damping", "tilt_stiffness", "tilt_damping", "added_mass", "rigid", "clamped"});
     }
     if (has_values && c.is_rigid) {
       table.problem("rigid", "a rigid link has no stiffness or damping of its own; leave them out");

@@ -51,6 +51,7 @@ constexpr const char* bare = R"(
 [bow]
 [[body]]
 [[bearing]]
+[[seal]]
 [[link]]
 [[oil_film]]
 [[contact]]
@@ -158,6 +159,7 @@ struct Switch {
   const char* otherwise;  ///< value if it is left out; empty: other keys tell it
 };
 constexpr Switch switches[] = {{"bearing.[]", "kind", "[[bearing]]", ""},
+                               {"seal.[]", "kind", "[[seal]]", ""},
                                {"contact.[]", "law", "[[contact]]", "radial"},
                                {"contact.[]", "geometry", "[[contact]]", "ring"},
                                {"oil_film.[]", "law", "[[oil_film]]", "short"},

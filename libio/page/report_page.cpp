@@ -33,9 +33,11 @@ void add_fact(Record& facts, const char* name, const std::string& value) {
 std::string parts_of(const ResultView& result) {
   if (!result.assembler) return "";
   const Model& m = *result.model;
-  return fmt::format("{} nodes, {} bodies, {} disks, {} bearings, {} contacts",
-                     result.assembler->mesh().nodes(), m.structure.bodies.size(),
-                     m.structure.disks.size(), m.structure.bearings.size(), m.contacts.size());
+  const Structure& s = m.structure;
+  const std::string seals = s.seals.empty() ? "" : fmt::format("{} seals, ", s.seals.size());
+  return fmt::format("{} nodes, {} bodies, {} disks, {} bearings, {}{} contacts",
+                     result.assembler->mesh().nodes(), s.bodies.size(), s.disks.size(),
+                     s.bearings.size(), seals, m.contacts.size());
 }
 
 /// The machine that several results are of.

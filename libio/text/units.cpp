@@ -59,7 +59,7 @@ constexpr Unit units[] = {
     {"min", 60, 0, dim(0, 0, 1), ""},
     {"h", 3600, 0, dim(0, 0, 1), ""},
     {"N", 1, 0, dim(1, 1, -2), "numkMG"},
-    {"lbf", lbf, 0, dim(1, 1, -2), ""},
+    {"lbf", lbf, 0, dim(1, 1, -2), "k"},
     {"W", 1, 0, dim(1, 2, -3), "mkM"},
     {"Pa", 1, 0, dim(1, -1, -2), "numkMG"},
     {"bar", 1, 5, dim(1, -1, -2), "m"},

@@ -52,7 +52,6 @@ std::string left_out_note(const Model& model) {
                      films.empty() ? "" : " (linearize = false: nothing holds the rotor there)");
 }
 
-
 }  // namespace
 
 std::string headline(std::string_view what, const Model& model) {
@@ -69,12 +68,13 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
   }
   table.row({"polar moment of inertia", format_engineering(facts.polar_inertia, "kg.m^2")});
   table.row({"nodes, bodies", fmt::format("{}, {}", facts.nodes, s.bodies.size())});
-  table.row({"degrees of freedom", facts.condensed_dofs > 0
-                             ? fmt::format("{}, of which {} without inertia are condensed",
-                                           facts.dofs, facts.condensed_dofs)
-                             : fmt::format("{}", facts.dofs)});
+  table.row({"degrees of freedom",
+             facts.condensed_dofs > 0 ? fmt::format("{}, of which {} without inertia are condensed",
+                                                    facts.dofs, facts.condensed_dofs)
+                                      : fmt::format("{}", facts.dofs)});
   table.row({"disks, bearings, links",
              fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
+  if (!s.seals.empty()) table.row({"seals", fmt::format("{}", s.seals.size())});
   if (!s.layers.empty()) table.row({"layers", fmt::format("{}", s.layers.size())});
   if (!s.bow.z.empty()) {
     table.row({"bow", format_length(largest_deflection(s.bow)) + " at most"});
@@ -104,6 +104,21 @@ std::vector<std::string> table_notes(const Structure& structure,
                     table.name, table.first / rpm, table.last / rpm, beyond));
   }
   return notes;
+}
+
+std::vector<std::string> frequency_notes(const Structure& structure) {
+  std::string names;
+  for (const auto& [kind, list] : structure.connections()) {
+    for (const Connection& c : list) {
+      if (!depends_on_whirl(c.coefficients) || c.is_clamped) continue;
+      names += (names.empty() ? "" : ", ") + named(kind, c.name);
+    }
+  }
+  if (names.empty()) return {};
+  return {
+      fmt::format("coefficients of {} depend on the whirl frequency; the motion is computed "
+                  "with those at which it is the speed",
+                  names)};
 }
 
 std::vector<std::string> left_out_notes(const Model& model, const std::vector<double>& speeds) {

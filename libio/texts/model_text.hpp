@@ -18,6 +18,10 @@ std::string text_of(const ModelFacts& facts, const Model& model);
 /// Which bearing tables are held constant at their ends for some speeds, one or more [rad/s].
 std::vector<std::string> table_notes(const Structure& structure, const std::vector<double>& speeds);
 
+/// Which connections have coefficients that depend on the whirl frequency, of which a motion that
+/// contains many takes those of its speed; empty: none.
+std::vector<std::string> frequency_notes(const Structure& structure);
+
 /// Which contacts and oil films the static sag leaves out, and the same of tables.
 std::vector<std::string> left_out_notes(const Model& model, const std::vector<double>& speeds);
 

@@ -564,5 +564,55 @@ TEST_F(Linear, JsonToAFileLeavesTheTextAndQuietLeavesNothing) {
   }
 }
 
+/// A mass of 2 kg on a bearing, and a seal over the whirl frequency: k(w) = 1e4 + 50 w [rad/s].
+constexpr const char* sealed = R"(format = 1
+[operation]
+speed = "600 rpm"
+[[body]]
+name = "mass"
+mass = 2
+spins = true
+[[bearing]]
+body = "mass"
+stiffness = 2e4
+[[seal]]
+name = "eye"
+body = "mass"
+table = "seal.csv"
+[start]
+from = "rest"
+)";
+
+// 2 w^2 = 3e4 + 50 w; the result holds the table and can be opened when its file is gone.
+TEST_F(Linear, ASealHasItsCoefficientsAtTheFrequencyOfEachMode) {
+  write("sealed.toml", sealed);
+  write("seal.csv", "whirl,kxx,kyy\n0,1e4,1e4\n1000,6e4,6e4\n");
+  const json r = result({"modes", "sealed.toml", "--out", "modes.h5"});
+  const double w = 12.5 + std::sqrt(12.5 * 12.5 + 1.5e4);
+  ASSERT_EQ(r["modes"].size(), 2u);
+  EXPECT_NEAR(r["modes"][0]["frequency_rpm"].get<double>(), w * 30.0 / pi, rounding * w);
+  EXPECT_EQ(r["notes"].size(), 0u);
+  // a motion has many frequencies: the coefficients are those at 600 rpm
+  const json motion = result({"simulate", "sealed.toml", "--revolutions", "2"});
+  ASSERT_EQ(motion["notes"].size(), 1u);
+  EXPECT_EQ(motion["notes"][0],
+            "coefficients of seal eye depend on the whirl frequency; the motion is computed with "
+            "those at which it is the speed");
+  // the static sag has none
+  const json sag = result({"static", "sealed.toml", "--set", "gravity=10"});
+  ASSERT_EQ(sag["bearings"].size(), 2u);
+  EXPECT_EQ(sag["bearings"][1]["name"], "eye");
+  EXPECT_NEAR(sag["bearings"][1]["fy_n"].get<double>(), -20.0 / 3.0, rounding);
+}
+
+TEST_F(Linear, SealsAreReportedAndSet) {
+  write("sealed.toml", sealed);
+  write("seal.csv", "whirl,kxx,kyy\n0,1e4,1e4\n1000,6e4,6e4\n");
+  const Outcome check = whirl({"check", "sealed.toml"});
+  EXPECT_NE(check.out.find("seals"), std::string::npos) << check.out;
+  const json pchip = result({"modes", "sealed.toml", "--set", "seal.eye.interpolation=pchip"});
+  EXPECT_EQ(pchip["modes"].size(), 2u);
+}
+
 }  // namespace linear_verbs_test
 }  // namespace whirl::test

@@ -80,11 +80,12 @@ TEST(BearingTable, ProblemsNameTheirLines) {
 
 TEST(BearingTable, ColumnsThatCannotBe) {
   EXPECT_EQ(problems("spead,kxx\n1,2\n"),
-            "bearing.csv:1:1: spead: unknown column, did you mean \"speed\"?\n"
-            "bearing.csv:1:1: the first column must be speed\n");
-  EXPECT_NE(problems("speed,damping\n1,2\n").find("unknown column, known are speed, kxx"),
+            "bearing.csv:1:1: spead: unknown column, did you mean \"speed\"?\n");
+  EXPECT_NE(problems("speed,damping\n1,2\n").find("unknown column, known are speed, whirl, kxx"),
             std::string::npos);
-  EXPECT_EQ(problems("kxx,speed\n1,2\n"), "bearing.csv:1:1: the first column must be speed\n");
+  EXPECT_EQ(problems("kxx,kyy\n1,2\n"),
+            "bearing.csv:1:1: a column of speeds or of whirl frequencies is missing: name it speed "
+            "or whirl\n");
   EXPECT_EQ(problems("speed,kxx,kxx\n1,2,3\n"),
             "bearing.csv:1:1: kxx: this column is there already\n");
 }
@@ -111,6 +112,114 @@ TEST(BearingTable, ATableWithoutRowsIsNone) {
   for (const char* text : {"", "\n\n", "# nothing\n", "speed,kxx\n"}) {
     EXPECT_NE(problems(text).find("bearing.csv: the table has no rows"), std::string::npos) << text;
   }
+}
+
+// ---- mass, whirl frequencies ----
+
+TEST(BearingTable, ReadsAddedMass) {
+  const CoefficientTable t = table("speed,mxx,mxy,myx,myy [g]\n1,2,3,4,5\n");
+  EXPECT_EQ(t.rows[0].M, (Mat2() << 2, 3, 4, 5e-3).finished());
+}
+
+TEST(BearingTable, ReadsWhirlFrequencies) {
+  const CoefficientTable t = table("whirl [Hz],kxx\n0,1\n10,2\n");
+  EXPECT_TRUE(t.speed.empty());
+  EXPECT_DOUBLE_EQ(t.whirl[1], 20.0 * std::numbers::pi);
+  EXPECT_EQ(problems("whirl,kxx\n5,1\n5,2\n"),
+            "bearing.csv:3:1: whirl: whirl frequencies must ascend from line to line\n");
+  EXPECT_EQ(problems("whirl,kxx\n-5,1\n"),
+            "bearing.csv:2:1: whirl: a whirl frequency is zero or more, for either sense\n");
+}
+
+// Rows over both in any order: speeds one after another, or frequencies.
+TEST(BearingTable, RowsOverBothMayComeInAnyOrder) {
+  const CoefficientTable t = table("whirl,speed,kxx\n1,10,1\n1,20,3\n5,10,2\n5,20,4\n");
+  EXPECT_EQ(t.speed, (std::vector<double>{10, 10, 20, 20}));
+  EXPECT_EQ(t.whirl, (std::vector<double>{1, 5, 1, 5}));
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(t.rows[i].K(0, 0), static_cast<double>(i + 1));
+  EXPECT_EQ(problems("speed,whirl,kxx\n1,1,5\n1,2,5\n1,1,5\n"),
+            "bearing.csv:4:1: whirl: this speed and whirl frequency are in line 2 already\n");
+}
+
+// ---- what other programs write ----
+
+constexpr double lbf = 4.4482216152605;  // [N]
+constexpr double inch = 0.0254;          // [m]
+
+/// A table of a bearing in US units, as many programs print it.
+void expect_us(const CoefficientTable& t) {
+  ASSERT_EQ(t.rows.size(), 2u);
+  EXPECT_DOUBLE_EQ(t.speed[1], 6000.0 * rpm);
+  EXPECT_NEAR(t.rows[0].K(0, 0), 1.5e5 * lbf / inch, 1e-6);
+  EXPECT_NEAR(t.rows[0].K(0, 1), -2e4 * lbf / inch, 1e-6);
+  EXPECT_NEAR(t.rows[1].C(1, 1), 250.0 * lbf / inch, 1e-9);
+}
+
+TEST(BearingTable, UsUnitsInEverySpelling) {
+  const std::string rows = "5000,1.5e5,-2e4,200\n6000,1.4e5,-1e4,250\n";
+  for (const char* header : {"Speed (rpm),Kxx (lb/in),Kxy (lbf/in),Cyy (lb-s/in)\n",
+                             "RPM,KXX [lbf/in],K_xy [lb/in],C_yy [lbf.s/in]\n",
+                             "N,K-xx (lbs/in),kxy lbf/in,Cyy (lb*sec/in)\n",
+                             "Rotor speed [cpm],Kxx,Kxy,Cyy\nrpm,lb/in,lb/in,lb-s/in\n",
+                             "Speed,Kxx,Kxy,Cyy\n(RPM),(lb/in),(lb/in),(lbf-sec/in)\n",
+                             "speed rpm,\"Kxx, lb/in\",kxy_lb/in,Cyy lb-s/in\n"}) {
+    SCOPED_TRACE(header);
+    expect_us(table(header + rows));
+  }
+  const CoefficientTable t =
+      table("Speed (rpm),Kxx (klb/in),Mxx (lb-s^2/in),Myy (lb),Ktxx (lb-in/rad)\n1000,2,3,4,5\n");
+  EXPECT_NEAR(t.rows[0].K(0, 0), 2e3 * lbf / inch, 1e-6);
+  EXPECT_NEAR(t.rows[0].M(0, 0), 3.0 * lbf / inch, 1e-9);
+  EXPECT_NEAR(t.rows[0].M(1, 1), 4.0 * 0.45359237, 1e-12);
+  EXPECT_NEAR(t.rows[0].Kt(0, 0), 5.0 * lbf * inch, 1e-12);
+}
+
+TEST(BearingTable, AnyDelimiterAndOrder) {
+  for (const char* text :
+       {"Kxx (lb/in)\tCyy (lb-s/in)\tSpeed (rpm)\tKxy (lb/in)\n1.5e5\t200\t5000\t-2e4\n1.4e5\t250\t"
+        "6000\t-1e4\n",
+        "Kxx (lb/in)   Cyy (lb-s/in)  Rotor speed (rpm)  Kxy (lb/in)\n  1.5e5 200 5000 -2e4\n  "
+        "1.4E+5  "
+        "250  6000   -1.D4\n",
+        "Kxx;Cyy;Speed;Kxy\nlb/in;lb-s/in;rpm;lb/"
+        "in\n150000,0;200,0;5000;-2e4\n1,4e5;250;6000;-10000,00;\n"}) {
+    SCOPED_TRACE(text);
+    expect_us(table(text));
+  }
+}
+
+TEST(BearingTable, FrequenciesByTheirNames) {
+  for (const char* name :
+       {"Freq (Hz)", "Whirl [Hz]", "Excitation frequency (Hz)", "Frequency Hz", "Hz"}) {
+    SCOPED_TRACE(name);
+    const CoefficientTable t =
+        table(std::string(name) + ",Speed (rpm),kxx\n10,1000,1\n20,1000,2\n");
+    ASSERT_EQ(t.whirl.size(), 2u);
+    EXPECT_DOUBLE_EQ(t.whirl[1], 40.0 * std::numbers::pi);
+  }
+  EXPECT_DOUBLE_EQ(table("CPM,kxx\n30,1\n60,2\n").whirl[1], 60.0 * rpm);
+}
+
+// Names of other programs without a unit do not mean SI.
+TEST(BearingTable, WhatIsNotUnderstoodIsNamed) {
+  EXPECT_EQ(
+      problems("rotor speed,kxx\n1,2\n"),
+      "bearing.csv:1:1: speed: its unit is missing; write it behind the name, such as [rpm] or "
+      "[Hz], or in a line of units below\n");
+  EXPECT_NE(problems("Speed (rpm),Kxx (lb/in),Eccentricity\n1,2,3\n")
+                .find("bearing.csv:1:1: Eccentricity: unknown column, known are speed"),
+            std::string::npos);
+  EXPECT_EQ(
+      problems("Speed (rpm),Kxx (furlong)\n1,2\n"),
+      "bearing.csv:1:1: kxx: the unit [furlong] does not fit: unknown unit \"furlong\" in \"1 "
+      "furlong\", expected a stiffness (N/m)\n");
+  EXPECT_EQ(
+      problems("speed,kxx\nrpm,lb-s\n1,2\n"),
+      "bearing.csv:2:1: kxx: the unit [lb-s] does not fit: cannot read the unit in \"1 lb-s\", "
+      "expected a stiffness (N/m)\n");
+  EXPECT_EQ(problems("speed kxx\n1 2\n2 1,500\n"),
+            "bearing.csv:3:1: kxx: the comma in \"1,500\" may be that of decimals or of thousands; "
+            "write a point, or semicolons between the columns\n");
 }
 
 }  // namespace whirl::bearing_table_test

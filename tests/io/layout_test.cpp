@@ -78,6 +78,14 @@ TEST(Layout, EveryPartIsNamedWithItsPlace) {
   EXPECT_GE(count(text, "█"), 72u);
 }
 
+TEST(Layout, SealsHaveASignOfTheirOwn) {
+  const std::string text =
+      draw(std::string(all_parts) + "[[seal]]\nname = \"eye\"\nat = \"250 mm\"\nstiffness = 1\n");
+  EXPECT_EQ(count(text, "eye (250 mm)"), 1u) << text;
+  EXPECT_EQ(count(text, "≋"), 2u) << text;  // the seal and the legend
+  EXPECT_EQ(count(draw(all_parts), "≋"), 0u);
+}
+
 TEST(Layout, NoLineIsWiderThanAsked) {
   for (const int columns : {40, 72, 120}) {
     EXPECT_LE(widest(draw(all_parts, columns)), static_cast<std::size_t>(columns) + 2) << columns;

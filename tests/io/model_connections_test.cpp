@@ -161,6 +161,58 @@ speed,kxx
   EXPECT_EQ(kinds("kind = \"table\"\n" + table), "table");
 }
 
+TEST(ModelConnections, AddedMassAndInterpolation) {
+  const auto& b = rotor(R"(
+[[bearing]]
+node = 1
+stiffness = 5
+added_mass = "2 kg"
+[[bearing]]
+node = 13
+interpolation = "pchip"
+table = """
+whirl [rpm], speed [rpm], kxx [N/m], mxx
+0, 1000, 5, 1
+500, 1000, 7, 2
+"""
+)")
+                      .structure.bearings;
+  EXPECT_EQ(constant(b[0]).M, isotropic(2.0));
+  const auto& t = std::get<TableBearing>(b[1].coefficients);
+  EXPECT_EQ(t.interpolation, Interpolation::pchip);
+  EXPECT_DOUBLE_EQ(t.table.whirl.at(1), 500.0 * rpm);
+  EXPECT_EQ(t.table.rows.at(1).M(0, 0), 2.0);
+}
+
+// A seal is a bearing that stands elsewhere: same keys, same kinds, tables kept in results.
+TEST(ModelConnections, SealsAreTheSameFamily) {
+  const Model model = rotor(R"(
+[[seal]]
+node = 1
+stiffness = { xx = 1e5, yy = 1e5, xy = 2e4, yx = -2e4 }
+[[seal]]
+name = "balance piston"
+at = "100 mm"
+added_mass = 3
+[[seal]]
+node = 13
+table = """
+speed, kxx
+1, 5
+"""
+)");
+  const auto& seals = model.structure.seals;
+  ASSERT_EQ(seals.size(), 3u);
+  EXPECT_TRUE(model.structure.bearings.empty() ||
+              seals[0].name != model.structure.bearings[0].name);
+  EXPECT_EQ(seals[0].name, "seal 1");
+  EXPECT_EQ(constant(seals[0]).K(0, 1), 2e4);
+  EXPECT_EQ(constant(seals[1]).M, isotropic(3.0));
+  EXPECT_EQ(parse_model(model.source).structure.seals.size(), 3u);
+  const Model set = parse_model(model.source, "model", {"seal.balance piston.added_mass=4"});
+  EXPECT_EQ(constant(set.structure.seals[1]).M, isotropic(4.0));
+}
+
 TEST(ModelConnections, LinksInEveryFormOfStation) {
   const auto& links = rotor(R"(
 [[body]]

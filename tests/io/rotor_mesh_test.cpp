@@ -34,6 +34,9 @@ rigid = true
 [[bearing]]
 at = 1
 rigid = true
+[[seal]]
+at = 0.25
+stiffness = 1
 )");
   const RotorMesh mesh = line_mesh(model, Assembler(model.structure), {}, "");
   const auto values = [&](const std::string& name) {
@@ -44,6 +47,7 @@ rigid = true
   };
   EXPECT_EQ(values("disk_mass_kg"), (std::vector<double>{0.0, 0.0, 7.0, 0.0, 0.0}));
   EXPECT_EQ(values("disk"), (std::vector<double>{0.0, 0.0, 1.0, 0.0, 0.0}));
+  EXPECT_EQ(values("seal"), (std::vector<double>{0.0, 1.0, 0.0, 0.0, 0.0}));
   EXPECT_EQ(values("bearing"), (std::vector<double>{1.0, 0.0, 0.0, 0.0, 2.0}));
 }
 

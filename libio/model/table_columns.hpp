@@ -1,0 +1,46 @@
+#pragma once
+/// What the columns of a table of bearing coefficients mean, by the names that programs give them.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libfe/bearings/coefficients.hpp"
+#include "libio/text/delimited.hpp"
+
+namespace whirl::inline io {
+
+/// A column: the speed, the whirl frequency, or an entry of a matrix.
+struct CoefficientColumn {
+  enum class Kind { speed, whirl, entry };
+  std::string name;     ///< "speed", "whirl", "kxx"
+  std::string si_unit;  ///< "N/m"
+  std::string unit{};   ///< that values are in; empty: SI, or as written beside each
+  Kind kind = Kind::entry;
+  Mat2 BearingCoefficients::*matrix = nullptr;  ///< of an entry
+  int row = 0, column = 0;
+  bool needs_unit = false;  ///< named as other programs do, who do not mean SI
+};
+
+/// Reports a problem of a line: the column's name, and what is wrong.
+using ReportProblem = std::function<void(std::string, std::string)>;
+
+/// Columns that a line names, one per cell; what is not understood is reported.
+///
+/// Names: speed, rpm, n, rotor speed ...; whirl, frequency, excitation frequency ...; kxx ... cyy,
+/// mxx ... myy, ktxx ... ctyy. Capitals, blanks, "_", "-" and "." in them do not count. A unit may
+/// follow in [] or (), or behind a blank.
+std::vector<CoefficientColumn> columns_named(const std::string& line, Delimiter delimiter,
+                                             const ReportProblem& report);
+
+/// Whether a line has units of columns and nothing else; no number begins with what a unit does.
+bool is_line_of_units(const std::vector<std::string>& cells);
+
+/// Gives columns the units of such a line.
+void take_units(std::vector<CoefficientColumn>& columns, const std::vector<std::string>& cells,
+                const ReportProblem& report);
+
+/// Reports what columns lack as a whole: speeds and frequencies, units, or that one is there twice.
+void check_columns(const std::vector<CoefficientColumn>& columns, const ReportProblem& report);
+
+}  // namespace whirl::inline io

@@ -1,0 +1,81 @@
+#include "libio/text/vendor_units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+
+namespace whirl::inline io {
+
+namespace {
+
+using Spelling = std::pair<std::string_view, std::string_view>;
+
+/// Whole units, in lower case.
+constexpr Spelling wholes[] = {{"rpm", "rpm"},       {"cpm", "rpm"},      {"r/min", "rpm"},
+                               {"1/min", "rpm"},     {"min^-1", "rpm"},   {"min-1", "rpm"},
+                               {"u/min", "rpm"},     {"rev/min", "rpm"},  {"hz", "Hz"},
+                               {"cps", "Hz"},        {"rps", "Hz"},       {"rev/s", "Hz"},
+                               {"rad/sec", "rad/s"}, {"rads/s", "rad/s"}, {"rad/s", "rad/s"}};
+
+/// Words of units, in lower case.
+constexpr Spelling words[] = {
+    {"lb", "lbf"},    {"lbs", "lbf"},   {"lbf", "lbf"},   {"klb", "klbf"}, {"klbs", "klbf"},
+    {"klbf", "klbf"}, {"kip", "klbf"},  {"kips", "klbf"}, {"sec", "s"},    {"secs", "s"},
+    {"inch", "in"},   {"inches", "in"}, {"ns", "N.s"},    {"nm", "N.m"},   {"nms", "N.m.s"},
+    {"kns", "kN.s"},  {"knm", "kN.m"}};
+
+bool is_letter(char c) {
+  return std::isalpha(static_cast<unsigned char>(c)) != 0;
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
+}
+
+/// What stands beside a spelling in a list; none: nothing does.
+template <std::size_t N>
+std::optional<std::string> meant_by(const std::string& text, const Spelling (&list)[N]) {
+  for (const auto& [written, meant] : list) {
+    if (text == written) return std::string(meant);
+  }
+  return std::nullopt;
+}
+
+/// A vendor's unit in the spelling of parse_as: words replaced, "-" between words a product.
+std::string respelled(std::string_view text) {
+  if (const auto whole = meant_by(lower(text), wholes)) return *whole;
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    while (end < text.size() && is_letter(text[end])) ++end;
+    if (end > i) {
+      const std::string word(text.substr(i, end - i));
+      result += meant_by(lower(word), words).value_or(word);
+      i = end;
+      continue;
+    }
+    const bool joins = text[i] == '-' && i > 0 && i + 1 < text.size() && is_letter(text[i + 1]);
+    result += joins ? '.' : text[i];
+    ++i;
+  }
+  return result;
+}
+
+}  // namespace
+
+Parsed<std::string> unit_in_table(std::string_view text, std::string_view si_unit) {
+  using Result = Parsed<std::string>;
+  const auto as_written = parse_as(fmt::format("1 {}", text), si_unit);
+  if (as_written) return std::string(text);
+  const std::string meant = respelled(text);
+  if (parse_as("1 " + meant, si_unit)) return meant;
+  return Result::failed(as_written.problem);
+}
+
+}  // namespace whirl::inline io

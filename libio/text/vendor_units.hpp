@@ -1,0 +1,20 @@
+#pragma once
+/// Units as tables of vendors write them, which are not how model files do.
+
+#include <string>
+#include <string_view>
+
+#include "libio/text/units.hpp"
+
+namespace whirl::inline io {
+
+/// The unit that a text means where `si_unit` is expected, in the spelling of parse_as.
+///
+///   "lb/in" -> "lbf/in",  "klb-s/in" -> "klbf.s/in",  "RPM", "cpm", "1/min" -> "rpm"
+///
+/// A unit that fits as it stands is left so. Pounds are forces where a mass would not fit.
+///
+/// @return  or what is wrong with the text as it stands
+Parsed<std::string> unit_in_table(std::string_view text, std::string_view si_unit);
+
+}  // namespace whirl::inline io
