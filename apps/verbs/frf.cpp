@@ -1,5 +1,6 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/text/value_range.hpp"
@@ -24,7 +25,7 @@ struct FrfVerbOptions {
 
 Report run_frf(const Invocation& call, const FrfVerbOptions& options) {
   const Model model = call.model();
-  const Assembler assembler(model.structure);
+  const Assembler assembler(linear_structure(model));
   const std::string from = options.from.value_or("");
   const FrequencyResponse found = frequency_response(
       assembler, model.speed,

@@ -113,8 +113,8 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
                                      const std::vector<ResponseEnd>& to) {
   FrequencyResponse result{.speed = Omega, .frequencies = frequencies};
   const auto count = static_cast<Eigen::Index>(frequencies.size());
-  System system = assembler.uncondensed(Omega);
-  const DofMap dofs = system.dofs;
+  const System system = assembler.uncondensed(Omega);
+  const DofMap& dofs = system.dofs;
   CMat loads(dofs.size(), static_cast<Eigen::Index>(from.size()));
   for (std::size_t f = 0; f < from.size(); ++f) {
     loads.col(static_cast<Eigen::Index>(f)) = dofs.T.transpose() * load_of(from[f], dofs);
@@ -126,6 +126,10 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
   DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
   for (Eigen::Index k = 0; k < count; ++k) {
     const double w = frequencies[static_cast<std::size_t>(k)];
+    if (assembler.depends_on_whirl()) {
+      const System at = assembler.uncondensed(Omega, w);
+      stiffness = DynamicStiffness(at.M, at.C, at.G, at.K);
+    }
     bool is_bounded = true;
     for (std::size_t f = 0; f < from.size(); ++f) {
       const auto q = stiffness.solve(w, Omega, loads.col(static_cast<Eigen::Index>(f)));
@@ -146,7 +150,7 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
 }
 
 std::vector<double> usual_frequencies(const Assembler& assembler, double Omega) {
-  const Modes modes = complex_modes(assembler.at(Omega), shown_modes);
+  const Modes modes = complex_modes(assembler, Omega, shown_modes);
   if (modes.oscillatory.empty()) {
     throw NumericalError("no mode oscillates: give the frequencies of the response");
   }
