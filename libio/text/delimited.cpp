@@ -9,7 +9,7 @@ namespace whirl::inline io {
 
 namespace {
 
-bool is_digit(char c) {
+bool is_numeral(char c) {
   return c >= '0' && c <= '9';
 }
 
@@ -86,8 +86,8 @@ Parsed<std::string> plain_number(std::string_view cell, Delimiter delimiter) {
   const auto end = std::min(text.find_first_not_of("+-0123456789.,eEdD"), text.size());
   for (std::size_t i = 1; i + 1 < end; ++i) {
     const bool is_exponent = (text[i] == 'd' || text[i] == 'D') &&
-                             (is_digit(text[i - 1]) || text[i - 1] == '.') &&
-                             (is_digit(text[i + 1]) || text[i + 1] == '+' || text[i + 1] == '-');
+                             (is_numeral(text[i - 1]) || text[i - 1] == '.') &&
+                             (is_numeral(text[i + 1]) || text[i + 1] == '+' || text[i + 1] == '-');
     if (is_exponent) text[i] = 'E';
   }
   const auto comma = text.find(',');
@@ -95,7 +95,7 @@ Parsed<std::string> plain_number(std::string_view cell, Delimiter delimiter) {
                           text.find(',', comma + 1) >= end && text.find('.') >= end;
   if (!is_decimal) return text;
   std::size_t digits = 0;
-  while (comma + 1 + digits < text.size() && is_digit(text[comma + 1 + digits])) ++digits;
+  while (comma + 1 + digits < text.size() && is_numeral(text[comma + 1 + digits])) ++digits;
   if (delimiter != Delimiter::semicolon && digits == 3) {
     return Result::failed(
         fmt::format("the comma in {} may be that of decimals or of thousands; write a point, or "

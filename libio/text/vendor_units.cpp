@@ -27,7 +27,7 @@ constexpr Spelling words[] = {
     {"inch", "in"},   {"inches", "in"}, {"ns", "N.s"},    {"nm", "N.m"},   {"nms", "N.m.s"},
     {"kns", "kN.s"},  {"knm", "kN.m"}};
 
-bool is_letter(char c) {
+bool is_latin_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0;
 }
 
@@ -53,14 +53,15 @@ std::string respelled(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     std::size_t end = i;
-    while (end < text.size() && is_letter(text[end])) ++end;
+    while (end < text.size() && is_latin_letter(text[end])) ++end;
     if (end > i) {
       const std::string word(text.substr(i, end - i));
       result += meant_by(lower(word), words).value_or(word);
       i = end;
       continue;
     }
-    const bool joins = text[i] == '-' && i > 0 && i + 1 < text.size() && is_letter(text[i + 1]);
+    const bool joins =
+        text[i] == '-' && i > 0 && i + 1 < text.size() && is_latin_letter(text[i + 1]);
     result += joins ? '.' : text[i];
     ++i;
   }
