@@ -5,6 +5,7 @@
 // clang-format off
 #define VERBS        \
   check_verb(),      \
+  import_verb(),     \
   static_verb(),     \
   modes_verb(),      \
   campbell_verb(),   \

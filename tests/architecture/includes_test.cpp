@@ -46,11 +46,13 @@ std::vector<Include> includes() {
 }
 
 /// Rooms from the ground up; each knows only of those before it.
-const std::vector<std::string> floors{
-    "libbase/",        "libfe/",          "libcontact/",     "libdyn/system/", "libdyn/flow/",
-    "libdyn/taylor/",  "libdyn/methods/", "libdyn/motions/", "libdyn/orbits/", "libdyn/branches/",
-    "libdyn/studies/", "libio/text/",     "libio/model/",    "libio/results/", "libio/texts/",
-    "libio/drawing/",  "libio/export/",   "libio/figures/",  "libio/page/",    "apps/"};
+const std::vector<std::string> floors{"libbase/",         "libfe/",          "libcontact/",
+                                      "libdyn/system/",   "libdyn/flow/",    "libdyn/taylor/",
+                                      "libdyn/methods/",  "libdyn/motions/", "libdyn/orbits/",
+                                      "libdyn/branches/", "libdyn/studies/", "libio/text/",
+                                      "libio/model/",     "libio/results/",  "libio/import/",
+                                      "libio/texts/",     "libio/drawing/",  "libio/export/",
+                                      "libio/figures/",   "libio/page/",     "apps/"};
 
 /// The floor of a file, from 0; -1 of what is in no room.
 int floor_of(const std::string& path) {

@@ -1,0 +1,92 @@
+#pragma once
+/// Rotors saved by ROSS 2 and 3 (rotor.save: TOML or JSON), as its files have them.
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "libio/model/config.hpp"
+
+namespace whirl::inline io {
+
+/// A shaft element, or a layer of one: elements of equal nodes lie upon each other.
+struct RossElement {
+  Where where;
+  std::string material;                            ///< name in the model: see RossRotor::materials
+  int node = 0;                                    ///< left one, from 0
+  double length = 0.0;                             ///< [m]
+  std::array<double, 2> outer{}, inner{};          ///< diameters at both ends [m]
+  double axial_force = 0.0, torque = 0.0;          ///< [N], [N.m]
+  bool shears = true, tilts = true, turns = true;  ///< shear, rotary inertia, gyroscopics
+  bool is_hutchinson = false;                      ///< else Cowper's shear coefficient
+  double nu = 0.0;                                 ///< Poisson's ratio
+  double mass_damping = 0.0, stiffness_damping = 0.0;  ///< alpha [1/s], beta [s]
+
+  /// Whether it goes on as another one does.
+  bool is_like(const RossElement& other) const;
+};
+
+struct RossMaterial {
+  std::string name;                    ///< unique
+  double rho = 0.0, E = 0.0, G = 0.0;  ///< [kg/m^3], [Pa], [Pa]
+};
+
+/// A disk, or a point mass on the shaft.
+struct RossDisk {
+  std::string name;
+  int node = 0;
+  double m = 0.0, Id = 0.0, Ip = 0.0;  ///< [kg], [kg.m^2]
+};
+
+/// A point mass, on a support or on the shaft.
+struct RossPointMass {
+  std::string name;
+  int node = 0;
+  double mx = 0.0, my = 0.0;  ///< [kg]
+};
+
+constexpr std::array<std::string_view, 12> ross_coefficients{
+    "kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy", "mxx", "mxy", "myx", "myy"};
+
+/// A bearing or seal of any class, by its coefficients.
+struct RossBearing {
+  /// Coefficients at a speed and a whirl frequency, in the order of ross_coefficients [SI].
+  struct Row {
+    double speed = 0.0, whirl = 0.0;  ///< [rad/s]
+    std::array<double, 12> values{};
+  };
+  Where where;
+  std::string name;
+  bool is_seal = false;
+  int node = 0, link = -1;  ///< where it is, and what it is fixed to; -1: the ground
+  bool has_speed = false, has_whirl = false;
+  std::vector<Row> rows;  ///< one of constant coefficients
+};
+
+/// A coupling: springs between two nodes with a mass at each.
+struct RossCoupling {
+  std::string name;
+  int node = 0;                                        ///< left one
+  double length = 0.0, outer = 0.0;                    ///< [m]
+  std::array<double, 2> m{}, Id{}, Ip{};               ///< at both ends [kg], [kg.m^2]
+  std::array<double, 2> k{}, c{}, k_tilt{}, c_tilt{};  ///< along (about) x and y [SI]
+};
+
+struct RossRotor {
+  std::string version;
+  std::vector<RossMaterial> materials;
+  std::vector<RossElement> elements;  ///< by their nodes; of one node the inner ones first
+  std::vector<RossCoupling> couplings;
+  std::vector<RossDisk> disks;
+  std::vector<RossPointMass> masses;
+  std::vector<RossBearing> bearings;
+  std::vector<std::string> left_out;  ///< a sentence each
+};
+
+/// @param root  tree of a file, TOML or JSON
+/// @throws ModelError  with the places of all problems: no rotor of ROSS, a value that is missing or
+///                     none, tables of unequal length
+RossRotor read_ross(const ConfigNode& root);
+
+}  // namespace whirl::inline io

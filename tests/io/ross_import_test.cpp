@@ -1,0 +1,171 @@
+// Rotors that ROSS saved become models whose eigenvalues are those of ROSS's own matrices.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "libfe/modes.hpp"
+#include "libio/import/parse_json.hpp"
+#include "libio/import/ross_model.hpp"
+#include "libio/model/model_file.hpp"
+
+namespace whirl::ross_import_test {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string content(const fs::path& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+fs::path saved(const std::string& name) {
+  return fs::path(WHIRL_TEST_DATA) / "ross" / name;
+}
+
+ImportedModel imported(const std::string& text, const std::string& name) {
+  const ConfigNode root = name.ends_with(".json") ? parse_json(text, name) : parse_toml(text, name);
+  return model_of(read_ross(root), name, "rotor");
+}
+
+/// The model as it is read from its files.
+Model model_in_files(const ImportedModel& written) {
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("whirl_ross_test_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "rotor.toml") << written.text;
+  for (const ImportedTable& table : written.tables) {
+    std::ofstream(folder / table.name) << table.text;
+  }
+  Model model = read_model(folder / "rotor.toml");
+  fs::remove_all(folder);
+  return model;
+}
+
+/// What is wrong with a file, or "nothing".
+std::string refusal(const std::string& text, const std::string& name = "rotor.toml") {
+  try {
+    imported(text, name);
+  } catch (const ModelError& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+struct SavedRotor : testing::TestWithParam<std::tuple<const char*, const char*>> {};
+
+TEST_P(SavedRotor, HasTheEigenvaluesOfRoss) {
+  const auto [rotor, ending] = GetParam();
+  const std::string name = fmt::format("{}.{}", rotor, ending);
+  const Model model = model_in_files(imported(content(saved(name)), name));
+  const Assembler assembler(model.structure);
+  const json expected = json::parse(content(saved("expected.json"))).at("rotors").at(rotor);
+  for (const json& state : expected) {
+    const json& values = state.at("eigenvalues_1_s");
+    const double Omega = state.at("speed_rad_s");
+    SCOPED_TRACE(Omega);
+    std::vector<Complex> found;
+    const Modes modes = complex_modes(assembler.at(Omega), static_cast<int>(values.size()) + 4);
+    for (const Mode& mode : modes.oscillatory) found.push_back(mode.lambda);
+    for (const json& value : values) {
+      const Complex lambda(value.at(0), value.at(1));
+      const auto nearest = std::min_element(found.begin(), found.end(), [&](auto a, auto b) {
+        return std::abs(a - lambda) < std::abs(b - lambda);
+      });
+      ASSERT_NE(nearest, found.end());
+      EXPECT_LT(std::abs(*nearest - lambda), 1e-7 * std::abs(lambda)) << lambda;
+      found.erase(nearest);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfRoss, SavedRotor,
+                         testing::Combine(testing::Values("layered", "supports", "tables"),
+                                          testing::Values("toml", "json")));
+
+// Equal elements become one segment, equal layers one layer; names stay.
+TEST(RossImport, IsAModelThatAPersonCanRead) {
+  const Model model = model_in_files(imported(content(saved("layered.toml")), "layered.toml"));
+  EXPECT_EQ(model.structure.shaft.size(), 1U);
+  EXPECT_EQ(model.structure.shaft.front().elements, 8);
+  EXPECT_EQ(model.structure.layers.size(), 2U);
+  EXPECT_EQ(model.structure.disks.at(1).name, "wheel 2");
+  EXPECT_EQ(model.structure.bearings.at(0).name, "left");
+  const Model tables = model_in_files(imported(content(saved("tables.json")), "tables.json"));
+  EXPECT_EQ(tables.structure.seals.at(0).name, "balance piston");
+  const Model supports = model_in_files(imported(content(saved("supports.json")), "supports.json"));
+  EXPECT_EQ(supports.structure.bodies.at(1).name, "pedestal right");
+}
+
+/// A shaft of one element on two bearings, as ROSS saves it.
+const std::string small = R"(
+ross_version = "3.0.0"
+["ShaftElement_a"]
+L = 0.5
+idl = 0.0
+odl = 0.05
+idr = 0.0
+odr = 0.05
+n = 0
+shear_method_calc = "hutchinson"
+["ShaftElement_a".material]
+name = "steel"
+rho = 7800.0
+E = 2e11
+G_s = 8e10
+)";
+
+// Solid section, nu = 0.25: 6 (1 + nu) / (7 + 12 nu + 4 nu^2) without the square of 1 + nu.
+TEST(RossImport, WritesTheShearCoefficientThatRossHas) {
+  const ImportedModel model = imported(small, "rotor.toml");
+  const double kappa = 6.0 * 1.25 / (7.0 + 3.0 + 0.25);
+  EXPECT_NE(model.text.find(fmt::format("shear_coefficient = {}", kappa)), std::string::npos)
+      << model.text;
+  EXPECT_NE(model.taken_differently.at(0).find("Hutchinson"), std::string::npos);
+}
+
+// Since 3.0 `frequency` is that of the whirl; before, it was the speed.
+TEST(RossImport, TakesFrequenciesAsTheirVersionMeansThem) {
+  const std::string bearing =
+      "[BearingElement_left]\nn = 0\nkxx = [1e7, 2e7]\ncxx = [1e3, 1e3]\n"
+      "frequency = [100.0, 200.0]\n";
+  const auto head = [&](const std::string& text) {
+    return imported(text, "rotor.toml").tables.at(0).text.substr(0, 13);
+  };
+  EXPECT_EQ(head(small + bearing), "whirl [rad/s]");
+  std::string earlier = small;
+  earlier.replace(earlier.find("3.0.0"), 5, "2.3.0");
+  EXPECT_EQ(head(earlier + bearing), "speed [rad/s]");
+}
+
+// A list of lists: over the frequencies of each speed.
+TEST(RossImport, ReadsCoefficientsOverSpeedAndFrequency) {
+  const std::string bearing =
+      "[BearingElement_left]\nn = 0\nspeed = [10.0, 20.0]\nfrequency = [1.0, 2.0, 3.0]\n"
+      "kxx = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]\n";
+  EXPECT_EQ(imported(small + bearing, "rotor.toml").tables.at(0).text,
+            "speed [rad/s], whirl [rad/s], kxx [N/m]\n"
+            "10, 1, 1\n10, 2, 2\n10, 3, 3\n20, 1, 4\n20, 2, 5\n20, 3, 6\n");
+}
+
+TEST(RossImport, SaysWhereAFileIsWrong) {
+  EXPECT_NE(refusal("a = 1\n").find("no shaft elements of ROSS"), std::string::npos);
+  std::string text = small;
+  text.replace(text.find("0.5"), 3, "\"x\"");
+  EXPECT_NE(refusal(text).find("rotor.toml:4:"), std::string::npos) << refusal(text);
+  EXPECT_NE(refusal(text).find("expected a number"), std::string::npos) << refusal(text);
+  EXPECT_NE(refusal("{\n\"a\": [1,\n}", "rotor.json").find("rotor.json:3"), std::string::npos)
+      << refusal("{\n\"a\": [1,\n}", "rotor.json");
+  const std::string unequal = small + "[BearingElement_left]\nn = 0\nkxx = [1.0, 2.0]\n";
+  EXPECT_NE(refusal(unequal).find("2 values for 0 speeds"), std::string::npos) << refusal(unequal);
+}
+
+}  // namespace whirl::ross_import_test
