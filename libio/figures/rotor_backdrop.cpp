@@ -94,7 +94,7 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
   for (const Connection& seal : s.seals) {
     const double at = mm * position(seal.from);
     if (at < 0.0) continue;
-    const double radius = 0.5 * shaft_diameter(s, at / mm);
+    const double radius = 0.5 * shaft_diameter(s, mesh, at / mm);
     for (const double side : {1.0, -1.0}) {
       const double tip = axis + side * 1.08 * factor * radius;
       const SealShape shape = seal_shape(at, half, tip, tip + side * contact_height * height);

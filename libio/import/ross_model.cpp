@@ -17,7 +17,7 @@ constexpr double least_stiffness = 1.0;  ///< Young's modulus of a shaft that be
 constexpr const char* gap_material = "nothing";
 
 /// A text between quotation marks, as TOML has it.
-std::string quoted(const std::string& text) {
+std::string toml_text(const std::string& text) {
   ConfigNode node;
   node.kind = ConfigNode::Kind::string;
   node.text = text;
@@ -29,7 +29,7 @@ std::string key_of(const std::string& name) {
   const bool is_bare = std::all_of(name.begin(), name.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-';
   });
-  return is_bare && !name.empty() ? name : quoted(name);
+  return is_bare && !name.empty() ? name : toml_text(name);
 }
 
 /// A number as people write it: 2.11e11 rather than 211000000000.
@@ -101,7 +101,7 @@ class Writer {
   ImportedModel write() {
     sort_out_elements();
     text("# From {}, saved by ROSS {}.\nformat = 1\ntitle  = {}\n", source_,
-         rotor_.version.empty() ? "(of unknown version)" : rotor_.version, quoted(stem_));
+         rotor_.version.empty() ? "(of unknown version)" : rotor_.version, toml_text(stem_));
     for (const RossMaterial& m : rotor_.materials) {
       text("\n[material.{}]\ndensity        = {}\nyoungs_modulus = {}\nshear_modulus  = {}\n",
            key_of(m.name), number(m.rho), number(m.E), number(m.G));
@@ -160,11 +160,11 @@ class Writer {
   /// "node = 3" or "body = "pedestal"", or with braces around it.
   std::string station(int node) const {
     if (is_on_shaft(node)) return fmt::format("node = {}", node + 1);
-    return fmt::format("body = {}", quoted(supports_.at(node)));
+    return fmt::format("body = {}", toml_text(supports_.at(node)));
   }
 
   void write_beam_keys(const RossElement& e) {
-    text("material       = {}\nouter_diameter = {}\n", quoted(e.material), diameter(e.outer));
+    text("material       = {}\nouter_diameter = {}\n", toml_text(e.material), diameter(e.outer));
     if (e.inner[0] > 0.0 || e.inner[1] > 0.0) text("inner_diameter = {}\n", diameter(e.inner));
     if (!e.shears) text("theory         = {}\n", e.tilts ? "\"rayleigh\"" : "\"euler-bernoulli\"");
     if (e.shears && e.is_hutchinson) {
@@ -215,7 +215,7 @@ class Writer {
 
   void write_disk(const std::string& name, int node, double m, double Id, double Ip) {
     text("\n[[disk]]\nname              = {}\nnode              = {}\nmass              = {}\n",
-         quoted(unique("disk", name)), node + 1, m);
+         toml_text(unique("disk", name)), node + 1, m);
     if (Id != 0.0) text("diametral_inertia = {}\n", Id);
     if (Ip != 0.0) text("polar_inertia     = {}\n", Ip);
   }
@@ -233,9 +233,9 @@ class Writer {
           "\n[[link]]\nname           = {}\nfrom           = {{ node = {} }}\n"
           "to             = {{ node = {} }}\nstiffness      = {}\ndamping        = {}\n"
           "tilt_stiffness = {}\ntilt_damping   = {}\n",
-          quoted(unique("link", c.name)), c.node + 1, c.node + 2, matrix(c.k[0], 0.0, 0.0, c.k[1]),
-          matrix(c.c[0], 0.0, 0.0, c.c[1]), matrix(c.k_tilt[0], 0.0, 0.0, c.k_tilt[1]),
-          matrix(c.c_tilt[0], 0.0, 0.0, c.c_tilt[1]));
+          toml_text(unique("link", c.name)), c.node + 1, c.node + 2,
+          matrix(c.k[0], 0.0, 0.0, c.k[1]), matrix(c.c[0], 0.0, 0.0, c.c[1]),
+          matrix(c.k_tilt[0], 0.0, 0.0, c.k_tilt[1]), matrix(c.c_tilt[0], 0.0, 0.0, c.c_tilt[1]));
     }
   }
 
@@ -262,7 +262,7 @@ class Writer {
         write_disk(m.name, node, m.mx, 0.0, 0.0);
       } else if (is_on_shaft(node)) {
         text("\n[[bearing]]\nname       = {}\nnode       = {}\nadded_mass = {}\n",
-             quoted(unique("bearing", m.name)), node + 1, matrix(m.mx, 0.0, 0.0, m.my));
+             toml_text(unique("bearing", m.name)), node + 1, matrix(m.mx, 0.0, 0.0, m.my));
         result_.taken_differently.push_back(
             fmt::format("\"{}\" is another mass along x and y on the shaft: added mass without "
                         "weight",
@@ -270,7 +270,7 @@ class Writer {
       } else {
         supports_[node] = unique("body", m.name);
         const std::array<double, 2> both{m.mx, m.my};
-        text("\n[[body]]\nname = {}\nmass = {}\n", quoted(supports_[node]), diameter(both));
+        text("\n[[body]]\nname = {}\nmass = {}\n", toml_text(supports_[node]), diameter(both));
       }
     }
   }
@@ -281,18 +281,18 @@ class Writer {
     const bool is_link = link >= 0 && is_on_shaft(link);
     const std::string kind = is_link ? "link" : b.is_seal ? "seal" : "bearing";
     const std::string name = unique(kind, b.name);
-    text("\n[[{}]]\nname       = {}\n", kind, quoted(name));
+    text("\n[[{}]]\nname       = {}\n", kind, toml_text(name));
     if (is_link) {
       text("from       = {{ {} }}\nto         = {{ {} }}\n", station(node), station(link));
     } else {
       const std::string at = station(node);
       text("{:<10} = {}\n", at.substr(0, at.find(' ')), at.substr(at.find("= ") + 2));
-      if (link >= 0) text("to         = {}\n", quoted(supports_.at(link)));
+      if (link >= 0) text("to         = {}\n", toml_text(supports_.at(link)));
     }
     if (b.has_speed || b.has_whirl) {
       const std::string file = fmt::format("{}_{}.csv", stem_, file_part(name));
       result_.tables.push_back({file, table_of(b)});
-      text("table      = {}\n", quoted(file));
+      text("table      = {}\n", toml_text(file));
       return;
     }
     const auto& v = b.rows.front().values;

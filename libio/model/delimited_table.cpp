@@ -7,27 +7,11 @@
 #include <cctype>
 #include <sstream>
 
+#include "libio/text/delimited.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
-
-std::string trimmed_cell(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\"");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1));
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> result;
-  std::size_t start = 0;
-  for (;;) {
-    const auto comma = line.find_first_of(",;", start);
-    result.push_back(trimmed_cell(std::string_view(line).substr(start, comma - start)));
-    if (comma == std::string::npos) return result;
-    start = comma + 1;
-  }
-}
 
 std::optional<double> DelimitedRow::number(std::string_view column) const {
   const auto found = numbers.find(column);
@@ -45,6 +29,12 @@ struct NamedColumn {
   const ColumnKind* kind = nullptr;  ///< null: not known
   std::string unit;
 };
+
+/// The delimiter that the line of names has; names have blanks in them, which delimit nothing.
+Delimiter delimiter_in(std::string_view names) {
+  const Delimiter found = delimiter_of(names);
+  return found == Delimiter::blanks ? Delimiter::comma : found;
+}
 
 /// A name as names are compared.
 std::string compared(std::string name) {
@@ -67,7 +57,7 @@ const ColumnKind* kind_named(const std::string& name, const std::vector<ColumnKi
 NamedColumn column_named(const std::string& cell, const std::vector<ColumnKind>& kinds,
                          const ReportOfLine& report) {
   const auto bracket = cell.find('[');
-  const std::string name = trimmed_cell(std::string_view(cell).substr(0, bracket));
+  const std::string name = trimmed(std::string_view(cell).substr(0, bracket));
   NamedColumn column{kind_named(compared(name), kinds), ""};
   if (!column.kind) {
     std::vector<std::string> names;
@@ -78,8 +68,7 @@ NamedColumn column_named(const std::string& cell, const std::vector<ColumnKind>&
     return column;
   }
   if (bracket == std::string::npos) return column;
-  column.unit =
-      trimmed_cell(std::string_view(cell).substr(bracket + 1, cell.find(']') - bracket - 1));
+  column.unit = trimmed(std::string_view(cell).substr(bracket + 1, cell.find(']') - bracket - 1));
   if (column.unit.empty()) return column;
   if (column.kind->is_text) {
     report(column.kind->name, "a column of words has no unit");
@@ -107,14 +96,16 @@ std::vector<NamedColumn> columns_of(std::vector<std::string> cells,
 }
 
 /// Reads a cell with something in it.
-void read_cell(const NamedColumn& column, const std::string& cell, DelimitedRow& row,
-               const ReportOfLine& report) {
+void read_cell(const NamedColumn& column, const std::string& cell, Delimiter delimiter,
+               DelimitedRow& row, const ReportOfLine& report) {
   const ColumnKind& kind = *column.kind;
   if (kind.is_text) {
     row.texts[kind.name] = cell;
     return;
   }
-  const auto value = parse_as(cell + (column.unit.empty() ? "" : " " + column.unit), kind.unit);
+  const auto number = plain_number(cell, delimiter);
+  if (!number) return report(kind.name, number.problem);
+  const auto value = parse_as(*number + (column.unit.empty() ? "" : " " + column.unit), kind.unit);
   if (!value) {
     report(kind.name, value.problem);
   } else if (kind.range == Range::positive && !(*value > 0.0)) {
@@ -137,13 +128,15 @@ DelimitedTable parse_delimited(const std::string& text, const std::string& file,
   std::vector<NamedColumn> columns;
   std::istringstream lines(text);
   std::string line;
+  Delimiter delimiter = Delimiter::comma;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
     const ReportOfLine report = [&](std::string key, std::string message) {
       problems.push_back({{file, number, 1}, std::move(key), std::move(message)});
     };
-    if (trimmed_cell(line).empty() || trimmed_cell(line)[0] == '#') continue;
-    std::vector<std::string> cells = cells_of(line);
+    if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;
+    if (table.header == 0) delimiter = delimiter_in(line);
+    std::vector<std::string> cells = cells_of(line, delimiter);
     const auto is_empty = [](const std::string& cell) { return cell.empty(); };
     if (std::all_of(cells.begin(), cells.end(), is_empty)) continue;
     if (table.header == 0) {
@@ -163,7 +156,7 @@ DelimitedTable parse_delimited(const std::string& text, const std::string& file,
     DelimitedRow& row = table.rows.emplace_back();
     row.line = number;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (!cells[i].empty()) read_cell(columns[i], cells[i], row, report);
+      if (!cells[i].empty()) read_cell(columns[i], cells[i], delimiter, row, report);
     }
   }
   return table;

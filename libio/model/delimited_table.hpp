@@ -13,12 +13,6 @@
 
 namespace whirl::inline io {
 
-/// A text without blanks and quotation marks at its ends.
-std::string trimmed_cell(std::string_view text);
-
-/// The cells of a line, between commas or semicolons.
-std::vector<std::string> cells_of(const std::string& line);
-
 /// Reports a problem of a line: the column's name, and what is wrong.
 using ReportOfLine = std::function<void(std::string, std::string)>;
 
@@ -52,6 +46,7 @@ struct DelimitedTable {
 ///
 /// Column names are compared in small letters, with _ for blanks and hyphens: "OD left [mm]" is
 /// od_left in mm. Without a unit in brackets numbers are SI; a number may have a unit of its own.
+/// Commas, semicolons or tabs delimit; where commas do not, decimals may have them.
 ///
 /// @param file      for messages
 /// @param kinds     columns that are known

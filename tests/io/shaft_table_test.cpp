@@ -67,6 +67,8 @@ TEST(ShaftTable, NamesOfColumnsAreTakenInAnyOrderAndSpelling) {
   EXPECT_EQ(t[0].left.inner, 0.0);
   EXPECT_EQ(t[0].material, "AISI 4340");
   EXPECT_DOUBLE_EQ(rows("length,od\n1,2 mm\n")[0].right.outer, 0.002);
+  EXPECT_DOUBLE_EQ(rows("length;od [mm]\n0,5;22,5\n")[0].right.outer, 0.0225);
+  EXPECT_DOUBLE_EQ(rows("length\tod left [mm]\tod right [mm]\n0.5\t20\t30\n")[0].left.outer, 0.02);
 }
 
 TEST(ShaftTable, ProblemsNameTheirLines) {
