@@ -281,8 +281,12 @@ Assembler::Assembler(Structure structure)
             collector.H(next)};
   if (fixed_.H.nonZeros() > 0 || !structure_.linearized.empty()) depends_on_speed_ = true;
   if (!structure_.modal_damping.ratios.empty()) {
+    // modes at rest, where films carry nothing; with the added mass of tables
+    std::vector<LinearizedConnection> aside;
+    std::swap(aside, structure_.linearized);
     const auto at_rest = [&] { return at(0.0); };
-    modal_ = modal_damping_matrix(structure_.modal_damping, at_rest, fixed_.M);
+    modal_ = modal_damping_matrix(structure_.modal_damping, at_rest, full(0.0, 0.0).M);
+    std::swap(aside, structure_.linearized);
   }
 }
 

@@ -144,7 +144,7 @@ std::vector<Front> all_fronts(const Tracker& tracker, const std::vector<double>&
   const auto compute = [&](std::size_t i) {
     try {
       fronts[i] = last ? tracker.advance(fronts[*last], speeds[i]) : tracker.start(speeds[i]);
-      tracker.add_others(fronts[i]);
+      if (speeds[i] > 0.0) tracker.add_others(fronts[i]);  // rest comes last: none begins there
       last = i;
       if (!first) first = i;
     } catch (const NumericalError& error) {

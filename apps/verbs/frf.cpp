@@ -23,15 +23,24 @@ struct FrfVerbOptions {
   auto fields() { return std::tie(from, to, frequencies); }
 };
 
+/// Ends of an option; what is wrong with them is told under its name.
+std::vector<ResponseEnd> ends_of(const Option<std::string>& option, const Model& model,
+                                 const Assembler& assembler) {
+  try {
+    return select_ends(model, assembler, option.value_or(""));
+  } catch (const ModelError& error) {
+    throw option.wrong(error.problems().front().message);
+  }
+}
+
 Report run_frf(const Invocation& call, const FrfVerbOptions& options) {
   const Model model = call.model();
   const Assembler assembler(linear_structure(model));
-  const std::string from = options.from.value_or("");
+  const std::vector<ResponseEnd> from = ends_of(options.from, model, assembler);
   const FrequencyResponse found = frequency_response(
       assembler, model.speed,
-      options.frequencies ? *options.frequencies : usual_frequencies(assembler, model.speed),
-      select_ends(model, assembler, from),
-      select_ends(model, assembler, options.to.value_or(from)));
+      options.frequencies ? *options.frequencies : usual_frequencies(assembler, model.speed), from,
+      options.to ? ends_of(options.to, model, assembler) : from);
   Report report = begin_report(call, model, record_of(found));
   report.text = text_of(found);
   report.add_notes(linear_notes(model, {model.speed}));

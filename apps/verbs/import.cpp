@@ -37,7 +37,7 @@ Verb import_verb() {
       .group = "The model",
       .summary = "a rotor saved by ROSS as a model",
       .takes = "FILE",
-      .example = "whirl import rotor.json --out rotor.toml",
+      .example = "whirl import models/layered_ross.json --out rotor.toml",
       .run = run_import,
   };
 }

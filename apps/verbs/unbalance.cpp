@@ -10,6 +10,14 @@ namespace whirl::inline cli {
 
 namespace {
 
+/// Speeds where none are given. A bent rotor on oil films has no response at rest, where films carry
+/// nothing.
+std::vector<double> speeds_of(const Model& model) {
+  std::vector<double> speeds = usual_speeds(model.speed);
+  if (has_linear_films(model) && !model.structure.bow.z.empty()) speeds.erase(speeds.begin());
+  return speeds;
+}
+
 struct UnbalanceVerbOptions {
   Option<std::vector<double>> speeds = speeds_option();
   Option<std::string> stations{"stations", "NAME,...", "names, node numbers or all", "all"};
@@ -21,7 +29,7 @@ Report run_unbalance(const Invocation& call, const UnbalanceVerbOptions& options
   const Assembler assembler(linear_structure(model));
   const UnbalanceStudy study =
       unbalance_study(model, assembler,
-                      {.speeds = options.speeds.value_or(usual_speeds(model.speed)),
+                      {.speeds = options.speeds.value_or(speeds_of(model)),
                        .has_given_speeds = options.speeds.is_given,
                        .stations = select_points(model, assembler, *options.stations)});
   Report report = begin_report(call, model, record_of(study));

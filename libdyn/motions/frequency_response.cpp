@@ -97,8 +97,7 @@ std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assemb
     }
     const bool is_tilt = direction == Direction::theta_x || direction == Direction::theta_y;
     for (const NamedPoint& point : select_points(model, assembler, entry.substr(0, colon))) {
-      const DofMap& dofs = assembler.uncondensed(0.0).dofs;
-      if (is_tilt && dofs.full_index(point.point, THETA_X) < 0) {
+      if (is_tilt && assembler.dofs().full_index(point.point, THETA_X) < 0) {
         throw ModelError({}, entry, "this body does not tilt; give it tilts = true");
       }
       ends.push_back({point, direction});

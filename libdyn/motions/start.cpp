@@ -89,9 +89,8 @@ int modes_of(const Start& start) {
 
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end) {
   const bool has_whirl = !model.start.whirl.empty();
-  return start_state(
-      model, scene, end,
-      has_whirl ? complex_modes(linear_system(model, scene), modes_of(model.start)) : Modes{});
+  return start_state(model, scene, end,
+                     has_whirl ? linear_modes(model, scene, modes_of(model.start)) : Modes{});
 }
 
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end,

@@ -264,4 +264,9 @@ System linear_system(const Model& model, const Scene& scene) {
   return Assembler(linear_structure(model)).at(model.speed);
 }
 
+Modes linear_modes(const Model& model, const Scene& scene, int count) {
+  if (!scene.assembler.depends_on_whirl()) return complex_modes(linear_system(model, scene), count);
+  return complex_modes(Assembler(linear_structure(model)), model.speed, count);
+}
+
 }  // namespace whirl::inline dyn

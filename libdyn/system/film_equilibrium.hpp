@@ -8,6 +8,7 @@
 #include "libdyn/system/running_film.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libfe/assemble.hpp"
+#include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -52,5 +53,7 @@ Structure linear_structure(const Model& model);
 
 /// The system of a scene as linear analyses have it: with films, if the model has any.
 System linear_system(const Model& model, const Scene& scene);
+/// Its lowest modes, each with the coefficients of its own frequency.
+Modes linear_modes(const Model& model, const Scene& scene, int count);
 
 }  // namespace whirl::inline dyn

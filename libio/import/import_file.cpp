@@ -1,5 +1,6 @@
 #include "libio/import/import_file.hpp"
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -29,6 +30,38 @@ ConfigNode tree_of(const std::string& text, const std::string& name) {
   return is_json ? parse_json(text, name) : parse_toml(text, name);
 }
 
+/// A folder that goes when this does.
+struct TemporaryFolder {
+  fs::path path;
+
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "whirl_import_XXXXXX").string();
+    if (!::mkdtemp(pattern.data())) throw FileError(pattern + ": cannot make a folder");
+    path = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+/// Refuses a model that cannot be read, before anything takes its place.
+void require_readable(const ImportedModel& written, const std::string& file) {
+  const TemporaryFolder folder;
+  for (const ImportedTable& table : written.tables) {
+    replace_file(folder.path / table.name, table.text);
+  }
+  try {
+    parse_model(written.text, file, {}, folder.path);
+  } catch (const ModelError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& p : problems) p.where.line = 0;  // of the model, which is nowhere
+    throw ModelError(std::move(problems));
+  }
+}
+
 }  // namespace
 
 Imported import_file(const fs::path& file, const fs::path& place, Replaces replaces) {
@@ -44,6 +77,7 @@ Imported import_file(const fs::path& file, const fs::path& place, Replaces repla
   for (const ImportedTable& table : written.tables) {
     imported.files.push_back((place.parent_path() / table.name).string());
   }
+  require_readable(written, file.string());
   for (const std::string& taken : imported.files) require_replaceable(taken, replaces);
   for (std::size_t i = 0; i < written.tables.size(); ++i) {
     replace_file(imported.files[i + 1], written.tables[i].text, replaces);

@@ -161,6 +161,9 @@ std::vector<double> coefficients_of(const Section& s, std::string_view key) {
   if (!is_grid) return s.numbers(key);
   std::vector<double> all;
   for (const ConfigNode& line : value->items) {
+    if (line.kind != ConfigNode::Kind::array) {
+      s.problem(line.where, key, "expected a list for every speed, as the first one is");
+    }
     for (const ConfigNode& item : line.items) all.push_back(s.number_of(item, key));
   }
   return all;
@@ -179,7 +182,7 @@ void read_bearing(const Section& s, RossRotor& rotor, bool is_before_3) {
   const std::size_t speeds = std::max<std::size_t>(1, axes.speed.size()),
                     frequencies = std::max<std::size_t>(1, axes.whirl.size());
   const bool is_grid = rows == speeds * frequencies,
-             is_list = rows == std::max(speeds, frequencies);
+             is_list = speeds == frequencies && rows == speeds;
   if (!is_grid && !is_list) {
     s.problem(s.where(), "kxx",
               fmt::format("has {} values for {} speeds and {} frequencies", rows, axes.speed.size(),

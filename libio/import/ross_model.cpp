@@ -14,7 +14,6 @@ namespace whirl::inline io {
 namespace {
 
 constexpr double least_stiffness = 1.0;  ///< Young's modulus of a shaft that bears nothing [Pa]
-constexpr const char* gap_material = "nothing";
 
 /// A text between quotation marks, as TOML has it.
 std::string toml_text(const std::string& text) {
@@ -46,9 +45,17 @@ std::string number(double value) {
   return fmt::format("{}{}e{}", first == 1 ? "-" : "", digits, exponent);
 }
 
+/// A text for a comment, which ends with its line.
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  }
+  return text;
+}
+
 /// A matrix: one value if it is that of both directions, else each that is not zero.
 std::string matrix(double xx, double xy, double yx, double yy) {
-  if (xx == yy && xy == 0.0 && yx == 0.0) return number(xx);
+  if (xx == yy && xx >= 0.0 && xy == 0.0 && yx == 0.0) return number(xx);
   std::string text = fmt::format("{{ xx = {}, yy = {}", number(xx), number(yy));
   if (xy != 0.0) text += fmt::format(", xy = {}", number(xy));
   if (yx != 0.0) text += fmt::format(", yx = {}", number(yx));
@@ -100,8 +107,9 @@ class Writer {
 
   ImportedModel write() {
     sort_out_elements();
-    text("# From {}, saved by ROSS {}.\nformat = 1\ntitle  = {}\n", source_,
-         rotor_.version.empty() ? "(of unknown version)" : rotor_.version, toml_text(stem_));
+    text("# From {}, saved by ROSS {}.\nformat = 1\ntitle  = {}\n", one_line(source_),
+         rotor_.version.empty() ? "(of unknown version)" : one_line(rotor_.version),
+         toml_text(stem_));
     for (const RossMaterial& m : rotor_.materials) {
       text("\n[material.{}]\ndensity        = {}\nyoungs_modulus = {}\nshear_modulus  = {}\n",
            key_of(m.name), number(m.rho), number(m.E), number(m.G));
@@ -126,6 +134,14 @@ class Writer {
     for (int copy = 2; !names_[kind].insert(name).second; ++copy) {
       name = fmt::format("{} {}", wanted, copy);
     }
+    return name;
+  }
+
+  /// Name of what is between the halves of a coupling, which no other material has.
+  std::string gap_material() const {
+    std::string name = "nothing";
+    const auto is_taken = [&](const RossMaterial& m) { return m.name == name; };
+    while (std::any_of(rotor_.materials.begin(), rotor_.materials.end(), is_taken)) name += "_";
     return name;
   }
 
@@ -195,14 +211,14 @@ class Writer {
       text(
           "\n[material.{}]                # between the halves of a coupling\ndensity        = 0\n"
           "youngs_modulus = {}\npoisson_ratio  = 0.3\n",
-          gap_material, least_stiffness);
+          key_of(gap_material()), least_stiffness);
     }
     for (const RossCoupling& c : rotor_.couplings) {
       segments[c.node] = fmt::format(
           "\n[[shaft]]                       # nodes {} to {}: {}\nlength         = {}\n"
-          "elements       = 1\nmaterial       = \"{}\"\nouter_diameter = {}\n",
-          c.node + 1, c.node + 2, c.name, c.length, gap_material,
-          c.outer > 0.0 ? c.outer : shaft_.front()->outer[0]);
+          "elements       = 1\nmaterial       = {}\nouter_diameter = {}\n",
+          c.node + 1, c.node + 2, one_line(c.name), c.length, toml_text(gap_material()),
+          c.outer > 0.0 ? c.outer : rotor_.elements.front().outer[0]);
     }
     for (const auto& [node, segment] : segments) result_.text += segment;
     for (const Run& run : runs_of(layers_)) {
@@ -210,6 +226,11 @@ class Writer {
            run.element->node + 1, run.end() + 1);
       write_beam_keys(*run.element);
       if (run.element->inner[0] == 0.0) text("inner_diameter = 0\n");
+      if (run.element->axial_force != 0.0 || run.element->torque != 0.0) {
+        result_.left_out.push_back(
+            fmt::format("axial force and torque of the layer at nodes {} to {}",
+                        run.element->node + 1, run.end() + 1));
+      }
     }
   }
 
@@ -279,6 +300,12 @@ class Writer {
     int node = b.node, link = b.link;
     if (link >= 0 && is_on_shaft(link) && !is_on_shaft(node)) std::swap(node, link);
     const bool is_link = link >= 0 && is_on_shaft(link);
+    if (is_link && (b.has_speed || b.has_whirl)) {
+      throw ModelError(
+          b.where, b.name,
+          "coefficients of a link between two nodes of the shaft that change with speed "
+          "or frequency have no place in a model; give constant ones");
+    }
     const std::string kind = is_link ? "link" : b.is_seal ? "seal" : "bearing";
     const std::string name = unique(kind, b.name);
     text("\n[[{}]]\nname       = {}\n", kind, toml_text(name));
@@ -290,7 +317,8 @@ class Writer {
       if (link >= 0) text("to         = {}\n", toml_text(supports_.at(link)));
     }
     if (b.has_speed || b.has_whirl) {
-      const std::string file = fmt::format("{}_{}.csv", stem_, file_part(name));
+      const std::string file =
+          unique("file", fmt::format("{}_{}", stem_, file_part(name))) + ".csv";
       result_.tables.push_back({file, table_of(b)});
       text("table      = {}\n", toml_text(file));
       return;

@@ -137,7 +137,7 @@ MotionState ModelFamily::start(const Model& member, const Scene& scene,
   }
   if (!known || known->Omega != member.speed || known->count != count) {
     known = std::make_shared<const State::KnownModes>(
-        State::KnownModes{member.speed, count, complex_modes(linear_system(member, scene), count)});
+        State::KnownModes{member.speed, count, linear_modes(member, scene, count)});
     const std::lock_guard lock(state_->mutex);
     state_->modes = known;
   }

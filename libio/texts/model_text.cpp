@@ -89,8 +89,19 @@ std::vector<std::string> table_notes(const Structure& structure,
                                      const std::vector<double>& speeds) {
   const auto [low, high] = std::minmax_element(speeds.begin(), speeds.end());
   const double lowest = *low, highest = *high;
-  std::vector<std::string> notes;
+  std::vector<ExceededTable> tables;  // one of each range, with all names
   for (const ExceededTable& table : exceeded_tables(structure, lowest, highest)) {
+    const auto same = std::find_if(tables.begin(), tables.end(), [&](const ExceededTable& t) {
+      return t.first == table.first && t.last == table.last;
+    });
+    if (same == tables.end()) {
+      tables.push_back(table);
+    } else {
+      same->name += ", " + table.name;
+    }
+  }
+  std::vector<std::string> notes;
+  for (const ExceededTable& table : tables) {
     std::string beyond;
     if (lowest < table.first) {
       beyond = fmt::format("below (asked: {:.6g} rpm)", lowest / rpm);

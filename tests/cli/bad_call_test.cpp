@@ -35,7 +35,7 @@ TEST_F(BadCall, VerbsThatDoNotExist) {
             "whirl: there is no verb \"rerunn\"; did you mean \"rerun\"?\n");
   EXPECT_EQ(problem_of_line({"--verison"}),
             "whirl: there is no option \"--verison\"; did you mean \"--version\"?\n");
-  EXPECT_TRUE(has(problem_of_line({"dance"}), "known are check, static, modes, "));
+  EXPECT_TRUE(has(problem_of_line({"dance"}), "known are check, import, static, modes, "));
 }
 
 TEST_F(BadCall, OptionsThatDoNotExist) {

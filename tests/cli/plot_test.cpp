@@ -99,6 +99,7 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"static", WHIRL_SOURCE_DIR "/models/two_disk_double_rub.toml"}, {"layout", "static"}},
       {{"unbalance", disks, "--speeds", "0:8000:100rpm"},
        {"layout", "bode", "polar", "deflection"}},
+      {{"frf", disks}, {"layout", "frf"}},
       {{"identify", disks, "--revolutions", "64"},
        {"layout", "modes", "orbit", "time_history", "spectrum", "waterfall", "poincare",
         "contact_forces", "contact_angles", "mac"}},

@@ -132,7 +132,7 @@ TEST_F(VerbsOfTheProgram, RefuseValuesThatMeanNothingByTheNamesOfTheirOptions) {
             0);
   int refused = 0;
   for (const Verb& verb : verbs()) {
-    if (!verb.run.with) continue;
+    if (!verb.run.with || verb.name == "import") continue;  // its file is none of ours
     const std::string file = verb.takes == "MODEL" ? "rub.toml" : "run.h5";
     for (const OptionSpec& option : own_options(verb)) {
       if (option.is_flag() || std::regex_match(std::string(option.value), any_text)) continue;

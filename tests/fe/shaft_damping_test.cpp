@@ -65,6 +65,26 @@ TEST(ModalDamping, OfOneRatioIsThatOfEveryMode) {
   }
 }
 
+// Added mass of a table counts as that of constants does; films carry nothing at rest and are not
+// asked for anything.
+TEST(ModalDamping, KnowsTablesAndNoFilms) {
+  BearingCoefficients seal = isotropic(1e6);
+  seal.M = 20.0 * Mat2::Identity();
+  Structure s = shaft();
+  s.seals = {bearing(node(4), TableBearing{{.speed = {100.0}, .rows = {seal}}})};
+  s.modal_damping = {{0.03}, true};
+  const auto at = [](double Omega, double) {
+    if (Omega == 0.0) throw NumericalError("a film carries nothing");
+    return BearingCoefficients{};
+  };
+  s.linearized = {{.name = "film", .from = node(4), .to = ground(), .at = at}};
+  const Assembler with_film(s);
+  s.linearized.clear();
+  for (const Mode& mode : complex_modes(assemble(s, 0.0), 6).oscillatory) {
+    EXPECT_NEAR(mode.damping_ratio(), 0.03, 1e-9);
+  }
+}
+
 // Rigid-body modes have no frequency and get no damping; massless parts are condensed as before.
 TEST(ModalDamping, LeavesRigidBodiesAndMasslessPartsAlone) {
   Structure free{.shaft = {cylinder(0.6, 0.03, 6)}, .modal_damping = {{0.02, 0.02}}};

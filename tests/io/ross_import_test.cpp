@@ -75,6 +75,7 @@ TEST_P(SavedRotor, HasTheEigenvaluesOfRoss) {
     std::vector<Complex> found;
     const Modes modes = complex_modes(assembler.at(Omega), static_cast<int>(values.size()) + 4);
     for (const Mode& mode : modes.oscillatory) found.push_back(mode.lambda);
+    for (const Complex& lambda : modes.overdamped) found.push_back(lambda);  // ROSS lists some
     for (const json& value : values) {
       const Complex lambda(value.at(0), value.at(1));
       const auto nearest = std::min_element(found.begin(), found.end(), [&](auto a, auto b) {
@@ -154,6 +155,37 @@ TEST(RossImport, ReadsCoefficientsOverSpeedAndFrequency) {
   EXPECT_EQ(imported(small + bearing, "rotor.toml").tables.at(0).text,
             "speed [rad/s], whirl [rad/s], kxx [N/m]\n"
             "10, 1, 1\n10, 2, 2\n10, 3, 3\n20, 1, 4\n20, 2, 5\n20, 3, 6\n");
+}
+
+// Seals push their rotors off; two things of one name have a table each; a version of two lines is
+// a comment of one; a coupling without a diameter takes one.
+TEST(RossImport, TakesWhatIsUnusual) {
+  std::string text = small;
+  text.replace(text.find("3.0.0"), 5, "3.0\\nnonsense");
+  text +=
+      "[SealElement_1]\nn = 0\nkxx = -1e5\nkyy = -1e5\ntag = \"A B\"\nfrequency = [1.0]\n"
+      "[SealElement_2]\nn = 1\nkxx = -1e5\nkyy = -1e5\n"
+      "[BearingElement_3]\nn = 1\nkxx = [1e7, 2e7]\ntag = \"A B\"\nspeed = [1.0, 2.0]\n"
+      "[CouplingElement_4]\nn = 1\nL = 0.1\nm_l = 1.0\nm_r = 2.0\nkt_x = 1e6\nkt_y = 1e6\n";
+  const ImportedModel written = imported(text, "rotor.toml");
+  ASSERT_EQ(written.tables.size(), 2U);
+  EXPECT_NE(written.tables[0].name, written.tables[1].name);
+  const Model model = model_in_files(written);
+  EXPECT_EQ(model.structure.seals.size(), 2U);
+  EXPECT_EQ(model.structure.links.size(), 1U);
+  EXPECT_EQ(model.structure.shaft.at(1).left.outer, 0.05);
+}
+
+TEST(RossImport, RefusesWhatAModelCannotSay) {
+  const std::string link =
+      "[BearingElement_a]\nn = 0\nn_link = 1\nkxx = [1e7, 2e7]\nspeed = [1.0, 2.0]\n";
+  EXPECT_NE(refusal(small + link).find("two nodes of the shaft"), std::string::npos);
+  const std::string ragged = "[BearingElement_a]\nn = 0\nkxx = [[1e7], 2e7]\nspeed = [1.0, 2.0]\n";
+  EXPECT_NE(refusal(small + ragged).find("expected a list for every speed"), std::string::npos);
+  const std::string unequal =
+      "[BearingElement_a]\nn = 0\nkxx = [1.0, 2.0, 3.0]\n"
+      "speed = [1.0, 2.0, 3.0]\nfrequency = [1.0, 2.0]\n";
+  EXPECT_NE(refusal(small + unequal).find("3 values for 3 speeds"), std::string::npos);
 }
 
 TEST(RossImport, SaysWhereAFileIsWrong) {
