@@ -416,7 +416,7 @@ def results(whirl, repository, folder):
          "--discard", "2", "--revolutions", "2"),
         ("long", "simulate", models / "dropped_rotor.toml", "--discard", "0", "--revolutions", "128"),
         ("disks", "unbalance", models / "two_disk_mac.toml", "--speeds", "0:8000:400rpm"),
-        ("disks", "frf", models / "two_disk_mac.toml", "--from", "7:forward,7:x"),
+        ("responses", "frf", models / "two_disk_mac.toml", "--from", "7:forward,7:x"),
         ("critical", "critical", models / "two_disk_mac.toml"),
         ("shapes", "modes", models / "two_disk_mac.toml"),
         ("sag", "static", models / "two_disk_double_rub.toml"),
