@@ -133,7 +133,7 @@ Mat line_of(const Beam& beam, const BeamIntegrals& integrals, const Plane& plane
 
 BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& displacement) {
   const Mesh& mesh = assembler.mesh();
-  const DofMap dofs = assembler.uncondensed(Omega).dofs;
+  const DofMap& dofs = assembler.dofs();
   const auto size = static_cast<Eigen::Index>(mesh.elements.size()) * (pieces + 1);
   BendingLine line{Vec(size), Mat(size, 2), Mat(size, 2), Mat(size, 2)};
   int internal = 4 * dofs.nodes;  // index of the amplitudes of the next beam's own functions

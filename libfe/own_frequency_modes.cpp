@@ -9,6 +9,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/sparse_lu.hpp"
+#include "libfe/campbell.hpp"
 
 namespace whirl::inline fe {
 
@@ -35,11 +36,6 @@ constexpr double window = 0.5;  ///< of a frequency: modes around it that may be
 /// q^H W p.
 Complex product(const CVec& q, const Sparse& W, const CVec& p) {
   return q.dot(CVec(W * p));
-}
-
-double agreement(const CVec& a, const CVec& b, const Sparse& W) {
-  const double aa = product(a, W, a).real(), bb = product(b, W, b).real();
-  return aa > 0.0 && bb > 0.0 ? std::norm(product(a, W, b)) / (aa * bb) : 0.0;
 }
 
 /// An eigenpair of the system at a frequency.
@@ -80,7 +76,7 @@ std::optional<Pair> followed(const SystemAtFrequency& system, const Pair& from, 
   const auto pair = solved(there, omega, from);
   const bool is_same = pair &&
                        std::abs(pair->lambda - from.lambda) <= near * std::abs(from.lambda) &&
-                       agreement(pair->q, from.q, there.M) >= alike;
+                       mac(pair->q, from.q, there.M) >= alike;
   if (is_same) return pair;
   if (depth == most_halvings) return std::nullopt;
   const auto middle = followed(system, from, 0.5 * (from.omega + omega), depth + 1);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/modes.hpp"
@@ -135,7 +135,6 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
       is_bounded = is_bounded && q.has_value();
       const CVec full = q ? CVec(dofs.T * *q) : CVec();
       for (std::size_t t = 0; t < to.size(); ++t) {
-        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
         const Complex H = q ? motion_of(to[t], dofs, full) : Complex(nan, nan);
         ResponsePair& pair = result.pairs[f * to.size() + t];
         pair.receptance(k) = H;

@@ -25,7 +25,7 @@ StaticStudy static_study(const Model& model, const Assembler& assembler) {
   find_equilibrium(model, assembler, study);
   const Vec& displacement = study.at_rest.displacement;
   study.line = bending_line(assembler, model.speed, displacement);
-  const DofMap dofs = assembler.uncondensed(model.speed).dofs;
+  const DofMap& dofs = assembler.dofs();
   for (const NamedPoint& p : named_points(model, assembler)) {
     RestingStation at{.name = p.name, .label = p.label()};
     at.x = displacement(dofs.full_index(p.point, X));

@@ -11,7 +11,7 @@ ModelFacts model_facts(const Model& model, const Assembler& assembler) {
   ModelFacts facts{.mass = rotor.mass,
                    .length = s.length(),
                    .nodes = static_cast<int>(assembler.mesh().nodes()),
-                   .dofs = static_cast<int>(assembler.uncondensed(model.speed).size()),
+                   .dofs = assembler.dofs().size(),
                    .condensed_dofs = assembler.at(model.speed).dofs.condensed,
                    .contacts = static_cast<long>(model.contacts.size()),
                    .polar_inertia = rotor.Ip};

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "libdyn/system/stations.hpp"
+#include "libio/results/csv_tables.hpp"
 
 namespace whirl::inline io {
 
@@ -126,14 +127,11 @@ std::vector<fs::path> write_matrix_market(const fs::path& stem, const Model& mod
   const Vec z = point_names(model, assembler).z;
   std::string table(dofs_head);
   for (std::size_t q = 0; q < names.size(); ++q) {
-    std::string name = names[q], at;
-    for (std::size_t mark = 0; (mark = name.find('"', mark)) != std::string::npos; mark += 2) {
-      name.insert(mark, 1, '"');  // as CSV doubles them
-    }
+    std::string at;
     for (Sparse::InnerIterator it(system.dofs.T, static_cast<int>(q)); it && at.empty(); ++it) {
       if (it.row() < 4 * system.dofs.nodes) at = fmt::format("{}", z(it.row() / 4));
     }
-    table += fmt::format("{},\"{}\",{}\n", q + 1, name, at);
+    table += fmt::format("{},{},{}\n", q + 1, csv_quoted(names[q]), at);
   }
   files.emplace_back(stem.string() + "_dofs.csv");
   replace_file(files.back(), table, replaces_own(files.back(), dofs_head, replaces));

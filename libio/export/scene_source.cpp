@@ -33,7 +33,7 @@ std::vector<VtkFrame> SceneSource::motion(const MotionSamples& samples, long mos
   const auto contacts = static_cast<Eigen::Index>(model.contacts.size());
   Mat normal = Mat::Zero(contacts, recorded.time.size()), friction = normal;
   if (recorded.normal.size() > 0) normal = recorded.normal, friction = recorded.friction;
-  const int dofs = assembler.uncondensed(0.0).dofs.full_size;
+  const int dofs = assembler.dofs().full_size;
   if (recorded.basis.rows() != dofs || normal.rows() != contacts) {
     throw ModelError({}, "",
                      fmt::format("the motion is of another rotor ({} degrees of freedom, {} "

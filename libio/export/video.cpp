@@ -4,16 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstdlib>
-#include <cstring>
 #include <optional>
 
 #include "libbase/error.hpp"
 #include "libbase/program.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libio/results/temporary_folder.hpp"
 #include "libio/text/option_values.hpp"
 
 namespace whirl::inline io {
@@ -22,42 +20,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is removed at the end: among the system's temporary ones, or beside the result
-/// where there are none.
-class Folder {
- public:
-  explicit Folder(const fs::path& beside) {
-    std::error_code problem;
-    fs::path parent = fs::temp_directory_path(problem);
-    if (problem) {
-      parent = fs::absolute(beside).parent_path();
-      ::setenv("TMPDIR", parent.c_str(), 1);  // for the programs that this one calls
-    }
-    std::string name = (parent / "whirl_animate_XXXXXX").string();
-    if (!::mkdtemp(name.data())) {
-      throw FileError(fmt::format("cannot make the folder {}: {}", name, std::strerror(errno)));
-    }
-    path = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
+/// Where an animation is put together.
+struct Folder : TemporaryFolder {
+  explicit Folder(const fs::path& beside) : TemporaryFolder("animate", beside) {}
 
-  fs::path output() const { return path / "output.txt"; }  ///< of the programs that draw
+  fs::path output() const { return path() / "output.txt"; }  ///< of the programs that draw
   /// Files of an ending, in the order of their names.
   std::vector<fs::path> files(const std::string& ending) const {
     std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(path)) {
+    for (const auto& entry : fs::directory_iterator(path())) {
       if (entry.path().extension() == ending) found.push_back(entry.path());
     }
     std::sort(found.begin(), found.end());
     return found;
   }
-
-  fs::path path;
 };
 
 /// The program that draws, beside this one.
@@ -104,14 +80,14 @@ void render(const fs::path& series, const fs::path& to, const VideoOptions& opti
 
 /// Makes a video .gif, played in a loop, of the pictures video_0001.png, ...; VTK does not write it.
 void make_gif(const Folder& folder, long rate) {
-  const std::string to = folder.path / "video.gif";
+  const std::string to = folder.path() / "video.gif";
   const std::vector<std::string> with_ffmpeg{
       "ffmpeg",
       "-y",
       "-framerate",
       fmt::format("{}", rate),
       "-i",
-      (folder.path / "video_%04d.png").string(),
+      (folder.path() / "video_%04d.png").string(),
       "-filter_complex",
       "split[a][b];[a]palettegen=stats_mode=full[colors];[b][colors]paletteuse",
       to};
@@ -162,9 +138,9 @@ std::vector<fs::path> write_video(const VtkScene& scene, const std::vector<VtkFr
   require_video_place(options);
   const std::string ending = options.place.extension();
   const Folder folder(options.place);
-  const fs::path series = folder.path / "series.pvd";
+  const fs::path series = folder.path() / "series.pvd";
   write_vtk_series(series, scene, frames);
-  render(series, folder.path / (ending == ".gif" ? "video.png" : "video" + ending), options,
+  render(series, folder.path() / (ending == ".gif" ? "video.png" : "video" + ending), options,
          folder.output());
   if (ending == ".gif") make_gif(folder, options.rate);
   std::vector<fs::path> places;

@@ -123,7 +123,7 @@ std::vector<VtkFrame> vtk_mode_frames(const Mode& mode, const DofMap& dofs, cons
 
 VtkFrame vtk_frame(const Model& model, const Assembler& assembler, double time, const Vec& full,
                    const Vec& normal, const Vec& friction) {
-  const DofMap dofs = assembler.uncondensed(0.0).dofs;
+  const DofMap& dofs = assembler.dofs();
   VtkFrame frame{.time = time, .motion = Mat::Zero(dofs.nodes + dofs.bodies(), 4)};
   Eigen::Index row = 0;
   for (const Point& p : dofs.points()) {

@@ -52,7 +52,7 @@ struct Touches {
 };
 
 Touches touches_of(const ResultView& result, std::size_t contact, const MotionRecord& m) {
-  const DofMap dofs = result.assembler->uncondensed(0.0).dofs;
+  const DofMap& dofs = result.assembler->dofs();
   const Contact& c = result.model->contacts[contact];
   const Point at = result.assembler->point(c.at), against = result.assembler->point(c.against);
   Mat U = Mat::Zero(2, m.basis.cols());
@@ -76,7 +76,7 @@ std::vector<Figure> contact_angle_figures(const ResultView& result) {
   const auto& motion = result_of<MotionRecord>(result);
   const auto contacts = result.model->contacts.size();
   if (static_cast<std::size_t>(motion.normal.rows()) != contacts ||
-      motion.basis.rows() != result.assembler->uncondensed(0.0).dofs.full_size)
+      motion.basis.rows() != result.assembler->dofs().full_size)
     return {};
   std::vector<Figure> figures;
   for (std::size_t i = 0; i < contacts; ++i) {

@@ -1,12 +1,12 @@
 #include "libio/import/import_file.hpp"
 
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "libio/import/parse_json.hpp"
 #include "libio/import/ross_model.hpp"
 #include "libio/model/model_file.hpp"
+#include "libio/results/temporary_folder.hpp"
 
 namespace whirl::inline io {
 
@@ -30,34 +30,18 @@ ConfigNode tree_of(const std::string& text, const std::string& name) {
   return is_json ? parse_json(text, name) : parse_toml(text, name);
 }
 
-/// A folder that goes when this does.
-struct TemporaryFolder {
-  fs::path path;
-
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "whirl_import_XXXXXX").string();
-    if (!::mkdtemp(pattern.data())) throw FileError(pattern + ": cannot make a folder");
-    path = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-};
-
-/// Refuses a model that cannot be read, before anything takes its place.
-void require_readable(const ImportedModel& written, const std::string& file) {
-  const TemporaryFolder folder;
+/// The model as it will be read at its place, before anything is written there.
+/// @throws ModelError  of the file, if what became of it cannot be read
+Model readable(const ImportedModel& written, const fs::path& file, const fs::path& place) {
+  const TemporaryFolder folder("import", place);
   for (const ImportedTable& table : written.tables) {
-    replace_file(folder.path / table.name, table.text);
+    replace_file(folder.path() / table.name, table.text);
   }
   try {
-    parse_model(written.text, file, {}, folder.path);
+    return parse_model(written.text, place.string(), {}, folder.path());
   } catch (const ModelError& error) {
     std::vector<Problem> problems = error.problems();
-    for (Problem& p : problems) p.where.line = 0;  // of the model, which is nowhere
+    for (Problem& p : problems) p.where = {file.string()};  // the model is nowhere
     throw ModelError(std::move(problems));
   }
 }
@@ -77,13 +61,12 @@ Imported import_file(const fs::path& file, const fs::path& place, Replaces repla
   for (const ImportedTable& table : written.tables) {
     imported.files.push_back((place.parent_path() / table.name).string());
   }
-  require_readable(written, file.string());
+  imported.model = readable(written, file, place);
   for (const std::string& taken : imported.files) require_replaceable(taken, replaces);
   for (std::size_t i = 0; i < written.tables.size(); ++i) {
     replace_file(imported.files[i + 1], written.tables[i].text, replaces);
   }
   replace_file(place, written.text, replaces);
-  imported.model = read_model(place);
   return imported;
 }
 

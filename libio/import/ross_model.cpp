@@ -15,22 +15,6 @@ namespace {
 
 constexpr double least_stiffness = 1.0;  ///< Young's modulus of a shaft that bears nothing [Pa]
 
-/// A text between quotation marks, as TOML has it.
-std::string toml_text(const std::string& text) {
-  ConfigNode node;
-  node.kind = ConfigNode::Kind::string;
-  node.text = text;
-  return node.as_written();
-}
-
-/// A key of a table: bare, if it may be.
-std::string key_of(const std::string& name) {
-  const bool is_bare = std::all_of(name.begin(), name.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
-  });
-  return is_bare && !name.empty() ? name : toml_text(name);
-}
-
 /// A number as people write it: 2.11e11 rather than 211000000000.
 std::string number(double value) {
   std::string text = fmt::format("{}", value);
@@ -112,7 +96,7 @@ class Writer {
          toml_text(stem_));
     for (const RossMaterial& m : rotor_.materials) {
       text("\n[material.{}]\ndensity        = {}\nyoungs_modulus = {}\nshear_modulus  = {}\n",
-           key_of(m.name), number(m.rho), number(m.E), number(m.G));
+           toml_key(m.name), number(m.rho), number(m.E), number(m.G));
     }
     write_shaft();
     write_disks();
@@ -211,7 +195,7 @@ class Writer {
       text(
           "\n[material.{}]                # between the halves of a coupling\ndensity        = 0\n"
           "youngs_modulus = {}\npoisson_ratio  = 0.3\n",
-          key_of(gap_material()), least_stiffness);
+          toml_key(gap_material()), least_stiffness);
     }
     for (const RossCoupling& c : rotor_.couplings) {
       segments[c.node] = fmt::format(

@@ -131,7 +131,9 @@ void check_keys(std::string_view text, const Where& where) {
   }
 }
 
-std::string quoted(std::string_view text) {
+}  // namespace
+
+std::string toml_text(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     switch (c) {
@@ -161,12 +163,14 @@ std::string quoted(std::string_view text) {
   return result + "\"";
 }
 
-std::string key_text(std::string_view key) {
+std::string toml_key(std::string_view key) {
   const bool is_bare = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
     return std::isalnum(c) || c == '_' || c == '-';
   });
-  return is_bare ? std::string(key) : quoted(key);
+  return is_bare ? std::string(key) : toml_text(key);
 }
+
+namespace {
 
 std::string number_text(const ConfigNode& node) {
   if (node.kind == ConfigNode::Kind::integer) return fmt::format("{:.0f}", node.number);
@@ -181,14 +185,14 @@ std::string inline_text(const ConfigNode& node) {
   std::string text;
   switch (node.kind) {
     case ConfigNode::Kind::string:
-      return quoted(node.text);
+      return toml_text(node.text);
     case ConfigNode::Kind::integer:
     case ConfigNode::Kind::real:
       return number_text(node);
     case ConfigNode::Kind::boolean:
       return node.boolean ? "true" : "false";
     case ConfigNode::Kind::other:
-      return quoted("");
+      return toml_text("");
     case ConfigNode::Kind::array:
       for (const ConfigNode& item : node.items)
         text += (text.empty() ? "" : ", ") + inline_text(item);
@@ -197,7 +201,7 @@ std::string inline_text(const ConfigNode& node) {
       break;
   }
   for (const auto& [key, value] : node.entries) {
-    text += (text.empty() ? "" : ", ") + key_text(key) + " = " + inline_text(value);
+    text += (text.empty() ? "" : ", ") + toml_key(key) + " = " + inline_text(value);
   }
   return "{ " + text + " }";
 }
@@ -217,11 +221,11 @@ void write_table(const ConfigNode& table, const std::string& path, std::string& 
   for (const auto& [key, value] : table.entries) {
     const bool is_table = value.kind == ConfigNode::Kind::table;
     if (has_headers && (is_table || (path.empty() && is_array_of_tables(value)))) continue;
-    out += key_text(key) + " = " + inline_text(value) + "\n";
+    out += toml_key(key) + " = " + inline_text(value) + "\n";
   }
   if (!has_headers) return;
   for (const auto& [key, value] : table.entries) {
-    const std::string inner = path.empty() ? key_text(key) : path + "." + key_text(key);
+    const std::string inner = path.empty() ? toml_key(key) : path + "." + toml_key(key);
     if (value.kind == ConfigNode::Kind::table) {
       const bool only_tables =
           !value.entries.empty() &&
@@ -232,7 +236,7 @@ void write_table(const ConfigNode& table, const std::string& path, std::string& 
     } else if (path.empty() && is_array_of_tables(value)) {
       for (const ConfigNode& item : value.items) {
         out += "\n[[" + inner + "]]\n";
-        for (const auto& [k, v] : item.entries) out += key_text(k) + " = " + inline_text(v) + "\n";
+        for (const auto& [k, v] : item.entries) out += toml_key(k) + " = " + inline_text(v) + "\n";
       }
     }
   }

@@ -53,6 +53,10 @@ ConfigNode parse_toml(std::string_view text, const std::string& file);
 ///                     parts
 void set_value(ConfigNode& root, std::string_view assignment);
 
+/// A text between quotation marks, as TOML has it.
+std::string toml_text(std::string_view text);
+/// A key: bare, if it may be.
+std::string toml_key(std::string_view key);
 /// The tree as TOML.
 std::string to_toml(const ConfigNode& root);
 

@@ -55,7 +55,7 @@ const ColumnKind* kind_named(const std::string& name, const std::vector<ColumnKi
 
 /// The column of a cell of the first line.
 NamedColumn column_named(const std::string& cell, const std::vector<ColumnKind>& kinds,
-                         const ReportOfLine& report) {
+                         const ReportProblem& report) {
   const auto bracket = cell.find('[');
   const std::string name = trimmed(std::string_view(cell).substr(0, bracket));
   NamedColumn column{kind_named(compared(name), kinds), ""};
@@ -81,7 +81,7 @@ NamedColumn column_named(const std::string& cell, const std::vector<ColumnKind>&
 
 std::vector<NamedColumn> columns_of(std::vector<std::string> cells,
                                     const std::vector<ColumnKind>& kinds,
-                                    const ReportOfLine& report) {
+                                    const ReportProblem& report) {
   while (cells.size() > 1 && cells.back().empty()) cells.pop_back();
   std::vector<NamedColumn> columns;
   for (const std::string& cell : cells) {
@@ -97,7 +97,7 @@ std::vector<NamedColumn> columns_of(std::vector<std::string> cells,
 
 /// Reads a cell with something in it.
 void read_cell(const NamedColumn& column, const std::string& cell, Delimiter delimiter,
-               DelimitedRow& row, const ReportOfLine& report) {
+               DelimitedRow& row, const ReportProblem& report) {
   const ColumnKind& kind = *column.kind;
   if (kind.is_text) {
     row.texts[kind.name] = cell;
@@ -131,7 +131,7 @@ DelimitedTable parse_delimited(const std::string& text, const std::string& file,
   Delimiter delimiter = Delimiter::comma;
   for (int number = 1; std::getline(lines, line); ++number) {
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
-    const ReportOfLine report = [&](std::string key, std::string message) {
+    const ReportProblem report = [&](std::string key, std::string message) {
       problems.push_back({{file, number, 1}, std::move(key), std::move(message)});
     };
     if (trimmed(line).empty() || trimmed(line)[0] == '#') continue;

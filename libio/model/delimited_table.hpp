@@ -1,7 +1,6 @@
 #pragma once
 /// Tables as spreadsheets save them: a line of column names with units in brackets, then rows.
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,9 +11,6 @@
 #include "libbase/field.hpp"
 
 namespace whirl::inline io {
-
-/// Reports a problem of a line: the column's name, and what is wrong.
-using ReportOfLine = std::function<void(std::string, std::string)>;
 
 /// A column that a table may have.
 struct ColumnKind {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libio/model/delimited_table.hpp"
+#include "libio/text/delimited.hpp"
 #include "libio/text/nearest.hpp"
 
 namespace whirl::inline io {
@@ -73,7 +74,7 @@ void check_columns(const DelimitedTable& table, const std::string& file,
 
 /// A whole number from a cell.
 std::optional<int> whole(const DelimitedRow& row, const char* column, double most,
-                         const ReportOfLine& report) {
+                         const ReportProblem& report) {
   const auto value = row.number(column);
   if (!value) return std::nullopt;
   if (*value == std::floor(*value) && *value <= most) return static_cast<int>(*value);
@@ -90,7 +91,7 @@ std::pair<std::optional<double>, std::optional<double>> ends(const DelimitedRow&
 }
 
 void read_diameters(const DelimitedRow& from, bool is_layer, ShaftRow& row,
-                    const ReportOfLine& report) {
+                    const ReportProblem& report) {
   const auto outer = ends(from, "outer"), inner = ends(from, "inner");
   if (!outer.first || !outer.second) {
     report("outer_diameter", "missing, expected an outer diameter (m) at both ends");
@@ -113,7 +114,7 @@ void read_diameters(const DelimitedRow& from, bool is_layer, ShaftRow& row,
 
 /// What of a row does not go with its being a layer, or the shaft itself.
 void check_place(const DelimitedRow& from, const ShaftRow* base, ShaftRow& row,
-                 const ReportOfLine& report) {
+                 const ReportProblem& report) {
   const auto length = from.number("length");
   if (row.layer == 1) {
     if (!length) report("length", "missing, expected a length (m)");
@@ -139,7 +140,7 @@ void check_place(const DelimitedRow& from, const ShaftRow* base, ShaftRow& row,
   }
 }
 
-void read_carries(const DelimitedRow& from, ShaftRow& row, const ReportOfLine& report) {
+void read_carries(const DelimitedRow& from, ShaftRow& row, const ReportProblem& report) {
   const auto found = from.texts.find("carries");
   if (found == from.texts.end()) return;
   for (const auto& [name, value] : choices(Carries{})) {
@@ -167,7 +168,7 @@ std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::stri
   }
   std::optional<ShaftRow> base;
   for (const DelimitedRow& from : table.rows) {
-    const ReportOfLine report = [&](std::string key, std::string message) {
+    const ReportProblem report = [&](std::string key, std::string message) {
       problems.push_back({{file, from.line, 1}, std::move(key), std::move(message)});
     };
     ShaftRow row{.line = from.line};

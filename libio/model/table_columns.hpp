@@ -1,7 +1,6 @@
 #pragma once
 /// What the columns of a table of bearing coefficients mean, by the names that programs give them.
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,6 @@ struct CoefficientColumn {
   int row = 0, column = 0;
   bool needs_unit = false;  ///< named as other programs do, who do not mean SI
 };
-
-/// Reports a problem of a line: the column's name, and what is wrong.
-using ReportProblem = std::function<void(std::string, std::string)>;
 
 /// Columns that a line names, one per cell; what is not understood is reported.
 ///

@@ -139,7 +139,7 @@ void add_responses(const ResultView& result, const DofMap& dofs, Record& motions
 Record motion_record(const ResultView& result, ArrayStore& arrays) {
   Record r, motions = Record::array();
   if (!result.assembler) return r;
-  const DofMap dofs = result.assembler->uncondensed(0.0).dofs;
+  const DofMap& dofs = result.assembler->dofs();
   const std::vector<int> rows = rows_of(dofs);
   bool moves = false;
   if (result.file.has(dataset_of<MotionRecord>(&MotionRecord::coordinates))) {

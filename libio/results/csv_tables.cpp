@@ -42,10 +42,7 @@ std::string csv_text(const std::string& text) {
   constexpr std::string_view formula = "=+-@\t\r";
   const bool is_formula = !text.empty() && formula.find(text.front()) != std::string_view::npos;
   const std::string cell = is_formula ? '\'' + text : text;
-  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
-  std::string result = "\"";
-  for (const char c : cell) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + '"';
+  return cell.find_first_of(",\"\n\r") == std::string::npos ? cell : csv_quoted(cell);
 }
 
 /// All values of a dataset as texts, the last index running fastest.
@@ -225,6 +222,12 @@ std::vector<std::string> real_axes(const ResultReader& file, const std::string& 
 }
 
 }  // namespace
+
+std::string csv_quoted(std::string_view cell) {
+  std::string result = "\"";
+  for (const char c : cell) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
+}
 
 std::vector<fs::path> write_csv_tables(const ResultReader& result, const fs::path& stem,
                                        Replaces replaces,

@@ -10,6 +10,9 @@
 
 namespace whirl::inline io {
 
+/// A cell in quotation marks; those in it are doubled.
+std::string csv_quoted(std::string_view cell);
+
 /// Writes the groups of a result as "<stem>_<group>_<rows>.csv".
 ///
 /// Datasets of a group that have the same axes of numbers (time, speed, the values of a study) are

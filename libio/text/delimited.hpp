@@ -2,6 +2,7 @@
 /// Lines of tables that other programs write: what stands between commas, semicolons, tabs or
 /// blanks.
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {
+
+/// Reports a problem of a line of a table: the column's name, and what is wrong.
+using ReportProblem = std::function<void(std::string, std::string)>;
 
 enum class Delimiter { comma, semicolon, tab, blanks };
 

@@ -28,6 +28,7 @@ std::string content(const fs::path& file) {
 }
 
 fs::path saved(const std::string& name) {
+  if (name == "layered.json") return fs::path(WHIRL_SOURCE_DIR) / "models/layered_ross.json";
   return fs::path(WHIRL_TEST_DATA) / "ross" / name;
 }
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace whirl::inline io {
+
+/// A folder that is removed at the end: among the system's temporary ones, or beside a file where
+/// there are none.
+class TemporaryFolder {
+ public:
+  /// @param what    for its name: "animate"
+  /// @param beside  a file
+  /// @throws FileError  if there can be none
+  TemporaryFolder(const std::string& what, const std::filesystem::path& beside);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace whirl::inline io
