@@ -7,6 +7,7 @@
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libbase/roots.hpp"
+#include "libfe/followed_modes.hpp"
 
 namespace whirl::inline fe {
 
@@ -30,8 +31,8 @@ struct Front {
 };
 
 /// Assigns modes to branches, best agreement first. Returns the poorest agreement that was used.
-double follow(const Front& from, const Modes& found, const Sparse& M, Front& to) {
-  const std::size_t branches = from.modes.size(), candidates = found.oscillatory.size();
+double follow(const Front& from, const std::vector<Mode>& found, const Sparse& M, Front& to) {
+  const std::size_t branches = from.modes.size(), candidates = found.size();
   struct Pair {
     double score, agreement;
     std::size_t branch, candidate;
@@ -40,7 +41,7 @@ double follow(const Front& from, const Modes& found, const Sparse& M, Front& to)
   std::vector<double> inertia;
   for (const Mode& a : from.modes) inertia.push_back(a.shape.dot(CVec(M * a.shape)).real());
   for (std::size_t c = 0; c < candidates; ++c) {
-    const Mode& z = found.oscillatory[c];
+    const Mode& z = found[c];
     const CVec Mz = M * z.shape;
     const double own = z.shape.dot(Mz).real();
     for (std::size_t b = 0; b < branches; ++b) {
@@ -60,22 +61,22 @@ double follow(const Front& from, const Modes& found, const Sparse& M, Front& to)
   for (const Pair& p : pairs) {
     if (to.is_alive[p.branch] || is_taken[p.candidate] || p.agreement < 0.1) continue;
     to.is_alive[p.branch] = is_taken[p.candidate] = true;
-    to.modes[p.branch] = found.oscillatory[p.candidate];
+    to.modes[p.branch] = found[p.candidate];
     poorest = std::min(poorest, p.agreement);
   }
   for (std::size_t b = 0; b < branches; ++b) {
     if (from.is_alive[b] && !to.is_alive[b]) poorest = 0.0;
   }
   for (std::size_t c = 0; c < candidates; ++c) {
-    if (!is_taken[c]) to.others.push_back(found.oscillatory[c]);
+    if (!is_taken[c]) to.others.push_back(found[c]);
   }
   return poorest;
 }
 
 /// Eigenvalues of oscillatory modes, the largest real part first.
-std::vector<Complex> by_growth(const Modes& modes) {
+std::vector<Complex> by_growth(const std::vector<Mode>& modes) {
   std::vector<Complex> all;
-  for (const Mode& mode : modes.oscillatory) all.push_back(mode.lambda);
+  for (const Mode& mode : modes) all.push_back(mode.lambda);
   std::stable_sort(all.begin(), all.end(),
                    [](Complex a, Complex b) { return a.real() > b.real(); });
   return all;
@@ -84,12 +85,12 @@ std::vector<Complex> by_growth(const Modes& modes) {
 class Tracker {
  public:
   /// @param adds  whether modes that begin to oscillate become branches
-  Tracker(const ModeFinder& finder, int branches, bool adds)
-      : finder_(finder), branches_(branches), adds_(adds) {}
+  Tracker(const ModeFinder& finder, FollowedModes& modes, int branches, bool adds)
+      : finder_(finder), modes_(modes), branches_(branches), adds_(adds) {}
 
   Front start(double Omega) const {
-    const Modes found = modes(Omega);
-    Front front{.Omega = Omega, .modes = found.oscillatory, .eigenvalues = by_growth(found)};
+    const std::vector<Mode>& found = modes_.at(Omega);
+    Front front{.Omega = Omega, .modes = found, .eigenvalues = by_growth(found)};
     if (static_cast<int>(front.modes.size()) > branches_) front.modes.resize(branches_);
     front.is_alive.assign(front.modes.size(), true);
     return front;
@@ -112,12 +113,11 @@ class Tracker {
   /// What there is at a speed.
   struct Look {
     double Omega = 0.0;
-    Modes modes;
+    const std::vector<Mode>& modes;
     Sparse M;
   };
 
-  Modes modes(double Omega) const { return finder_.at(Omega, branches_ + spare_modes); }
-  Look look(double Omega) const { return {Omega, modes(Omega), finder_.system(Omega).M}; }
+  Look look(double Omega) const { return {Omega, modes_.at(Omega), finder_.system(Omega).M}; }
 
   Front advance(const Front& from, const Look& end, int depth) const {
     Front to{.Omega = end.Omega, .eigenvalues = by_growth(end.modes)};
@@ -130,6 +130,7 @@ class Tracker {
   }
 
   const ModeFinder& finder_;
+  FollowedModes& modes_;
   int branches_;
   bool adds_;
 };
@@ -284,7 +285,8 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
     throw OptionError("speeds of a Campbell diagram must ascend from zero or above");
   }
   const ModeFinder finder(assembler);
-  const Tracker tracker(finder, branches, !assembler.structure().linearized.empty());
+  FollowedModes modes(assembler, finder, speeds, branches + spare_modes);
+  const Tracker tracker(finder, modes, branches, !assembler.structure().linearized.empty());
 
   const std::vector<Front> fronts = all_fronts(tracker, speeds, result.gaps);
   const std::size_t branch_count = fronts.back().modes.size();

@@ -131,7 +131,7 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
                    [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
   if (static_cast<int>(modes.oscillatory.size()) > count) modes.oscillatory.resize(count);
   const Sparse D = system.D();
-  const Refinement refinement(system.M, D, system.K);
+  Refinement refinement(system.M, D, system.K);
   std::vector<Mode> refined;
   for (Mode& mode : modes.oscillatory) {
     Complex lambda = mode.lambda;

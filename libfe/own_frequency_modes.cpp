@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libbase/sparse_lu.hpp"
 #include "libfe/campbell.hpp"
+#include "libfe/eigen/newton.hpp"
 
 namespace whirl::inline fe {
 
@@ -20,11 +20,9 @@ constexpr double own_enough = 1e-10;  ///< the same where rounding allows no les
 constexpr double stride = 0.2;        ///< of a frequency, while no own frequency is passed
 constexpr double closest = 1e-6;      ///< relative distance to where a mode is lost
 constexpr double settled = 1e-15;     ///< relative step of an eigenvalue that is found
-constexpr double rounding = 1e-8;     ///< of steps that grow again, as far as they are rounding
 constexpr double alike = 0.9;         ///< MAC of a mode before and after a step
 constexpr double near = 0.15;         ///< relative step of an eigenvalue that is followed
 constexpr int most_halvings = 6;      ///< of a step
-constexpr int most_newton = 25;
 constexpr int most_secants = 80;
 constexpr int spare = 4;  ///< modes followed beyond those wanted, which may come below them
 constexpr double same_eigenvalue = 1e-8;  ///< relative distance
@@ -39,34 +37,17 @@ Complex product(const CVec& q, const Sparse& W, const CVec& p) {
 }
 
 /// An eigenpair of the system at a frequency.
-struct Pair {
+struct Pair : EigenPair {
   double omega = 0.0;  ///< of the system [rad/s]
-  Complex lambda;
-  CVec q;
 
   double gap() const { return lambda.imag() - omega; }
 };
 
-/// Newton's iteration to the eigenpair of another system that is near; none: it does not converge.
+/// The eigenpair of another system that is near; none: Newton's iteration does not converge.
 std::optional<Pair> solved(const System& system, double omega, const Pair& start) {
-  const CSparse M = system.M.cast<Complex>(), D = system.D().cast<Complex>(),
-                K = system.K.cast<Complex>();
-  Pair pair{omega, start.lambda, start.q};
-  double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most_newton; ++i) {
-    const CSparse Q = (pair.lambda * pair.lambda) * M + pair.lambda * D + K;
-    ComplexSparseLu factor(Q);
-    if (!factor.factorize(Q)) return pair;  // it is exact
-    const CVec x = factor.solve(CVec(2.0 * pair.lambda * (M * pair.q) + D * pair.q));
-    const Complex change = pair.q.squaredNorm() / pair.q.dot(x);
-    if (!x.allFinite() || !std::isfinite(std::abs(change))) return std::nullopt;
-    pair.lambda -= change;
-    pair.q = x.normalized();
-    const double step = std::abs(change) / std::abs(pair.lambda);
-    if (step <= settled || (step <= rounding && step >= 0.5 * last)) return pair;
-    last = step;
-  }
-  return std::nullopt;
+  Pair pair{{start.lambda, start.q}, omega};
+  if (!PairNewton(system.M, system.D(), system.K).converge(pair, settled)) return std::nullopt;
+  return pair;
 }
 
 /// Follows an eigenpair to another frequency by its shape; none: it is lost on the way.
@@ -192,10 +173,10 @@ class OwnModes {
     for (const Mode& mode : modes.oscillatory) {
       const double f = mode.frequency();
       if (omega > 0.0 && std::abs(f - omega) > window * omega) continue;
-      const Pair start{omega, mode.lambda, mode.shape.normalized()};
+      const Pair start{{mode.lambda, mode.shape.normalized()}, omega};
       if (omega > 0.0 && is_known(start, here.M, known_frequency, 1.0 - known_shape)) continue;
       if (are_equal(system_(f), here)) {
-        add({f, mode.lambda, start.q}, here.M, true);
+        add({{mode.lambda, start.q}, f}, here.M, true);
       } else if (const auto pair = at_own_frequency(system_, start)) {
         add(*pair, here.M, false);
       }

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "libbase/sparse_lu.hpp"
+#include <utility>
 
 namespace whirl::inline fe {
 
@@ -41,20 +40,17 @@ bool Refinement::balances(Complex lambda, const CVec& q) const {
          unbalanced * (inertia.norm() + damping.norm() + elastic.norm());
 }
 
-bool Refinement::improve(Complex& lambda, CVec& q, double reach) const {
+bool Refinement::improve(Complex& lambda, CVec& q, double reach) {
   double error = backward_error(lambda, q);
   const Complex start = lambda;
   for (int i = 0; i < most_steps && error > accurate; ++i) {
-    const CSparse Q =
-        (lambda * lambda) * M_.cast<Complex>() + lambda * D_.cast<Complex>() + K_.cast<Complex>();
-    ComplexSparseLu factor(Q);
-    if (!factor.factorize(Q)) break;
-    const CVec x = factor.solve(CVec(2.0 * lambda * (M_ * q) + D_ * q));
-    const Complex next = lambda - q.squaredNorm() / q.dot(x);
-    const double then = x.allFinite() ? backward_error(next, x) : error;
-    if (!(then < error) || !(std::abs(next - start) < reach)) break;
-    lambda = next;
-    q = x.normalized();
+    if (!newton_) newton_.emplace(M_, D_, K_);
+    EigenPair next{lambda, q};
+    if (newton_->step(next) != PairNewton::Step::taken) break;
+    const double then = backward_error(next.lambda, next.q);
+    if (!(then < error) || !(std::abs(next.lambda - start) < reach)) break;
+    lambda = next.lambda;
+    q = std::move(next.q);
     error = then;
   }
   return error <= accurate || balances(lambda, q);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
+
 #include "libbase/linalg.hpp"
+#include "libfe/eigen/newton.hpp"
 
 namespace whirl::inline fe {
 
@@ -19,7 +22,7 @@ class Refinement {
   /// @return       whether it is an eigenpair: at an infinite eigenvalue (parts without mass,
   ///               M q = 0) that rounding made finite, nothing holds lambda^2 M q, and what is left
   ///               of the sum of the parts is as large as they are
-  bool improve(Complex& lambda, CVec& q, double reach) const;
+  bool improve(Complex& lambda, CVec& q, double reach);
 
  private:
   /// Whether lambda^2 M q, lambda D q and K q hold one another at all.
@@ -27,6 +30,7 @@ class Refinement {
 
   const Sparse &M_, &D_, &K_;
   double size_M_, size_D_, size_K_;
+  std::optional<PairNewton> newton_;  ///< once it is needed
 };
 
 }  // namespace whirl::inline fe

@@ -125,7 +125,7 @@ TEST(Discs, HoldEveryEigenvalueAsOftenAsTheDenseSolver) {
         EXPECT_EQ(alike(disc.lambda), alike(exact)) << lambda << " around " << center;
       }
       const Sparse D = s.D();
-      const Refinement refinement(s.M, D, s.K);
+      Refinement refinement(s.M, D, s.K);
       for (Eigen::Index i = 0; i < disc.lambda.size(); ++i) {
         Complex lambda = disc.lambda(i);
         CVec q = disc.q.col(i);
