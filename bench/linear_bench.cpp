@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/unbalance.hpp"
 #include "libio/model/model_file.hpp"
@@ -51,6 +52,16 @@ void Campbell50Nodes100Speeds6Modes(benchmark::State& state) {
   }
 }
 BENCHMARK(Campbell50Nodes100Speeds6Modes)->Unit(benchmark::kMillisecond);
+
+/// A machine on oil films with twelve seals by tables: from the model to its diagram.
+void CampbellOfTheCompressor100Speeds(benchmark::State& state) {
+  const Model model = read_model(WHIRL_MODELS "/compressor.toml");
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        campbell(Assembler(linear_structure(model)), speeds(100, 12000.0 * rpm), 8));
+  }
+}
+BENCHMARK(CampbellOfTheCompressor100Speeds)->Unit(benchmark::kMillisecond);
 
 void Modes1000NodesAtOneSpeed(benchmark::State& state) {
   const Structure s = rotor(1000);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr int smallest = 75;  ///< dofs; all modes of smaller systems come at once, and fast
 constexpr std::size_t longest_span = 60;  ///< speeds, then all modes are looked at again
-constexpr std::size_t memory = 4;         ///< speeds that an extrapolation uses
-constexpr double settled = 1e-9;  ///< relative step of Newton's iteration: the next is its square
+constexpr std::size_t memory = 5;         ///< speeds that an extrapolation uses
+constexpr double settled = 1e-7;  ///< relative step of Newton's iteration: the next is its square
 constexpr double alike = 0.9;     ///< MAC of a mode at neighboring speeds
 constexpr double near = 0.3;      ///< relative step of its eigenvalue
 constexpr double same_eigenvalue = 1e-7;  ///< relative distance

@@ -10,6 +10,7 @@
 
 #include "libbase/dense_complex.hpp"
 #include "libbase/sparse_lu.hpp"
+#include "libfe/eigen/pencil.hpp"
 
 namespace whirl::inline fe {
 
@@ -163,22 +164,16 @@ Look look_at(const KrylovBasis& basis) {
 
 }  // namespace
 
-/// The three matrices on one common pattern, whose order of elimination is found once.
+/// The equations, whose order of elimination is found once.
 struct DiscSolver::State {
-  CSparse M, D, K;
+  Pencil pencil;
   ComplexSparseLu factor;
 };
 
-DiscSolver::DiscSolver(Sparse M, const Sparse& D, const Sparse& K) {
-  const auto on_pattern = [&](double m, double d, double k) {
-    CSparse sum = (m * M + d * D + k * K).eval().cast<Complex>();
-    sum.makeCompressed();
-    return sum;
-  };
-  CSparse stiffness = on_pattern(0.0, 0.0, 1.0);
-  ComplexSparseLu factor(stiffness);
-  state_ = std::make_unique<State>(State{on_pattern(1.0, 0.0, 0.0), on_pattern(0.0, 1.0, 0.0),
-                                         std::move(stiffness), std::move(factor)});
+DiscSolver::DiscSolver(const Sparse& M, const Sparse& D, const Sparse& K) {
+  Pencil pencil(M, D, K);
+  ComplexSparseLu factor(pencil.at(0.0));
+  state_ = std::make_unique<State>(State{std::move(pencil), std::move(factor)});
 }
 
 DiscSolver::~DiscSolver() = default;
@@ -187,11 +182,11 @@ DiscSolver& DiscSolver::operator=(DiscSolver&&) noexcept = default;
 
 DiscModes DiscSolver::around(Complex center, double radius, int count) const {
   State& s = *state_;
-  const auto n = s.M.rows();
+  const auto n = s.pencil.M().rows();
   DiscModes disc{center, 0.0, CVec(0), CMat(n, 0)};
-  if (!s.factor.factorize(CSparse(center * center * s.M + center * s.D + s.K))) return disc;
+  if (!s.factor.factorize(s.pencil.at(center))) return disc;
   const double scale = std::max(std::abs(center), radius < 1e300 ? 1e-3 * radius : 0.0);
-  const ShiftedInverse op{s.M, s.D, s.factor, center, scale > 0.0 ? scale : 1.0};
+  const ShiftedInverse op{s.pencil.M(), s.pencil.D(), s.factor, center, scale > 0.0 ? scale : 1.0};
   KrylovBasis basis(op, 2 * n);
   for (int i = 0; i < starts; ++i) basis.add_fresh();
   int fresh = starts;

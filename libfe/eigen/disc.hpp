@@ -28,7 +28,7 @@ struct DiscModes {
 /// @source [TisseurMeerbergen2001], sec. 3.4; [Ruhe1979] for several starting vectors
 class DiscSolver {
  public:
-  DiscSolver(Sparse M, const Sparse& D, const Sparse& K);
+  DiscSolver(const Sparse& M, const Sparse& D, const Sparse& K);
   ~DiscSolver();
   DiscSolver(DiscSolver&&) noexcept;
   DiscSolver& operator=(DiscSolver&&) noexcept;

@@ -13,15 +13,12 @@ constexpr int most_steps = 25;
 }  // namespace
 
 PairNewton::PairNewton(const Sparse& M, const Sparse& D, const Sparse& K)
-    : M_(M.cast<Complex>()),
-      D_(D.cast<Complex>()),
-      K_(K.cast<Complex>()),
-      factor_(CSparse(M_ + D_ + K_)) {}
+    : pencil_(M, D, K), factor_(pencil_.at(1.0)) {}
 
 PairNewton::Step PairNewton::step(EigenPair& pair) {
-  const CSparse Q = (pair.lambda * pair.lambda) * M_ + pair.lambda * D_ + K_;
-  if (!factor_.factorize(Q)) return Step::is_exact;
-  const CVec x = factor_.solve(CVec(2.0 * pair.lambda * (M_ * pair.q) + D_ * pair.q));
+  if (!factor_.factorize(pencil_.at(pair.lambda))) return Step::is_exact;
+  const CVec x =
+      factor_.solve(CVec(2.0 * pair.lambda * (pencil_.M() * pair.q) + pencil_.D() * pair.q));
   const Complex change = pair.q.squaredNorm() / pair.q.dot(x);
   if (!x.allFinite() || !std::isfinite(std::abs(change))) return Step::failed;
   pair.lambda -= change;

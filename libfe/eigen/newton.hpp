@@ -2,6 +2,7 @@
 
 #include "libbase/linalg.hpp"
 #include "libbase/sparse_lu.hpp"
+#include "libfe/eigen/pencil.hpp"
 
 namespace whirl::inline fe {
 
@@ -30,7 +31,7 @@ class PairNewton {
   bool converge(EigenPair& pair, double settled);
 
  private:
-  CSparse M_, D_, K_;
+  Pencil pencil_;
   ComplexSparseLu factor_;
 };
 
