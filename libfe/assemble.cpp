@@ -367,8 +367,14 @@ std::vector<bool> Assembler::touched_by_whirl() const {
 }
 
 Vec Assembler::gravity_load() const {
+  return inertia_load({0.0, -structure_.gravity});
+}
+
+Vec Assembler::inertia_load(const Vec2& a) const {
   Vec acceleration = Vec::Zero(dofs_.full_size);
-  for (const Point& p : dofs_.points()) acceleration(dofs_.full_index(p, Y)) = -structure_.gravity;
+  for (const Point& p : dofs_.points()) {
+    for (const int component : {X, Y}) acceleration(dofs_.full_index(p, component)) = a(component);
+  }
   return weighing_ * acceleration;
 }
 

@@ -60,6 +60,8 @@ class Assembler {
   /// Weight of everything, a full vector of forces and moments [N, N.m], internal ones included.
   /// Added mass has none.
   Vec gravity_load() const;
+  /// The same of an acceleration (x, y) of everything [m/s^2].
+  Vec inertia_load(const Vec2& acceleration) const;
 
   /// Complex amplitude of the unbalance force over Omega^2, a full vector [kg.m]:
   /// f(t) = Omega^2 Re(u exp(i Omega t)), u_x = U e^(i phase), u_y = -i u_x.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libbase/quadrature.hpp"
+#include "libfe/forces.hpp"
 #include "libfe/shaft_elements.hpp"
 
 namespace whirl::inline fe {
@@ -135,6 +136,7 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
   const Mesh& mesh = assembler.mesh();
   const DofMap& dofs = assembler.dofs();
   const auto size = static_cast<Eigen::Index>(mesh.elements.size()) * (pieces + 1);
+  const Vec2 steady = steady_acceleration(assembler.structure());
   BendingLine line{Vec(size), Mat(size, 2), Mat(size, 2), Mat(size, 2)};
   int internal = 4 * dofs.nodes;  // index of the amplitudes of the next beam's own functions
   for (const bool tilts : dofs.body_tilts) internal += tilts ? 4 : 2;
@@ -150,7 +152,8 @@ BendingLine bending_line(const Assembler& assembler, double Omega, const Vec& di
     q.segment(4, 4) = displacement.segment(4 * element.right, 4);
     q.tail(n - 8) = displacement.segment(internal, n - 8);
     internal += static_cast<int>(n) - 8;
-    acceleration(plane_y[0]) = acceleration(plane_y[2]) = -assembler.structure().gravity;
+    acceleration(plane_x[0]) = acceleration(plane_x[2]) = steady(0);
+    acceleration(plane_y[0]) = acceleration(plane_y[2]) = steady(1);
     Vec f = matrices.K * q + Omega * (matrices.H * q) - matrices.M * acceleration;
     for (std::size_t i = 1; i < beams.size(); ++i) {
       const auto layer = whirl::matrices(beams[i]);

@@ -199,6 +199,9 @@ std::vector<const Station*> all_stations(const Structure& structure) {
     }
   }
   for (const Unbalance& unbalance : structure.unbalances) stations.push_back(&unbalance.at);
+  for (const Force& force : structure.forces) {
+    if (force.has_station()) stations.push_back(&force.at);
+  }
   for (const Layer& layer : structure.layers) {
     stations.push_back(&layer.from);
     stations.push_back(&layer.to);

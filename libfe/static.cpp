@@ -5,6 +5,7 @@
 #include "libbase/error.hpp"
 #include "libbase/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
+#include "libfe/forces.hpp"
 
 namespace whirl::inline fe {
 
@@ -37,7 +38,7 @@ void require_supports(const Assembler& assembler, double Omega, std::string_view
 StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega) {
   require_supports(assembler, Omega, "the static sag needs");
   const System system = assembler.uncondensed(Omega, 0.0);
-  const Vec load = assembler.gravity_load();
+  const Vec load = static_load(assembler);
   const SparseLu solver(system.K);
   if (!solver.is_regular()) {
     throw NumericalError("the stiffness is singular at this speed");

@@ -43,7 +43,8 @@ struct StaticEquilibrium {
   }
 };
 
-/// Equilibrium under gravity at a speed [rad/s]: (K + Omega H) q = -g M e_y.
+/// Equilibrium under gravity and constant forces f at a speed [rad/s]:
+/// (K + Omega H) q = -g M e_y + f.
 /// @throws ModelError  if the rotor is free
 StaticEquilibrium static_equilibrium(const Assembler& assembler, double Omega);
 

@@ -161,6 +161,43 @@ struct Unbalance {
   double phase = 0.0;   ///< angle from +x at t = 0 [rad]
 };
 
+/// What a load is, and where it points.
+enum class ForceKind {
+  force,             ///< [N]
+  moment,            ///< [N.m]
+  base_acceleration  ///< of the ground, and so of all that has weight [m/s^2]
+};
+enum class Turning { no, forward, backward };
+/// Those that a model file names.
+constexpr auto choices(Turning) {
+  return std::array{Choice<Turning>{"forward", Turning::forward},
+                    Choice<Turning>{"backward", Turning::backward}};
+}
+
+/// A load that does not follow from the motion: constant, of an order of the speed, or of a frequency
+/// of its own. With w its frequency,
+///
+///   along a direction   F cos(w t + phase) (cos angle, sin angle)
+///   turning             F (cos(phase + w t), sin(phase + w t)), backward with -w
+///
+/// along x and y, of a moment about them.
+struct Force {
+  std::string name;
+  ForceKind kind = ForceKind::force;
+  Station at;          ///< not of a base
+  double size = 0.0;   ///< F [N, N.m, m/s^2]
+  double angle = 0.0;  ///< from +x [rad]
+  Turning turning = Turning::no;
+  double order = 0.0;      ///< of the speed; 0: it does not follow it
+  double frequency = 0.0;  ///< of its own [rad/s]; 0, and no order: constant
+  double phase = 0.0;      ///< [rad]
+
+  bool has_station() const { return kind != ForceKind::base_acceleration; }
+  bool is_constant() const { return order == 0.0 && frequency == 0.0; }
+  /// Whether it has the frequency of unbalance.
+  bool is_synchronous() const { return order == 1.0; }
+};
+
 /// A bearing or a seal (station to ground or body), or a link (any two stations).
 struct Connection {
   std::string name;
@@ -212,6 +249,7 @@ struct Structure {
   std::vector<Layer> layers{};
   ModalDamping modal_damping{};
   Bow bow{};
+  std::vector<Force> forces{};
 
   /// Connections of one kind, with its word in model files.
   struct Connections {

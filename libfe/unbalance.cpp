@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 
@@ -9,17 +10,21 @@ namespace whirl::inline fe {
 
 struct UnbalanceSolver::State {
   const Assembler& assembler;
-  CVec force;  ///< of unbalance over Omega^2, in the coordinates of the system
-  CVec bow;    ///< force of the bow, likewise; empty: none
+  CVec force;   ///< of unbalance over Omega^2, in the coordinates of the system
+  CVec steady;  ///< of the bow and of forces of order 1, likewise; empty: none
   std::optional<DynamicStiffness> stiffness{};  ///< of the last speed, if it depends on that
 };
 
 UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
   const Sparse& T = assembler.dofs().T;
   CVec force = T.transpose() * assembler.unbalance();
-  CVec bow;
-  if (!assembler.structure().bow.z.empty()) bow = T.transpose() * assembler.bow();
-  state_ = std::make_unique<State>(State{assembler, std::move(force), std::move(bow)});
+  CVec steady;
+  if (!assembler.structure().bow.z.empty()) steady = T.transpose() * assembler.bow();
+  if (const CVec forces = synchronous_forces(assembler); forces.size() > 0) {
+    const CVec own = T.transpose() * forces;
+    steady = steady.size() > 0 ? CVec(steady + own) : own;
+  }
+  state_ = std::make_unique<State>(State{assembler, std::move(force), std::move(steady)});
 }
 
 UnbalanceSolver::~UnbalanceSolver() = default;
@@ -30,13 +35,13 @@ const DofMap& UnbalanceSolver::dofs() const {
 
 std::optional<CVec> UnbalanceSolver::at(double Omega) {
   State& s = *state_;
-  if (Omega == 0.0 && s.bow.size() == 0) return CVec(CVec::Zero(dofs().full_size));
+  if (Omega == 0.0 && s.steady.size() == 0) return CVec(CVec::Zero(dofs().full_size));
   if (!s.stiffness || s.assembler.depends_on_speed()) {
     const System system = s.assembler.uncondensed(Omega);
     s.stiffness.emplace(system.M, system.C, system.G, system.K);
   }
   CVec force = Omega * Omega * s.force;
-  if (s.bow.size() > 0) force += s.bow;
+  if (s.steady.size() > 0) force += s.steady;
   const auto q = s.stiffness->solve(Omega, Omega, force);
   if (!q) return {};
   return CVec(dofs().T * *q);
@@ -53,6 +58,33 @@ std::optional<CVec> UnbalanceSolver::at(double Omega, const std::vector<Point>& 
     u(p + count) = (*full)(dofs().full_index(point, Y));
   }
   return u;
+}
+
+UnbalanceResponse oscillating_response(const Assembler& assembler, const OscillatingLoad& load,
+                                       const std::vector<double>& speeds,
+                                       const std::vector<Point>& points) {
+  const auto np = static_cast<Eigen::Index>(points.size());
+  const auto ns = static_cast<Eigen::Index>(speeds.size());
+  UnbalanceResponse response{speeds, points, CMat(np, ns), CMat(np, ns)};
+  const DofMap& dofs = assembler.dofs();
+  const CVec force = dofs.T.transpose() * load.amplitude;
+  const bool changes = assembler.depends_on_speed() || assembler.depends_on_whirl();
+  std::optional<DynamicStiffness> stiffness;
+  for (Eigen::Index s = 0; s < ns; ++s) {
+    const double Omega = speeds[static_cast<std::size_t>(s)], w = load.at(Omega);
+    if (!stiffness || changes) {
+      const System system = assembler.uncondensed(Omega, w);
+      stiffness.emplace(system.M, system.C, system.G, system.K);
+    }
+    const auto q = stiffness->solve(w, Omega, force);
+    const CVec full = q ? CVec(dofs.T * *q) : CVec::Constant(dofs.full_size, Complex(nan, nan));
+    for (Eigen::Index p = 0; p < np; ++p) {
+      const Point& point = points[static_cast<std::size_t>(p)];
+      response.x(p, s) = full(dofs.full_index(point, X));
+      response.y(p, s) = full(dofs.full_index(point, Y));
+    }
+  }
+  return response;
 }
 
 UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vector<double>& speeds,

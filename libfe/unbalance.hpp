@@ -1,11 +1,12 @@
 #pragma once
-/// Steady response to what turns with the shaft: unbalance, and a bow of it.
+/// Steady response to what has the frequency of the speed: unbalance, a bow of the shaft, forces of
+/// order 1; and to forces of other orders and frequencies.
 
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "libfe/assemble.hpp"
+#include "libfe/forces.hpp"
 
 namespace whirl::inline fe {
 
@@ -16,8 +17,8 @@ struct UnbalanceResponse {
   CMat x, y;  ///< points x speeds [m]
 };
 
-/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u + f at any speed, f the force of the
-/// bow: displacements are those of the shaft's axis from the straight line, bow and all.
+/// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u + f at any speed, f that of forces of
+/// order 1 and of the bow: displacements are those of the shaft's axis from the straight line, bow and all.
 class UnbalanceSolver {
  public:
   explicit UnbalanceSolver(const Assembler& assembler);
@@ -36,6 +37,13 @@ class UnbalanceSolver {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// The same to one of the loads of other frequencies, of that frequency: u(t) = Re(value e^(i w t)).
+/// Bearings take the coefficients of that frequency.
+/// @return  x, y: NaN at speeds where the dynamic stiffness is singular
+UnbalanceResponse oscillating_response(const Assembler& assembler, const OscillatingLoad& load,
+                                       const std::vector<double>& speeds,
+                                       const std::vector<Point>& points);
 
 /// The response at given speeds.
 ///

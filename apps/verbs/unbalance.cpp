@@ -10,11 +10,12 @@ namespace whirl::inline cli {
 
 namespace {
 
-/// Speeds where none are given. A bent rotor on oil films has no response at rest, where films carry
-/// nothing.
+/// Speeds where none are given. A bent rotor on oil films, or one under forces, has no response at
+/// rest, where films carry nothing.
 std::vector<double> speeds_of(const Model& model) {
   std::vector<double> speeds = usual_speeds(model.speed);
-  if (has_linear_films(model) && !model.structure.bow.z.empty()) speeds.erase(speeds.begin());
+  const bool is_loaded_at_rest = !model.structure.bow.z.empty() || !model.structure.forces.empty();
+  if (has_linear_films(model) && is_loaded_at_rest) speeds.erase(speeds.begin());
   return speeds;
 }
 
@@ -49,7 +50,7 @@ Verb unbalance_verb() {
   return {
       .name = "unbalance",
       .group = "Linear rotordynamics",
-      .summary = "steady unbalance response over speeds",
+      .summary = "steady response to unbalance and forces over speeds",
       .example = "whirl unbalance models/two_disk_mac.toml --speeds 0:8000:10rpm",
       .run = run_unbalance,
   };

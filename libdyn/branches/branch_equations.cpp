@@ -32,6 +32,7 @@ Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
                                 const ContinuationOptions& options) {
   options.check();
   const Flow flow = flow_at(options.first);
+  require_loads_of_a_revolution(flow);
   const PeriodicOrbit orbit = find_orbit(flow, start, {.period = options.period});
   if (!orbit.is_good()) {
     throw NumericalError(

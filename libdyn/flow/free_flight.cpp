@@ -80,8 +80,10 @@ std::optional<Mat> lyapunov(const Mat& A, const Mat& Q) {
   return std::nullopt;
 }
 
-/// Nothing where a revolution is too long beside the fastest motion.
+/// Nothing where a revolution is too long beside the fastest motion, nor under loads that do not
+/// repeat with it.
 std::optional<LinearFlow> flow_over_a_revolution(const ContactSystem& system) {
+  if (!system.oscillations().empty()) return std::nullopt;
   try {
     return LinearFlow(system, system.period(), 1);
   } catch (const NumericalError&) {

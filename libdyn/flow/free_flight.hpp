@@ -25,7 +25,7 @@ namespace whirl::inline dyn {
 /// are equal, since these stay together: exact where one mode whirls about a circle. The bound is
 /// left out where the v_j are nearly dependent. If the free motion does not decay (undamped or
 /// rigid-body modes), nothing is certain; nor where a revolution is too long beside the fastest motion
-/// to be computed at once (see LinearFlow).
+/// to be computed at once (see LinearFlow), nor under loads of other frequencies than the speed.
 ///
 /// @source [Kailath1980], sec. 2.6 (Lyapunov's equation); P by doubling [Smith1968]
 class FreeFlight {

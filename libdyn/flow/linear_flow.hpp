@@ -9,7 +9,8 @@
 
 namespace whirl::inline dyn {
 
-/// y' = A y + F (1, cos phase, sin phase) - B f(t), with f a polynomial on each step.
+/// y' = A y + F (1, cos phase, sin phase) - B f(t), with f a polynomial on each step. Loads of other
+/// frequencies than that of the phase it does not know.
 ///
 ///   y(t + h) = (I + X) y(t) + L (1, cos phase(t), sin phase(t)) + G a
 ///

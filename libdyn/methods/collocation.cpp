@@ -36,7 +36,7 @@ class Run {
         free_flight_(system),
         step_(system, is_fixed() ? options.fixed_step : system.period(), options.tolerance) {
     if (state.contacts.size() != system.contacts().size()) {
-      state.contacts = system.classify(state.phase, state.y.data());
+      state.contacts = system.classify(state.instant(), state.y.data());
     }
     if (is_fixed()) return;
     const double w = contact_frequency(system);
@@ -119,7 +119,8 @@ double Run::locate(Event& event, double h) {
   const double rate = system_.phase_rate();
   const auto value = [&](double s) {
     step_.advance(s, state_, end_);
-    return watcher_.value(event, state_.phase + s * h * rate, end_.data(), state_.contacts);
+    return watcher_.value(event, {state_.phase + s * h * rate, state_.revolution}, end_.data(),
+                          state_.contacts);
   };
   double s = event.s, g = value(s), slope = step_.event_slope();
   for (int i = 0; i < most_corrections && std::abs(g) > rounding; ++i) {
@@ -195,7 +196,7 @@ Run::Result Run::advance() {
       return fail(Outcome::step_too_small, "events follow without time passing");
     }
     ++result_.cost.events;
-    watcher_.apply(*event, state_.phase, state_.y.data(), state_.contacts);
+    watcher_.apply(*event, state_.instant(), state_.y.data(), state_.contacts);
     return Result::goes_on;
   }
   if (event) {
@@ -222,7 +223,7 @@ void Run::move_on(double turn, bool ends_revolution, const std::optional<Event>&
     state_.phase = 0.0;
   }
   watcher_.moved_on();
-  if (event) watcher_.apply(*event, state_.phase, state_.y.data(), state_.contacts);
+  if (event) watcher_.apply(*event, state_.instant(), state_.y.data(), state_.contacts);
   may_be_certain_ = event.has_value() || ends_revolution;
   system_.remove_slip(state_.y.data(), state_.contacts);
 }
@@ -284,7 +285,9 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
   if (!suits_collocation(system)) {
     throw ModelError(
         {}, "method collocation",
-        system.films().empty()
+        !system.oscillations().empty()
+            ? "knows loads of the frequency of the speed only; take taylor for other forces"
+        : system.films().empty()
             ? "is for contacts of rings and stops only; take taylor for faces and blades"
             : "cannot compute oil films, which carry without a pause; take taylor");
   }
@@ -292,7 +295,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
 }
 
 bool suits_collocation(const ContactSystem& system) {
-  return system.films().empty() &&
+  return system.films().empty() && system.oscillations().empty() &&
          std::all_of(system.contacts().begin(), system.contacts().end(),
                      [](const ReducedContact& c) { return !c.turns() && !c.rubs_apart(); });
 }

@@ -31,7 +31,7 @@ class Stepper {
         argument_(2 * n_) {}
 
   /// Derivative of the state at the start of the next steps.
-  void start(const MotionState& state) { evaluate(0, state.phase, state.y, state.contacts); }
+  void start(const MotionState& state) { evaluate(0, state.instant(), state.y, state.contacts); }
 
   /// Tries a step; returns the error estimate relative to the tolerance.
   double attempt(const MotionState& from, double h) {
@@ -39,8 +39,8 @@ class Stepper {
     const double rate = system_.phase_rate();
     for (int i = 1; i < dop853::stages; ++i) {
       combine(from.y, i);
-      evaluate(i, from.phase + dop853::c[static_cast<std::size_t>(i)] * h * rate, argument_,
-               from.contacts);
+      evaluate(i, {from.phase + dop853::c[static_cast<std::size_t>(i)] * h * rate, from.revolution},
+               argument_, from.contacts);
     }
     combine(from.y, dop853::stages);
     y1_ = argument_;
@@ -67,11 +67,12 @@ class Stepper {
   /// Completes the stages and gives the step as polynomials.
   void dense(const MotionState& from, Step& step) {
     const double rate = system_.phase_rate();
-    evaluate(12, from.phase + h_ * rate, y1_, from.contacts);
+    evaluate(12, {from.phase + h_ * rate, from.revolution}, y1_, from.contacts);
     for (int i = 13; i < dop853::all_stages; ++i) {
       combine(from.y, i);
-      evaluate(i, from.phase + dop853::c[static_cast<std::size_t>(i)] * h_ * rate, argument_,
-               from.contacts);
+      evaluate(i,
+               {from.phase + dop853::c[static_cast<std::size_t>(i)] * h_ * rate, from.revolution},
+               argument_, from.contacts);
     }
     // y = y0 + s (F0 + (1-s) (F1 + s (F2 + (1-s) (F3 + s (F4 + (1-s) (F5 + s F6))))))
     Eigen::Matrix<double, Eigen::Dynamic, 8> p(2 * n_, 8);
@@ -121,9 +122,9 @@ class Stepper {
       if (weight != 0.0) argument_ += (h_ * weight) * k_.col(j);
     }
   }
-  void evaluate(int stage, double phase, const Vec& y, const ContactStates& contacts) {
+  void evaluate(int stage, const Instant& at, const Vec& y, const ContactStates& contacts) {
     k_.col(stage).head(n_) = y.tail(n_);
-    system_.acceleration(phase, y.data(), contacts, k_.col(stage).data() + n_);
+    system_.acceleration(at, y.data(), contacts, k_.col(stage).data() + n_);
     ++cost_.evaluations;
   }
 
@@ -141,12 +142,14 @@ class Stepper {
 double step_onto(const Event& event, const EventWatcher& watcher, Stepper& stepper,
                  const MotionState& state, Step& step, double rate) {
   const double whole = step.h;
+  const auto instant = [&](double share) -> Instant {
+    return {state.phase + share * whole * rate, state.revolution};
+  };
   double s = event.s;
   double best = std::numeric_limits<double>::infinity(), last = best;
   for (int restart = 0; restart <= most_restarts; ++restart) {
     stepper.attempt(state, s * whole);
-    const double g =
-        watcher.value(event, state.phase + s * whole * rate, stepper.end().data(), state.contacts);
+    const double g = watcher.value(event, instant(s), stepper.end().data(), state.contacts);
     last = std::abs(g);
     if (last <= 2e-15 || last >= 0.5 * best) break;
     best = last;
@@ -154,11 +157,9 @@ double step_onto(const Event& event, const EventWatcher& watcher, Stepper& stepp
     Vec y(stepper.end().size());
     const double ds = 1e-6;
     step.at(s - ds, y.data());
-    const double before =
-        watcher.value(event, state.phase + (s - ds) * whole * rate, y.data(), state.contacts);
+    const double before = watcher.value(event, instant(s - ds), y.data(), state.contacts);
     step.at(s + ds, y.data());
-    const double after =
-        watcher.value(event, state.phase + (s + ds) * whole * rate, y.data(), state.contacts);
+    const double after = watcher.value(event, instant(s + ds), y.data(), state.contacts);
     const double change = -g * 2.0 * ds / (after - before);
     if (!(std::abs(change) < 0.05) || s + change <= 0.0) break;  // a graze: as good as it gets
     s += change;
@@ -221,7 +222,7 @@ class Run {
 
 Integration Run::go(long last) {
   if (state_.contacts.size() != system_.contacts().size()) {
-    state_.contacts = system_.classify(state_.phase, state_.y.data());
+    state_.contacts = system_.classify(state_.instant(), state_.y.data());
   }
   if (system_.left_bearing(state_.y.data())) {
     fail(Outcome::left_bearing, "");
@@ -286,7 +287,7 @@ Run::Result Run::apply_at_once(const Event& event) {
     return fail(Outcome::step_too_small, "events follow without time passing");
   }
   ++result_.cost.events;
-  watcher_.apply(event, state_.phase, state_.y.data(), state_.contacts);
+  watcher_.apply(event, state_.instant(), state_.y.data(), state_.contacts);
   stepper_.start(state_);
   return Result::goes_on;
 }
@@ -300,7 +301,7 @@ Run::Result Run::accept(const std::optional<Event>& event, bool ends_revolution,
   ++result_.cost.steps;
   watcher_.moved_on();
   if (event) {
-    watcher_.apply(*event, state_.phase, state_.y.data(), state_.contacts);
+    watcher_.apply(*event, state_.instant(), state_.y.data(), state_.contacts);
   } else if (!is_fixed()) {
     h_ = ends_revolution ? std::max(h_, next) : next;
   }

@@ -56,7 +56,7 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
   bool has_left = false;  // a stage has left a bearing
   const auto derivative = [&](double phase, const Vec& y, Vec& dy) {
     dy.head(n) = y.tail(n);
-    system.acceleration(phase, y.data(), dy.data() + n);
+    system.acceleration({phase, state.revolution}, y.data(), dy.data() + n);
     ++cost.evaluations;
     has_left = has_left || system.left_bearing(y.data()) != nullptr;
   };
@@ -74,7 +74,7 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
       try_step(derivative, phase, turn, h, y, s);
       has_left = has_left || system.left_bearing(s.end.data()) != nullptr;
       if (has_left || !s.end.allFinite()) {
-        state.contacts = system.classify(state.phase, y.data());
+        state.contacts = system.classify(state.instant(), y.data());
         fail(result, system, state, has_left ? Outcome::left_bearing : Outcome::not_finite,
              has_left ? "a step of RK4 leaves a bearing" : "a step of RK4 gave no finite numbers");
         return result;
@@ -85,7 +85,7 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
       step.phase = phase;
       step.h = h;
       step.turn = turn;
-      if (observer) step.contacts = system.classify(phase, y.data());
+      if (observer) step.contacts = system.classify({phase, state.revolution}, y.data());
       derivative(phase + turn, s.end, s.k2);  // of the end, where the next step starts
       if (observer) dense(y, s.k1, s.end, s.k2, step);
       y.swap(s.end);
@@ -97,12 +97,12 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
       }
       if (observer && !observer(step)) {
         result.outcome = Outcome::stopped_by_observer;
-        state.contacts = system.classify(state.phase, y.data());
+        state.contacts = system.classify(state.instant(), y.data());
         return result;
       }
     }
   }
-  state.contacts = system.classify(state.phase, y.data());
+  state.contacts = system.classify(state.instant(), y.data());
   return result;
 }
 

@@ -42,7 +42,7 @@ Motion::Motion(const ContactSystem& system, MotionState& state, double tolerance
       weight_(N_VNew_Serial(system.size(), context())),
       work_(N_VNew_Serial(system.size(), context())) {
   if (state.contacts.size() != system.contacts().size()) {
-    state.contacts = system.classify(state.phase, state.y.data());
+    state.contacts = system.classify(state.instant(), state.y.data());
   }
   apply_events_at_start();
   values(y_.get()) = state.y;
@@ -55,7 +55,7 @@ int Motion::rhs(realtype t, N_Vector y, N_Vector dy, void* motion) {
   double* to = N_VGetArrayPointer(dy);
   const int n = m.system_.coordinates();
   std::copy(from + n, from + 2 * n, to);
-  m.system_.acceleration(t * m.system_.phase_rate(), from, m.state_.contacts, to + n);
+  m.system_.acceleration(m.instant(t), from, m.state_.contacts, to + n);
   ++m.result_.cost.evaluations;
   return std::all_of(to, to + 2 * n, [](double x) { return std::isfinite(x); }) ? 0 : 1;
 }
@@ -63,8 +63,8 @@ int Motion::rhs(realtype t, N_Vector y, N_Vector dy, void* motion) {
 int Motion::root_functions(realtype t, N_Vector y, realtype* g, void* motion) {
   const auto& m = *static_cast<Motion*>(motion);
   for (std::size_t i = 0; i < m.roots_.size(); ++i) {
-    g[i] = m.watcher_.value({0.0, m.roots_[i].first, m.roots_[i].second},
-                            t * m.system_.phase_rate(), N_VGetArrayPointer(y), m.state_.contacts);
+    g[i] = m.watcher_.value({0.0, m.roots_[i].first, m.roots_[i].second}, m.instant(t),
+                            N_VGetArrayPointer(y), m.state_.contacts);
   }
   return 0;
 }
@@ -86,16 +86,16 @@ void Motion::apply_events_at_start() {
   const double h = 1e-6 * system_.period();  // ahead, to see which way the functions go
   const int n = system_.coordinates();
   Vec a(n), ahead(2 * n);
-  system_.acceleration(state_.phase, state_.y.data(), state_.contacts, a.data());
+  system_.acceleration(state_.instant(), state_.y.data(), state_.contacts, a.data());
   ahead << state_.y.head(n) + h * state_.y.tail(n) + 0.5 * h * h * a, state_.y.tail(n) + h * a;
   const ContactStates before = state_.contacts;
   find_roots();
   for (const auto& [contact, kind] : roots_) {
     const Event event{0.0, contact, kind};
-    if (watcher_.value(event, state_.phase, state_.y.data(), before) > zero) continue;
-    const double phase = state_.phase + h * system_.phase_rate();
-    if (!(watcher_.value(event, phase, ahead.data(), before) < -zero)) continue;
-    watcher_.apply(event, state_.phase, state_.y.data(), state_.contacts);
+    if (watcher_.value(event, state_.instant(), state_.y.data(), before) > zero) continue;
+    const Instant soon(state_.phase + h * system_.phase_rate(), state_.revolution);
+    if (!(watcher_.value(event, soon, ahead.data(), before) < -zero)) continue;
+    watcher_.apply(event, state_.instant(), state_.y.data(), state_.contacts);
     ++result_.cost.events;
   }
 }
@@ -135,7 +135,7 @@ void Motion::apply_roots(const Solver& solver, void* memory) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i] == 0) continue;
     const Event event{1.0, roots_[i].first, roots_[i].second};
-    watcher_.apply(event, state_.phase, state_.y.data(), state_.contacts);
+    watcher_.apply(event, state_.instant(), state_.y.data(), state_.contacts);
     ++result_.cost.events;
   }
 }

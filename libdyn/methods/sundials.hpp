@@ -81,6 +81,7 @@ class Motion {
   N_Vector y() const { return y_.get(); }
   /// Absolute tolerances.
   N_Vector weight() const { return weight_.get(); }
+  Instant instant(double t) const { return {t * system_.phase_rate(), state_.revolution}; }
   double start() const { return state_.phase / system_.phase_rate(); }
 
   /// y' of the contacts' present states, for the solver.

@@ -38,8 +38,10 @@ void require_memory(const SimulationOptions& options, double bytes) {
 AnyMethod method_for(const ContactSystem& system, const std::string& name) {
   if (name.empty()) return suitable_method(system);
   if (name == Collocation::name && !suits_collocation(system)) {
-    throw ModelError({"method collocation"}, "",
-                     "is for contacts of rings and stops only, without oil films; take taylor");
+    throw ModelError(
+        {"method collocation"}, "",
+        "is for contacts of rings and stops only, without oil films and forces of other "
+        "frequencies than the speed; take taylor");
   }
   return method_named(name);
 }

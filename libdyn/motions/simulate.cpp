@@ -31,7 +31,7 @@ class Sampler {
       step.at(s, y_.data());
       recording_.eta.col(next_) = y_.head(system_.coordinates());
       if (!system_.contacts().empty()) {
-        system_.forces(phase, y_.data(), step.contacts, forces_);
+        system_.forces({phase, revolution}, y_.data(), step.contacts, forces_);
         for (std::size_t i = 0; i < forces_.size(); ++i) {
           if (!step.contacts[i].in_touch()) continue;
           const int owner = system_.contacts()[i].owner;

@@ -9,6 +9,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/motions/equilibrium.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
+#include "libfe/forces.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/static.hpp"
 
@@ -20,7 +21,8 @@ namespace {
 constexpr double rigid = 1e-12;
 
 Vec at_rest_under_gravity(const Model& model, const Scene& scene) {
-  if (model.structure.gravity == 0.0) return Vec::Zero(scene.contacts.coordinates());
+  if (model.structure.gravity == 0.0 && !has_constant_force(model.structure))
+    return Vec::Zero(scene.contacts.coordinates());
   if (model.films.empty()) {
     require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
   }

@@ -2,6 +2,7 @@
 
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libdyn/system/stations.hpp"
+#include "libfe/forces.hpp"
 
 namespace whirl::inline dyn {
 
@@ -21,7 +22,9 @@ void find_equilibrium(const Model& model, const Assembler& assembler, StaticStud
 }  // namespace
 
 StaticStudy static_study(const Model& model, const Assembler& assembler) {
-  StaticStudy study{.speed = model.speed, .has_gravity = model.structure.gravity != 0.0};
+  StaticStudy study{.speed = model.speed,
+                    .has_gravity = model.structure.gravity != 0.0,
+                    .has_forces = has_constant_force(model.structure)};
   find_equilibrium(model, assembler, study);
   const Vec& displacement = study.at_rest.displacement;
   study.line = bending_line(assembler, model.speed, displacement);

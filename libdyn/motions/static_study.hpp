@@ -1,5 +1,5 @@
 #pragma once
-/// A rotor at rest under gravity as a result: its sag, what its bearings carry, where its journals run
+/// A rotor at rest under gravity and constant forces as a result: its sag, what its bearings carry, where its journals run
 /// on their oil films, how its shaft bends.
 
 #include <optional>
@@ -38,6 +38,7 @@ struct StaticStudy {
   BendingLine line;
   double speed = 0.0;  ///< [rad/s]
   bool has_gravity = true;
+  bool has_forces = false;  ///< constant ones
 
   static constexpr auto columns() {
     using S = StaticStudy;

@@ -1,6 +1,7 @@
 #include "libdyn/motions/unbalance_study.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "libfe/modes.hpp"
 
@@ -47,6 +48,28 @@ void add_curves(const UnbalanceResponse& curve, UnbalanceStudy& study) {
   }
 }
 
+/// Responses to forces of other frequencies.
+std::vector<ForcedResponse> forced_responses(const std::vector<NamedPoint>& stations,
+                                             const Assembler& assembler,
+                                             const std::vector<double>& speeds,
+                                             const std::vector<Point>& points) {
+  std::vector<ForcedResponse> all;
+  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
+    const UnbalanceResponse found = oscillating_response(assembler, load, speeds, points);
+    for (StationResponse& at : station_responses(stations, found)) {
+      ForcedResponse of{.force = load.label(), .node = at.node, .name = at.name};
+      (load.order > 0.0 ? of.order : of.frequency) = load.order > 0.0 ? load.order : load.frequency;
+      of.label = std::move(at.label);
+      of.x = std::move(at.x);
+      of.y = std::move(at.y);
+      of.major = std::move(at.major);
+      of.minor = std::move(at.minor);
+      all.push_back(std::move(of));
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 std::optional<std::string> StationPeak::side() const {
@@ -72,6 +95,7 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
                        .stations = station_responses(options.stations, rows),
                        .unbounded = curve.unbounded,
                        .largest = largest_responses(curve.response),
+                       .forced = forced_responses(options.stations, assembler, rows.speeds, points),
                        .failure = curve.failure};
   if (options.has_given_speeds) add_curves(curve.response, study);
   for (const ResponsePeak& peak : curve.peaks) {

@@ -57,6 +57,34 @@ struct StationResponse {
   }
 };
 
+/// Orbits of a station under forces of another frequency than that of the speed:
+/// u(t) = Re(value e^(i w t)).
+struct ForcedResponse {
+  std::string force;                ///< "2x", "40 Hz"
+  std::optional<double> order;      ///< of the speed
+  std::optional<double> frequency;  ///< of its own [rad/s]
+  std::optional<int> node;          ///< from 1; nothing: a body
+  std::string name, label;
+  CVec x, y;         ///< complex amplitudes, per speed [m]; NaN at undamped resonances
+  Vec major, minor;  ///< semi-axes, the minor one > 0 forward, per speed [m]
+
+  static constexpr auto columns() {
+    using enum Written;
+    using F = ForcedResponse;
+    return std::tuple{
+        column("force", &F::force, "", "order or frequency of the force").axis(),
+        column("order", &F::order, "", "of the speed").only(in_json),
+        column("frequency", &F::frequency, "rad/s", "of its own").only(in_json),
+        column("node", &F::node, "", "number of the node").only(in_json),
+        column("name", &F::name, "", "what is there").only(in_json),
+        column("station", &F::label, "", "station").only(in_file),
+        column("major", &F::major, "m", "major semi-axis of the orbit").along("speeds"),
+        column("minor", &F::minor, "m", "minor semi-axis, > 0 forward").along("speeds"),
+        column("x", &F::x, "m", "complex amplitude of x").along("speeds"),
+        column("y", &F::y, "m", "complex amplitude of y").along("speeds")};
+  }
+};
+
 /// A peak of the largest response, and how far it is from the operating speed.
 struct StationPeak : ResponsePeak {
   std::optional<int> node;  ///< of the station that moves most
@@ -97,7 +125,7 @@ struct StationPeak : ResponsePeak {
   }
 };
 
-/// The steady response to unbalance; group /unbalance.
+/// The steady response to unbalance and forces; group /unbalance.
 struct UnbalanceStudy {
   std::vector<double> speeds;  ///< those asked for, else those of the curve [rad/s]
   std::vector<StationResponse> stations;
@@ -106,6 +134,7 @@ struct UnbalanceStudy {
   std::vector<ClearanceUse> clearances;
   std::vector<double> unbounded;         ///< undamped resonances [rad/s]
   std::vector<LargestResponse> largest;  ///< per station
+  std::vector<ForcedResponse> forced;    ///< to forces of other frequencies, force by force
   Failure failure;                       ///< why narrow peaks may be missing
 
   static constexpr std::string_view group = "/unbalance";
@@ -124,6 +153,7 @@ struct UnbalanceStudy {
             .maybe(),
         rows(&UnbalanceStudy::stations, "stations+"),
         rows(&UnbalanceStudy::peaks, "peaks").prefixed("peak_").maybe(),
+        rows(&UnbalanceStudy::forced, "forced").prefixed("forced_").maybe(),
         rows(&UnbalanceStudy::clearances, "clearances").only(in_json),
         column("unbounded", &UnbalanceStudy::unbounded, "rad/s", "undamped resonances")
             .only(in_json)};

@@ -79,7 +79,8 @@ void require_isotropy(const ContactSystem& system, const Mat& S) {
       system.acceleration(angle, turned.data(), b.data());
       if ((b - R.topLeftCorner(n, n) * a).norm() > isotropic * a.norm()) {
         throw NumericalError(
-            "the rotating frame: gravity, bearings or contacts tell directions apart, so that "
+            "the rotating frame: gravity, forces, bearings or contacts tell directions apart, so "
+            "that "
             "nothing repeats there");
       }
     }
@@ -172,6 +173,11 @@ AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double toleranc
   const ContactSystem& system = scene->contacts;
   if (!(system.Omega() > 0.0) || system.coordinates() == 0) {
     throw NumericalError("the rotating frame: the rotor does not spin forward");
+  }
+  if (!system.oscillations().empty()) {
+    throw NumericalError(
+        "the rotating frame: a force of another order than 1, or with a frequency of its own, does "
+        "not stand still there");
   }
   const Mat S = quarter_turn(*scene);
   require_isotropy(system, S);

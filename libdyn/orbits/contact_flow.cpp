@@ -1,5 +1,9 @@
 #include "libdyn/orbits/contact_flow.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/system/require_coordinates.hpp"
@@ -69,13 +73,38 @@ Mat BasisChange::back(const Mat& y) const {
   return back_->solve(y);
 }
 
+void require_periodic_loads(const ContactSystem& system) {
+  const auto& loads = system.oscillations();
+  const bool follow_the_speed =
+      std::all_of(loads.begin(), loads.end(), [](const Oscillation& o) { return o.order > 0.0; });
+  if (follow_the_speed && system.repeats_after() > 0) return;
+  throw ModelError(
+      {}, "force",
+      follow_the_speed
+          ? "an order that is no fraction of small whole numbers makes a torus of every motion: "
+            "there are no orbits and no return map; see whirl simulate and classify"
+          : "a force with a frequency of its own makes a torus of every motion, but at speeds in a "
+            "simple ratio to it: there are no orbits and no return map; see whirl simulate and "
+            "classify, or give the force an order of the speed");
+}
+
+void require_loads_of_a_revolution(const Flow& flow) {
+  if (flow.repeats == 1) return;
+  throw ModelError({}, "force",
+                   fmt::format("the forces repeat after {} revolutions only: expected orders that "
+                               "are whole numbers; whirl orbit --period {} takes others",
+                               flow.repeats, flow.repeats));
+}
+
 Flow flow_of(const ContactSystem& system, double tolerance) {
   require_coordinates(system);
+  require_periodic_loads(system);
   return {
       system.state_scale(), system.period(),
       [&system, tolerance](std::span<const Vec> starts, long revolutions, WithTangent tangents) {
         return pass(system, tolerance, starts, revolutions, tangents);
-      }};
+      },
+      system.repeats_after()};
 }
 
 Flow flow_of(std::shared_ptr<const Scene> scene, const Scene& first, double tolerance) {

@@ -11,8 +11,14 @@ namespace whirl::inline dyn {
 
 constexpr double flow_tolerance = 1e-13;  ///< of steps for orbits and their multipliers
 
+/// @throws ModelError  for forces with a frequency of their own, whose motions never repeat
+void require_periodic_loads(const ContactSystem& system);
+/// @throws ModelError  for a map that is not the same in every revolution
+void require_loads_of_a_revolution(const Flow& flow);
+
 /// From phase 0 to phase 0, with event-exact tangents; the contacts follow from the states.
 /// @param system  must live as long as the flow
+/// @throws ModelError  as require_periodic_loads
 Flow flow_of(const ContactSystem& system, double tolerance = flow_tolerance);
 
 /// The states of a scene for those of a first one, whose basis may be another.

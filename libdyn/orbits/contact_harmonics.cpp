@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/methods/methods.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/system/contact_ports.hpp"
 #include "libdyn/system/require_coordinates.hpp"
 
@@ -21,11 +23,15 @@ constexpr int kept = 80;      ///< harmonics of them
 
 HarmonicProblem harmonic_problem(const ContactSystem& system) {
   require_coordinates(system);
+  require_periodic_loads(system);
+  std::vector<HarmonicProblem::OrderLoad> orders;
+  for (const Oscillation& o : system.oscillations()) orders.push_back({o.order, o.cosine, o.sine});
   return {.K = system.K(),
           .D = system.D(),
           .f0 = system.constant_load(),
           .fc = system.cosine_load(),
           .fs = system.sine_load(),
+          .orders = std::move(orders),
           .rate = system.phase_rate(),
           .length_scale = system.length_scale(),
           .scale = system.state_scale(),

@@ -10,6 +10,7 @@ namespace whirl::inline dyn {
 
 /// @param system  must live as long as the problem
 /// @throws NumericalError  if nothing moves
+/// @throws ModelError      as require_periodic_loads
 HarmonicProblem harmonic_problem(const ContactSystem& system);
 
 /// Fourier coefficients of the motion of all coordinates over the next revolutions, as if it repeated.

@@ -23,7 +23,8 @@ constexpr int first_harmonics = 10;  ///< a revolution
 constexpr double slowest = 0.7;      ///< fall of changes that is believed in
 constexpr double unproven = 0.5;     ///< taken for it after one change only
 constexpr int most_failures = 3;  ///< numbers of harmonics without an orbit, before it is given up
-constexpr double same = 1e-6;     ///< of harmonics that a shorter period does not have, over all
+constexpr double order_digits = 1e-12;  ///< of an order that is a fraction, as decimals have it
+constexpr double same = 1e-6;  ///< of harmonics that a shorter period does not have, over all
 
 /// Amplitude c - i s of harmonic k; x = Re(amplitude e^(i k theta)).
 CMat amplitude(const Mat& c, Eigen::Index k) {
@@ -56,6 +57,20 @@ void HarmonicOptions::check() const {
   }
 }
 
+int HarmonicProblem::highest_load(int period) const {
+  int highest = period;
+  for (const OrderLoad& load : orders) {
+    const auto k = static_cast<int>(std::lround(load.order * period));
+    if (std::abs(load.order * period - k) > order_digits * period) {
+      throw OptionError(
+          fmt::format("harmonic balance: a force of order {:g} does not repeat with a period of {}",
+                      load.order, period));
+    }
+    highest = std::max(highest, k);
+  }
+  return highest;
+}
+
 HarmonicEquations::HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics)
     : problem_(problem), period_(period), harmonics_(harmonics) {
   const auto n = problem.coordinates();
@@ -74,6 +89,12 @@ HarmonicEquations::HarmonicEquations(const HarmonicProblem& problem, int period,
   if (period <= harmonics) {
     loads_.col(2 * period - 1) = problem.fc;
     loads_.col(2 * period) = problem.fs;
+  }
+  for (const HarmonicProblem::OrderLoad& load : problem.orders) {
+    const auto k = std::lround(load.order * period);
+    if (k > harmonics) continue;
+    loads_.col(2 * k - 1) += load.cosine;
+    loads_.col(2 * k) += load.sine;
   }
   springs_ = Vec::Zero(ports);
   int unheld = factorize();
@@ -328,9 +349,15 @@ HarmonicOrbit find_harmonic_orbit(const HarmonicProblem& problem, const Mat& sta
   options.check();
   const bool is_adaptive = options.harmonics == 0;
   const int most = is_adaptive ? options.most_harmonics * options.period : options.harmonics;
+  const int needed = problem.highest_load(options.period);
+  if (needed > most) {
+    throw OptionError(fmt::format(
+        "harmonic balance: a force is harmonic {} of the orbit, there are {}", needed, most));
+  }
   int H = std::min(first_harmonics * options.period, most);
   // half as many before, to tell how far the motion still moves
   if (!is_adaptive) H = most >= 4 * options.period ? (most + 1) / 2 : most;
+  H = std::max(H, std::min(needed, most));
   HarmonicOrbit found;
   std::vector<HarmonicOrbit::Level> levels;
   double change = std::numeric_limits<double>::quiet_NaN(), fall = unproven;

@@ -19,6 +19,12 @@ namespace whirl::inline dyn {
 struct HarmonicProblem {
   Mat K, D;
   Vec f0, fc, fs;
+  /// A load of another order than 1: cosine cos(order phase) + sine sin(order phase).
+  struct OrderLoad {
+    double order = 0.0;
+    Vec cosine, sine;
+  };
+  std::vector<OrderLoad> orders{};
   double rate = 1.0;          ///< of the phase [rad/s]
   double length_scale = 1.0;  ///< of displacements at the forces [m]
   Vec scale;                  ///< of the state (eta, eta'), size 2 n
@@ -27,6 +33,9 @@ struct HarmonicProblem {
   std::function<std::vector<ContactMeasure>(const Periodic& motion)> measures;
 
   Eigen::Index coordinates() const { return K.rows(); }
+  /// Number of the highest harmonic of a motion that a load has.
+  /// @throws OptionError  where one of them does not repeat with such a period
+  int highest_load(int period) const;
 };
 
 struct HarmonicOptions {

@@ -18,6 +18,7 @@ struct Instants {
   Instants(const Scene& scene, std::span<const Point> stations)
       : cosine(scene.reduced.M * scene.contacts.cosine_load()),
         sine(scene.reduced.M * scene.contacts.sine_load()),
+        oscillations(scene.contacts.oscillations()),
         rows(2 * std::ssize(stations), scene.contacts.coordinates()) {
     const Mat map = scene.displacement_map();
     Eigen::Index k = 0;
@@ -26,12 +27,21 @@ struct Instants {
       rows.row(k++) = map.row(scene.reduced.dofs.full_index(p, Y));
     }
     found.radii.assign(stations.size(), 0.0);
+    for (Oscillation& o : oscillations) {
+      o.cosine = scene.reduced.M * o.cosine;
+      o.sine = scene.reduced.M * o.sine;
+    }
   }
 
   /// @param weight  of the instant in the integral of the power [s]
-  void add(double phase, const Eigen::Ref<const Vec>& eta, const Eigen::Ref<const Vec>& rate,
+  void add(const Instant& now, const Eigen::Ref<const Vec>& eta, const Eigen::Ref<const Vec>& rate,
            double weight) {
+    const double phase = now.phase;
     found.work += weight * (std::cos(phase) * cosine + std::sin(phase) * sine).dot(rate);
+    for (const Oscillation& o : oscillations) {
+      const double angle = o.angle(now);
+      found.work += weight * (std::cos(angle) * o.cosine + std::sin(angle) * o.sine).dot(rate);
+    }
     const Vec places = rows * eta;
     for (std::size_t i = 0; i < found.radii.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(2 * i);
@@ -39,7 +49,8 @@ struct Instants {
     }
   }
 
-  Vec cosine, sine;  ///< of the unbalance, generalized forces
+  Vec cosine, sine;                       ///< of the unbalance, generalized forces
+  std::vector<Oscillation> oscillations;  ///< likewise
   Mat rows;
   OrbitMeasure found;
 };
@@ -61,7 +72,7 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
     for (int i = 0; i < quadrature_points && share > 0.0; ++i) {
       const double s = share * gauss.x(i);
       step.at(s, at.data());
-      instants.add(step.phase + s * step.turn, at.head(n), at.tail(n), share * gauss.w(i) * step.h);
+      instants.add(step.instant(s), at.head(n), at.tail(n), share * gauss.w(i) * step.h);
     }
     return true;
   });

@@ -11,7 +11,7 @@ namespace whirl::inline dyn {
 
 struct OrbitMeasure {
   std::vector<double> radii;  ///< largest distance of each station from the axis [m]
-  /// Work that the unbalance does in a revolution: what damping, contacts and films take, less what
+  /// Work that unbalance and forces do in a revolution: what damping, contacts and films take, less what
   /// friction at the rim brings in from the spin [J].
   double work = 0.0;
   Mat sections;  ///< x and y of the stations in turn (rows) after every whole revolution (columns) [m]

@@ -37,6 +37,15 @@ std::vector<ContactMeasure> shares(const std::vector<FlowResult>& passages, doub
   return sum;
 }
 
+/// @throws OptionError  where segments are not as long as the map takes to repeat, or a multiple
+void require_repeats(const Flow& flow, int period, int segments) {
+  if (period / segments % flow.repeats == 0) return;
+  throw OptionError(
+      fmt::format("an orbit of period {}: the forces repeat after {} revolutions, so that a period "
+                  "is {} or a multiple of it",
+                  period, flow.repeats, flow.repeats));
+}
+
 }  // namespace
 
 void ShootingOptions::check() const {
@@ -100,6 +109,7 @@ Vec shoot(const Flow& flow, PeriodicOrbit& orbit, WithTangent wanted) {
 PeriodicOrbit find_orbit(const Flow& flow, std::vector<Vec> starts,
                          const ShootingOptions& options) {
   options.check();
+  require_repeats(flow, options.period, static_cast<int>(starts.size()));
   const Eigen::Index n = flow.scale.size();
   struct Shot {
     PeriodicOrbit orbit;
@@ -139,7 +149,10 @@ PeriodicOrbit find_orbit(const Flow& flow, std::vector<Vec> starts,
 
 PeriodicOrbit find_orbit(const Flow& flow, const Vec& start, const ShootingOptions& options) {
   options.check();
-  const int segments = options.segments > 0 ? options.segments : options.period;
+  const int revolutions = static_cast<int>(flow.repeats);
+  const int segments =
+      options.segments > 0 ? options.segments : std::max(1, options.period / revolutions);
+  require_repeats(flow, options.period, segments);
   std::vector<Vec> starts{start};
   while (std::ssize(starts) < segments) {
     FlowResult p = flow.go({&starts.back(), 1}, options.period / segments, WithTangent::no).front();

@@ -30,11 +30,15 @@ struct Flow {
   /// Moves several starts on by as many revolutions; a passage each.
   std::function<std::vector<FlowResult>(std::span<const Vec> starts, long revolutions, WithTangent)>
       go;
+  /// Revolutions after which the map is the same again: those of an orbit are a multiple of it, and so
+  /// are those of a segment.
+  long repeats = 1;
 };
 
 struct ShootingOptions {
   int period = 1;           ///< of the orbit [revolutions]
-  int segments = 0;         ///< that it is shot in, a divisor of the period; 0: one a revolution
+  int segments = 0;         ///< that it is shot in, a divisor of the period; 0: one a revolution,
+                            ///< or as long as the map takes to repeat
   int most_steps = 12;      ///< of Newton's method
   double accurate = 1e-11;  ///< residual of an orbit [scales]
 

@@ -177,7 +177,9 @@ class BatchClassifier {
     } else if (c.drift.change > settled) {
       c.kind = MotionKind::not_settled;
     } else {
-      c.kind = c.exponents(0) > -c.zero ? MotionKind::quasi_periodic : MotionKind::periodic;
+      // a force that does not repeat makes a torus of a motion that attracts
+      const bool is_torus = c.exponents(0) > -c.zero || s.system->repeats_after() == 0;
+      c.kind = is_torus ? MotionKind::quasi_periodic : MotionKind::periodic;
     }
   }
 

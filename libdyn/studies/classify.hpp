@@ -97,7 +97,8 @@ void settle(std::span<ClassifyCandidate> motions, const ClassifyOptions& options
 /// Tells what those motions are that are not proven to be periodic, from averaged exponents.
 ///
 /// A motion is hyperchaotic or chaotic with two or one of them above zero, as estimate_exponents has
-/// it; else it is quasi-periodic if the largest counts as zero, and periodic below, unless means over
+/// it; else it is quasi-periodic if the largest counts as zero or forces do not repeat, and
+/// periodic otherwise, unless means over
 /// its sections still change by more than 2 % of their spread: then it has not settled. What decays
 /// has a time after which it would have; without contact this follows from the linear rotor.
 ///

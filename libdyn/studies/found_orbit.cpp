@@ -35,12 +35,15 @@ FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
 ShootingGap gap_of(const Scene& scene, const FoundOrbit& orbit) {
   const ContactSystem& system = scene.contacts;
   const auto n = system.coordinates();
-  const PeriodicOrbit shot = find_orbit(flow_of(system), orbit.states, {.period = orbit.period});
+  const Flow flow = flow_of(system);
+  const auto stride = static_cast<std::size_t>(flow.repeats);
+  std::vector<Vec> starts;
+  for (std::size_t i = 0; i < orbit.states.size(); i += stride) starts.push_back(orbit.states[i]);
+  const PeriodicOrbit shot = find_orbit(flow, starts, {.period = orbit.period});
   if (!shot.is_good()) return {.failure = shot.failure};
   double displacement = 0.0, velocity = 0.0, multiplier = 0.0;
-  for (std::size_t i = 0; i < orbit.states.size(); ++i) {
-    const Vec gap =
-        (orbit.states[i] - shot.states[i]).cwiseQuotient(system.state_scale()).cwiseAbs();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const Vec gap = (starts[i] - shot.states[i]).cwiseQuotient(system.state_scale()).cwiseAbs();
     displacement = std::max(displacement, gap.head(n).maxCoeff());
     velocity = std::max(velocity, gap.tail(n).maxCoeff());
   }

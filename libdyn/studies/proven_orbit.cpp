@@ -32,7 +32,8 @@ bool improve(OrbitCandidate& c, const Trajectory& t, bool is_patient) {
     Vec exponents = sizes.array().max(1e-300).log() / c.period;
     std::sort(exponents.begin(), exponents.end(), std::greater<>());
     c.exponents = exponents;
-    for (int p = 1; p < c.period; ++p) {  // it may have a shorter period
+    const int step = static_cast<int>(system.repeats_after());
+    for (int p = step; p < c.period; p += step) {  // it may have a shorter period
       const Eigen::Map<const Vec> section(t.sections.data() + (p - 1) * system.size(),
                                           system.size());
       if (c.period % p == 0 && distance(system, section, c.y) < same) c.period = p;
@@ -55,7 +56,9 @@ int repeating_period(const ContactSystem& system, const std::vector<double>& sec
   const auto section = [&](int i) -> Vec {
     return Eigen::Map<const Vec>(sections.data() + i * size, size);
   };
-  for (int p = 1; p <= std::min(longest, count / 2); ++p) {
+  const int step = static_cast<int>(system.repeats_after());
+  if (step == 0) return 0;
+  for (int p = step; p <= std::min(longest, count / 2); p += step) {
     double worst = 0.0;
     for (int i = count - p; i < count && worst < bound; ++i) {
       worst = std::max(worst, distance(system, section(i), section(i - p)));
@@ -71,9 +74,10 @@ void find_orbits(std::vector<OrbitCandidate>& candidates, double tolerance,
   for (int iteration = 0; iteration < most_newton && !candidates.empty(); ++iteration) {
     std::vector<Trajectory> returns;
     for (const OrbitCandidate& c : candidates) {
-      returns.push_back({.system = c.of->system,
-                         .state = {.revolution = 0, .phase = 0.0, .y = c.y},
-                         .revolutions = c.period});
+      returns.push_back(
+          {.system = c.of->system,
+           .state = {.revolution = c.of->found.end.revolution, .phase = 0.0, .y = c.y},
+           .revolutions = c.period});
     }
     BatchOptions how{
         .tolerance = std::min(tolerance, exact), .threads = 1, .sections = true, .tangent = true};
@@ -91,7 +95,9 @@ void find_orbits(std::vector<OrbitCandidate>& candidates, double tolerance,
 
 bool stands_still(const ClassifyCandidate& s, double tolerance) {
   const ContactSystem& system = *s.system;
-  if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0)) return false;
+  if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0) ||
+      !system.oscillations().empty())
+    return false;
   double moved = 0.0;
   Trajectory t{.system = s.system, .state = s.found.end, .revolutions = 1};
   Vec y(system.size());

@@ -50,6 +50,7 @@ TorusBranch find_torus(const Scene& scene, const MotionState& start, const Torus
   const int period = options.circle.period;
   const Mat sections = sections_of(scene, start, period, options.sections);
   const Flow flow = flow_of(scene.contacts);
+  require_loads_of_a_revolution(flow);
   const auto guess = guessed_circle(sections, flow.scale, period, options.circle.harmonics);
   if (!guess) {
     throw NumericalError("the motion has settled on a periodic orbit: there is no circle");

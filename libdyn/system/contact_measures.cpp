@@ -42,7 +42,7 @@ void ContactMeter::add(const Step& step) {
     for (int k = 0; k <= points; ++k) {
       const double s = static_cast<double>(k) / points;
       step.at(s, y.data());
-      system_.forces(step.phase + s * step.turn, y.data(), step.contacts, forces);
+      system_.forces(step.instant(s), y.data(), step.contacts, forces);
       for (std::size_t i = 0; i < contacts; ++i) {
         normal[i][static_cast<std::size_t>(k)] = forces[i].normal;
         friction[i][static_cast<std::size_t>(k)] = std::abs(forces[i].friction);

@@ -1,12 +1,16 @@
 #include "libdyn/system/contact_system.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libcontact/blade.hpp"
+#include "libfe/forces.hpp"
 
 namespace whirl::inline dyn {
 
@@ -16,6 +20,7 @@ constexpr double rest_slip = 1e-12;  ///< of the rim speed: as good as no slip
 /// Relative difference of rows, centers and rim speeds up to which contacts slip alike: more than
 /// rounding in a reduction, less than anybody can mean.
 constexpr double alike = 1e-9;
+constexpr double most_often = 5000;  ///< frequency of a load: what sines of lanes can take
 
 /// Whether the slip of two contacts is the same in every motion.
 bool slip_alike(const ReducedContact& a, const ReducedContact& b) {
@@ -126,10 +131,26 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
   D_ = mass.solve(reduced.D());
   const Mat back = reduced.dofs.T * reduced.Phi;  // full displacement of each coordinate
   const auto load = [&](const Vec& full) -> Vec { return mass.solve(back.transpose() * full); };
-  const CVec u = assembler.turning_load(Omega_);
-  f0_ = load(assembler.gravity_load());
+  const CVec u = synchronous_load(assembler, Omega_);
+  f0_ = load(static_load(assembler));
   fc_ = load(u.real());  // Re(u e^(i phase)) = Re u cos - Im u sin
   fs_ = load(-u.imag());
+  for (const OscillatingLoad& f : oscillating_loads(assembler)) {
+    if (f.amplitude.isZero(0.0)) continue;
+    const Vec cosine = load(f.amplitude.real()), sine = load(-f.amplitude.imag());
+    if (f.at(Omega_) == 0.0) {  // an order of a speed that is zero
+      f0_ += cosine;
+      continue;
+    }
+    const double ratio = f.order > 0.0 ? f.order : f.frequency / phase_rate();
+    if (ratio > most_often) {
+      throw ModelError({}, "force",
+                       fmt::format("{} is {:.4g} times the frequency of the speed, expected {:g} "
+                                   "times at most",
+                                   f.label(), ratio, most_often));
+    }
+    oscillations_.push_back({f.order, f.at(Omega_), ratio, cosine, sine});
+  }
 
   double clearance = std::numeric_limits<double>::infinity();
   for (const Contact& c : contacts) {
@@ -170,9 +191,14 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
   if (contacts_.empty() && films_.empty()) {
     const Vec sag = least_squares(K_, f0_);
     const double turn = phase_rate();
-    const double size = std::max({(back * sag).cwiseAbs().maxCoeff(),
-                                  (back * fc_).cwiseAbs().maxCoeff() / (turn * turn),
-                                  (back * fs_).cwiseAbs().maxCoeff() / (turn * turn)});
+    double size = std::max({(back * sag).cwiseAbs().maxCoeff(),
+                            (back * fc_).cwiseAbs().maxCoeff() / (turn * turn),
+                            (back * fs_).cwiseAbs().maxCoeff() / (turn * turn)});
+    for (const Oscillation& o : oscillations_) {
+      for (const Vec* f : {&o.cosine, &o.sine}) {
+        size = std::max(size, (back * *f).cwiseAbs().maxCoeff() / (o.frequency * o.frequency));
+      }
+    }
     clearance = size > 0.0 && std::isfinite(size) ? size : 1e-3;
   }
   length_scale_ = clearance;
@@ -235,11 +261,15 @@ double ContactSystem::phase_rate() const {
   return Omega_ != 0.0 ? std::abs(Omega_) : 2.0 * std::numbers::pi;
 }
 
-void ContactSystem::smooth_acceleration(double phase, const double* y, double* a) const {
+void ContactSystem::smooth_acceleration(const Instant& at, const double* y, double* a) const {
   const int n = coordinates();
   Eigen::Map<Vec> result(a, n);
   const Eigen::Map<const Vec> eta(y, n), rate(y + n, n);
-  result = f0_ + std::cos(phase) * fc_ + std::sin(phase) * fs_;
+  result = f0_ + std::cos(at.phase) * fc_ + std::sin(at.phase) * fs_;
+  for (const Oscillation& o : oscillations_) {
+    const double alpha = o.angle(at);
+    result += std::cos(alpha) * o.cosine + std::sin(alpha) * o.sine;
+  }
   result.noalias() -= K_ * eta;
   result.noalias() -= D_ * rate;
   for (const ReducedFilm& film : films_) result.noalias() += film.B * film_force(film, y, n);
@@ -252,7 +282,7 @@ const ReducedFilm* ContactSystem::left_bearing(const double* y) const {
   return nullptr;
 }
 
-void ContactSystem::forces(double phase, const double* y, const ContactStates& states,
+void ContactSystem::forces(const Instant& at, const double* y, const ContactStates& states,
                            std::vector<ContactForces>& out) const {
   const int n = coordinates();
   out.resize(contacts_.size());
@@ -260,7 +290,7 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     out[i] = {};
     if (contacts_[i].turns() && states[i].touch == Touch::apart) continue;  // most of many
-    out[i] = kinematics(contacts_[i], phase, y, n);
+    out[i] = kinematics(contacts_[i], at.phase, y, n);
     if (leads(states, i)) {
       sticking.push_back(static_cast<int>(i));
     } else if (states[i].touch == Touch::sliding) {
@@ -272,7 +302,7 @@ void ContactSystem::forces(double phase, const double* y, const ContactStates& s
   // friction that keeps every sticking slip velocity constant:
   //   v_t' = t . u'' - (t . u')(n . u') / r = 0,   u'' = U eta''
   Vec a(n);
-  smooth_acceleration(phase, y, a.data());
+  smooth_acceleration(at, y, a.data());
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!states[i].in_touch()) continue;
     push(contacts_[i], out[i], out[i].friction, a);
@@ -319,16 +349,16 @@ void ContactSystem::share_friction(const ContactStates& states,
   }
 }
 
-void ContactSystem::acceleration(double phase, const double* y, const ContactStates& states,
+void ContactSystem::acceleration(const Instant& at, const double* y, const ContactStates& states,
                                  double* a) const {
   const int n = coordinates();
   Eigen::Map<Vec> result(a, n);
-  smooth_acceleration(phase, y, a);
+  smooth_acceleration(at, y, a);
   bool any_sticks = false;
   for (const ContactState& s : states) any_sticks = any_sticks || s.touch == Touch::sticking;
   if (any_sticks) {
     std::vector<ContactForces> all;
-    forces(phase, y, states, all);
+    forces(at, y, states, all);
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       if (!states[i].in_touch()) continue;
       push(contacts_[i], all[i], all[i].friction, result);
@@ -338,45 +368,46 @@ void ContactSystem::acceleration(double phase, const double* y, const ContactSta
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (states[i].touch != Touch::sliding) continue;
     const ReducedContact& c = contacts_[i];
-    const ContactForces f = kinematics(c, phase, y, n);
+    const ContactForces f = kinematics(c, at.phase, y, n);
     push(c, f, sliding_friction(c, states[i], f), result);
   }
 }
 
-void ContactSystem::acceleration(double phase, const double* y, double* a) const {
+void ContactSystem::acceleration(const Instant& at, const double* y, double* a) const {
   const int n = coordinates();
   Eigen::Map<Vec> result(a, n);
-  smooth_acceleration(phase, y, a);
+  smooth_acceleration(at, y, a);
   for (const ReducedContact& c : contacts_) {
-    const ContactForces f = kinematics(c, phase, y, n);
+    const ContactForces f = kinematics(c, at.phase, y, n);
     if (f.depth <= 0.0 || f.normal <= 0.0) continue;
     const ContactState state{Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
     push(c, f, sliding_friction(c, state, f), result);
   }
 }
 
-Hold ContactSystem::hold(double phase, const double* y, const ContactStates& states, int i) const {
-  const auto at = static_cast<std::size_t>(i);
+Hold ContactSystem::hold(const Instant& at, const double* y, const ContactStates& states,
+                         int i) const {
+  const auto ui = static_cast<std::size_t>(i);
   ContactStates trial = states;
-  trial[at].touch = Touch::sticking;
+  trial[ui].touch = Touch::sticking;
   set_group(trial, i, {Touch::sticking, 1.0});
   std::vector<ContactForces> all;
-  forces(phase, y, trial, all);
+  forces(at, y, trial, all);
   Hold hold;
   for (std::size_t j = 0; j < contacts_.size(); ++j) {
-    if (trial[j].touch != Touch::sticking || !slip_alike(at, j)) continue;
+    if (trial[j].touch != Touch::sticking || !slip_alike(ui, j)) continue;
     hold.force += all[j].friction;
     hold.limit += contacts_[j].friction.mu * all[j].normal;
   }
   return hold;
 }
 
-ContactStates ContactSystem::classify(double phase, const double* y) const {
+ContactStates ContactSystem::classify(const Instant& at, const double* y) const {
   ContactStates states(contacts_.size());
   std::vector<int> at_rest;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ReducedContact& c = contacts_[i];
-    const ContactForces f = kinematics(c, phase, y, coordinates());
+    const ContactForces f = kinematics(c, at.phase, y, coordinates());
     if (f.depth <= 0.0) continue;
     if (f.normal <= 0.0) {
       states[i].touch = Touch::receding;
@@ -388,7 +419,7 @@ ContactStates ContactSystem::classify(double phase, const double* y) const {
   }
   for (const int i : at_rest) {
     if (states[static_cast<std::size_t>(i)].touch == Touch::sticking) continue;  // with another
-    const Hold needed = hold(phase, y, states, i);
+    const Hold needed = hold(at, y, states, i);
     set_group(states, i,
               needed.is_enough() ? ContactState{Touch::sticking, 1.0}
                                  : ContactState{Touch::sliding, needed.force > 0.0 ? 1.0 : -1.0});

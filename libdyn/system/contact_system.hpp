@@ -82,10 +82,32 @@ struct ContactForces {
   Vec2 t() const { return {-n(1), n(0)}; }
 };
 
+/// When: a phase within a revolution, and which revolution that is. Only loads that do not repeat with
+/// the revolution ask for the latter.
+struct Instant {
+  double phase = 0.0;  ///< [rad]
+  long revolution = 0;
+
+  Instant(double at_phase, long in_revolution = 0) : phase(at_phase), revolution(in_revolution) {}
+};
+
+/// A load whose frequency is not that of the speed, over the angle alpha that it has gone through:
+/// cosine cos(alpha) + sine sin(alpha), alpha = ratio times the angle of the rotor.
+struct Oscillation {
+  double order = 0.0;      ///< of the speed; 0: a frequency of its own
+  double frequency = 0.0;  ///< [rad/s]
+  double ratio = 0.0;      ///< of that to the rate of the phase
+  Vec cosine, sine;        ///< accelerations of the coordinates
+
+  /// alpha at the start of a revolution, 0 to 2 pi: to the last digit, however many there were.
+  double start_angle(long revolution) const;
+  double angle(const Instant& at) const { return start_angle(at.revolution) + ratio * at.phase; }
+};
+
 /// Reduced equations of motion with contacts and oil films.
 ///
 ///   eta'' = f0 + fc cos(phase) + fs sin(phase) - K eta - D eta' - sum_j B_j (N_j n_j + T_j t_j)
-///           + sum_i B_i F_i
+///           + sum_i B_i F_i + loads of other frequencies
 ///
 /// M is multiplied out. The state of an integration is (eta, eta'), size 2 n; phase = Omega t.
 /// A value: copy it, one per thread.
@@ -108,6 +130,11 @@ class ContactSystem {
   const Vec& constant_load() const { return f0_; }
   const Vec& cosine_load() const { return fc_; }
   const Vec& sine_load() const { return fs_; }
+  /// Loads of other frequencies; empty: there are none.
+  const std::vector<Oscillation>& oscillations() const { return oscillations_; }
+  /// After how many revolutions all loads repeat, the least number; 0: never, as of a frequency of
+  /// its own that is in no simple ratio to the speed.
+  long repeats_after() const;
   const std::vector<ReducedContact>& contacts() const { return contacts_; }
   const std::vector<ReducedFilm>& films() const { return films_; }
   /// The first film whose journal is not inside its bearing; null if there is none.
@@ -124,20 +151,21 @@ class ContactSystem {
   /// eta'' for given states of the contacts.
   /// @param y  state, size 2 n
   /// @param a  receives n accelerations
-  void acceleration(double phase, const double* y, const ContactStates& states, double* a) const;
+  void acceleration(const Instant& at, const double* y, const ContactStates& states,
+                    double* a) const;
 
   /// The same without a memory of events, as classify would have it: contacts touch where the state
   /// lies beyond the clearance, friction takes the sign of the slip, nothing sticks.
-  void acceleration(double phase, const double* y, double* a) const;
+  void acceleration(const Instant& at, const double* y, double* a) const;
 
   /// Normal force, slip and friction of every contact; friction of sticking ones is solved for.
   /// Contacts of one slip group share theirs in proportion to mu N: only its sum is determined, and
   /// so they all slip at the same instant. Of turning places that are apart nothing is said.
-  void forces(double phase, const double* y, const ContactStates& states,
+  void forces(const Instant& at, const double* y, const ContactStates& states,
               std::vector<ContactForces>& out) const;
 
   /// What would hold contact i and those in touch that slip with it, the others as they are.
-  Hold hold(double phase, const double* y, const ContactStates& states, int i) const;
+  Hold hold(const Instant& at, const double* y, const ContactStates& states, int i) const;
 
   /// Whether contact i and another slip alike.
   bool slip_alike(std::size_t i, std::size_t j) const {
@@ -150,7 +178,7 @@ class ContactSystem {
   void set_group(ContactStates& states, int i, const ContactState& to) const;
 
   /// States that a motion has at an instant if nothing is known of its past.
-  ContactStates classify(double phase, const double* y) const;
+  ContactStates classify(const Instant& at, const double* y) const;
 
   /// Removes the slip that rounding leaves in sticking contacts, by an impulse of friction.
   void remove_slip(double* y, const ContactStates& states) const;
@@ -162,10 +190,11 @@ class ContactSystem {
   /// Adds a contact at every place of its geometry.
   void add_places(ReducedContact contact, const AnyGeometry& geometry);
   /// Without contacts.
-  void smooth_acceleration(double phase, const double* y, double* a) const;
+  void smooth_acceleration(const Instant& at, const double* y, double* a) const;
 
   Mat K_, D_;
   Vec f0_, fc_, fs_;
+  std::vector<Oscillation> oscillations_;
   std::vector<ReducedContact> contacts_;
   std::vector<ReducedFilm> films_;
   double Omega_ = 0.0;

@@ -83,13 +83,13 @@ bool EventWatcher::is_level(int contact, EventKind kind) const {
   return kind == EventKind::slip_stop && is_level_[static_cast<std::size_t>(contact)] != 0;
 }
 
-double EventWatcher::value(const Event& event, double phase, const double* y,
+double EventWatcher::value(const Event& event, const Instant& at, const double* y,
                            const ContactStates& states) const {
   if (event.kind == EventKind::stick_limit) {
-    return stick_margin(event.contact, system_.hold(phase, y, states, event.contact));
+    return stick_margin(event.contact, system_.hold(at, y, states, event.contact));
   }
   const auto i = static_cast<std::size_t>(event.contact);
-  return value(event, kinematics(system_.contacts()[i], phase, y, system_.coordinates()),
+  return value(event, kinematics(system_.contacts()[i], at.phase, y, system_.coordinates()),
                states[i]);
 }
 
@@ -141,7 +141,7 @@ Polynomial EventWatcher::polynomial(const Step& step, int contact, EventKind kin
   const Event event{0.0, contact, kind};
   for (int i = 0; i < samples; ++i) {
     step.at(table.s(i), y.data());
-    values(i) = value(event, step.phase + table.s(i) * step.turn, y.data(), step.contacts);
+    values(i) = value(event, step.instant(table.s(i)), y.data(), step.contacts);
   }
   const Eigen::Matrix<double, samples, 1> powers = table.to_powers * values;
   g.degree = samples - 1;
@@ -168,7 +168,8 @@ std::optional<Event> EventWatcher::first(const Step& step) const {
   return earliest;
 }
 
-void EventWatcher::enter_touch(int contact, double phase, const double* y, ContactStates& states) {
+void EventWatcher::enter_touch(int contact, const Instant& at, const double* y,
+                               ContactStates& states) {
   const auto i = static_cast<std::size_t>(contact);
   const ReducedContact& c = system_.contacts()[i];
   for (std::size_t j = 0; j < states.size(); ++j) {  // its slip is known from others
@@ -176,11 +177,11 @@ void EventWatcher::enter_touch(int contact, double phase, const double* y, Conta
     states[i] = states[j];
     return;
   }
-  const ContactForces f = kinematics(c, phase, y, system_.coordinates());
+  const ContactForces f = kinematics(c, at.phase, y, system_.coordinates());
   states[i] = {Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
   const bool is_at_rest = std::abs(f.slip) <= 1e-12 * speed_scale_[i];
   if (c.friction.is_exact() && is_at_rest) {
-    apply({0.0, contact, EventKind::slip_stop}, phase, y, states);
+    apply({0.0, contact, EventKind::slip_stop}, at, y, states);
   }
 }
 
@@ -196,7 +197,8 @@ void EventWatcher::set_group(int contact, const ContactState& to, bool is_level,
   }
 }
 
-void EventWatcher::apply(const Event& event, double phase, const double* y, ContactStates& states) {
+void EventWatcher::apply(const Event& event, const Instant& at, const double* y,
+                         ContactStates& states) {
   const auto i = static_cast<std::size_t>(event.contact);
   const ReducedContact& c = system_.contacts()[i];
   unsigned& surface = surface_[i];
@@ -205,18 +207,18 @@ void EventWatcher::apply(const Event& event, double phase, const double* y, Cont
   switch (event.kind) {
     case EventKind::touch:
       surface = is_continuous(c.law) ? bit(EventKind::release) : 0u;
-      enter_touch(event.contact, phase, y, states);
+      enter_touch(event.contact, at, y, states);
       break;
     case EventKind::retouch:
       surface = bit(EventKind::release);
-      enter_touch(event.contact, phase, y, states);
+      enter_touch(event.contact, at, y, states);
       break;
     case EventKind::part:
       surface = bit(EventKind::touch);
       states[i] = {Touch::apart, 1.0};
       break;
     case EventKind::release:
-      if (is_continuous(c.law) || kinematics(c, phase, y, system_.coordinates()).depth <= 0.0) {
+      if (is_continuous(c.law) || kinematics(c, at.phase, y, system_.coordinates()).depth <= 0.0) {
         surface = bit(EventKind::touch);
         states[i] = {Touch::apart, 1.0};
       } else {
@@ -225,7 +227,7 @@ void EventWatcher::apply(const Event& event, double phase, const double* y, Cont
       }
       break;
     case EventKind::slip_stop: {
-      const Hold hold = system_.hold(phase, y, states, event.contact);
+      const Hold hold = system_.hold(at, y, states, event.contact);
       if (hold.is_enough()) {
         set_group(event.contact, {Touch::sticking, 1.0}, false, states);
       } else {  // even full friction does not hold it: it slides on, or back
@@ -234,7 +236,7 @@ void EventWatcher::apply(const Event& event, double phase, const double* y, Cont
       break;
     }
     case EventKind::stick_limit: {
-      const double force = system_.hold(phase, y, states, event.contact).force;
+      const double force = system_.hold(at, y, states, event.contact).force;
       set_group(event.contact, {Touch::sliding, force > 0.0 ? 1.0 : -1.0}, true, states);
       break;
     }

@@ -34,7 +34,7 @@ class EventWatcher {
   std::optional<Event> first(const Step& step) const;
 
   /// Function of an event and its rate [1/s] at a state; dimensionless, positive before the event.
-  double value(const Event& event, double phase, const double* y,
+  double value(const Event& event, const Instant& at, const double* y,
                const ContactStates& states) const;
 
   /// The same from the forces of its contact, for kinds that ask for them alone: not stick_limit.
@@ -45,7 +45,7 @@ class EventWatcher {
 
   /// Changes the states of the contacts at an event. Contacts that slip alike begin and end to stick
   /// together.
-  void apply(const Event& event, double phase, const double* y, ContactStates& states);
+  void apply(const Event& event, const Instant& at, const double* y, ContactStates& states);
 
   /// A step without an event was made: nothing starts on a surface any more.
   void moved_on();
@@ -62,7 +62,7 @@ class EventWatcher {
 
  private:
   Polynomial polynomial(const Step& step, int contact, EventKind kind) const;
-  void enter_touch(int contact, double phase, const double* y, ContactStates& states);
+  void enter_touch(int contact, const Instant& at, const double* y, ContactStates& states);
   /// Sets the contacts in touch that slip as one does, and what is known of their slip there.
   void set_group(int contact, const ContactState& to, bool is_level, ContactStates& states);
 

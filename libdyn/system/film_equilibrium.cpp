@@ -11,6 +11,7 @@
 #include "libbase/newton.hpp"
 #include "libbase/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
+#include "libfe/forces.hpp"
 
 namespace whirl::inline dyn {
 
@@ -80,7 +81,7 @@ Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, do
   const SparseLu lu(held_matrix(p.system.K, U, s));
   if (!lu.is_regular()) throw NumericalError("the stiffness is singular at this speed");
   Mat wanted = Mat::Zero(n + ports, 1 + ports);
-  wanted.col(0).head(n) = p.system.dofs.T.transpose() * assembler.gravity_load();
+  wanted.col(0).head(n) = p.system.dofs.T.transpose() * static_load(assembler);
   wanted.bottomRightCorner(ports, ports).diagonal().setConstant(s);
   const Mat found = lu.solve(wanted);
   p.rest = found.col(0).head(n);
@@ -211,7 +212,7 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) 
   RotorOnFilms rotor{.Omega = Omega,
                      .system = ports->system,
                      .q = ports->rest + ports->shapes * u,
-                     .load = assembler.gravity_load()};
+                     .load = static_load(assembler)};
   rotor.system.Omega = Omega;
   for (std::size_t i = 0; i < films.size(); ++i) {
     const Vec2 place = places.segment<2>(2 * static_cast<Eigen::Index>(i));

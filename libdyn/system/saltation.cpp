@@ -37,19 +37,19 @@ double Saltation::log_determinant() const {
   return std::log(std::abs(1.0 + gradient.dot(jump)));
 }
 
-std::optional<Saltation> saltation(const ContactSystem& system, const Event& event, double phase,
-                                   const Vec& y, const ContactStates& before,
+std::optional<Saltation> saltation(const ContactSystem& system, const Event& event,
+                                   const Instant& at, const Vec& y, const ContactStates& before,
                                    const ContactStates& after) {
   if (event.kind != EventKind::touch && event.kind != EventKind::slip_stop) return std::nullopt;
   const auto n = system.coordinates();
   Vec a_before(n), a_after(n);
-  system.acceleration(phase, y.data(), before, a_before.data());
-  system.acceleration(phase, y.data(), after, a_after.data());
+  system.acceleration(at, y.data(), before, a_before.data());
+  system.acceleration(at, y.data(), after, a_after.data());
   const Vec change = a_after - a_before;
   if (change.isZero(0.0)) return std::nullopt;
 
   const ReducedContact& contact = system.contacts()[static_cast<std::size_t>(event.contact)];
-  const ContactGap<Dual<8>> gap = gap_of(contact, phase, y, n);
+  const ContactGap<Dual<8>> gap = gap_of(contact, at.phase, y, n);
   const bool touches = event.kind == EventKind::touch;
   Saltation s;
   s.gradient = gradient_of(contact, touches ? gap.depth.slopes : gap.slip.slopes, n);

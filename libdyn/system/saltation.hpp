@@ -28,8 +28,8 @@ struct Saltation {
 /// @param y       state at the event
 /// @param before  states of the contacts until the event
 /// @param after   and from it on
-std::optional<Saltation> saltation(const ContactSystem& system, const Event& event, double phase,
-                                   const Vec& y, const ContactStates& before,
+std::optional<Saltation> saltation(const ContactSystem& system, const Event& event,
+                                   const Instant& at, const Vec& y, const ContactStates& before,
                                    const ContactStates& after);
 
 }  // namespace whirl::inline dyn

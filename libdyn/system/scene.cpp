@@ -3,15 +3,20 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "libbase/error.hpp"
+#include "libfe/forces.hpp"
 
 namespace whirl::inline dyn {
 
 namespace {
 
+constexpr double band_by_force = 1.5;  ///< of the highest frequency of a force
+
 constexpr std::array lateral{X, Y};
+constexpr std::array tilts_alone{THETA_X, THETA_Y};
 constexpr std::array lateral_and_tilts{X, Y, THETA_X, THETA_Y};
 std::span<const Component> components(const Contact& c) {
   if (closing_of(geometry_of(c)) == Closing::tilts) return lateral_and_tilts;
@@ -47,6 +52,29 @@ void require_inertia(const Assembler& assembler, const System& system, const Sta
   }
 }
 
+/// Adds where a force acts. One of a base acts everywhere: its load is a row of its own.
+void add_force(std::vector<Vec>& rows, const Assembler& assembler, const System& system,
+               const Force& f) {
+  if (f.has_station()) {
+    const std::span<const Component> along =
+        f.kind == ForceKind::moment ? std::span<const Component>(tilts_alone) : lateral;
+    require_inertia(assembler, system, f.at, "force \"" + f.name + "\"", along);
+    return add_rows(rows, system.dofs, assembler.point(f.at), {}, along);
+  }
+  const CVec load = system.dofs.T.transpose() * amplitude_of(f, assembler);
+  for (const Vec& part : {Vec(load.real()), Vec(load.imag())}) {
+    if (part.squaredNorm() > 0.0) rows.push_back(part);
+  }
+}
+
+/// How a model is reduced: the band reaches beyond the frequencies of its forces.
+Reduction reduction_of(const Model& model) {
+  Reduction how = model.reduction;
+  const double highest = band_by_force * highest_frequency(model.structure, model.speed);
+  if (how.band == 0.0 && highest > 2.0 * std::abs(model.speed)) how.band = highest;
+  return how;
+}
+
 }  // namespace
 
 Scene make_scene(const Model& model, ReductionEstimate wanted) {
@@ -71,6 +99,7 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
     require_inertia(assembler, system, u.at, "unbalance");
     add_rows(others, system.dofs, assembler.point(u.at), {});
   }
+  for (const Force& f : model.structure.forces) add_force(others, assembler, system, f);
   if (!model.structure.bow.z.empty()) {
     const CVec bow = system.dofs.T.transpose() * assembler.bow();
     for (const Vec& part : {Vec(bow.real()), Vec(bow.imag())}) {
@@ -84,7 +113,7 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
     }
   }
   ReductionError error;
-  ReducedSystem reduced = reduce(system, model.reduction, ports, others,
+  ReducedSystem reduced = reduce(system, reduction_of(model), ports, others,
                                  wanted == ReductionEstimate::yes ? &error : nullptr);
   ContactSystem contacts(assembler, reduced, model.contacts, model.films);
   return {std::move(assembler), std::move(system), std::move(reduced), error, std::move(contacts)};

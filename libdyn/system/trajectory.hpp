@@ -16,6 +16,8 @@ struct MotionState {
   double phase = 0.0;  ///< within the revolution, 0 <= phase < 2 pi [rad]
   Vec y;               ///< (eta, eta')
   ContactStates contacts;
+
+  Instant instant() const { return {phase, revolution}; }
 };
 
 /// One step of a motion without an event inside, as polynomials in s = (t - start) / h.
@@ -26,6 +28,8 @@ struct Step {
   double turn = 0.0;   ///< phase that passes, phase_rate * h [rad]
   Mat q, v;            ///< coefficients of eta and eta', n x (degree + 1)
   ContactStates contacts;
+
+  Instant instant(double s) const { return {phase + s * turn, revolution}; }
 
   /// State at 0 <= s <= 1, 2 n numbers.
   void at(double s, double* y) const {

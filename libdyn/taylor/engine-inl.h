@@ -149,6 +149,7 @@ class Engine {
   __attribute__((flatten)) HWY_ATTR void series_of_bodies(Law& law);
   HWY_ATTR inline void accelerate(int k, P* to);
   HWY_ATTR void find_load();
+  HWY_ATTR void add_oscillation(const OscillationLanes<P>& load);
   void find_leaders();
   HWY_ATTR void stick(int k);
   HWY_ATTR void solve_influence();
@@ -243,7 +244,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   record.certificate_due = t.state.revolution + 1;
   record.impacts.assign(contacts_.size(), 0.0);
   if (t.state.contacts.size() != contacts_.size()) {
-    t.state.contacts = s.classify(t.state.phase, t.state.y.data());
+    t.state.contacts = s.classify(t.state.instant(), t.state.y.data());
   }
   equations_.load(s, l);
   for (int i = 0; i < n_; ++i) {
@@ -263,6 +264,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   set_lane(rate_, l, rate);
   set_lane(period_, l, turn / rate);
   set_lane(time_, l, Number(t.state.phase) / rate);
+  equations_.begin_revolution(s, rate, t.state.revolution, l);
   for (size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
   }

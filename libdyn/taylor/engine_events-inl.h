@@ -229,22 +229,22 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   }
   const int index = static_cast<int>(i);
   const Event event{0.0, index, kind};
-  const double phase = lane(rate_ * time_, l);
+  const Instant at(lane(rate_ * time_, l), record.revolution);
   const ContactStates before = states;
   t.system->remove_slip(y.data(), before);  // what sticking has gathered must not look like slip
   record.watcher->moved_on();               // what it notes now is of this event
-  record.watcher->apply(event, phase, y.data(), states);
+  record.watcher->apply(event, at, y.data(), states);
   if constexpr (!P::is_double) {
     // where double cannot tell, it sticks: whether it can, the series of its friction tells at once
     constexpr double undecided = 1e-9;
     if (kind == EventKind::slip_stop) {
-      const Hold hold = t.system->hold(phase, y.data(), before, index);
+      const Hold hold = t.system->hold(at, y.data(), before, index);
       if (std::abs(std::abs(hold.force) - hold.limit) <= undecided * hold.limit)
         t.system->set_group(states, index, {Touch::sticking, 1.0});
     }
   }
   if (has_tangents()) {
-    if (const auto jump = saltation(*t.system, event, phase, y, before, states)) {
+    if (const auto jump = saltation(*t.system, event, at, y, before, states)) {
       jump_tangents(l, *jump);
     }
   }

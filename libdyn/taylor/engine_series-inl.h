@@ -35,6 +35,28 @@ HWY_ATTR void Engine<P>::find_load() {
       next = after;
     }
   }
+  for (const OscillationLanes<P>& o : equations_.oscillations) add_oscillation(o);
+}
+
+/// Adds the coefficients of a load of another frequency.
+template <class P>
+HWY_ATTR void Engine<P>::add_oscillation(const OscillationLanes<P>& o) {
+  P sine, cosine;
+  sin_cos(fma(o.rate, time_, o.start), sine, cosine);
+  const P curvature = -(o.rate * o.rate);
+  P* load = load_.data();
+  for (const int i : pattern_.forced) {
+    const P &of_cosine = o.fc[static_cast<size_t>(i)], &of_sine = o.fs[static_cast<size_t>(i)];
+    P now = fma(of_cosine, cosine, of_sine * sine);
+    P next = o.rate * fma(of_sine, cosine, -(of_cosine * sine));
+    load[i] = load[i] + now;
+    for (int k = 1; k <= N; ++k) {
+      load[k * n_ + i] = load[k * n_ + i] + next;
+      const P after = curvature * P(twice_integrated<P>(k - 1)) * now;
+      now = next;
+      next = after;
+    }
+  }
 }
 
 /// Coefficient k of the acceleration, contacts and films apart.

@@ -137,6 +137,10 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     LaneRecord& record = records_[static_cast<size_t>(l)];
     ++record.revolution;
     ++revolutions_;
+    if (!equations_.oscillations.empty()) {
+      equations_.begin_revolution(*trajectory_[static_cast<size_t>(l)]->system, lane(rate_, l),
+                                  record.revolution, l);
+    }
     remove_slip(l);
     if (options_.sections) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;

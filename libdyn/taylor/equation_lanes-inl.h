@@ -16,6 +16,32 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
+/// A load of another frequency than that of the speed.
+template <class P>
+struct OscillationLanes {
+  P rate{0.0};            ///< of its angle [rad/s]
+  P start{0.0};           ///< that angle at the start of the revolution [rad]
+  std::vector<P> fc, fs;  ///< of the coordinates
+};
+
+/// Angle of an oscillation at the start of a revolution, and what it moves on in one [rad].
+template <class P>
+HWY_ATTR void start_revolution(const Oscillation& from, typename P::Number rate_of_phase,
+                               long revolution, int l, OscillationLanes<P>& to) {
+  using Number = typename P::Number;
+  if constexpr (P::is_double) {
+    set_lane(to.rate, l, from.ratio * rate_of_phase);
+    set_lane(to.start, l, from.start_angle(revolution));
+  } else {
+    const Number ratio =
+        from.order > 0.0 ? Number(from.order) : Number(from.frequency) / rate_of_phase;
+    const Number turns = ratio * Number(static_cast<double>(revolution));
+    const Number whole = Number(static_cast<double>(static_cast<int64_t>(turns)));
+    set_lane(to.rate, l, ratio * rate_of_phase);
+    set_lane(to.start, l, Number(2.0) * P::pi * (turns - whole));
+  }
+}
+
 /// eta'' = f0 + fc cos(phase) + fs sin(phase) - [K D] y - ..., with what is not zero in any lane.
 template <class P>
 struct EquationLanes {
@@ -23,14 +49,19 @@ struct EquationLanes {
   std::vector<P> K, D;  ///< diagonals
   std::vector<P> A;     ///< of [K D] beside them, as pattern.off_diagonal
   std::vector<P> f0, fc, fs;
-  int orders;              ///< of series for which there is `damping`
-  std::vector<P> damping;  ///< (k + 1) D for k = 0, 1, ...
+  std::vector<OscillationLanes<P>> oscillations;  ///< as many as any lane has
+  int orders;                                     ///< of series for which there is `damping`
+  std::vector<P> damping;                         ///< (k + 1) D for k = 0, 1, ...
 
   explicit EquationLanes(const Pattern& of, int orders_of_damping = 0)
       : pattern(of), orders(orders_of_damping) {
     damping.assign(static_cast<size_t>(of.n) * static_cast<size_t>(orders), P(0.0));
     for (std::vector<P>* v : {&K, &D, &f0, &fc, &fs}) v->assign(static_cast<size_t>(of.n), P(0.0));
     A.assign(static_cast<size_t>(of.off_diagonals), P(0.0));
+    oscillations.resize(of.oscillations);
+    for (OscillationLanes<P>& o : oscillations) {
+      for (std::vector<P>* v : {&o.fc, &o.fs}) v->assign(static_cast<size_t>(of.n), P(0.0));
+    }
   }
 
   HWY_ATTR void load(const ContactSystem& s, int l) {
@@ -43,6 +74,14 @@ struct EquationLanes {
       set_lane(fc[ui], l, s.cosine_load()(i));
       set_lane(fs[ui], l, s.sine_load()(i));
     }
+    for (size_t o = 0; o < oscillations.size(); ++o) {
+      const bool has_it = o < s.oscillations().size();
+      for (int i = 0; i < n; ++i) {
+        const auto ui = static_cast<size_t>(i);
+        set_lane(oscillations[o].fc[ui], l, has_it ? s.oscillations()[o].cosine(i) : 0.0);
+        set_lane(oscillations[o].fs[ui], l, has_it ? s.oscillations()[o].sine(i) : 0.0);
+      }
+    }
     for (int k = 0; k < orders; ++k) {
       for (int i = 0; i < n; ++i) {
         set_lane(damping[static_cast<size_t>(k * n + i)], l,
@@ -53,6 +92,14 @@ struct EquationLanes {
       P* entry = A.data() + row.begin;
       for (const int j : row.of_x) set_lane(*entry++, l, s.K()(row.i, j));
       for (const int j : row.of_rate) set_lane(*entry++, l, s.D()(row.i, j));
+    }
+  }
+
+  /// Tells the loads of other frequencies that a lane begins a revolution.
+  HWY_ATTR void begin_revolution(const ContactSystem& s, typename P::Number rate_of_phase,
+                                 long revolution, int l) {
+    for (size_t o = 0; o < s.oscillations().size(); ++o) {
+      start_revolution(s.oscillations()[o], rate_of_phase, revolution, l, oscillations[o]);
     }
   }
 };

@@ -150,6 +150,12 @@ void add_coordinates(Pattern& p, const ContactSystem& s) {
   for (int i = 0; i < p.n; ++i) {
     if (s.cosine_load()(i) != 0.0 || s.sine_load()(i) != 0.0) insert(p.forced, i);
   }
+  p.oscillations = std::max(p.oscillations, s.oscillations().size());
+  for (const Oscillation& o : s.oscillations()) {
+    for (int i = 0; i < p.n; ++i) {
+      if (o.cosine(i) != 0.0 || o.sine(i) != 0.0) insert(p.forced, i);
+    }
+  }
   for (Pattern::OffDiagonal& row : p.off_diagonal) {
     for (int j = 0; j < p.n; ++j) {
       if (j == row.i) continue;

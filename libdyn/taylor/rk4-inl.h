@@ -40,6 +40,7 @@ class Rk4Lanes {
       films_.push_back(std::make_unique<FilmLanes<P>>(rows, 0, false));
     }
     disks_ = disks_of(pattern, contacts_);
+    swings_.resize(pattern.oscillations);
   }
 
   /// Integrates at most as many trajectories as there are lanes.
@@ -69,11 +70,12 @@ class Rk4Lanes {
           ++t.state.revolution;
           t.state.phase = 0.0;
           set_lane(time_, l, 0.0);
+          equations_.begin_revolution(*t.system, t.system->phase_rate(), t.state.revolution, l);
         }
         if (is_good && revolution < t.revolutions) continue;
         const std::vector<P>& y = is_good ? y_ : start_;
         for (int i = 0; i < 2 * n_; ++i) t.state.y(i) = lane(y[static_cast<size_t>(i)], l);
-        t.state.contacts = t.system->classify(t.state.phase, t.state.y.data());
+        t.state.contacts = t.system->classify(t.state.instant(), t.state.y.data());
         if (!is_good) {
           const bool left = (inside & bit) == 0;
           t.outcome = left ? Outcome::left_bearing : Outcome::not_finite;
@@ -99,6 +101,7 @@ class Rk4Lanes {
     set_lane(rate_, l, s.phase_rate());
     set_lane(period_, l, s.period());
     set_lane(time_, l, t.state.phase / s.phase_rate());
+    equations_.begin_revolution(s, s.phase_rate(), t.state.revolution, l);
   }
 
   /// Steps of what is left of a revolution: as many as the lane needs that needs most.
@@ -120,7 +123,14 @@ class Rk4Lanes {
     const P h = select(active, (period_ - time_) / P(static_cast<double>(steps)), P(0.0));
     const P half = P(0.5) * h, sixth = h * P(1.0 / 6.0);
     P sine, cosine;
-    sin_cos(rate_ * time_, sine, cosine);
+    const auto go_to = [&](const P& time) HWY_ATTR {
+      sin_cos(rate_ * time, sine, cosine);
+      for (size_t o = 0; o < swings_.size(); ++o) {
+        const OscillationLanes<P>& from = equations_.oscillations[o];
+        sin_cos(fma(from.rate, time, from.start), swings_[o].sine, swings_[o].cosine);
+      }
+    };
+    go_to(time_);
     for (long step = 0; step < steps; ++step) {
       const P begin = fma(P(static_cast<double>(step)), h, time_);
       derivative(y_.data(), sine, cosine);
@@ -128,7 +138,7 @@ class Rk4Lanes {
         sum_[i] = k_[i];
         stage_[i] = fma(half, k_[i], y_[i]);
       }
-      sin_cos(rate_ * (begin + half), sine, cosine);
+      go_to(begin + half);
       derivative(stage_.data(), sine, cosine);
       for (size_t i = 0; i < size; ++i) {
         sum_[i] = fma(P(2.0), k_[i], sum_[i]);
@@ -139,7 +149,7 @@ class Rk4Lanes {
         sum_[i] = fma(P(2.0), k_[i], sum_[i]);
         stage_[i] = fma(h, k_[i], y_[i]);
       }
-      sin_cos(rate_ * (begin + h), sine, cosine);
+      go_to(begin + h);
       derivative(stage_.data(), sine, cosine);
       for (size_t i = 0; i < size; ++i) y_[i] = fma(sixth, sum_[i] + k_[i], y_[i]);
     }
@@ -154,6 +164,13 @@ class Rk4Lanes {
       k_[ui] = y[n_ + i];
       const P load = fma(e.fc[ui], cosine, fma(e.fs[ui], sine, e.f0[ui]));
       a[i] = fnma(e.K[ui], y[i], fnma(e.D[ui], y[n_ + i], load));
+    }
+    for (size_t o = 0; o < swings_.size(); ++o) {
+      const OscillationLanes<P>& of = e.oscillations[o];
+      for (const int i : pattern_.forced) {
+        const auto ui = static_cast<size_t>(i);
+        a[i] = a[i] + fma(of.fc[ui], swings_[o].cosine, of.fs[ui] * swings_[o].sine);
+      }
     }
     for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
       const P* factor = e.A.data() + row.begin;
@@ -243,9 +260,15 @@ class Rk4Lanes {
     return bits(sum, less(sum, P(1e300)));
   }
 
+  /// Of a load of another frequency, now.
+  struct Swing {
+    P sine{0.0}, cosine{1.0};
+  };
+
   const Pattern& pattern_;
   int n_;
   EquationLanes<P> equations_;
+  std::vector<Swing> swings_;
   std::vector<ContactLanes<P>> contacts_;
   std::vector<std::unique_ptr<FilmLanes<P>>> films_;
   P thinnest_{1.0};  // gap of a film in this revolution, 1 - x^2 - y^2

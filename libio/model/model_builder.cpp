@@ -47,6 +47,7 @@ Model ModelBuilder::build() {
   read_supports("seal", model_.structure.seals);
   read_links();
   read_unbalances();
+  read_forces();
   read_contacts();
   read_films();
   read_bow();
@@ -98,8 +99,8 @@ void ModelBuilder::read_top() {
   if (const auto g = top.quantity("gravity", "m/s^2", Range::nonnegative))
     model_.structure.gravity = *g;
   for (const char* table :
-       {"operation", "material", "shaft", "layer", "disk", "unbalance", "bow", "body", "bearing",
-        "seal", "link", "oil_film", "contact", "damping", "reduction", "start"}) {
+       {"operation", "material", "shaft", "layer", "disk", "unbalance", "force", "bow", "body",
+        "bearing", "seal", "link", "oil_film", "contact", "damping", "reduction", "start"}) {
     top.node(table);
   }
   top.finish();
@@ -129,15 +130,17 @@ std::optional<ModelBuilder::NamedText> ModelBuilder::table_text(TableReader& tab
   return result;
 }
 
-std::optional<Station> ModelBuilder::station(TableReader& table) {
+std::optional<Station> ModelBuilder::station(TableReader& table,
+                                             const std::vector<std::string>& instead) {
   const bool has_at = table.has("at"), has_node = table.has("node"), has_body = table.has("body");
   Station s{.where = table.where(), .key = table.path("at")};
   const auto at = table.quantity("at", "m", Range::any);
   const auto node = table.integer("node", Range::positive);
   const auto body = table.string("body");
   if (!has_at && !has_node && !has_body) {
-    table.missing("at", "a station: at = position, node = number, or body = name",
-                  {"node", "body"});
+    std::vector<std::string> others{"node", "body"};
+    others.insert(others.end(), instead.begin(), instead.end());
+    table.missing("at", "a station: at = position, node = number, or body = name", others);
     return std::nullopt;
   }
   if (has_body && (has_at || has_node)) {

@@ -55,7 +55,8 @@ class ModelBuilder {
   void check_stations(const Mesh& mesh);
   void set_radii(const Mesh& mesh);
   void check_movable();
-  std::optional<Station> station(TableReader& table);
+  /// @param instead  keys that do as well as a station
+  std::optional<Station> station(TableReader& table, const std::vector<std::string>& instead = {});
   std::optional<Station> named_station(const std::string& name, TableReader& table,
                                        std::string_view key, bool may_be_ground = true);
   /// A text that a key names by its file, or that stands there itself.
@@ -81,6 +82,7 @@ class ModelBuilder {
   void read_disks();
   void read_bodies();
   void read_unbalances();
+  void read_forces();
   std::optional<Material> material(TableReader& table);
   std::vector<std::string> material_names() const;
   std::optional<Unbalance> unbalance(TableReader& table, const Station& at,

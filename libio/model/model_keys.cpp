@@ -48,6 +48,7 @@ constexpr const char* bare = R"(
 [[layer]]
 [[disk]]
 [[unbalance]]
+[[force]]
 [bow]
 [[body]]
 [[bearing]]

@@ -76,6 +76,7 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
              fmt::format("{}, {}, {}", s.disks.size(), s.bearings.size(), s.links.size())});
   if (!s.seals.empty()) table.row({"seals", fmt::format("{}", s.seals.size())});
   if (!s.layers.empty()) table.row({"layers", fmt::format("{}", s.layers.size())});
+  if (!s.forces.empty()) table.row({"forces", fmt::format("{}", s.forces.size())});
   if (!s.bow.z.empty()) {
     table.row({"bow", format_length(largest_deflection(s.bow)) + " at most"});
   }

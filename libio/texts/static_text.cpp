@@ -50,8 +50,9 @@ std::string films_text(const std::vector<RunningFilm>& films, double speed) {
 }  // namespace
 
 std::string text_of(const StaticStudy& study) {
-  std::string text = "Static equilibrium under gravity\n";
-  if (!study.has_gravity) {
+  std::string text = study.has_forces ? "Static equilibrium under gravity and constant forces\n"
+                                      : "Static equilibrium under gravity\n";
+  if (!study.has_gravity && !study.has_forces) {
     text += "(the model has no gravity: add gravity = \"9.81 m/s^2\")\n";
   }
   text +=

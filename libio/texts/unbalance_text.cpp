@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
+#include "libfe/forces.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -63,6 +64,37 @@ std::string range_text(const std::vector<double>& speeds) {
                      speeds.back() / rpm);
 }
 
+/// Largest responses to forces of other frequencies; a dash where they are not bounded.
+std::string forced_text(const UnbalanceStudy& study) {
+  if (study.forced.empty()) return "";
+  const auto largest = [](const ForcedResponse& f, Eigen::Index* at) {
+    double most = 0.0;
+    for (Eigen::Index i = 0; i < f.major.size(); ++i) {
+      if (!(f.major(i) > most)) continue;
+      most = f.major(i);
+      if (at) *at = i;
+    }
+    return most;
+  };
+  const auto speed = [&](const ForcedResponse& f) {
+    Eigen::Index at = 0;
+    largest(f, &at);
+    return fmt::format("{:.1f}", study.speeds[static_cast<std::size_t>(at)] / rpm);
+  };
+  return "\nResponse to forces of other frequencies, at these speeds (major semi-axes)\n\n" +
+         table_of(study.forced, {shown("force"),
+                                 shown("station"),
+                                 {"largest [um]",
+                                  [&](const ForcedResponse& f) {
+                                    return fmt::format("{:.3f}", 1e6 * largest(f, nullptr));
+                                  }},
+                                 {"at [rpm]", speed},
+                                 {"at the highest speed [um]", [](const ForcedResponse& f) {
+                                    return texts::number_text(1e6 * f.major(f.major.size() - 1),
+                                                              ".3f");
+                                  }}});
+}
+
 /// A clearance that the response goes beyond.
 std::string beyond_text(const ClearanceUse& use) {
   std::string ranges;
@@ -94,11 +126,11 @@ std::string text_of(const UnbalanceStudy& study, const Model& model) {
        {"at the highest speed [um]", [](const StationResponse& s) {
           return fmt::format("{:.3f}", 1e6 * s.major(s.major.size() - 1));
         }}});
-  return fmt::format("Unbalance response, {} (major semi-axes)\n\n{}{}{}", range_text(study.speeds),
-                     stations, peaks_text(study, model),
-                     model.structure.unbalances.empty() && model.structure.bow.z.empty()
-                         ? "\n  The model has no unbalance.\n"
-                         : "");
+  return fmt::format(
+      "Unbalance response, {} (major semi-axes)\n\n{}{}{}{}", range_text(study.speeds), stations,
+      peaks_text(study, model),
+      has_synchronous_load(model.structure) ? "" : "\n  The model has no unbalance.\n",
+      forced_text(study));
 }
 
 std::vector<std::string> notes_of(const UnbalanceStudy& study) {
@@ -109,6 +141,11 @@ std::vector<std::string> notes_of(const UnbalanceStudy& study) {
   for (const double Omega : study.unbounded) {
     notes.push_back(fmt::format(
         "the response is unbounded at {:.2f} rpm, a resonance without damping", Omega / rpm));
+  }
+  if (!study.forced.empty() && !study.clearances.empty()) {
+    notes.push_back(
+        "clearances are compared with the response at the frequency of the speed alone, without "
+        "that to forces of other frequencies");
   }
   if (study.failure) {
     notes.push_back(

@@ -77,6 +77,7 @@ spins = true
        "[[disk]]\nnode = 1\nmaterial = \"m\"\nouter_diameter = 1\nwidth = 1\n"
        "qqqqqqqq = 1\n"},
       {"## `[[unbalance]]`", "[[unbalance]]\nbody = \"b\"\nmoment = 1\nqqqqqqqq = 1\n"},
+      {"## `[[force]]`", "[[force]]\nbody = \"b\"\nforce = 1\nqqqqqqqq = 1\n"},
       {"## `[[body]]`", "[[body]]\nname = \"c\"\nmass = 1\nqqqqqqqq = 1\n"},
       {"## `[[bearing]]`", "[[bearing]]\nbody = \"b\"\nstiffness = 1\nqqqqqqqq = 1\n"},
       {"## `[[bearing]]`",

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "libio/model/model_builder.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// What a force is given by.
+struct ForceSize {
+  const char* key;
+  const char* unit;
+  ForceKind kind;
+};
+constexpr ForceSize force_sizes[] = {{"force", "N", ForceKind::force},
+                                     {"moment", "N.m", ForceKind::moment},
+                                     {"base_acceleration", "m/s^2", ForceKind::base_acceleration}};
+
+/// @return  false: there is none, or more than one, or it is wrong
+bool read_force_size(TableReader& table, Force& to) {
+  constexpr auto expected = "one of force (N), moment (N.m) and base_acceleration (m/s^2)";
+  const char* found = nullptr;
+  bool is_good = true;
+  for (const ForceSize& size : force_sizes) {
+    const auto value = table.quantity(size.key, size.unit, Range::any);
+    if (!table.has(size.key)) continue;
+    if (found) {
+      table.problem(size.key, fmt::format("found {} too, expected {}", found, expected));
+      is_good = false;
+    }
+    found = size.key;
+    to.kind = size.kind;
+    to.size = value.value_or(0.0);
+    is_good = is_good && value.has_value();
+  }
+  if (!found) table.missing("force", expected, {"moment", "base_acceleration"});
+  return found && is_good;
+}
+
+/// How it changes with time.
+void read_force_frequency(TableReader& table, Force& to) {
+  const auto order = table.quantity("order", "", Range::positive);
+  const auto frequency = table.quantity("frequency", "rad/s", Range::positive);
+  const auto phase = table.quantity("phase", "rad", Range::any);
+  const auto angle = table.quantity("angle", "rad", Range::any);
+  const auto turning = table.choice<Turning>("whirl");
+  if (table.has("order") && table.has("frequency")) {
+    table.problem("frequency",
+                  "found order too, expected one of order (of the speed) and frequency (its own)");
+  }
+  if (!table.has("order") && !table.has("frequency")) {
+    for (const char* key : {"phase", "whirl"}) {
+      if (table.has(key)) {
+        table.problem(key, "a force without order and frequency is constant; give one of them");
+      }
+    }
+  }
+  if (table.has("whirl") && table.has("angle")) {
+    table.problem("angle", "a force that whirls turns; phase says where it points at t = 0");
+  }
+  to.order = order.value_or(0.0);
+  to.frequency = frequency.value_or(0.0);
+  to.phase = phase.value_or(0.0);
+  to.angle = angle.value_or(0.0);
+  to.turning = turning.value_or(Turning::no);
+}
+
+}  // namespace
+
+void ModelBuilder::read_forces() {
+  for_each("force", [&](TableReader& table, std::size_t i) {
+    Force force{.name = table.string("name").value_or(fmt::format("force {}", i + 1))};
+    const bool has_size = read_force_size(table, force);
+    read_force_frequency(table, force);
+    const bool is_of_base = table.has("base_acceleration");
+    std::optional<Station> at;
+    if (!is_of_base) {
+      at = station(table, {"base_acceleration"});
+    } else {
+      for (const char* key : {"at", "node", "body"}) {
+        if (table.node(key)) {
+          table.problem(key, "the base moves under everything: it has no station");
+        }
+      }
+    }
+    if (at && at->kind == Station::Kind::body && force.kind == ForceKind::moment) {
+      for (const Body& body : model_.structure.bodies) {
+        if (body.name != at->body || body.tilts) continue;
+        table.problem("moment", "this body does not tilt; give it tilts = true");
+      }
+    }
+    if (at) force.at = *at;
+    if (has_size && (at || is_of_base)) model_.structure.forces.push_back(std::move(force));
+  });
+}
+
+}  // namespace whirl::inline io

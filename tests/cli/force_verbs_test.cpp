@@ -1,0 +1,127 @@
+// Forces in every verb: those that have them, and those that refuse them.
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace force_verbs_test {
+
+using Complex = std::complex<double>;
+
+constexpr double pi = std::numbers::pi;
+constexpr double m = 2.0, k = 2e4, c = 4.0, e = 1e-4;  // of `jeffcott`
+constexpr double rounding = 1e-9;                      // relative, of solvers on two dofs
+
+Complex receptance(double w) {
+  return 1.0 / Complex(k - m * w * w, c * w);
+}
+
+class ForceVerbs : public Program {
+ protected:
+  /// The Jeffcott rotor with forces.
+  void write_rotor(const std::string& forces) {
+    write("rotor.toml", std::string(jeffcott) + forces);
+  }
+  static void expect_complex(const json& found, Complex expected) {
+    EXPECT_NEAR(found[0].get<double>(), expected.real(), rounding * std::abs(expected));
+    EXPECT_NEAR(found[1].get<double>(), expected.imag(), rounding * std::abs(expected));
+  }
+};
+
+const std::string constant = "[[force]]\nbody = \"rotor\"\nforce = \"10 N\"\n";
+const std::string twice = "[[force]]\nbody = \"rotor\"\nforce = \"3 N\"\norder = 2\n";
+const std::string shaker =
+    "[[force]]\nname = \"shaker\"\nbody = \"rotor\"\nforce = \"5 N\"\nfrequency = \"12 Hz\"\n"
+    "whirl = \"backward\"\n";
+
+TEST_F(ForceVerbs, StaticHasConstantOnes) {
+  write_rotor(constant + twice + shaker);
+  const json r = result({"static", "rotor.toml"});
+  EXPECT_NEAR(r["stations"][0]["x_m"].get<double>(), 10.0 / k, rounding * 10.0 / k);
+  EXPECT_NEAR(r["bearings"][0]["fx_n"].get<double>(), 10.0, rounding * 10.0);
+  const Outcome told = whirl({"static", "rotor.toml", "--set", "gravity=0"});
+  EXPECT_TRUE(has(told.out, "under gravity and constant forces")) << told.out;
+  EXPECT_FALSE(has(told.out, "has no gravity")) << told.out;
+  EXPECT_TRUE(has(whirl({"check", "rotor.toml"}).out, "forces")) << told.out;
+}
+
+// Unbalance and forces of order 1 in one response, others in responses of their own.
+TEST_F(ForceVerbs, UnbalanceHasTheOthers) {
+  write_rotor(twice + shaker +
+              "[[force]]\nbody = \"rotor\"\nforce = 2\norder = 1\nangle = \"90 deg\"\n");
+  const json r = result({"unbalance", "rotor.toml", "--speeds", "300:900:300rpm", "--out", "u.h5"});
+  ASSERT_EQ(r["forced"].size(), 2u);
+  const json &two = r["forced"][0], &own = r["forced"][1];
+  EXPECT_EQ(two["force"], "2x");
+  EXPECT_EQ(two["order"], 2.0);
+  EXPECT_TRUE(two["frequency_rpm"].is_null());
+  EXPECT_EQ(two["name"], "rotor");
+  EXPECT_EQ(own["force"], "12 Hz");
+  EXPECT_NEAR(own["frequency_rpm"].get<double>(), 720.0, 1e-9);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double Omega = (300.0 + 300.0 * static_cast<double>(i)) * pi / 30.0, w = 24.0 * pi;
+    const Complex one = receptance(Omega) * m * e * Omega * Omega;
+    expect_complex(r["stations"][0]["x_m"][i], one);
+    expect_complex(r["stations"][0]["y_m"][i], -Complex(0.0, 1.0) * one + 2.0 * receptance(Omega));
+    expect_complex(two["x_m"][i], 3.0 * receptance(2.0 * Omega));
+    expect_complex(own["x_m"][i], 5.0 * receptance(w));
+    EXPECT_NEAR(own["minor_m"][i].get<double>(), -5.0 * std::abs(receptance(w)), 1e-15);
+  }
+  const Outcome told = whirl({"unbalance", "rotor.toml"});
+  EXPECT_TRUE(has(told.out, "Response to forces of other frequencies")) << told.out;
+  EXPECT_EQ(whirl({"plot", "u.h5", "bode"}).status, 0);
+}
+
+TEST_F(ForceVerbs, MotionsOfAShakerAreToriWhichOrbitsRefuse) {
+  write_rotor(shaker + "[operation]\nspeed = \"700 rpm\"\n[damping]\nrayleigh = {mass = 20}\n");
+  const json motion =
+      result({"classify", "rotor.toml", "--discard", "200", "--revolutions", "300"});
+  EXPECT_EQ(motion["motion"], "quasi-periodic");
+  for (const std::vector<std::string>& call : std::vector<std::vector<std::string>>{
+           {"orbit", "rotor.toml"},
+           {"orbit", "rotor.toml", "--method", "harmonic-balance"},
+           {"orbit", "rotor.toml", "--starts", "2"},
+           {"torus", "rotor.toml"},
+           {"continue", "rotor.toml", "--over", "operation.speed=700:800:10rpm"}}) {
+    const Outcome refused = whirl(call);
+    EXPECT_EQ(refused.status, 2) << call[0];
+    EXPECT_TRUE(has(refused.err, "makes a torus of every motion")) << refused.err;
+  }
+  const Outcome method = whirl({"simulate", "rotor.toml", "--method", "collocation"});
+  EXPECT_EQ(method.status, 2);
+  EXPECT_TRUE(has(method.err, "forces of other frequencies than the speed")) << method.err;
+}
+
+// A run that goes on says that a shaker does not.
+TEST_F(ForceVerbs, MotionsThatGoOnSayThatForcesBeginAnew) {
+  write_rotor(shaker + "[operation]\nspeed = \"700 rpm\"\n");
+  const std::vector<std::string> first{"simulate",  "rotor.toml", "--revolutions", "4",
+                                       "--discard", "0",          "--out",         "a.h5"};
+  EXPECT_EQ(result(first)["notes"].size(), 0u);
+  const json on = result({"simulate", "rotor.toml", "--revolutions", "4", "--from", "a.h5"});
+  ASSERT_EQ(on["notes"].size(), 1u);
+  EXPECT_TRUE(has(on["notes"][0].get<std::string>(), "begin with their phases of t = 0"));
+}
+
+TEST_F(ForceVerbs, OrbitsRepeatWithForcesOfTheirOrder) {
+  write_rotor(
+      "[[force]]\nbody = \"rotor\"\nforce = \"3 N\"\norder = 0.5\n"
+      "[operation]\nspeed = \"700 rpm\"\n[damping]\nrayleigh = {mass = 20}\n");
+  for (const char* method : {"shooting", "harmonic-balance"}) {
+    const json r = result({"orbit", "rotor.toml", "--period", "2", "--method", method});
+    EXPECT_EQ(r["shortest_period_revs"], 2) << method;
+    const Outcome refused = whirl({"orbit", "rotor.toml", "--method", method});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(has(refused.err, "repeat")) << refused.err;
+  }
+  const Outcome branch =
+      whirl({"continue", "rotor.toml", "--over", "operation.speed=700:800:10rpm", "--period", "2"});
+  EXPECT_EQ(branch.status, 2);
+  EXPECT_TRUE(has(branch.err, "expected orders that are whole numbers")) << branch.err;
+}
+
+}  // namespace force_verbs_test
+}  // namespace whirl::test
