@@ -14,7 +14,8 @@ namespace {
 struct ExportVerbOptions {
   Option<std::string> format{
       "format", "F",
-      "vtk: series for ParaView; xdmf: longer ones; csv: tables; mtx, mat: M, C, G, K; vtu; with meshio abaqus, nastran, "
+      "vtk: series for ParaView; xdmf: longer ones; csv: tables; uff: frequency responses; mtx, "
+      "mat: M, C, G, K; vtu; with meshio abaqus, nastran, "
       "gmsh, exodus, med, stl, ...",
       "vtk"};
   Option<std::string> out{"out", "NAME",

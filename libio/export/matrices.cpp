@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <memory>
 
 #include "libdyn/system/stations.hpp"
@@ -30,13 +29,6 @@ struct NamedMatrix {
 
 std::array<NamedMatrix, 4> matrices_of(const System& system) {
   return {{{"M", &system.M}, {"C", &system.C}, {"G", &system.G}, {"K", &system.K}}};
-}
-
-/// What may be replaced: any file that begins as ours do.
-Replaces replaces_own(const fs::path& place, std::string_view head, Replaces replaces) {
-  std::string begin(head.size(), '\0');
-  std::ifstream(place, std::ios::binary).read(begin.data(), static_cast<long>(begin.size()));
-  return begin == head ? Replaces::anything : replaces;
 }
 
 std::string market_text(const Sparse& A) {

@@ -9,8 +9,11 @@
 #include "libbase/error.hpp"
 #include "libio/export/matrices.hpp"
 #include "libio/export/rotor_mesh.hpp"
+#include "libio/export/universal_file.hpp"
 #include "libio/export/xdmf.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/csv_tables.hpp"
+#include "libio/results/dataset_path.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/option_values.hpp"
 
@@ -27,8 +30,12 @@ constexpr double all_revolutions = 1e9;
 struct OwnFormat {
   std::string_view name, ending;
 };
-constexpr std::array<OwnFormat, 5> own_formats{
-    {{"vtk", ".pvd"}, {"xdmf", ".xdmf"}, {"csv", ".csv"}, {"mtx", ".mtx"}, {"mat", ".mat"}}};
+constexpr std::array<OwnFormat, 6> own_formats{{{"vtk", ".pvd"},
+                                                {"xdmf", ".xdmf"},
+                                                {"csv", ".csv"},
+                                                {"uff", ".uff"},
+                                                {"mtx", ".mtx"},
+                                                {"mat", ".mat"}}};
 
 /// A name without the ending of a file that this program knows; other points in it stay.
 fs::path without_ending(fs::path file, const std::string& of_format) {
@@ -96,6 +103,22 @@ Exported export_matrices(const SceneSource& source, const ExportOptions& options
   return written;
 }
 
+/// Frequency responses as a universal file.
+Exported export_universal(const SceneSource& source, const ExportOptions& options,
+                          const fs::path& stem) {
+  if (!source.result ||
+      !source.result->has(dataset_of<FrequencyResponse>(&ResponsePair::receptance))) {
+    throw ModelError({"--format uff"}, "",
+                     "is for frequency responses; take the result of whirl frf");
+  }
+  const fs::path place = stem.string() + options.format.ending;
+  const auto found = read_result<FrequencyResponse>(*source.result);
+  write_universal(place, found, source.model, source.assembler, options.replaces);
+  return {{place},
+          fmt::format("  {}: receptances, mobilities and accelerances of {} pairs\n",
+                      place.string(), found.pairs.size())};
+}
+
 Exported export_mesh(const SceneSource& source, const ExportOptions& options,
                      const fs::path& stem) {
   const MeshFormat& format = *options.format.mesh;
@@ -156,6 +179,7 @@ Exported export_scene(const SceneSource& source, const ExportOptions& options) {
   const fs::path stem = without_ending(options.stem, options.format.ending);
   if (options.format.mesh) return export_mesh(source, options, stem);
   if (options.format.name == "csv") return export_csv(source, options, stem);
+  if (options.format.name == "uff") return export_universal(source, options, stem);
   if (options.format.name == "mtx" || options.format.name == "mat") {
     return export_matrices(source, options, stem);
   }

@@ -76,6 +76,12 @@ void FileReplacement::commit() {
   synchronize(place_.has_parent_path() ? place_.parent_path() : ".");
 }
 
+Replaces replaces_own(const fs::path& place, std::string_view head, Replaces what) {
+  std::string begin(head.size(), '\0');
+  std::ifstream(place, std::ios::binary).read(begin.data(), std::ssize(begin));
+  return begin == head ? Replaces::anything : what;
+}
+
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
   return fs::weakly_canonical(fs::absolute(a), ignored) ==

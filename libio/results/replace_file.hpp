@@ -56,6 +56,10 @@ class FileReplacement {
   std::filesystem::path place_, temporary_;
 };
 
+/// What may be replaced: any file that begins as those of this program do, else as given.
+/// @param head  how they begin
+Replaces replaces_own(const std::filesystem::path& place, std::string_view head, Replaces what);
+
 /// Whether two names are those of one file, there or not.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 

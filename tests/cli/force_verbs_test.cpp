@@ -25,6 +25,11 @@ class ForceVerbs : public Program {
   void write_rotor(const std::string& forces) {
     write("rotor.toml", std::string(jeffcott) + forces);
   }
+  std::string python_says(const std::string& code) const {
+    const Outcome outcome = wait(start(python, {"-c", code}));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  }
   static void expect_complex(const json& found, Complex expected) {
     EXPECT_NEAR(found[0].get<double>(), expected.real(), rounding * std::abs(expected));
     EXPECT_NEAR(found[1].get<double>(), expected.imag(), rounding * std::abs(expected));
@@ -121,6 +126,42 @@ TEST_F(ForceVerbs, OrbitsRepeatWithForcesOfTheirOrder) {
       whirl({"continue", "rotor.toml", "--over", "operation.speed=700:800:10rpm", "--period", "2"});
   EXPECT_EQ(branch.status, 2);
   EXPECT_TRUE(has(branch.err, "expected orders that are whole numbers")) << branch.err;
+}
+
+// A reader of universal files that knows nothing of whirl.
+TEST_F(ForceVerbs, FrequencyResponsesAreExportedAsAUniversalFile) {
+  write_rotor("");
+  result({"frf", "rotor.toml", "--speed", "600rpm", "--from", "rotor:x", "--to", "rotor:x,rotor:y",
+          "--frequencies", "1:30:0.5Hz", "--out", "frf.h5"});
+  const json r = result({"export", "frf.h5", "--format", "uff"});
+  EXPECT_EQ(r["files"], json::array({"frf.uff"}));
+  EXPECT_EQ(whirl({"export", "frf.h5", "--format", "uff"}).status, 0);  // its own is replaced
+  const Outcome refused = whirl({"export", "rotor.toml", "--format", "uff"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(has(refused.err, "take the result of whirl frf")) << refused.err;
+  if (!has_h5py()) GTEST_SKIP() << "there is no h5py";
+  EXPECT_EQ(
+      python_says("import h5py, numpy as np\n"
+                  "lines = open('frf.uff').read().split('\\n')\n"
+                  "marks = [i for i, l in enumerate(lines) if l.rstrip() == '    -1']\n"
+                  "sets = [lines[a + 1:b] for a, b in zip(marks[::2], marks[1::2])]\n"
+                  "fs = [s for s in sets if int(s[0][:6]) == 58]\n"
+                  "f = h5py.File('frf.h5')['frf']\n"
+                  "worst, count = 0.0, 0\n"
+                  "for s, name, pair in zip(fs, ['receptance', 'mobility', 'accelerance'] * 2,\n"
+                  "                         [0, 0, 0, 1, 1, 1]):\n"
+                  "    n = int(s[7][10:20])\n"
+                  "    hz = float(s[7][30:43]) + float(s[7][43:56]) * np.arange(n)\n"
+                  "    v = [float(l[i:i + 20]) for l in s[12:] for i in range(0, 80, 20)\n"
+                  "         if l[i:i + 20].strip()]\n"
+                  "    H = np.array(v[::2]) + 1j * np.array(v[1::2])\n"
+                  "    g = np.array(f[name])[pair]\n"
+                  "    g = g['r'] + 1j * g['i'] if g.dtype.names else g\n"
+                  "    worst = max(worst, (abs(H - g) / np.maximum(abs(g), 1e-30)).max())\n"
+                  "    assert abs(2 * np.pi * hz / np.array(f['frequency']) - 1).max() < 1e-12\n"
+                  "    count += n\n"
+                  "print(len(fs), count, worst < 1e-12)"),
+      "6 354 True\n");
 }
 
 }  // namespace force_verbs_test
