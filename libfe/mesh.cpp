@@ -202,6 +202,7 @@ std::vector<const Station*> all_stations(const Structure& structure) {
   for (const Force& force : structure.forces) {
     if (force.has_station()) stations.push_back(&force.at);
   }
+  for (const Probe& probe : structure.probes) stations.push_back(&probe.at);
   for (const Layer& layer : structure.layers) {
     stations.push_back(&layer.from);
     stations.push_back(&layer.to);

@@ -156,25 +156,10 @@ class CurveBuilder {
 
   /// The peak around the sample number k of a point.
   ResponsePeak refined(const std::vector<double>& speeds, std::size_t k, Eigen::Index p) {
-    const Maximum top =
-        bracketed_maximum([&](double Omega) { return amplitude(Omega, p); }, speeds[k - 1],
-                          speeds[k], speeds[k + 1], tolerance * speeds[k]);
-    ResponsePeak peak{
-        .row = p, .speed = top.at, .amplitude = top.value, .below = nan, .above = nan};
-    const double half_power = top.value / std::numbers::sqrt2;
-    const auto gap = [&](double Omega) { return amplitude(Omega, p) - half_power; };
-    double inner = top.at;
-    for (std::size_t i = k; i-- > 0; inner = speeds[i]) {
-      if (major(samples_.at(speeds[i]), p) > half_power) continue;
-      peak.below = bracketed_root(gap, speeds[i], inner, tolerance * top.at);
-      break;
-    }
-    inner = top.at;
-    for (std::size_t i = k + 1; i < speeds.size(); inner = speeds[i++]) {
-      if (major(samples_.at(speeds[i]), p) > half_power) continue;
-      peak.above = bracketed_root(gap, inner, speeds[i], tolerance * top.at);
-      break;
-    }
+    ResponsePeak peak =
+        refined_peak([&](double Omega) { return amplitude(Omega, p); }, speeds,
+                     [&](std::size_t i) { return major(samples_.at(speeds[i]), p); }, k);
+    peak.row = p;
     return peak;
   }
 
@@ -199,6 +184,45 @@ int modes_to_follow(const Assembler& assembler, double last) {
 }
 
 }  // namespace
+
+ResponsePeak refined_peak(const SizeAt& size_at, const std::vector<double>& speeds,
+                          const std::function<double(std::size_t i)>& known, std::size_t k) {
+  const Maximum top =
+      bracketed_maximum(size_at, speeds[k - 1], speeds[k], speeds[k + 1], tolerance * speeds[k]);
+  ResponsePeak peak{.speed = top.at, .amplitude = top.value, .below = nan, .above = nan};
+  const double half_power = top.value / std::numbers::sqrt2;
+  const auto gap = [&](double Omega) { return size_at(Omega) - half_power; };
+  double inner = top.at;
+  for (std::size_t i = k; i-- > 0; inner = speeds[i]) {
+    if (known(i) > half_power) continue;
+    peak.below = bracketed_root(gap, speeds[i], inner, tolerance * top.at);
+    break;
+  }
+  inner = top.at;
+  for (std::size_t i = k + 1; i < speeds.size(); inner = speeds[i++]) {
+    if (known(i) > half_power) continue;
+    peak.above = bracketed_root(gap, inner, speeds[i], tolerance * top.at);
+    break;
+  }
+  return peak;
+}
+
+std::vector<ResponsePeak> refined_peaks(const SizeAt& size_at, const ResponseCurve& curve,
+                                        const Vec& sizes, std::size_t most) {
+  const std::vector<double>& speeds = curve.response.speeds;
+  const auto known = [&](std::size_t i) { return sizes(static_cast<Eigen::Index>(i)); };
+  std::vector<ResponsePeak> found;
+  for (std::size_t k = 1; k + 1 < speeds.size(); ++k) {
+    if (!(known(k) > known(k - 1) && known(k) >= known(k + 1))) continue;
+    const bool is_unbounded =
+        std::any_of(curve.unbounded.begin(), curve.unbounded.end(),
+                    [&](double u) { return speeds[k - 1] <= u && u <= speeds[k + 1]; });
+    if (is_unbounded) continue;
+    const ResponsePeak peak = refined_peak(size_at, speeds, known, k);
+    if (peak.amplitude > (1.0 + flat) * std::max(known(k - 1), known(k + 1))) found.push_back(peak);
+  }
+  return highest_peaks(std::move(found), most);
+}
 
 std::vector<LargestResponse> largest_responses(const UnbalanceResponse& response) {
   std::vector<LargestResponse> all;

@@ -1,6 +1,7 @@
 #pragma once
 /// The unbalance response as a curve over speed: with as many speeds as it needs, and true peaks.
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -38,6 +39,20 @@ struct ResponseCurve {
 ResponseCurve response_curve(const Assembler& assembler, const std::vector<double>& at_least,
                              const std::vector<Point>& points,
                              const ResponseCurveOptions& options = {});
+
+/// A size of the response at any speed; infinite where it is unbounded.
+using SizeAt = std::function<double(double Omega)>;
+
+/// The peak of a size around the number k of some speeds, where it is larger than at both neighbors:
+/// its top and its sides as roots of the size itself.
+/// @param known  the size at speed number i
+ResponsePeak refined_peak(const SizeAt& size_at, const std::vector<double>& speeds,
+                          const std::function<double(std::size_t i)>& known, std::size_t k);
+
+/// Peaks of a size that is known at the speeds of a curve, such as what a probe reads.
+/// @param sizes  at the speeds of the curve
+std::vector<ResponsePeak> refined_peaks(const SizeAt& size_at, const ResponseCurve& curve,
+                                        const Vec& sizes, std::size_t most = 8);
 
 /// The largest major semi-axis of every point [m] and its speed [rad/s], on the parabola through the
 /// inverse squares of the three highest samples: what one mode makes is one.

@@ -2,6 +2,7 @@
 /// What a model file says about the rotor and its surroundings, checked and in SI, before any mesh.
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <tuple>
@@ -198,6 +199,27 @@ struct Force {
   bool is_synchronous() const { return order == 1.0; }
 };
 
+/// A displacement probe: it reads the displacement of its station along a direction.
+struct Probe {
+  std::string name;
+  Station at;
+  double angle = 0.0;       ///< of the direction, from +x towards +y [rad]
+  std::string unit = "um";  ///< a length, in which people are told what it reads
+
+  /// What it reads of displacements along x and y, which may be complex, or arrays of numbers.
+  template <class Displacement>
+  Displacement along(const Displacement& x, const Displacement& y) const {
+    return x * std::cos(angle) + y * std::sin(angle);
+  }
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        required("angle", &Probe::angle, "rad", any, "of its direction, from +x towards +y"),
+        optional("unit", &Probe::unit, "", any, "length that people are told its readings in")};
+  }
+};
+
 /// A bearing or a seal (station to ground or body), or a link (any two stations).
 struct Connection {
   std::string name;
@@ -243,13 +265,14 @@ struct Structure {
   std::vector<Connection> seals;
   std::vector<LinearizedConnection> linearized;  ///< in linear analyses only
   std::vector<Unbalance> unbalances;
-  std::vector<Station> stations;  ///< further places that need a node (contacts, probes)
+  std::vector<Station> stations;  ///< further places that need a node (contacts)
   Rayleigh damping;
   double gravity = 0.0;  ///< acceleration along -y [m/s^2]
   std::vector<Layer> layers{};
   ModalDamping modal_damping{};
   Bow bow{};
   std::vector<Force> forces{};
+  std::vector<Probe> probes{};
 
   /// Connections of one kind, with its word in model files.
   struct Connections {

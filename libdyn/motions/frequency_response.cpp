@@ -36,10 +36,15 @@ std::array<Complex, 4> force_parts(Direction direction) {
   return {};
 }
 
+std::array<Complex, 4> force_parts(const ResponseEnd& end) {
+  if (!end.probe) return force_parts(end.direction);
+  return {end.probe->along(1.0, 0.0), end.probe->along(0.0, 1.0), 0.0, 0.0};
+}
+
 /// Of a motion they are told by half the conjugates where it whirls.
-std::array<Complex, 4> motion_parts(Direction direction) {
-  std::array<Complex, 4> parts = force_parts(direction);
-  const bool whirls = direction == Direction::forward || direction == Direction::backward;
+std::array<Complex, 4> motion_parts(const ResponseEnd& end) {
+  std::array<Complex, 4> parts = force_parts(end);
+  const bool whirls = end.direction == Direction::forward || end.direction == Direction::backward;
   for (Complex& part : parts) part = std::conj(part) * (whirls ? 0.5 : 1.0);
   return parts;
 }
@@ -47,7 +52,7 @@ std::array<Complex, 4> motion_parts(Direction direction) {
 /// Full vector of a force or moment of size one.
 CVec load_of(const ResponseEnd& end, const DofMap& dofs) {
   CVec load = CVec::Zero(dofs.full_size);
-  const auto parts = force_parts(end.direction);
+  const auto parts = force_parts(end);
   for (int c = 0; c < 4; ++c) {
     const int k = dofs.full_index(end.at.point, c);
     if (k >= 0) load(k) = parts[static_cast<std::size_t>(c)];
@@ -57,7 +62,7 @@ CVec load_of(const ResponseEnd& end, const DofMap& dofs) {
 
 Complex motion_of(const ResponseEnd& end, const DofMap& dofs, const CVec& full) {
   Complex sum = 0.0;
-  const auto parts = motion_parts(end.direction);
+  const auto parts = motion_parts(end);
   for (int c = 0; c < 4; ++c) {
     const int k = dofs.full_index(end.at.point, c);
     if (k >= 0) sum += parts[static_cast<std::size_t>(c)] * full(k);
@@ -68,7 +73,7 @@ Complex motion_of(const ResponseEnd& end, const DofMap& dofs, const CVec& full) 
 }  // namespace
 
 std::string ResponseEnd::label() const {
-  return fmt::format("{} {}", at.label(), name_of(direction));
+  return probe ? probe->name : fmt::format("{} {}", at.label(), name_of(direction));
 }
 
 std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assembler,
@@ -85,6 +90,13 @@ std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assemb
     const std::size_t comma = std::min(list.find(',', at), list.size());
     const std::string entry = list.substr(at, comma - at);
     at = comma + 1;
+    const std::vector<Probe>& probes = model.structure.probes;
+    const auto probe =
+        std::find_if(probes.begin(), probes.end(), [&](const Probe& p) { return p.name == entry; });
+    if (probe != probes.end()) {
+      ends.push_back({{assembler.point(probe->at), probe->name}, Direction::x, *probe});
+      continue;
+    }
     const std::size_t colon = entry.rfind(':');
     Direction direction = Direction::x;
     if (colon != std::string::npos) {

@@ -3,6 +3,7 @@
 /// stations, along x, y or a sense of whirl.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,17 +31,18 @@ constexpr std::array<Choice<Direction>, 6> choices(Direction) {
            {"backward", backward}}};
 }
 
-/// A place and a direction.
+/// A place and a direction, or a probe.
 struct ResponseEnd {
   NamedPoint at;
   Direction direction = Direction::x;
+  std::optional<Probe> probe{};  ///< along whose direction instead
 
-  /// "7 seal x"
+  /// "7 seal x", or the name of the probe.
   std::string label() const;
 };
 
-/// Those of a list "left disk:y,7,seal:forward": a station as in select_points, x if there is no
-/// direction. An empty list stands for x and y of everything with a contact, a disk or a bearing.
+/// Those of a list "left disk:y,7,seal:forward,1X": a station as in select_points, x if there is no
+/// direction, or the name of a probe. An empty list stands for x and y of everything with a contact, a disk or a bearing.
 /// @throws ModelError  for an unknown station or direction, and for tilts of what has none
 std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assembler,
                                      const std::string& list);

@@ -29,6 +29,16 @@ Mat motion_of(const Run& run, const Point& point) {
   return xy;
 }
 
+std::vector<ProbeSignal> probe_signals(const Run& run) {
+  std::vector<ProbeSignal> signals;
+  const Assembler& assembler = run.scene.assembler;
+  for (const Probe& probe : assembler.structure().probes) {
+    const Mat xy = motion_of(run, assembler.point(probe.at));
+    signals.push_back({probe, probe.along(Vec(xy.col(0)), Vec(xy.col(1)))});
+  }
+  return signals;
+}
+
 ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long revolutions) {
   ContactShares shares;
   for (const ContactMeasure& c : contacts) {
@@ -66,6 +76,7 @@ MotionRecord recorded_motion(const Run& run) {
     const Mat xy = motion_of(run, p.point);
     t.stations.push_back({p.label(), xy.col(0), xy.col(1)});
   }
+  t.probes = probe_signals(run);
   if (!r.contacts.empty()) {
     t.normal = r.normal;
     t.friction = r.friction;
@@ -96,12 +107,19 @@ ReductionFacts reduction_facts(const Scene& scene) {
 
 RunSummary run_summary(const Run& run) {
   const Simulation& s = run.simulation;
+  std::vector<ProbeSummary> probes;
+  for (const ProbeSignal& signal :
+       run.has_motion() ? probe_signals(run) : std::vector<ProbeSignal>{}) {
+    const Vec& d = signal.displacement;
+    probes.push_back({signal, d.mean(), d.maxCoeff() - d.minCoeff()});
+  }
   const Cost& cost = s.integration.cost;
   return {.revolutions = s.recording.revolutions,
           .contacts = contact_shares(s.recording.contacts, s.recording.revolutions).contacts,
           .reduction = reduction_facts(run.scene),
           .cost = {cost.steps, cost.evaluations, cost.events, s.wall, run.method},
-          .failure = s.integration.failure};
+          .failure = s.integration.failure,
+          .probes = std::move(probes)};
 }
 
 std::vector<StationSummary> station_summaries(const Run& run) {

@@ -12,6 +12,7 @@
 #include "libdyn/motions/response.hpp"
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/probes.hpp"
 #include "libdyn/system/stations.hpp"
 
 namespace whirl::inline dyn {
@@ -134,13 +135,26 @@ struct StationMotion {
   }
 };
 
+/// What a probe reads of a motion.
+struct ProbeSignal : ProbeLabel {
+  Vec displacement;  ///< per sample [m]
+
+  static constexpr auto columns() {
+    return std::tuple_cat(ProbeLabel::columns(),
+                          std::tuple{column("displacement", &ProbeSignal::displacement, "m",
+                                            "displacement that a probe reads")
+                                         .along("samples")});
+  }
+};
+
 /// A motion as it was recorded; in group /trajectory.
 struct MotionRecord {
   Vec time;         ///< since the start [s]
   Mat coordinates;  ///< reduced ones x samples
   Mat basis;        ///< displacement of all points = basis * coordinates
   std::vector<StationMotion> stations;
-  Mat normal, friction;  ///< contacts x samples [N]
+  std::vector<ProbeSignal> probes;  ///< those of the model
+  Mat normal, friction;             ///< contacts x samples [N]
 
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
@@ -156,6 +170,7 @@ struct MotionRecord {
                "then of every body")
             .along("full reduced"),
         rows(&MotionRecord::stations, "stations+").maybe(),
+        rows(&MotionRecord::probes, "probes").prefixed("probe_").maybe(),
         column("normal_force", &MotionRecord::normal, "N", "normal force")
             .along("/contacts/name samples")
             .maybe(),
@@ -165,6 +180,9 @@ struct MotionRecord {
   }
 };
 MotionRecord recorded_motion(const Run& run);
+
+/// What the probes of the model read in a recording.
+std::vector<ProbeSignal> probe_signals(const Run& run);
 
 /// Spectrum of a station.
 struct StationSpectrum {
@@ -224,6 +242,20 @@ struct RunCost {
   }
 };
 
+/// What a probe reads of a motion, in short.
+struct ProbeSummary : ProbeLabel {
+  double mean = 0.0;          ///< [m]
+  double peak_to_peak = 0.0;  ///< between the largest and the smallest sample [m]
+
+  static constexpr auto columns() {
+    using P = ProbeSummary;
+    return std::tuple_cat(
+        ProbeLabel::columns(),
+        std::tuple{column("mean", &P::mean, "m", "of the reading"),
+                   column("peak_to_peak", &P::peak_to_peak, "m", "of the reading")});
+  }
+};
+
 /// What there is to tell of a run as a whole.
 struct RunSummary {
   long revolutions = 0;  ///< recorded
@@ -231,6 +263,7 @@ struct RunSummary {
   ReductionFacts reduction;
   RunCost cost;
   Failure failure;
+  std::vector<ProbeSummary> probes{};  ///< of a run with a motion
 
   static constexpr auto columns() {
     using S = RunSummary;
@@ -239,6 +272,7 @@ struct RunSummary {
         rows(&S::contacts, "contacts"),
         column("reduction", &S::reduction, "", "how the rotor was reduced"),
         column("cost", &S::cost, "", "what the integration took"),
+        rows(&S::probes, "probes").only(Written::in_json).maybe(),
         column("failure", &S::failure, "", "why it ended early").only(Written::in_json).maybe()};
   }
 };

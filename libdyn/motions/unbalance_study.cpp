@@ -70,6 +70,67 @@ std::vector<ForcedResponse> forced_responses(const std::vector<NamedPoint>& stat
   return all;
 }
 
+/// Where the points of probes are, in their order.
+std::vector<Point> points_of(const Assembler& assembler) {
+  std::vector<Point> points;
+  for (const Probe& probe : assembler.structure().probes) {
+    points.push_back(assembler.point(probe.at));
+  }
+  return points;
+}
+
+/// Readings of the probes of a structure over speeds at which the response is bounded.
+std::vector<CVec> readings(const Assembler& assembler, const std::vector<double>& speeds) {
+  const UnbalanceResponse response = unbalance_response(assembler, speeds, points_of(assembler));
+  std::vector<CVec> all;
+  for (const Probe& probe : assembler.structure().probes) {
+    const auto i = static_cast<Eigen::Index>(all.size());
+    all.push_back(
+        probe.along(CVec(response.x.row(i).transpose()), CVec(response.y.row(i).transpose())));
+  }
+  return all;
+}
+
+/// The largest of the peaks and of the sizes at the speeds of a curve.
+ProbePeak largest_of(const ResponseCurve& curve, const Vec& sizes,
+                     const std::vector<ProbePeak>& peaks) {
+  ProbePeak largest;
+  if (sizes.size() == 0) return largest;
+  Eigen::Index top = 0;
+  largest.amplitude = sizes.maxCoeff(&top);
+  largest.speed = curve.response.speeds[static_cast<std::size_t>(top)];
+  for (const ProbePeak& peak : peaks) {
+    if (peak.amplitude >= largest.amplitude) largest = peak;
+  }
+  return largest;
+}
+
+void add_probes(const Assembler& assembler, const ResponseCurve& curve, UnbalanceStudy& study) {
+  const std::vector<Probe>& probes = assembler.structure().probes;
+  if (probes.empty()) return;
+  const bool has_curve = !study.curve_speeds.empty();
+  const std::vector<CVec> curves = readings(assembler, curve.response.speeds);
+  const std::vector<CVec> rows = has_curve ? readings(assembler, study.speeds) : curves;
+  UnbalanceSolver solver(assembler);
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const std::vector<Point> point{assembler.point(probes[i].at)};
+    const SizeAt size_at = [&](double Omega) {
+      const auto u = solver.at(Omega, point);
+      return u ? std::abs(probes[i].along((*u)(0), (*u)(1))) : INFINITY;
+    };
+    const Vec sizes = curves[i].cwiseAbs();
+    ProbeResponse of{probes[i], rows[i], {}, {}, {}};
+    if (has_curve) of.curve_amplitude = curves[i];
+    for (ResponsePeak peak : refined_peaks(size_at, curve, sizes)) {
+      peak.row = static_cast<Eigen::Index>(i);
+      of.peaks.push_back({peak});
+    }
+    of.largest = largest_of(curve, sizes, of.peaks);
+    study.probe_peaks.insert(study.probe_peaks.end(), of.peaks.begin(), of.peaks.end());
+    study.probes.push_back(std::move(of));
+  }
+}
+
 }  // namespace
 
 std::optional<std::string> StationPeak::side() const {
@@ -104,6 +165,7 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
     if (model.has_speed && model.speed > 0.0) of.separation = separation_margin(peak, model.speed);
     study.peaks.push_back(std::move(of));
   }
+  add_probes(assembler, curve, study);
   study.clearances = clearance_uses(model, assembler, curve.response.speeds);
   return study;
 }

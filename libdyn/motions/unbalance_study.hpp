@@ -9,6 +9,7 @@
 #include "libbase/column.hpp"
 #include "libbase/failure.hpp"
 #include "libdyn/system/clearance.hpp"
+#include "libdyn/system/probes.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/response_curve.hpp"
 
@@ -85,6 +86,60 @@ struct ForcedResponse {
   }
 };
 
+/// A peak of what a probe reads, found on the reading itself; its row is the number of the probe.
+struct ProbePeak : ResponsePeak {
+  double peak_to_peak() const { return 2.0 * amplitude; }
+  std::vector<double> half_power() const { return {below, above}; }
+
+  static constexpr auto columns() {
+    using enum Written;
+    using P = ProbePeak;
+    return std::tuple{
+        column("speed", &P::speed, "rad/s", "speed of a peak").axis().within(valid::finite),
+        column("probe", &P::row, "", "number of the probe, from 1")
+            .within(valid::numbers_of("probes"))
+            .from_one()
+            .only(in_file),
+        column("amplitude", &P::amplitude, "m", "half of its reading, peak to peak").only(in_file),
+        column("below", &P::below, "rad/s", "0.707 of the peak, below it").only(in_file),
+        column("above", &P::above, "rad/s", "0.707 of the peak, above it").only(in_file),
+        column("peak_to_peak", &P::peak_to_peak, "m", "of the reading there").only(in_json),
+        column("amplification", &P::amplification, "", "factor").only(in_json),
+        column("half_power", &P::half_power, "rad/s", "0.707 of the peak").only(in_json)};
+  }
+};
+
+/// What a probe reads: Re(amplitude e^(i Omega t)).
+struct ProbeResponse : ProbeLabel {
+  CVec amplitude;                ///< per speed [m]
+  CVec curve_amplitude;          ///< over the speeds of the curve; empty if the speeds are these
+  std::vector<ProbePeak> peaks;  ///< ascending speeds
+  ProbePeak largest;             ///< its speed and amplitude only
+
+  Vec peak_to_peak() const { return 2.0 * amplitude.cwiseAbs(); }
+  /// Ahead of the rotor's angle Omega t, -180 to 180 [deg].
+  Vec phase_deg() const { return amplitude.cwiseArg() / degree; }
+
+  static constexpr auto columns() {
+    using enum Written;
+    using P = ProbeResponse;
+    return std::tuple_cat(
+        ProbeLabel::columns(),
+        std::tuple{
+            column("amplitude", &P::amplitude, "m", "complex amplitude of what a probe reads")
+                .along("speeds")
+                .only(in_file),
+            column("curve_amplitude", &P::curve_amplitude, "m",
+                   "complex amplitude of what a probe reads")
+                .along("curve")
+                .only(in_file)
+                .maybe(),
+            column("peak_to_peak", &P::peak_to_peak, "m", "of the reading").only(in_json),
+            column("phase_deg", &P::phase_deg, "", "ahead of the rotor's angle").only(in_json),
+            column("peaks", &P::peaks, "", "of the reading").only(in_json)});
+  }
+};
+
 /// A peak of the largest response, and how far it is from the operating speed.
 struct StationPeak : ResponsePeak {
   std::optional<int> node;  ///< of the station that moves most
@@ -136,6 +191,8 @@ struct UnbalanceStudy {
   std::vector<LargestResponse> largest;  ///< per station
   std::vector<ForcedResponse> forced;    ///< to forces of other frequencies, force by force
   Failure failure;                       ///< why narrow peaks may be missing
+  std::vector<ProbeResponse> probes{};   ///< those of the model
+  std::vector<ProbePeak> probe_peaks{};  ///< those of all of them
 
   static constexpr std::string_view group = "/unbalance";
   static constexpr auto columns() {
@@ -154,6 +211,12 @@ struct UnbalanceStudy {
         rows(&UnbalanceStudy::stations, "stations+"),
         rows(&UnbalanceStudy::peaks, "peaks").prefixed("peak_").maybe(),
         rows(&UnbalanceStudy::forced, "forced").prefixed("forced_").maybe(),
+        rows(&UnbalanceStudy::probes, "probes").prefixed("probe_").maybe().only(in_file),
+        rows(&UnbalanceStudy::probe_peaks, "probe_peaks")
+            .prefixed("probe_peak_")
+            .maybe()
+            .only(in_file),
+        rows(&UnbalanceStudy::probes, "probes").maybe().only(in_json),
         rows(&UnbalanceStudy::clearances, "clearances").only(in_json),
         column("unbounded", &UnbalanceStudy::unbounded, "rad/s", "undamped resonances")
             .only(in_json)};

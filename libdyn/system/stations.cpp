@@ -25,6 +25,7 @@ std::vector<Label> labels(const Model& model, const Assembler& assembler) {
   for (const auto* list : {&model.structure.bearings, &model.structure.seals}) {
     for (const Connection& c : *list) all.push_back({assembler.point(c.from), c.name});
   }
+  for (const Probe& p : model.structure.probes) all.push_back({assembler.point(p.at), p.name});
   return all;
 }
 

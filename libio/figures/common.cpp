@@ -99,26 +99,31 @@ std::string set_command(const std::string& paths, const std::string& value,
   std::string text;
   for (std::size_t from = 0; from < paths.size();) {
     const std::size_t to = std::min(paths.find(',', from), paths.size());
-    text += " --set " + shell_word(paths.substr(from, to - from) + "=") + value;
+    const bool is_negative = paths[from] == '-';
+    const std::size_t start = from + (is_negative ? 1 : 0);
+    text += " --set " + shell_word(paths.substr(start, to - start) + "=");
+    text += (is_negative ? "-" : "") + value;
     if (!unit.empty()) text += shell_word(unit);
     from = to + 1;
   }
   return text;
 }
 
+bool is_at(const ResultView& result, const Station& station, const std::string& label) {
+  const Point p = result.assembler->point(station);
+  if (p.kind == Point::Kind::body) {
+    const std::string name = result.model->structure.bodies[static_cast<std::size_t>(p.index)].name;
+    return label == name || label.starts_with(name + " + ");
+  }
+  return label == fmt::format("{}", p.index + 1) ||
+         label.starts_with(fmt::format("{} ", p.index + 1));
+}
+
 int contact_at(const ResultView& result, const std::string& station) {
   if (!result.model || !result.assembler) return -1;
   const auto& contacts = result.model->contacts;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Point p = result.assembler->point(contacts[i].at);
-    std::string name;
-    if (p.kind == Point::Kind::body) {
-      name = result.model->structure.bodies[static_cast<std::size_t>(p.index)].name;
-      if (station == name || station.starts_with(name + " + ")) return static_cast<int>(i);
-    } else if (station == fmt::format("{}", p.index + 1) ||
-               station.starts_with(fmt::format("{} ", p.index + 1))) {
-      return static_cast<int>(i);
-    }
+    if (is_at(result, contacts[i].at, station)) return static_cast<int>(i);
   }
   return -1;
 }

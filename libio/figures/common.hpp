@@ -56,9 +56,16 @@ std::string command_on_model(const ResultView& result, const std::string& verb,
 std::string set_command(const std::string& paths, const std::string& value,
                         const std::string& unit);
 
+/// The unit of a probe, and its name with the direction: "DE 1X, 45°".
+DisplayUnit unit_of(const ProbeLabel& probe);
+std::string probe_name(const ProbeLabel& probe);
+
 /// Position of the first number along a title of an axis with a unit: "x [mm]".
 std::string with_unit(const std::string& what, const DisplayUnit& unit);
 
+/// Whether a label of the trajectory ("7 ring") is of a station of the model.
+/// @pre  the result has a model and an assembler
+bool is_at(const ResultView& result, const Station& station, const std::string& label);
 /// The contact at a station of the trajectory ("7 ring"), as its number; -1 if there is none.
 int contact_at(const ResultView& result, const std::string& station);
 /// Numbers of stations, those with a contact first, those that do not move last.

@@ -251,6 +251,25 @@ void add_contacts(SideView& v) {
   }
 }
 
+/// Probes as bars that look at the shaft, from above or from below.
+void add_probe_bars(SideView& v) {
+  const double symbol = v.symbol(), gap = 0.004 * v.length;
+  for (const Probe& probe : v.model.structure.probes) {
+    const double at = v.position(probe.at);
+    if (at < 0.0) continue;
+    const double near = v.shaft_radius(at) + gap, far = near + 1.4 * symbol;
+    const bool is_below = std::sin(probe.angle) < 0.0;
+    const double side = is_below ? -1.0 : 1.0;
+    Curve bar{.name = "probe", .paint = Paint::stator};
+    bar.width = 3.0;
+    bar.x = {at, at};
+    bar.y = {side * near, side * far};
+    bar.hover.assign(2, "probe " + probe_name(probe));
+    v.panel.curves.push_back(std::move(bar));
+    v.add_name(at, far, probe.name, Paint::stator, is_below);
+  }
+}
+
 /// The axis of the shaft, and the nodes on it.
 void add_nodes(SideView& v) {
   const auto& z = v.assembler.mesh().z;
@@ -283,6 +302,7 @@ std::vector<Figure> layout_figures(const ResultView& result) {
   add_bearings(v);
   add_seals(v);
   add_contacts(v);
+  add_probe_bars(v);
   add_nodes(v);
   const double pitch = 0.034 * v.length;
   Panel& p = v.panel;

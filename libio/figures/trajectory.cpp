@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "libio/figures/common.hpp"
+#include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
@@ -54,7 +54,7 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
   const Motion m(result);
   const MotionSamples drawn = m.drawn(seen_revolutions);
   const auto time = numbers(m.time, drawn);
-  std::vector<Figure> figures;
+  std::vector<Figure> figures = probe_histories(result);
   for (const std::size_t i : stations_by_interest(result, m.stations)) {
     const StationMotion& s = m.record.stations[i];
     Figure f{.variant = m.stations[i], .height = 500.0};
@@ -156,7 +156,8 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
     f.subtitle = fmt::format("{}: orbit{}{}", m.stations[i],
                              speed_text(result).empty() ? "" : " at ", speed_text(result));
     const double size = largest_displacement(s);
-    const DisplayUnit unit = unit_for(size, "m");
+    const std::vector<Probe> probes = probes_at(result, m.stations[i]);
+    const DisplayUnit unit = probes.empty() ? unit_for(size, "m") : unit_of(probes.front());
     const int contact = contact_at(result, m.stations[i]);
     for (const bool is_rotating : {false, true}) {
       if (is_rotating && !m.spins) break;
@@ -174,6 +175,7 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
       for (Curve& c : orbit_curves(m, shown, s, unit.factor, is_rotating)) {
         p.curves.push_back(std::move(c));
       }
+      if (!is_rotating) add_probes(probes, size, unit.factor, p);
       f.panels.push_back(std::move(p));
     }
     if (f.panels.size() == 1) f.width = 540.0, f.columns = 1;
@@ -252,7 +254,7 @@ std::vector<Figure> spectrum_figures(const ResultView& result) {
   const std::vector<std::string> stations = recorded_stations(result);
   const double speed = speed_of(result);
   const bool spins = std::isfinite(speed) && speed > 0.0;
-  std::vector<Figure> figures;
+  std::vector<Figure> figures = probe_spectra(result);
   for (const std::size_t i : stations_by_interest(result, stations)) {
     const Vec& amplitude = spectra.stations.at(i).amplitude;
     const double largest = amplitude.maxCoeff();

@@ -109,16 +109,18 @@ std::vector<ResponsePeak> peaks_in(const ResultView& result, const Response& r, 
   return peaks;
 }
 
-/// Peaks with amplification factors, and their margins to the operating speed.
-FigureTable peaks_of(const ResultView& result, const Response& r, const CMat& a,
-                     const DisplayUnit& unit) {
-  FigureTable t{.header = {"peak [rpm]", "largest at", with_unit("p-p", unit), "amplification",
-                           "margin", "required"}};
+/// Peaks [rpm] with amplification factors, and their margins to the operating speed.
+/// @param place  what the names of their rows are, for the heading
+FigureTable table_of_peaks(const ResultView& result, const std::vector<ResponsePeak>& peaks,
+                           const std::string& place, const std::vector<std::string>& names,
+                           const DisplayUnit& unit) {
+  FigureTable t{.header = {"peak [rpm]", place, with_unit("p-p", unit), "amplification", "margin",
+                           "required"}};
   const double operation = speed_of(result) / rpm;
-  for (const ResponsePeak& peak : peaks_in(result, r, a)) {
+  for (const ResponsePeak& peak : peaks) {
     const double factor = peak.amplification();
     std::vector<std::string> row{fmt::format("{:.0f}", peak.speed),
-                                 r.stations[static_cast<std::size_t>(peak.row)],
+                                 names[static_cast<std::size_t>(peak.row)],
                                  fmt::format("{:.4g}", 2.0 * unit.factor * peak.amplitude),
                                  std::isfinite(factor) ? fmt::format("{:.3g}", factor) : "–"};
     if (operation > 0.0) {
@@ -136,10 +138,16 @@ FigureTable peaks_of(const ResultView& result, const Response& r, const CMat& a,
   return t;
 }
 
-Figure bode(const ResultView& result, const Response& r, const CMat& a, const char* direction) {
-  Figure f{.variant = direction, .height = 560.0};
-  f.subtitle = fmt::format("Unbalance response along {}, amplitude peak to peak", direction);
-  const DisplayUnit unit = unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m");
+/// Complex amplitudes over speed that one figure shows.
+struct BodeCurves {
+  std::vector<std::string> names;
+  CMat a;  ///< curves x speeds [m]
+  DisplayUnit unit;
+};
+
+/// Amplitude over phase; its table is still to be made.
+Figure bode(const ResultView& result, const Response& r, const BodeCurves& shown) {
+  Figure f{.height = 560.0};
   Panel amplitude, phase;
   for (Panel* p : {&amplitude, &phase}) {
     p->x = {.title = "speed [rpm]", .first = r.speed.front(), .last = r.speed.back()};
@@ -148,20 +156,19 @@ Figure bode(const ResultView& result, const Response& r, const CMat& a, const ch
   }
   phase.rules.clear();
   amplitude.share = 1.5;
-  amplitude.y = {.title = with_unit("amplitude p-p", unit), .first = 0.0};
+  amplitude.y = {.title = with_unit("amplitude p-p", shown.unit), .first = 0.0};
   phase.y = {.title = "phase [deg]", .step = 90.0};
-  std::size_t number = 0;
-  for (const Eigen::Index i : r.named()) {
-    Curve c{.name = r.stations[static_cast<std::size_t>(i)],
-            .paint = series_paint(number),
-            .x = r.speed};
+  for (std::size_t number = 0; number < shown.names.size(); ++number) {
+    const auto i = static_cast<Eigen::Index>(number);
+    Curve c{.name = shown.names[number], .paint = series_paint(number), .x = r.speed};
     c.width = 1.8;
     constexpr Dash dashes[] = {Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
-    c.dash = dashes[number++ % 4];
+    c.dash = dashes[number % 4];
     Curve lag = c;
-    for (Eigen::Index k = 0; k < a.cols(); ++k)
-      c.y.push_back(2.0 * unit.factor * std::abs(a(i, k)));
-    lag.y = continuous_phase(a, i);
+    for (Eigen::Index k = 0; k < shown.a.cols(); ++k) {
+      c.y.push_back(2.0 * shown.unit.factor * std::abs(shown.a(i, k)));
+    }
+    lag.y = continuous_phase(shown.a, i);
     amplitude.curves.push_back(std::move(c));
     phase.curves.push_back(std::move(lag));
   }
@@ -174,7 +181,21 @@ Figure bode(const ResultView& result, const Response& r, const CMat& a, const ch
   phase.y.first = 90.0 * std::floor(low / 90.0 - 1e-6);
   phase.y.last = 90.0 * std::ceil(high / 90.0 + 1e-6);
   f.panels = {amplitude, phase};
-  f.table = peaks_of(result, r, a, unit);
+  return f;
+}
+
+/// Along x or y at the stations with a name.
+Figure bode_along(const ResultView& result, const Response& r, const CMat& a,
+                  const char* direction) {
+  const std::vector<Eigen::Index> named = r.named();
+  BodeCurves shown{{}, a(named, Eigen::all), unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m")};
+  for (const Eigen::Index i : named) {
+    shown.names.push_back(r.stations[static_cast<std::size_t>(i)]);
+  }
+  Figure f = bode(result, r, shown);
+  f.variant = direction;
+  f.subtitle = fmt::format("Unbalance response along {}, amplitude peak to peak", direction);
+  f.table = table_of_peaks(result, peaks_in(result, r, a), "largest at", r.stations, shown.unit);
   if (has_peaks(result)) {
     f.notes.push_back(
         "Peaks are those of the largest orbit of all stations, along its major axis.");
@@ -182,70 +203,127 @@ Figure bode(const ResultView& result, const Response& r, const CMat& a, const ch
   return f;
 }
 
-std::vector<Figure> bode_figures(const ResultView& result) {
-  const Response r(result);
-  std::vector<Figure> figures{bode(result, r, r.x, "x")};
-  constexpr double same = 1e-6;  // of an isotropic rotor
-  if ((r.x.cwiseAbs() - r.y.cwiseAbs()).cwiseAbs().maxCoeff() > same * r.x.cwiseAbs().maxCoeff()) {
-    figures.push_back(bode(result, r, r.y, "y"));
+/// Probes of one unit with their readings.
+std::vector<BodeCurves> probe_curves(const Response& r) {
+  std::vector<BodeCurves> all;
+  for (const ProbeResponse& probe : r.study.probes) {
+    const CVec& reading = r.study.curve_speeds.empty() ? probe.amplitude : probe.curve_amplitude;
+    if (reading.size() != std::ssize(r.speed)) {
+      throw FileError("the readings of probes are not of the speeds");
+    }
+    auto group = std::find_if(all.begin(), all.end(),
+                              [&](const BodeCurves& b) { return b.unit.name == probe.unit; });
+    if (group == all.end()) group = all.insert(all.end(), {{}, {}, unit_of(probe)});
+    const auto count = std::ssize(group->names);
+    group->names.push_back(probe_name(probe));
+    group->a.conservativeResize(count + 1, reading.size());
+    group->a.row(count) = reading.transpose();
+  }
+  return all;
+}
+
+/// Along the probes, a figure for each of their units.
+std::vector<Figure> bode_of_probes(const ResultView& result, const Response& r) {
+  std::vector<Figure> figures;
+  const std::vector<BodeCurves> groups = probe_curves(r);
+  for (const BodeCurves& shown : groups) {
+    Figure f = bode(result, r, shown);
+    f.variant = groups.size() == 1 ? "probes" : "probes in " + shown.unit.name;
+    f.subtitle = "Unbalance response along the probes, amplitude peak to peak";
+    std::vector<ResponsePeak> peaks;
+    for (const ProbePeak& p : r.study.probe_peaks) {
+      const ProbeResponse& probe = r.study.probes[static_cast<std::size_t>(p.row)];
+      const auto at = std::find(shown.names.begin(), shown.names.end(), probe_name(probe));
+      if (at == shown.names.end()) continue;  // of another unit
+      peaks.push_back(
+          {at - shown.names.begin(), p.speed / rpm, p.amplitude, p.below / rpm, p.above / rpm});
+    }
+    f.table = table_of_peaks(result, peaks, "probe", shown.names, shown.unit);
+    figures.push_back(std::move(f));
   }
   return figures;
+}
+
+std::vector<Figure> bode_figures(const ResultView& result) {
+  const Response r(result);
+  std::vector<Figure> figures = bode_of_probes(result, r);
+  figures.push_back(bode_along(result, r, r.x, "x"));
+  constexpr double same = 1e-6;  // of an isotropic rotor
+  if ((r.x.cwiseAbs() - r.y.cwiseAbs()).cwiseAbs().maxCoeff() > same * r.x.cwiseAbs().maxCoeff()) {
+    figures.push_back(bode_along(result, r, r.y, "y"));
+  }
+  return figures;
+}
+
+/// The complex amplitude of one curve in its plane, with speeds along the loop.
+Figure polar(const Response& r, const std::string& name, const CVec& a, const DisplayUnit& unit) {
+  Figure f{.variant = name, .width = 560.0, .height = 560.0};
+  const double largest = 2.0 * a.cwiseAbs().maxCoeff();
+  Panel p;
+  p.has_equal_scales = true;
+  p.x.title = with_unit("in phase", unit);
+  p.y.title = with_unit("90° ahead", unit);
+  Curve c{.paint = Paint::forward};
+  c.width = 1.8;
+  for (Eigen::Index k = 0; k < a.size(); ++k) {
+    c.x.push_back(2.0 * unit.factor * a(k).real());
+    c.y.push_back(2.0 * unit.factor * a(k).imag());
+    c.hover.push_back(
+        fmt::format("{:.5g} rpm: {:.4g} {}, {:.1f}°", r.speed[static_cast<std::size_t>(k)],
+                    2.0 * unit.factor * std::abs(a(k)), unit.name, std::arg(a(k)) / degree));
+  }
+  c.along = r.speed;
+  c.along_title = "speed";
+  // round speeds, where the loop has gone on by a twelfth of its size
+  Curve marks{.paint = Paint::ink, .has_line = false};
+  marks.has_marker = true;
+  marks.size = 5.0;
+  double x = 1e300, y = 1e300;
+  for (std::size_t k = 0; k < c.x.size(); ++k) {
+    if (std::hypot(c.x[k] - x, c.y[k] - y) < largest * unit.factor / 6.0) continue;
+    x = c.x[k];
+    y = c.y[k];
+    marks.x.push_back(x);
+    marks.y.push_back(y);
+    const double angle = std::atan2(y, x);
+    p.labels.push_back({x, y, fmt::format("{:.0f}", r.speed[k]),
+                        std::cos(angle) < -0.3  ? Anchor::end
+                        : std::cos(angle) > 0.3 ? Anchor::start
+                                                : Anchor::middle,
+                        8.0 * std::cos(angle), 4.0 - 13.0 * std::sin(angle)});
+  }
+  p.rules = {{Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::solid},
+             {Rule::Kind::vertical, 0.0, "", Paint::gray, Dash::solid}};
+  p.curves = {c, marks};
+  f.panels.push_back(p);
+  f.notes = {"Numbers along the loop are speeds [rpm]."};
+  return f;
 }
 
 std::vector<Figure> polar_figures(const ResultView& result) {
   const Response r(result);
   std::vector<Figure> figures;
+  for (const BodeCurves& shown : probe_curves(r)) {
+    for (std::size_t i = 0; i < shown.names.size(); ++i) {
+      const CVec a = shown.a.row(static_cast<Eigen::Index>(i)).transpose();
+      figures.push_back(polar(r, shown.names[i], a, shown.unit));
+      figures.back().subtitle =
+          shown.names[i] + ": complex amplitude, peak to peak, speeds along the loop";
+    }
+  }
+  const std::size_t of_probes = figures.size();
   auto stations = r.named();
   std::stable_sort(stations.begin(), stations.end(), [&](Eigen::Index a, Eigen::Index b) {
     return r.x.row(a).cwiseAbs().maxCoeff() > r.x.row(b).cwiseAbs().maxCoeff();
   });
   for (const Eigen::Index i : stations) {
     const std::string name = r.stations[static_cast<std::size_t>(i)];
-    Figure f{.variant = name, .width = 560.0, .height = 560.0};
-    f.subtitle = name + ": complex amplitude along x, peak to peak, speeds along the loop";
-    const double largest = 2.0 * r.x.row(i).cwiseAbs().maxCoeff();
-    const DisplayUnit unit = unit_for(largest, "m");
-    Panel p;
-    p.has_equal_scales = true;
-    p.x.title = with_unit("in phase", unit);
-    p.y.title = with_unit("90° ahead", unit);
-    Curve c{.paint = Paint::forward};
-    c.width = 1.8;
-    for (Eigen::Index k = 0; k < r.x.cols(); ++k) {
-      c.x.push_back(2.0 * unit.factor * r.x(i, k).real());
-      c.y.push_back(2.0 * unit.factor * r.x(i, k).imag());
-      c.hover.push_back(fmt::format(
-          "{:.5g} rpm: {:.4g} {}, {:.1f}°", r.speed[static_cast<std::size_t>(k)],
-          2.0 * unit.factor * std::abs(r.x(i, k)), unit.name, std::arg(r.x(i, k)) / degree));
-    }
-    c.along = r.speed;
-    c.along_title = "speed";
-    // round speeds, where the loop has gone on by a twelfth of its size
-    Curve marks{.paint = Paint::ink, .has_line = false};
-    marks.has_marker = true;
-    marks.size = 5.0;
-    double x = 1e300, y = 1e300;
-    for (std::size_t k = 0; k < c.x.size(); ++k) {
-      if (std::hypot(c.x[k] - x, c.y[k] - y) < largest * unit.factor / 6.0) continue;
-      x = c.x[k];
-      y = c.y[k];
-      marks.x.push_back(x);
-      marks.y.push_back(y);
-      const double angle = std::atan2(y, x);
-      p.labels.push_back({x, y, fmt::format("{:.0f}", r.speed[k]),
-                          std::cos(angle) < -0.3  ? Anchor::end
-                          : std::cos(angle) > 0.3 ? Anchor::start
-                                                  : Anchor::middle,
-                          8.0 * std::cos(angle), 4.0 - 13.0 * std::sin(angle)});
-    }
-    p.rules = {{Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::solid},
-               {Rule::Kind::vertical, 0.0, "", Paint::gray, Dash::solid}};
-    p.curves = {c, marks};
-    f.panels.push_back(p);
-    f.notes = {"Numbers along the loop are speeds [rpm]."};
-    figures.push_back(f);
+    const CVec a = r.x.row(i).transpose();
+    figures.push_back(polar(r, name, a, unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m")));
+    figures.back().subtitle =
+        name + ": complex amplitude along x, peak to peak, speeds along the loop";
     constexpr std::size_t most = 8;
-    if (figures.size() == most) break;
+    if (figures.size() == of_probes + most) break;
   }
   return figures;
 }

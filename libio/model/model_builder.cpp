@@ -48,6 +48,7 @@ Model ModelBuilder::build() {
   read_links();
   read_unbalances();
   read_forces();
+  read_probes();
   read_contacts();
   read_films();
   read_bow();
@@ -98,9 +99,9 @@ void ModelBuilder::read_top() {
   if (const auto title = top.string("title")) model_.title = *title;
   if (const auto g = top.quantity("gravity", "m/s^2", Range::nonnegative))
     model_.structure.gravity = *g;
-  for (const char* table :
-       {"operation", "material", "shaft", "layer", "disk", "unbalance", "force", "bow", "body",
-        "bearing", "seal", "link", "oil_film", "contact", "damping", "reduction", "start"}) {
+  for (const char* table : {"operation", "material", "shaft", "layer", "disk", "unbalance", "force",
+                            "probe", "bow", "body", "bearing", "seal", "link", "oil_film",
+                            "contact", "damping", "reduction", "start"}) {
     top.node(table);
   }
   top.finish();

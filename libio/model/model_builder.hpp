@@ -83,6 +83,7 @@ class ModelBuilder {
   void read_bodies();
   void read_unbalances();
   void read_forces();
+  void read_probes();
   std::optional<Material> material(TableReader& table);
   std::vector<std::string> material_names() const;
   std::optional<Unbalance> unbalance(TableReader& table, const Station& at,

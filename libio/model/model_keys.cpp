@@ -49,6 +49,7 @@ constexpr const char* bare = R"(
 [[disk]]
 [[unbalance]]
 [[force]]
+[[probe]]
 [bow]
 [[body]]
 [[bearing]]

@@ -194,4 +194,22 @@ void ModelBuilder::read_unbalances() {
   });
 }
 
+void ModelBuilder::read_probes() {
+  for_each("probe", [&](TableReader& table, std::size_t i) {
+    Probe probe{.name = table.string("name").value_or(fmt::format("probe {}", i + 1))};
+    if (table.has("name") && probe.name.empty()) {
+      table.problem("name", "a probe needs a name that is not empty");
+    }
+    if (const auto at = station(table)) probe.at = *at;
+    table.read(probe);
+    const auto unit = parse_as("1 " + probe.unit, "m");
+    if (!unit || probe.unit.empty()) {
+      table.problem("unit", fmt::format("found {}, expected a unit of length, such as \"um\", "
+                                        "\"mil\" or \"mm\"",
+                                        in_quotes(probe.unit)));
+    }
+    model_.structure.probes.push_back(probe);
+  });
+}
+
 }  // namespace whirl::inline io

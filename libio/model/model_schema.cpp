@@ -30,6 +30,7 @@ constexpr Note notes[] = {
     {"material.*", "a material; segments, layers and disks name it"},
     {"shaft", "segments of the shaft, one after another from z = 0"},
     {"layer", "sleeves, hubs and tubes that go with the shaft, beside its segments"},
+    {"probe", "displacement probes, along which responses and motions are told"},
     {"bow", "how the shaft is bent without forces; it turns with the shaft"},
     {"bow.table", "file with deflections against position, beside the model"},
     {"disk", "rigid disks on the shaft, by their shape or by their mass"},

@@ -6,6 +6,7 @@
 
 #include "libbase/constants.hpp"
 #include "libio/text/format.hpp"
+#include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -75,13 +76,14 @@ std::string text_of(const Run& run, const Model& model, const RunSummary& summar
   const std::vector<ContactMeasure>& contacts = run.simulation.recording.contacts;
   if (!contacts.empty()) text += "\n" + contacts_table(contacts, summary.revolutions);
   return text + "\n" +
-         table_of(stations, {{"station", [](const StationSummary& s) { return s.label; }},
-                             shown("max_radius").as("largest radius"),
-                             {"strongest frequencies [rpm] (radius)",
-                              [](const StationSummary& s) { return peaks_text(s.peaks); }},
-                             {"seen from the rotor [rpm]", [](const StationSummary& s) {
-                                return peaks_text(s.peaks_rotating);
-                              }}});
+         table_of(stations,
+                  {{"station", [](const StationSummary& s) { return s.label; }},
+                   shown("max_radius").as("largest radius"),
+                   {"strongest frequencies [rpm] (radius)",
+                    [](const StationSummary& s) { return peaks_text(s.peaks); }},
+                   {"seen from the rotor [rpm]",
+                    [](const StationSummary& s) { return peaks_text(s.peaks_rotating); }}}) +
+         text_of(summary.probes);
 }
 
 }  // namespace whirl::inline io

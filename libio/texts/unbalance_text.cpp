@@ -7,6 +7,7 @@
 
 #include "libbase/constants.hpp"
 #include "libfe/forces.hpp"
+#include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -127,8 +128,8 @@ std::string text_of(const UnbalanceStudy& study, const Model& model) {
           return fmt::format("{:.3f}", 1e6 * s.major(s.major.size() - 1));
         }}});
   return fmt::format(
-      "Unbalance response, {} (major semi-axes)\n\n{}{}{}{}", range_text(study.speeds), stations,
-      peaks_text(study, model),
+      "Unbalance response, {} (major semi-axes)\n\n{}{}{}{}{}", range_text(study.speeds), stations,
+      peaks_text(study, model), text_of(study.probes),
       has_synchronous_load(model.structure) ? "" : "\n  The model has no unbalance.\n",
       forced_text(study));
 }

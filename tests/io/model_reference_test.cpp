@@ -78,6 +78,7 @@ spins = true
        "qqqqqqqq = 1\n"},
       {"## `[[unbalance]]`", "[[unbalance]]\nbody = \"b\"\nmoment = 1\nqqqqqqqq = 1\n"},
       {"## `[[force]]`", "[[force]]\nbody = \"b\"\nforce = 1\nqqqqqqqq = 1\n"},
+      {"## `[[probe]]`", "[[probe]]\nbody = \"b\"\nangle = 0\nqqqqqqqq = 1\n"},
       {"## `[[body]]`", "[[body]]\nname = \"c\"\nmass = 1\nqqqqqqqq = 1\n"},
       {"## `[[bearing]]`", "[[bearing]]\nbody = \"b\"\nstiffness = 1\nqqqqqqqq = 1\n"},
       {"## `[[bearing]]`",

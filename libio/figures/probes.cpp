@@ -1,0 +1,152 @@
+#include "libio/figures/probes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/spectrum.hpp"
+#include "libio/figures/result_of.hpp"
+#include "libio/text/units.hpp"
+
+namespace whirl::inline io::figures {
+
+namespace {
+
+constexpr double seen_of_probes = 8.0;               ///< revolutions, at first
+constexpr double bar_begins = 1.12, bar_ends = 1.4;  ///< ends of a probe over the size of an orbit
+constexpr double seen_share = 1e-3;  ///< of the largest line: below, a line is not looked at
+
+/// What a probe reads, as lines of a spectrum without the mean.
+struct ProbeLines {
+  std::vector<double> frequency;     ///< 0 or more [rad/s]
+  std::vector<double> peak_to_peak;  ///< [m]
+};
+
+ProbeLines lines_of(const Vec& time, const Vec& reading) {
+  ProbeLines lines;
+  const auto count = static_cast<Eigen::Index>(smooth_length(reading.size()));
+  if (count < 4) return lines;
+  const Vec used = reading.tail(count);
+  const Vec centered = used.array() - used.mean();
+  const Spectrum spectrum = hann_spectrum(centered.cast<Complex>(), time(1) - time(0));
+  for (Eigen::Index k = 0; k < count / 2; ++k) {
+    lines.frequency.push_back(static_cast<double>(k) * spectrum.bin);
+    // a cosine is two circles of half its amplitude
+    lines.peak_to_peak.push_back((k == 0 ? 2.0 : 4.0) * std::abs(spectrum.at(k)));
+  }
+  return lines;
+}
+
+/// How far a spectrum is worth seeing.
+double reach_of(const ProbeLines& lines, double speed) {
+  const double least = seen_share * largest_of(lines.peak_to_peak);
+  double reach = std::isfinite(speed) ? 2.2 * speed : 0.0;
+  for (std::size_t k = 0; k < lines.frequency.size(); ++k) {
+    if (lines.peak_to_peak[k] > least) reach = std::max(reach, 1.15 * lines.frequency[k]);
+  }
+  return reach;
+}
+
+}  // namespace
+
+DisplayUnit unit_of(const ProbeLabel& probe) {
+  const auto one = parse_as("1 " + probe.unit, "m");
+  if (!one) throw FileError(fmt::format("the unit of probe {}: {}", probe.name, one.problem));
+  return {probe.unit, 1.0 / *one};
+}
+
+std::string probe_name(const ProbeLabel& probe) {
+  return fmt::format("{}, {:g}°", probe.name, probe.angle_deg());
+}
+
+std::vector<Figure> probe_histories(const ResultView& result) {
+  const Motion m(result);
+  if (m.record.probes.empty()) return {};
+  const MotionSamples drawn = m.drawn(seen_of_probes), shown = m.shown(seen_of_probes);
+  Figure f{.variant = "probes"};
+  f.height = 90.0 + 170.0 * static_cast<double>(m.record.probes.size());
+  f.subtitle = fmt::format("Along the probes: time history{}{}",
+                           speed_text(result).empty() ? "" : " at ", speed_text(result));
+  for (const ProbeSignal& probe : m.record.probes) {
+    const DisplayUnit unit = unit_of(probe);
+    Panel p;
+    p.x = {.title = "time [s]", .first = m.time(shown.first), .last = m.time(shown.last)};
+    p.cursor = "time";
+    p.y.title = with_unit(probe_name(probe), unit);
+    Curve c{.paint = Paint::series, .x = numbers(m.time, drawn)};
+    c.y = scaled(numbers(probe.displacement, drawn), unit.factor);
+    c.width = 1.3;
+    p.curves.push_back(std::move(c));
+    f.panels.push_back(std::move(p));
+  }
+  f.notes = m.notes(seen_of_probes);
+  return {f};
+}
+
+std::vector<Figure> probe_spectra(const ResultView& result) {
+  const Motion m(result);
+  const double speed = speed_of(result);
+  const DisplayUnit in = result.frequency;
+  std::vector<Figure> figures;
+  std::vector<std::string> units;
+  for (const ProbeSignal& probe : m.record.probes) {
+    const ProbeLines lines = lines_of(m.time, probe.displacement);
+    if (!(largest_of(lines.peak_to_peak) > 0.0)) continue;
+    const DisplayUnit unit = unit_of(probe);
+    auto known = std::find(units.begin(), units.end(), unit.name);
+    if (known == units.end()) {
+      known = units.insert(units.end(), unit.name);
+      Figure f{.variant = "probes in " + unit.name, .width = 860.0, .height = 430.0};
+      f.subtitle = fmt::format("Along the probes: spectrum{}{}, peak to peak",
+                               speed_text(result).empty() ? "" : " at ", speed_text(result));
+      Panel p;
+      p.cursor = "frequency";
+      p.x = {.title = with_unit("frequency", in), .first = 0.0, .last = 0.0};
+      p.y = {.title = with_unit("peak to peak", unit), .first = 0.0};
+      if (speed > 0.0) {
+        p.x.also_unit = "X", p.x.also_factor = 1.0 / (in.factor * speed);
+        p.rules.push_back(
+            {Rule::Kind::vertical, speed * in.factor, "1X", Paint::gray, Dash::dotted});
+      }
+      f.panels.push_back(std::move(p));
+      figures.push_back(std::move(f));
+    }
+    Panel& p = figures[static_cast<std::size_t>(known - units.begin())].panels.front();
+    Curve c{.name = probe_name(probe), .paint = series_paint(p.curves.size())};
+    c.x = scaled(lines.frequency, in.factor);
+    c.y = scaled(lines.peak_to_peak, unit.factor);
+    c.width = 1.2;
+    p.x.last = std::max(p.x.last, std::min(reach_of(lines, speed) * in.factor, c.x.back()));
+    p.curves.push_back(std::move(c));
+  }
+  if (figures.size() == 1) figures.front().variant = "probes";
+  return figures;
+}
+
+std::vector<Probe> probes_at(const ResultView& result, const std::string& station) {
+  std::vector<Probe> there;
+  if (!result.model || !result.assembler) return there;
+  for (const Probe& probe : result.model->structure.probes) {
+    if (is_at(result, probe.at, station)) there.push_back(probe);
+  }
+  return there;
+}
+
+void add_probes(const std::vector<Probe>& probes, double size, double factor, Panel& panel) {
+  for (const Probe& probe : probes) {
+    const double c = factor * size * std::cos(probe.angle),
+                 s = factor * size * std::sin(probe.angle);
+    Curve line{.name = "probe", .paint = Paint::stator};
+    line.width = 3.0;
+    line.x = {bar_begins * c, bar_ends * c};
+    line.y = {bar_begins * s, bar_ends * s};
+    line.hover.assign(2, probe_name(probe));
+    panel.curves.push_back(std::move(line));
+    panel.labels.push_back({bar_ends * c, bar_ends * s, probe.name,
+                            c < 0.0 ? Anchor::end : Anchor::start, c < 0.0 ? -6.0 : 6.0,
+                            s < 0.0 ? 12.0 : -4.0, Paint::stator});
+  }
+}
+
+}  // namespace whirl::inline io::figures

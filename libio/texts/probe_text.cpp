@@ -1,0 +1,77 @@
+#include "libio/texts/probe_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libio/text/units.hpp"
+#include "libio/texts/row_table.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// A peak, with its probe.
+struct PeakLine {
+  const ProbeResponse* probe;
+  const ProbePeak* peak;
+};
+
+std::string amplification_text(const PeakLine& line) {
+  const double factor = line.peak->amplification();
+  return std::isfinite(factor) ? fmt::format("{:.4g}", factor) : "-";
+}
+
+std::string angle_text(const ProbeLabel& probe) {
+  return fmt::format("{:g}", probe.angle_deg());
+}
+
+}  // namespace
+
+std::string reading_text(double reading, const ProbeLabel& probe) {
+  return fmt::format("{:.4g} {}", reading / *parse_as("1 " + probe.unit, "m"), probe.unit);
+}
+
+std::string text_of(const std::vector<ProbeResponse>& probes) {
+  if (probes.empty()) return "";
+  const std::string largest = table_of(
+      probes,
+      {shown("name").as("probe"),
+       {"angle [deg]", angle_text},
+       {"largest",
+        [](const ProbeResponse& p) { return reading_text(p.largest.peak_to_peak(), p); }},
+       {"at [rpm]",
+        [](const ProbeResponse& p) { return fmt::format("{:.1f}", p.largest.speed / rpm); }},
+       {"at the highest speed", [](const ProbeResponse& p) {
+          const Vec size = p.peak_to_peak();
+          return reading_text(size(size.size() - 1), p);
+        }}});
+  std::vector<PeakLine> lines;
+  for (const ProbeResponse& probe : probes) {
+    for (const ProbePeak& peak : probe.peaks) lines.push_back({&probe, &peak});
+  }
+  const std::string text = "\nAlong the probes, peak to peak\n\n" + largest;
+  if (lines.empty()) return text;
+  return text + "\nPeaks along the probes\n\n" +
+         table_of(
+             lines,
+             {{"probe", [](const PeakLine& l) { return l.probe->name; }},
+              {"peak [rpm]",
+               [](const PeakLine& l) { return fmt::format("{:.1f}", l.peak->speed / rpm); }},
+              {"peak to peak",
+               [](const PeakLine& l) { return reading_text(l.peak->peak_to_peak(), *l.probe); }},
+              {"amplification", amplification_text}});
+}
+
+std::string text_of(const std::vector<ProbeSummary>& probes) {
+  if (probes.empty()) return "";
+  return "\n" + table_of(probes,
+                         {shown("name").as("probe"),
+                          {"angle [deg]", angle_text},
+                          {"mean", [](const ProbeSummary& p) { return reading_text(p.mean, p); }},
+                          {"peak to peak",
+                           [](const ProbeSummary& p) { return reading_text(p.peak_to_peak, p); }}});
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "libdyn/motions/run_result.hpp"
+#include "libdyn/motions/unbalance_study.hpp"
+
+namespace whirl::inline io {
+
+/// A reading [m] in the unit of its probe: "12.3 um".
+std::string reading_text(double reading, const ProbeLabel& probe);
+
+/// Peaks along every probe, peak to peak; empty without probes.
+std::string text_of(const std::vector<ProbeResponse>& probes);
+
+/// Mean and peak to peak along every probe; empty without probes.
+std::string text_of(const std::vector<ProbeSummary>& probes);
+
+}  // namespace whirl::inline io
