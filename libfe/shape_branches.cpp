@@ -18,7 +18,12 @@ constexpr double equal = 1e-9;  ///< relative distance of equal values
 constexpr int deepest = 6;      ///< halvings of a step
 constexpr int nobody = -1;
 
-/// Solutions that share a value, with columns Q^H W Q = I.
+/// How far apart two solutions are.
+double distance(const ShapedValue& a, const ShapedValue& b) {
+  return std::max(std::abs(a.value - b.value), std::abs(a.eigenvalue - b.eigenvalue));
+}
+
+/// Solutions that are equal but for their shapes, with columns Q^H W Q = I.
 struct Space {
   std::size_t first = 0;  ///< number of its first solution
   CMat Q;
@@ -28,7 +33,7 @@ std::vector<Space> spaces_of(const std::vector<ShapedValue>& found, const Sparse
   std::vector<Space> spaces;
   for (std::size_t i = 0; i < found.size();) {
     std::size_t end = i + 1;
-    while (end < found.size() && found[end].value - found[i].value <= equal * found[i].value) ++end;
+    while (end < found.size() && distance(found[end], found[i]) <= equal * found[i].value) ++end;
     Space space{i, CMat(found[i].shape.size(), static_cast<Eigen::Index>(end - i))};
     for (std::size_t j = i; j < end; ++j) {
       CVec q = found[j].shape;
@@ -105,9 +110,9 @@ class Follower {
       const ShapedValue& from = last(a);
       for (const Space& space : spaces) {
         const double agreement = share_within(from.shape, space.Q, W_);
-        const double distance = std::abs(found[space.first].value - from.value) / from.value;
+        const double away = distance(found[space.first], from) / from.value;
         for (Eigen::Index k = 0; k < space.Q.cols(); ++k) {
-          pairs.push_back({agreement - near * std::min(distance, 1.0), agreement, a,
+          pairs.push_back({agreement - near * std::min(away, 1.0), agreement, a,
                            space.first + static_cast<std::size_t>(k)});
         }
       }

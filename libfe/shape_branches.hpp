@@ -13,6 +13,8 @@ namespace whirl::inline fe {
 struct ShapedValue {
   double value = 0.0;  ///< above zero
   CVec shape;
+  Complex eigenvalue{};  ///< where the number does not tell all of it; zero where it does
+  int number = 0;        ///< for who solves: of the solution at this value of the parameter
 };
 
 /// One solution along the parameter.
@@ -41,7 +43,7 @@ using SolveShapes = std::function<std::vector<ShapedValue>(double at)>;
 /// Solutions at neighboring values belong together one to one, those of the best agreement
 /// |a^H W b|^2 / (a^H W a  b^H W b) first, a small share of it for near values. Where a branch finds
 /// none that agrees by 0.8, values of the parameter between are solved too, down to 1/64 of a step.
-/// Equal values count as one space, from which each branch takes what is most like its own shape. A
+/// Equal solutions count as one space, from which each branch takes what is most like its own shape. A
 /// branch that finds no successor ends, one that nothing precedes begins. Where the eigenproblem
 /// fails the branches go on at the next value, and the failure is told.
 ///

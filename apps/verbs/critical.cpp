@@ -2,9 +2,11 @@
 
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/over.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/modes_text.hpp"
+#include "libio/texts/over_text.hpp"
 
 namespace whirl::inline cli {
 
@@ -19,10 +21,20 @@ Parsed<double> parse_order(std::string_view text) {
 struct CriticalVerbOptions {
   Option<int> modes{"modes", "N", "how many critical speeds", 6};
   Option<double> order{"order", "N", "excitation frequency over speed", 1.0, parse_order};
-  auto fields() { return std::tie(modes, order); }
+  AxesVerbOptions axes{};
+  auto fields() { return std::tie(modes, order, axes); }
 };
 
+Report run_critical_over(const Invocation& call, const CriticalVerbOptions& options) {
+  const LinearAxis over(call, options.axes);
+  const CriticalOver found = critical_over(over.model_at(), over.axis().name(), over.axis().values,
+                                           {.count = *options.modes, .order = *options.order});
+  return over_report(call, over, "Critical speeds over a value", found,
+                     text_of(found, over.axis()));
+}
+
 Report run_critical(const Invocation& call, const CriticalVerbOptions& options) {
+  if (runs_over(options.axes)) return run_critical_over(call, options);
   const Model model = call.model();
   const CriticalSpeeds found{
       critical_speeds(Assembler(linear_structure(model)),
@@ -46,7 +58,7 @@ Verb critical_verb() {
   return {
       .name = "critical",
       .group = "Linear rotordynamics",
-      .summary = "critical speeds, directly",
+      .summary = "critical speeds, directly, at the model or over a value of it",
       .example = "whirl critical models/two_disk_mac.toml",
       .run = run_critical,
   };

@@ -2,10 +2,12 @@
 
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/over.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/texts/modes_text.hpp"
+#include "libio/texts/over_text.hpp"
 
 namespace whirl::inline cli {
 
@@ -13,10 +15,19 @@ namespace {
 
 struct ModesVerbOptions {
   Option<int> modes{"modes", "N", "how many modes", 8};
-  auto fields() { return std::tie(modes); }
+  AxesVerbOptions axes{};
+  auto fields() { return std::tie(modes, axes); }
 };
 
+Report run_modes_over(const Invocation& call, const ModesVerbOptions& options) {
+  const LinearAxis over(call, options.axes);
+  const ModesOver found =
+      modes_over(over.model_at(), over.axis().name(), over.axis().values, *options.modes);
+  return over_report(call, over, "Complex modes over a value", found, text_of(found, over.axis()));
+}
+
 Report run_modes(const Invocation& call, const ModesVerbOptions& options) {
+  if (runs_over(options.axes)) return run_modes_over(call, options);
   const Model model = call.model();
   const Assembler assembler(linear_structure(model));
   const ModesAtPoints modes(complex_modes(assembler, model.speed, *options.modes),
@@ -38,7 +49,7 @@ Verb modes_verb() {
   return {
       .name = "modes",
       .group = "Linear rotordynamics",
-      .summary = "complex modes at a speed",
+      .summary = "complex modes at a speed, or over a value of the model",
       .example = "whirl modes models/two_disk_mac.toml --speed 4430rpm",
       .run = run_modes,
   };

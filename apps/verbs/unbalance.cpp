@@ -1,9 +1,11 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
+#include "apps/verbs/over.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
+#include "libio/texts/over_text.hpp"
 #include "libio/texts/unbalance_text.hpp"
 
 namespace whirl::inline cli {
@@ -22,10 +24,22 @@ std::vector<double> speeds_of(const Model& model) {
 struct UnbalanceVerbOptions {
   Option<std::vector<double>> speeds = speeds_option();
   Option<std::string> stations{"stations", "NAME,...", "names, node numbers or all", "all"};
-  auto fields() { return std::tie(speeds, stations); }
+  AxesVerbOptions axes{};
+  auto fields() { return std::tie(speeds, stations, axes); }
 };
 
+Report run_response_over(const Invocation& call, const UnbalanceVerbOptions& options) {
+  const LinearAxis over(call, options.axes);
+  const UnbalanceOver found = unbalance_over(
+      over.model_at(), over.axis().name(), over.axis().values,
+      {.speeds = [&](const Model& m) { return options.speeds.value_or(speeds_of(m)); },
+       .stations = options.stations.is_given ? *options.stations : ""});
+  return over_report(call, over, "Unbalance response over a value", found,
+                     text_of(found, over.axis()));
+}
+
 Report run_unbalance(const Invocation& call, const UnbalanceVerbOptions& options) {
+  if (runs_over(options.axes)) return run_response_over(call, options);
   const Model model = call.model();
   const Assembler assembler(linear_structure(model));
   const UnbalanceStudy study =
@@ -50,7 +64,8 @@ Verb unbalance_verb() {
   return {
       .name = "unbalance",
       .group = "Linear rotordynamics",
-      .summary = "steady response to unbalance and forces over speeds",
+      .summary =
+          "steady response to unbalance and forces over speeds, or over a value of the model",
       .example = "whirl unbalance models/two_disk_mac.toml --speeds 0:8000:10rpm",
       .run = run_unbalance,
   };

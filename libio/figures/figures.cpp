@@ -17,9 +17,13 @@
   campbell_kind(),       \
   log_decrement_kind(),  \
   critical_map_kind(),   \
+  modes_over_kind(),     \
+  root_locus_kind(),     \
+  critical_over_kind(),  \
   bode_kind(),           \
   polar_kind(),          \
   deflection_kind(),     \
+  unbalance_over_kind(), \
   frf_kind(),            \
   orbit_kind(),          \
   time_history_kind(),   \

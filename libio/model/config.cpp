@@ -284,6 +284,21 @@ ConfigNode& element(ConfigNode& array, const std::string& part, const std::strin
   throw ModelError(where, path, fmt::format("there is no element \"{}\"; {}", part, hint));
 }
 
+bool is_matrix_entry(const std::string& key) {
+  return key == "xx" || key == "yy" || key == "xy" || key == "yx";
+}
+
+/// Turns one value that stands for both of a diagonal into a table of these, so that an entry can be
+/// set beside them.
+void make_matrix(ConfigNode& node) {
+  using enum ConfigNode::Kind;
+  if (node.kind != integer && node.kind != real && node.kind != string) return;
+  const ConfigNode diagonal = node;
+  node.kind = table;
+  node.text.clear();
+  node.entries = {{"xx", diagonal}, {"yy", diagonal}};
+}
+
 }  // namespace
 
 const ConfigNode* ConfigNode::find(std::string_view key) const {
@@ -368,6 +383,7 @@ void set_value(ConfigNode& root, std::string_view assignment) {
       if (is_last) *node = value;
       continue;
     }
+    if (is_last && is_matrix_entry(parts[i])) make_matrix(*node);
     if (node->kind != ConfigNode::Kind::table) {
       throw ModelError(where, path,
                        fmt::format("\"{}\" is not a table and has no entries", parts[i - 1]));

@@ -9,12 +9,15 @@
 #include "libdyn/studies/basins.hpp"
 #include "libdyn/studies/branch_result.hpp"
 #include "libdyn/studies/classification_result.hpp"
+#include "libdyn/studies/critical_over.hpp"
 #include "libdyn/studies/curve_result.hpp"
 #include "libdyn/studies/map.hpp"
+#include "libdyn/studies/modes_over.hpp"
 #include "libdyn/studies/orbit_result.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libdyn/studies/sweep.hpp"
 #include "libdyn/studies/torus_result.hpp"
+#include "libdyn/studies/unbalance_over.hpp"
 #include "libdyn/studies/work_precision_study.hpp"
 #include "libdyn/system/running_film.hpp"
 #include "libdyn/system/stations.hpp"
@@ -59,6 +62,9 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<ClassificationResult>());
   add(schema_of<CriticalSpeeds>());
   add(schema_of<UnbalanceStudy>());
+  add(schema_of<ModesOver>());
+  add(schema_of<CriticalOver>());
+  add(schema_of<UnbalanceOver>());
   add(schema_of<FrequencyResponse>());
   add(schema_of<BranchResult>());
   add(schema_of<CurveResult>());

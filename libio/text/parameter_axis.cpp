@@ -34,13 +34,19 @@ std::vector<std::string> split(std::string_view text, char at) {
 }
 
 std::vector<std::string> ParameterAxis::paths() const {
-  return split(path, ',');
+  std::vector<std::string> all = split(path, ',');
+  for (std::string& one : all) {
+    if (one.starts_with('-')) one.erase(0, 1);
+  }
+  return all;
 }
 
 std::vector<std::string> ParameterAxis::assignments_of(double value) const {
   std::vector<std::string> all;
-  for (const std::string& one : paths()) {
-    all.push_back(fmt::format("{}={:.17g}{}{}", one, value, unit.empty() ? "" : " ", unit));
+  for (const std::string& one : split(path, ',')) {
+    const bool is_negative = one.starts_with('-');
+    all.push_back(fmt::format("{}={:.17g}{}{}", one.substr(is_negative ? 1 : 0),
+                              is_negative ? -value : value, unit.empty() ? "" : " ", unit));
   }
   return all;
 }

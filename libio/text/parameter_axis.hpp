@@ -12,8 +12,10 @@ namespace whirl::inline io {
 
 /// What a study varies in a model, and the values it takes.
 struct ParameterAxis {
-  std::string path;  ///< such as contact.seal.friction; several with commas, for one value at all
-  std::string unit;  ///< SI unit of the values; empty: none was written
+  /// Such as contact.seal.friction; several with commas, for one value at all; one with a minus before
+  /// it has the negative of that.
+  std::string path;
+  std::string unit;            ///< SI unit of the values; empty: none was written
   std::vector<double> values;  ///< [SI]
   std::string shown_unit;      ///< as it was written, for people
   double shown_scale = 1.0;    ///< SI units in one of these
@@ -24,7 +26,7 @@ struct ParameterAxis {
 
   ParameterName name() const { return {path, unit}; }
 
-  /// Its paths, one by one.
+  /// Its paths, one by one, without signs.
   std::vector<std::string> paths() const;
   /// A value [SI], as --set takes it, for every path.
   std::vector<std::string> assignments_of(double value) const;

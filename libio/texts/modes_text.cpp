@@ -8,6 +8,7 @@
 
 #include "libbase/constants.hpp"
 #include "libio/texts/row_table.hpp"
+#include "libio/texts/some_rows.hpp"
 
 namespace whirl::inline io {
 
@@ -36,26 +37,6 @@ const double heavy_decrement =
 std::string mark_of(double log_decrement) {
   return log_decrement > heavy_decrement ? heavy_mark : "";
 }
-
-/// Every so many speeds of a diagram, the first and the last among them.
-struct SomeSpeeds {
-  std::vector<std::size_t> shown;
-  std::string which;  ///< in words
-
-  explicit SomeSpeeds(std::size_t size) {
-    constexpr std::size_t most = 21;
-    const std::size_t stride = std::max<std::size_t>(1, size / (most - 1));
-    for (std::size_t i = 0; i < size; i += stride) shown.push_back(i);
-    if (shown.back() + 1 < size) shown.push_back(size - 1);
-    which = stride == 1
-                ? "all speeds"
-                : fmt::format("every {} of {} speeds and the last; --json and --out have all",
-                              stride == 2   ? "second"
-                              : stride == 3 ? "third"
-                                            : fmt::format("{}th", stride),
-                              size);
-  }
-};
 
 std::string crossings_text(const Campbell& diagram) {
   std::string text;
@@ -114,7 +95,7 @@ std::string text_of(const CriticalSpeeds& found) {
 }
 
 std::string text_of(const Campbell& diagram) {
-  const SomeSpeeds speeds(diagram.speeds.size());
+  const SomeRows speeds(diagram.speeds.size(), "speeds");
   TableColumns<std::size_t> frequencies{{"speed [rpm]", [&](std::size_t i) {
                                            return fmt::format("{:.1f}", diagram.speeds[i] / rpm);
                                          }}};

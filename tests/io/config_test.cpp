@@ -268,6 +268,18 @@ INSTANTIATE_TEST_SUITE_P(
         "[start]\nfrom = \"rest\"\nwhirl = [ { mode = 1, amplitude = \"2 mm\" }, { mode = 2 } ]\n",
         "[a.b.c]\nd = 1\n[a.b]\ne = 2\n[a]\nf = 3\n", "mixed = [ { a = 1 }, 2 ]\n[t]\n[u.v]\n"));
 
+// One value of a matrix stands for both of its diagonal, and stays there beside another entry.
+TEST(Config, AnEntryOfAMatrixMayBeSetBesideItsDiagonal) {
+  ConfigNode root = parse_toml("[[bearing]]\nstiffness = \"4 MN/m\"\n", "file");
+  set_value(root, "bearing.1.stiffness.xy=2 kN/m");
+  set_value(root, "bearing.1.stiffness.yy=5");
+  const ConfigNode& stiffness = *root.find("bearing")->items.at(0).find("stiffness");
+  EXPECT_EQ(stiffness.find("xx")->as_written(), "\"4 MN/m\"");
+  EXPECT_EQ(stiffness.find("xy")->as_written(), "\"2 kN/m\"");
+  EXPECT_EQ(stiffness.find("yy")->as_written(), "5");
+  EXPECT_EQ(stiffness.find("yx"), nullptr);
+}
+
 TEST(Config, ShowsValuesAsTheyWouldBeWritten) {
   const ConfigNode root = parse_toml(
       "a = 5\nb = \"4 MN/m\"\nc = true\nd = [1]\ne = {}\nf = 1.5\ng = 1979-05-27\n", "file");

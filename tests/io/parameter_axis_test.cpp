@@ -60,6 +60,16 @@ TEST(ParameterAxis, SaysWhatIsWrong) {
   EXPECT_NE(problem("a=1:2:1kg^7").find("in SI without a unit"), std::string::npos);
 }
 
+// K = [[k, q], [-q, k]] of one q
+TEST(ParameterAxis, AMinusBeforeAPathTakesTheNegative) {
+  const auto axis = parse_axis("seal.1.stiffness.xy,-seal.1.stiffness.yx=0:2:1N/m", 0);
+  ASSERT_TRUE(axis);
+  EXPECT_EQ(axis->paths(),
+            (std::vector<std::string>{"seal.1.stiffness.xy", "seal.1.stiffness.yx"}));
+  EXPECT_EQ(axis->assignments(2),
+            (std::vector<std::string>{"seal.1.stiffness.xy=2 N/m", "seal.1.stiffness.yx=-2 N/m"}));
+}
+
 TEST(ParameterAxis, SeveralAreAsManyAsAreRight) {
   const std::vector<std::string> two{"gravity=9,9.81", "operation.speed=1:2:1rad/s"};
   EXPECT_EQ(parse_axes(two, 0, 2, 3).at(1).values, (std::vector<double>{1.0, 2.0}));

@@ -1,0 +1,35 @@
+#include "apps/verbs/over.hpp"
+
+#include <algorithm>
+
+namespace whirl::inline cli {
+
+namespace {
+
+ParameterAxis axis_of(const AxesVerbOptions& axes) {
+  ParameterAxis axis = parse_axes(axes.over.values, axes.points.value_or(0), 1, 1).front();
+  std::sort(axis.values.begin(), axis.values.end());
+  axis.values.erase(std::unique(axis.values.begin(), axis.values.end()), axis.values.end());
+  return axis;
+}
+
+}  // namespace
+
+bool runs_over(const AxesVerbOptions& axes) {
+  if (axes.over.values.empty() && axes.points) {
+    throw axes.points.wrong("it is the number of values of --over, which is not given");
+  }
+  return !axes.over.values.empty();
+}
+
+LinearAxis::LinearAxis(const Invocation& call, const AxesVerbOptions& axes)
+    : model_(call.model()), axis_(axis_of(axes)), family_(model_, {axis_}) {
+  // what is wrong at the ends is said before the work
+  for (const double value : {axis_.values.front(), axis_.values.back()}) model_at()(value);
+}
+
+ModelAt LinearAxis::model_at() const {
+  return [this](double value) { return family_.model(std::span(&value, 1)); };
+}
+
+}  // namespace whirl::inline cli

@@ -1,0 +1,73 @@
+#include "libdyn/studies/model_at.hpp"
+
+#include <algorithm>
+
+#include "libbase/error.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+/// Places of the nodes from left to right, 0 to 1.
+std::vector<double> places_of(const Mesh& mesh) {
+  std::vector<double> places;
+  const std::vector<int>& order = mesh.left_to_right;
+  if (order.empty()) return places;
+  const auto z = [&](int node) { return mesh.z[static_cast<std::size_t>(node)]; };
+  const double from = z(order.front()), length = z(order.back()) - from;
+  for (const int node : order) places.push_back((z(node) - from) / length);
+  return places;
+}
+
+}  // namespace
+
+std::vector<ValueGap> gaps_of(const ShapeBranches& followed) {
+  std::vector<ValueGap> gaps;
+  for (const ShapeGap& gap : followed.gaps) gaps.push_back({gap.at, gap.reason});
+  return gaps;
+}
+
+ShapeSampler::ShapeSampler(const Assembler& first)
+    : places_(places_of(first.mesh())), bodies_(first.dofs().bodies()) {
+  const double length = first.structure().length();
+  if (!places_.empty()) length_ = length / static_cast<double>(places_.size());
+}
+
+Sparse ShapeSampler::weight() const {
+  const auto size = static_cast<Eigen::Index>(4 * (places_.size() + std::size_t(bodies_)));
+  Sparse unit(size, size);
+  unit.setIdentity();
+  return unit;
+}
+
+CVec ShapeSampler::at_points(const Assembler& assembler, const DofMap& dofs,
+                             const CVec& shape) const {
+  const Mesh& mesh = assembler.mesh();
+  const std::vector<double> places = places_of(mesh);
+  if (dofs.bodies() != bodies_ || places.empty() != places_.empty()) {
+    throw ModelError({}, "", "the value changes what the model is made of");
+  }
+  const CVec full = dofs.T * shape;
+  CVec told = CVec::Zero(static_cast<Eigen::Index>(4 * (places_.size() + std::size_t(bodies_))));
+  Eigen::Index row = 0;
+  const auto tell = [&](const Point& point, double share) {
+    for (int c = X; c <= THETA_Y; ++c) {
+      const int k = dofs.full_index(point, c);
+      if (k >= 0) told(row + c) += share * (c >= THETA_X ? length_ : 1.0) * full(k);
+    }
+  };
+  for (const double place : places_) {
+    const auto right = std::clamp<std::ptrdiff_t>(
+        std::lower_bound(places.begin(), places.end(), place) - places.begin(), 1,
+        std::ssize(places) - 1);
+    const auto r = static_cast<std::size_t>(right);
+    const double share = (place - places[r - 1]) / (places[r] - places[r - 1]);
+    tell({Point::Kind::node, mesh.left_to_right[r - 1]}, 1.0 - share);
+    tell({Point::Kind::node, mesh.left_to_right[r]}, share);
+    row += 4;
+  }
+  for (int body = 0; body < bodies_; ++body, row += 4) tell({Point::Kind::body, body}, 1.0);
+  return told;
+}
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,76 @@
+#pragma once
+/// Linear analyses over a value of the model: what they share.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libbase/parameter_name.hpp"
+#include "libdyn/system/model.hpp"
+#include "libfe/assemble.hpp"
+#include "libfe/shape_branches.hpp"
+
+namespace whirl::inline dyn {
+
+/// The model at a value of a parameter [SI]; throws ModelError where there is none.
+using ModelAt = std::function<Model(double value)>;
+
+/// A parameter, and the values that it takes; results over values begin with its columns.
+struct OverValues {
+  ParameterName parameter{};
+  std::vector<double> values{};  ///< ascending [SI]
+
+  std::string_view path() const { return parameter.path; }
+  std::string_view unit() const { return parameter.unit; }
+
+  static constexpr auto columns() {
+    using enum Written;
+    using O = OverValues;
+    return std::tuple{column("parameter", &O::path, "", "path of the value").only(in_json),
+                      column("unit", &O::unit, "", "SI unit of the values").only(in_json),
+                      column("value", &O::values, unit_of_parameter, "of the parameter")
+                          .axis("values+")
+                          .within(valid::finite)
+                          .as("values")};
+  }
+};
+
+/// A value at which nothing can be computed.
+struct ValueGap {
+  double value = 0.0;  ///< [SI]
+  std::string why;
+
+  static constexpr auto columns() {
+    return std::tuple{column("value", &ValueGap::value, unit_of_parameter, "that is left out"),
+                      column("why", &ValueGap::why, "", "why")};
+  }
+};
+std::vector<ValueGap> gaps_of(const ShapeBranches& followed);
+
+/// Solutions computed beyond those that are wanted, for newcomers.
+inline constexpr int spare_solutions = 2;
+/// Over the numbers of those wanted at the first value: up to there shapes must agree.
+inline constexpr double followed_up_to = 1.05;
+
+/// Shapes of models that differ, told at the same points: the nodes of a first model by their places
+/// along the shaft, then its bodies. Between nodes of another mesh a shape is straight.
+class ShapeSampler {
+ public:
+  explicit ShapeSampler(const Assembler& first);
+
+  /// x, y, theta_x, theta_y at all points; tilts times a length, so that they count like
+  /// displacements.
+  /// @throws ModelError  if the bodies are not those of the first model
+  CVec at_points(const Assembler& assembler, const DofMap& dofs, const CVec& shape) const;
+
+  /// A unit matrix of the size of what it tells, the weight to follow shapes with.
+  Sparse weight() const;
+
+ private:
+  std::vector<double> places_;  ///< 0 to 1 along the shaft
+  double length_ = 1.0;         ///< of tilts [m]
+  int bodies_ = 0;
+};
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,123 @@
+#include "libio/texts/over_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libio/texts/probe_text.hpp"
+#include "libio/texts/row_table.hpp"
+#include "libio/texts/some_rows.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+using ValueColumns = TableColumns<std::size_t>;
+
+std::string shown_value(double value, const ParameterAxis& axis) {
+  return fmt::format("{:.6g}", value / axis.shown_scale);
+}
+
+/// A column with the values, to which others are added.
+ValueColumns value_column(const OverValues& found, const ParameterAxis& axis) {
+  return {{axis.title(), [&](std::size_t i) { return shown_value(found.values[i], axis); }}};
+}
+
+std::string number_at(const Vec& values, std::size_t i, double unit, const char* format) {
+  return texts::number_text(values(static_cast<Eigen::Index>(i)) / unit, format);
+}
+
+/// "kxy = 4 MN/m".
+std::string place_text(double value, const ParameterAxis& axis) {
+  return fmt::format("{} = {}{}{}", axis.path, shown_value(value, axis),
+                     axis.shown_unit.empty() ? "" : " ", axis.shown_unit);
+}
+
+std::string gaps_text(const std::vector<ValueGap>& gaps, const ParameterAxis& axis) {
+  std::string text;
+  for (const ValueGap& gap : gaps) {
+    text += fmt::format("\n  not computed at {}: {}\n", place_text(gap.value, axis), gap.why);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const ModesOver& found, const ParameterAxis& axis) {
+  const SomeRows rows(found.values.size(), "values");
+  ValueColumns frequencies = value_column(found, axis), decrements = frequencies;
+  for (const ModesOverBranch& b : found.branches) {
+    const std::string name = fmt::format("{} {}", frequencies.size(), name_of(b.whirl));
+    frequencies.push_back(
+        {name + " [rpm]", [&](std::size_t i) { return number_at(b.frequency, i, rpm, ".1f"); }});
+    decrements.push_back(
+        {name, [&](std::size_t i) { return number_at(b.log_decrement, i, 1.0, ".4f"); }});
+  }
+  std::string text = fmt::format(
+      "Damped natural frequencies ({})\n\n{}\nLogarithmic decrements, stable above zero\n\n{}",
+      rows.which, table_of(rows.shown, frequencies), table_of(rows.shown, decrements));
+  for (const ModesOverThreshold& t : found.thresholds) {
+    text += fmt::format("\n  threshold of instability: {}, where mode {} whirls at {:.2f} rpm\n",
+                        place_text(t.value, axis), t.branch + 1, t.frequency / rpm);
+  }
+  return text + gaps_text(found.gaps, axis);
+}
+
+std::string text_of(const CriticalOver& found, const ParameterAxis& axis) {
+  const SomeRows rows(found.values.size(), "values");
+  ValueColumns undamped = value_column(found, axis), damped = undamped;
+  for (const CriticalOverBranch& b : found.branches) {
+    const std::string name = fmt::format("{} {} [rpm]", undamped.size(), name_of(b.whirl));
+    undamped.push_back({name, [&](std::size_t i) { return number_at(b.speed, i, rpm, ".2f"); }});
+    damped.push_back(
+        {name, [&](std::size_t i) { return number_at(b.damped_speed, i, rpm, ".2f"); }});
+  }
+  return fmt::format(
+             "Undamped critical speeds ({})\n\n{}\nWhere the damped frequency meets the "
+             "excitation\n\n{}",
+             rows.which, table_of(rows.shown, undamped), table_of(rows.shown, damped)) +
+         gaps_text(found.gaps, axis);
+}
+
+std::string text_of(const UnbalanceOver& found, const ParameterAxis& axis) {
+  const SomeRows rows(found.values.size(), "values");
+  ValueColumns largest = value_column(found, axis);
+  for (const UnbalanceOverStation& s : found.stations) {
+    largest.push_back(
+        {s.station + " [um]", [&](std::size_t i) { return number_at(s.largest, i, 1e-6, ".3f"); }});
+  }
+  std::string text =
+      fmt::format("Unbalance response: the largest over all speeds, major semi-axes ({})\n\n{}",
+                  rows.which, table_of(rows.shown, largest));
+  if (!found.probes.empty()) {
+    ValueColumns readings = value_column(found, axis);
+    for (const UnbalanceOverProbe& p : found.probes) {
+      readings.push_back({p.name, [&](std::size_t i) {
+                            const double reading = p.largest(static_cast<Eigen::Index>(i));
+                            return std::isfinite(reading) ? reading_text(reading, p) : "-";
+                          }});
+    }
+    text += "\nLargest readings of the probes, peak to peak\n\n" + table_of(rows.shown, readings);
+  }
+  std::vector<const UnbalanceOverPeak*> peaks;
+  for (const UnbalanceOverPeak& peak : found.peaks) {
+    const bool is_shown = std::any_of(rows.shown.begin(), rows.shown.end(),
+                                      [&](std::size_t i) { return found.values[i] == peak.value; });
+    if (is_shown) peaks.push_back(&peak);
+  }
+  using Peak = const UnbalanceOverPeak*;
+  if (!peaks.empty()) {
+    text += "\nPeaks of the largest response\n\n" +
+            table_of(peaks,
+                     {{axis.title(), [&](Peak p) { return shown_value(p->value, axis); }},
+                      {"peak [rpm]", [](Peak p) { return fmt::format("{:.1f}", p->speed / rpm); }},
+                      {"[um]", [](Peak p) { return fmt::format("{:.3f}", 1e6 * p->amplitude); }},
+                      {"amplification",
+                       [](Peak p) { return texts::number_text(p->amplification(), ".4g"); }}});
+  }
+  return text + gaps_text(found.gaps, axis);
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,22 @@
+#pragma once
+/// Linear analyses over a value of the model for people: tables for some twenty of the values.
+
+#include <string>
+
+#include "libdyn/studies/critical_over.hpp"
+#include "libdyn/studies/modes_over.hpp"
+#include "libdyn/studies/unbalance_over.hpp"
+#include "libio/text/parameter_axis.hpp"
+
+namespace whirl::inline io {
+
+/// Frequencies and logarithmic decrements, a table each, and thresholds of instability.
+std::string text_of(const ModesOver& found, const ParameterAxis& axis);
+
+/// Undamped and damped critical speeds.
+std::string text_of(const CriticalOver& found, const ParameterAxis& axis);
+
+/// Largest responses of stations and probes, and the peaks of all values.
+std::string text_of(const UnbalanceOver& found, const ParameterAxis& axis);
+
+}  // namespace whirl::inline io
