@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "libbase/error.hpp"
 #include "libbase/roots.hpp"
@@ -26,8 +28,27 @@ bool is_flexible(const Connection& b) {
   return !b.is_rigid && !b.is_clamped;
 }
 
-/// The structure without damping, its bearings as they are at rest.
+/// Stiffness of a linearized connection at a speed; NaN where it has none.
+Mat2 film_stiffness(const LinearizedConnection& film, double Omega) {
+  try {
+    return film.at(Omega, Omega).K;
+  } catch (const NumericalError&) {
+    return Mat2::Constant(std::nan(""));
+  }
+}
+
+/// The structure without damping, its bearings as they are at rest. Linearized connections become
+/// bearings, whose stiffness the map gives.
 Structure undamped(Structure s) {
+  for (const LinearizedConnection& film : s.linearized) {
+    BearingCoefficients any;
+    any.K = Mat2::Identity();
+    s.bearings.push_back({.name = film.name,
+                          .from = film.from,
+                          .to = film.to,
+                          .coefficients = constant_bearing(any)});
+  }
+  s.linearized.clear();
   for (auto* list : {&s.bearings, &s.links, &s.seals}) {
     for (Connection& c : *list) {
       BearingCoefficients at_rest = coefficients(c.coefficients, 0.0);
@@ -52,31 +73,36 @@ struct StiffnessRange {
   double first = 0.0, last = 0.0;  ///< of x; first = 0: no bearing has a stiffness
 };
 
-StiffnessRange range_of(const Structure& s, double beyond) {
+StiffnessRange range_of(const Structure& s, const CriticalMapOptions& options) {
   double softest = INFINITY, stiffest = 0.0, first = 0.0;
-  bool is_variable = false, is_same = true;
+  bool is_variable = !s.linearized.empty(), is_same = true;
+  const auto widen = [&](const Mat2& K) {
+    for (const double k : {K(0, 0), K(1, 1)}) {
+      if (!(k > 0.0)) continue;
+      softest = std::min(softest, k);
+      stiffest = std::max(stiffest, k);
+    }
+  };
+  for (const LinearizedConnection& film : s.linearized) {
+    for (const double Omega : options.film_speeds) widen(film_stiffness(film, Omega));
+  }
   for (const Connection& b : s.bearings) {
     if (!is_flexible(b)) continue;
     const auto told = told_speeds(b.coefficients), whirls = told_whirls(b.coefficients);
     std::vector<double> speeds(told.begin(), told.end());
     speeds.insert(speeds.end(), whirls.begin(), whirls.end());
     if (speeds.empty()) speeds.push_back(0.0);
-    for (const double Omega : speeds) {
-      const Mat2 K = coefficients(b.coefficients, Omega).K;
-      for (const double k : {K(0, 0), K(1, 1)}) {
-        if (!(k > 0.0)) continue;
-        softest = std::min(softest, k);
-        stiffest = std::max(stiffest, k);
-      }
-    }
+    for (const double Omega : speeds) widen(coefficients(b.coefficients, Omega).K);
     const double k = coefficients(b.coefficients, 0.0).K(0, 0);
     if (first == 0.0) first = k;
     is_same = is_same && std::abs(k - first) <= alike * std::abs(first);
     is_variable = is_variable || depends_on_speed(b.coefficients);
   }
   if (!(stiffest > 0.0)) return {};
-  if (is_variable || is_same) return {true, softest / beyond, stiffest * beyond};
-  return {false, 1.0 / beyond, beyond};
+  if (is_variable || is_same) {
+    return {true, softest / options.beyond, stiffest * options.beyond};
+  }
+  return {false, 1.0 / options.beyond, options.beyond};
 }
 
 /// Critical speeds of a structure whose bearings have another stiffness.
@@ -149,6 +175,42 @@ std::optional<FirstFound> first_found(const std::vector<double>& places, const S
   return {};
 }
 
+/// A stiffness over speed, for one direction, that remembers what it was asked for: curves are
+/// compared at the same speeds, and a film's stiffness takes an equilibrium.
+class StiffnessOverSpeed {
+ public:
+  using Find = std::function<Mat2(double Omega)>;
+  explicit StiffnessOverSpeed(Find find) : find_(std::move(find)) {}
+
+  std::function<double(double)> along(Eigen::Index direction) const {
+    return [find = find_, known = known_, direction](double Omega) {
+      auto at = known->find(Omega);
+      if (at == known->end()) at = known->emplace(Omega, find(Omega)).first;
+      return at->second(direction, direction);
+    };
+  }
+
+ private:
+  Find find_;
+  std::shared_ptr<std::map<double, Mat2>> known_ = std::make_shared<std::map<double, Mat2>>();
+};
+
+/// Stiffness of all connections that the map gives another one, by name.
+std::vector<std::pair<std::string, StiffnessOverSpeed>> flexible_connections(const Structure& s) {
+  std::vector<std::pair<std::string, StiffnessOverSpeed>> all;
+  for (const Connection& b : s.bearings) {
+    if (!is_flexible(b)) continue;
+    all.emplace_back(b.name, StiffnessOverSpeed([c = b.coefficients](double Omega) -> Mat2 {
+                       return coefficients(c, Omega).K;
+                     }));
+  }
+  for (const LinearizedConnection& film : s.linearized) {
+    all.emplace_back(film.name, StiffnessOverSpeed(
+                                    [film](double Omega) { return film_stiffness(film, Omega); }));
+  }
+  return all;
+}
+
 /// A curve for every stiffness that is not like another one at these speeds [rad/s].
 std::vector<StiffnessCurve> stiffness_curves(const Structure& s, double low, double high) {
   struct Group {
@@ -158,7 +220,9 @@ std::vector<StiffnessCurve> stiffness_curves(const Structure& s, double low, dou
   const auto is_same = [&](const StiffnessCurve& a, const StiffnessCurve& b) {
     for (int k = 0; k <= curve_points; ++k) {
       const double Omega = low * std::pow(high / low, static_cast<double>(k) / curve_points);
-      if (std::abs(a.at(Omega) - b.at(Omega)) > same_curve * std::abs(a.at(Omega))) return false;
+      const double ka = a.at(Omega), kb = b.at(Omega);
+      if (std::isfinite(ka) != std::isfinite(kb)) return false;
+      if (std::abs(ka - kb) > same_curve * std::abs(ka)) return false;
     }
     return true;
   };
@@ -166,23 +230,21 @@ std::vector<StiffnessCurve> stiffness_curves(const Structure& s, double low, dou
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
   };
   std::vector<Group> groups;
-  std::ptrdiff_t flexible = 0;
-  for (const Connection& b : s.bearings) {
-    if (!is_flexible(b)) continue;
-    ++flexible;
+  const auto flexible = flexible_connections(s);
+  for (const auto& [name, stiffness] : flexible) {
     for (const Eigen::Index direction : {0, 1}) {
-      const StiffnessCurve c{"", b.coefficients, direction};
+      const StiffnessCurve c{"", stiffness.along(direction)};
       auto group = std::find_if(groups.begin(), groups.end(),
                                 [&](const Group& g) { return is_same(c, g.curve); });
       if (group == groups.end()) group = groups.insert(groups.end(), Group{c, {}, {}});
-      add(group->bearings, b.name);
+      add(group->bearings, name);
       add(group->directions, direction == 0 ? "Kxx" : "Kyy");
     }
   }
   std::vector<StiffnessCurve> curves;
   for (Group& g : groups) {
     g.curve.name = fmt::format("{}", fmt::join(g.directions, ", "));
-    if (std::ssize(g.bearings) < flexible) {
+    if (g.bearings.size() < flexible.size()) {
       g.curve.name += fmt::format(" of {}", fmt::join(g.bearings, ", "));
     }
     curves.push_back(std::move(g.curve));
@@ -247,9 +309,11 @@ Whirl most_frequent(const ShapeBranch& branch, const DofMap& dofs) {
 
 }  // namespace
 
-CriticalMap critical_map(const Structure& structure, const CriticalMapOptions& options) {
+CriticalMap critical_map(const Structure& given, const CriticalMapOptions& options) {
   CriticalMap map;
-  const StiffnessRange range = range_of(structure, options.beyond);
+  Structure structure = given;
+  if (options.film_speeds.empty()) structure.linearized.clear();
+  const StiffnessRange range = range_of(structure, options);
   if (!(range.first > 0.0)) return map;
   map.is_common = range.is_common;
   const Criticals criticals(structure, range.is_common, options.critical.order);

@@ -1,6 +1,7 @@
 #pragma once
 /// Undamped critical speeds over the stiffness of the bearings.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ struct CriticalMapOptions {
   CriticalOptions critical;  ///< count: of the stiffest bearings, all of which the map shows
   int steps_per_decade = 6;  ///< of stiffness, beside the steps that following modes takes
   double beyond = 1e2;       ///< from the softest stiffness over this to the stiffest times this
+  /// Speeds whose stiffness of linearized connections, as oil films, says what the map goes over
+  /// [rad/s]; empty: they are left out.
+  std::vector<double> film_speeds{};
 };
 
 /// One critical speed along the map.
@@ -25,11 +29,8 @@ struct CriticalMapBranch {
 /// Stiffness of one or several like bearings in one direction.
 struct StiffnessCurve {
   std::string name;  ///< "Kxx of left"
-  AnyBearing bearing;
-  Eigen::Index direction = 0;  ///< 0: Kxx, 1: Kyy
-
-  /// At a speed [rad/s], [N/m].
-  double at(double Omega) const { return coefficients(bearing, Omega).K(direction, direction); }
+  /// At a speed [rad/s], [N/m]; NaN where an oil film has none.
+  std::function<double(double Omega)> at;
 };
 
 /// Where the stiffness of the bearings over speed meets a critical speed.
@@ -55,6 +56,8 @@ struct CriticalMap {
 /// in all directions, and their own stiffness goes on top, so that critical speeds are where these
 /// cross [API684]. With bearings that differ, x is a factor of all of them. Rigid bearings stay as
 /// they are, and so do seals with their stiffness at rest; damping is left out.
+///
+/// Linearized connections, as oil films, are bearings that change with speed.
 ///
 /// Critical speeds are followed by their shapes. They rise with stiffness, no faster than its square
 /// root, so that a branch leaves the map at its top only; where gyroscopics keep a mode from being

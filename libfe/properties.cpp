@@ -6,7 +6,7 @@ namespace whirl::inline fe {
 
 RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
   RotorProperties p;
-  double on_shaft = 0.0, moment = 0.0, start = 0.0;
+  double on_shaft = 0.0, moment = 0.0, second = 0.0, start = 0.0;
   const Quadrature q = Quadrature::gauss(3);  // of polynomials of the fourth degree
   const auto add_part = [&](const auto& part, double from, double whole) {
     for (int i = 0; i < 3; ++i) {
@@ -14,8 +14,11 @@ RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
       const double length = q.w(i) * whole;
       const double mass = part.material.rho * section.A() * length;
       on_shaft += mass;
-      moment += mass * (from + q.x(i) * whole);
+      const double z = from + q.x(i) * whole;
+      moment += mass * z;
+      second += mass * z * z;
       p.Ip += part.material.rho * 2.0 * section.I() * length;
+      p.Id += part.material.rho * section.I() * length;
     }
   };
   for (const Segment& segment : structure.shaft) {
@@ -30,11 +33,15 @@ RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh) {
   for (const Disk& disk : structure.disks) {
     const Point point = resolve(disk.at, structure, mesh);
     on_shaft += disk.m;
-    moment += disk.m * mesh.z[static_cast<std::size_t>(point.index)];
+    const double z = mesh.z[static_cast<std::size_t>(point.index)];
+    moment += disk.m * z;
+    second += disk.m * z * z;
     p.Ip += disk.Ip;
+    p.Id += disk.Id;
   }
   p.mass = on_shaft;
   p.center_of_mass = on_shaft > 0.0 ? moment / on_shaft : 0.0;
+  p.Id += second - moment * p.center_of_mass;
   for (const Body& body : structure.bodies) {
     if (!body.spins) continue;
     p.mass += body.m.x;

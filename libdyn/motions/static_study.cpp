@@ -1,31 +1,20 @@
 #include "libdyn/motions/static_study.hpp"
 
-#include "libdyn/system/film_equilibrium.hpp"
+#include <utility>
+
+#include "libdyn/system/resting_rotor.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/forces.hpp"
 
 namespace whirl::inline dyn {
 
-namespace {
-
-/// The sag, with films where there are any.
-void find_equilibrium(const Model& model, const Assembler& assembler, StaticStudy& study) {
-  if (!has_linear_films(model)) {
-    study.at_rest = static_equilibrium(assembler, model.speed);
-    return;
-  }
-  const auto rotor = FilmEquilibrium(model).at(model.speed);
-  study.at_rest = with_bearing_loads(assembler, rotor->system, rotor->q, rotor->load);
-  study.on_films = {rotor->films};
-}
-
-}  // namespace
-
 StaticStudy static_study(const Model& model, const Assembler& assembler) {
   StaticStudy study{.speed = model.speed,
                     .has_gravity = model.structure.gravity != 0.0,
                     .has_forces = has_constant_force(model.structure)};
-  find_equilibrium(model, assembler, study);
+  RestingRotor rotor = resting_rotor(model, assembler, model.speed);
+  study.at_rest = std::move(rotor.at_rest);
+  study.on_films = {std::move(rotor.films)};
   const Vec& displacement = study.at_rest.displacement;
   study.line = bending_line(assembler, model.speed, displacement);
   const DofMap& dofs = assembler.dofs();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "libbase/names.hpp"
@@ -17,13 +16,6 @@ namespace {
 constexpr int moments = 720;        ///< of a period; the largest distance is right to 1e-5
 constexpr double tolerance = 1e-9;  ///< of the ends of a range, relative
 
-/// A clearance and how much of it the rotor takes, from complex amplitudes of the full vector.
-struct Gap {
-  std::string name;
-  double clearance = 0.0;
-  std::function<double(const CVec& full)> distance;
-};
-
 /// The largest distance in a period of an orbit from a point.
 double farthest(Complex x, Complex y, const Vec2& from) {
   if (from.isZero(0.0)) return Orbit(x, y).major();
@@ -36,44 +28,76 @@ double farthest(Complex x, Complex y, const Vec2& from) {
 }
 
 /// Motion of one point less that of another.
-Complex relative(const CVec& full, const DofMap& dofs, const Point& at, const Point& against,
-                 int component) {
+template <class Vector>
+auto relative(const Vector& full, const DofMap& dofs, const Point& at, const Point& against,
+              int component) {
+  using Number = typename Vector::Scalar;
   const int a = dofs.full_index(at, component), b = dofs.full_index(against, component);
-  return (a >= 0 ? full(a) : Complex()) - (b >= 0 ? full(b) : Complex());
+  return (a >= 0 ? full(a) : Number()) - (b >= 0 ? full(b) : Number());
 }
 
-std::vector<Gap> gaps_of(const Model& model, const Assembler& assembler, const DofMap& dofs) {
+/// A clearance, and how much of it the rotor takes.
+struct Gap {
+  std::string name;
+  double clearance = 0.0;
+  Vec2 offset = Vec2::Zero();
+  AnyGeometry geometry;
+  Point at, against;
+
+  int first() const { return closing_of(geometry) == Closing::tilts ? THETA_X : X; }
+
+  /// The largest distance in a period.
+  /// @param full  complex amplitudes of the full vector
+  double distance(const CVec& full, const DofMap& dofs) const {
+    const Complex x = relative(full, dofs, at, against, first()),
+                  y = relative(full, dofs, at, against, first() + 1);
+    if (const auto n = direction_of(geometry)) {
+      return std::abs((*n)(0) * x + (*n)(1) * y) - n->dot(offset);
+    }
+    return arm_of(geometry) * farthest(x, y, offset);
+  }
+
+  /// The distance of a rotor at rest.
+  double distance_at_rest(const Vec& full, const DofMap& dofs) const {
+    const Vec2 u = Vec2(relative(full, dofs, at, against, first()),
+                        relative(full, dofs, at, against, first() + 1)) -
+                   offset;
+    if (const auto n = direction_of(geometry)) return n->dot(u);
+    return arm_of(geometry) * u.norm();
+  }
+};
+
+std::vector<Gap> gaps_of(const Model& model, const Assembler& assembler) {
   std::vector<Gap> gaps;
-  const auto motion = [&](const Station& at, const Station& against, const Vec2& offset,
-                          const AnyGeometry& geometry) {
-    const int first = closing_of(geometry) == Closing::tilts ? THETA_X : X;
-    return [&dofs, offset, first, arm = arm_of(geometry), direction = direction_of(geometry),
-            from = assembler.point(at), to = assembler.point(against)](const CVec& full) {
-      const Complex x = relative(full, dofs, from, to, first),
-                    y = relative(full, dofs, from, to, first + 1);
-      if (direction)
-        return std::abs((*direction)(0) * x + (*direction)(1) * y) - direction->dot(offset);
-      return arm * farthest(x, y, offset);
-    };
-  };
   for (const Contact& c : model.contacts) {
-    gaps.push_back(
-        {named("contact", c.name), c.clearance, motion(c.at, c.against, c.offset, geometry_of(c))});
+    gaps.push_back({named("contact", c.name), c.clearance, c.offset, geometry_of(c),
+                    assembler.point(c.at), assembler.point(c.against)});
   }
   for (const OilFilm& film : model.films) {
-    gaps.push_back({named("oil film", film.name), film.bearing.clearance,
-                    motion(film.at, film.against, film.offset, geometry::Ring{})});
+    gaps.push_back({named("oil film", film.name), film.bearing.clearance, film.offset,
+                    geometry::Ring{}, assembler.point(film.at), assembler.point(film.against)});
   }
   return gaps;
 }
 
 }  // namespace
 
+std::vector<RunningClearance> running_clearances(const Model& model, const Assembler& assembler,
+                                                 const Vec& displacement) {
+  std::vector<RunningClearance> all;
+  for (const Gap& gap : gaps_of(model, assembler)) {
+    all.push_back({gap.name, gap.clearance, gap.distance_at_rest(displacement, assembler.dofs())});
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.left() < b.left(); });
+  return all;
+}
+
 std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& assembler,
                                          const std::vector<double>& speeds) {
   UnbalanceSolver solver(assembler);
   const DofMap dofs = solver.dofs();
-  const std::vector<Gap> gaps = gaps_of(model, assembler, dofs);
+  const std::vector<Gap> gaps = gaps_of(model, assembler);
   std::vector<ClearanceUse> uses;
   for (const Gap& gap : gaps) uses.push_back({.name = gap.name, .clearance = gap.clearance});
   if (gaps.empty()) return uses;
@@ -81,7 +105,7 @@ std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& as
   for (std::size_t s = 0; s < speeds.size(); ++s) {
     const auto full = solver.at(speeds[s]);
     for (std::size_t i = 0; i < gaps.size() && full; ++i) {
-      const double distance = gaps[i].distance(*full), excess = distance - gaps[i].clearance;
+      const double distance = gaps[i].distance(*full, dofs), excess = distance - gaps[i].clearance;
       ClearanceUse& use = uses[i];
       if (distance > use.largest) use.largest = distance, use.at = speeds[s];
       double border = speeds[s];
@@ -89,7 +113,7 @@ std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& as
         const double root = bracketed_root(
             [&](double Omega) {
               const auto there = solver.at(Omega);
-              return there ? gaps[i].distance(*there) - gaps[i].clearance : INFINITY;
+              return there ? gaps[i].distance(*there, dofs) - gaps[i].clearance : INFINITY;
             },
             speeds[s - 1], speeds[s], tolerance * speeds[s]);
         if (std::isfinite(root)) border = root;

@@ -37,6 +37,28 @@ struct ClearanceUse {
   }
 };
 
+/// What is left of one clearance where the rotor rests.
+struct RunningClearance {
+  std::string name;        ///< "contact ring", "oil film left"
+  double clearance = 0.0;  ///< [m]
+  double distance = 0.0;   ///< from the middle of the clearance, of a stop towards it [m]
+
+  double left() const { return clearance - distance; }
+
+  static constexpr auto columns() {
+    using R = RunningClearance;
+    return std::tuple{column("name", &R::name, "", "whose clearance it is"),
+                      column("clearance", &R::clearance, "m", "clearance"),
+                      column("distance", &R::distance, "m", "of the rotor at rest from its middle"),
+                      column("left", &R::left, "m", "what is left of it")};
+  }
+};
+
+/// Clearances of contacts and oil films of a rotor that rests, the closest first.
+/// @param displacement  full vector, see DofMap [m, rad]
+std::vector<RunningClearance> running_clearances(const Model& model, const Assembler& assembler,
+                                                 const Vec& displacement);
+
 /// Clearances of contacts and oil films beside the linear response to unbalance.
 ///
 /// The distance is the largest in a period: of the orbit from the middle of the clearance circle,

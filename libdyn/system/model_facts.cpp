@@ -1,9 +1,28 @@
 #include "libdyn/system/model_facts.hpp"
 
+#include "libbase/error.hpp"
+#include "libdyn/system/resting_rotor.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/properties.hpp"
 
 namespace whirl::inline dyn {
+
+namespace {
+
+/// What the rotor rests on, and how near to its stators.
+void find_rest(const Model& model, const Assembler& assembler, ModelFacts& facts) {
+  try {
+    const RestingRotor rotor = resting_rotor(model, assembler, model.speed);
+    facts.bearing_loads = rotor.journal_loads(model);
+    facts.clearances = running_clearances(model, assembler, rotor.at_rest.displacement);
+  } catch (const ModelError& error) {
+    facts.no_rest = error.problems().front().message;
+  } catch (const NumericalError& error) {
+    facts.no_rest = error.what();
+  }
+}
+
+}  // namespace
 
 ModelFacts model_facts(const Model& model, const Assembler& assembler) {
   const Structure& s = model.structure;
@@ -15,7 +34,11 @@ ModelFacts model_facts(const Model& model, const Assembler& assembler) {
                    .condensed_dofs = assembler.at(model.speed).dofs.condensed,
                    .contacts = static_cast<long>(model.contacts.size()),
                    .polar_inertia = rotor.Ip};
-  if (!s.shaft.empty()) facts.center_of_mass = rotor.center_of_mass;
+  if (!s.shaft.empty()) {
+    facts.center_of_mass = rotor.center_of_mass;
+    facts.transverse_inertia = rotor.Id;
+  }
+  find_rest(model, assembler, facts);
   return facts;
 }
 

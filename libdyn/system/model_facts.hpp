@@ -1,9 +1,13 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "libbase/column.hpp"
+#include "libdyn/system/clearance.hpp"
 #include "libdyn/system/model.hpp"
+#include "libfe/static.hpp"
 
 namespace whirl::inline dyn {
 
@@ -16,6 +20,12 @@ struct ModelFacts {
   long contacts = 0;
   std::optional<double> center_of_mass{};  ///< along the shaft [m]; nothing: there is no shaft
   double polar_inertia = 0.0;              ///< [kg.m^2]
+  /// Of shaft and disks about a diameter through their center of mass [kg.m^2]; nothing: there is no
+  /// shaft.
+  std::optional<double> transverse_inertia{};
+  std::vector<BearingLoad> bearing_loads{};    ///< of bearings and oil films at rest
+  std::vector<RunningClearance> clearances{};  ///< at rest, the closest first
+  std::string no_rest{};                       ///< why there is no rest; empty: there is one
 
   static constexpr auto columns() {
     using F = ModelFacts;
@@ -28,7 +38,12 @@ struct ModelFacts {
         column("contacts", &F::contacts, "", "contacts"),
         column("center_of_mass", &F::center_of_mass, "m", "along the shaft"),
         column("polar_inertia", &F::polar_inertia, "kg.m^2", "polar moment of inertia")
-            .as("polar_inertia_kg_m2")};
+            .as("polar_inertia_kg_m2"),
+        column("transverse_inertia", &F::transverse_inertia, "kg.m^2",
+               "transverse moment of inertia about the center of mass")
+            .as("transverse_inertia_kg_m2"),
+        rows(&F::bearing_loads, "bearing_loads"),
+        rows(&F::clearances, "clearances")};
   }
 };
 

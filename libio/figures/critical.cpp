@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/critical_map.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
@@ -86,12 +87,20 @@ FigureTable table_of(const std::vector<Critical>& criticals) {
   return table;
 }
 
+/// Speeds at which oil films say what the map goes over: those that were found critical.
+std::vector<double> speeds_of(const CriticalSpeeds& found) {
+  std::vector<double> speeds;
+  for (const Critical& c : found.criticals) speeds.push_back(c.speed);
+  return speeds;
+}
+
 std::vector<Figure> critical_figures(const ResultView& result) {
   const auto& found = result_of<CriticalSpeeds>(result);
   if (found.criticals.empty()) return {};
   const CriticalOptions options{.count = static_cast<int>(found.criticals.size()),
                                 .order = found.order};
-  const CriticalMap map = critical_map(result.model->structure, {.critical = options});
+  const CriticalMap map = critical_map(linear_structure(*result.model),
+                                       {.critical = options, .film_speeds = speeds_of(found)});
   if (map.branches.empty()) return {};
   Figure f{.height = 500.0};
   f.subtitle =

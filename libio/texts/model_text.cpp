@@ -10,6 +10,7 @@
 #include "libfe/exceeded_tables.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
+#include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
 
@@ -52,6 +53,27 @@ std::string left_out_note(const Model& model) {
                      films.empty() ? "" : " (linearize = false: nothing holds the rotor there)");
 }
 
+/// What a rotor at rest leans on, and its closest clearances.
+std::string rest_text(const ModelFacts& facts) {
+  if (!facts.no_rest.empty()) return fmt::format("\n  at rest: {}\n", facts.no_rest);
+  std::string text;
+  if (!facts.bearing_loads.empty()) {
+    text += "\n" + table_of(facts.bearing_loads,
+                            {shown("bearing").as("load at rest of"),
+                             shown("fx", "N", ".1f").as("x"), shown("fy", "N", ".1f").as("y")});
+  }
+  if (!facts.clearances.empty()) {
+    constexpr std::size_t most = 8;
+    std::vector<RunningClearance> closest = facts.clearances;
+    if (closest.size() > most) closest.resize(most);
+    text += "\n" + table_of(closest, {shown("name").as("closest clearances at rest"),
+                                      shown("clearance", "mm", ".4f"),
+                                      shown("distance", "mm", ".4f").as("displaced"),
+                                      shown("left", "mm", ".4f")});
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string headline(std::string_view what, const Model& model) {
@@ -67,6 +89,10 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
     table.row({"center of mass at", format_length(*facts.center_of_mass)});
   }
   table.row({"polar moment of inertia", format_engineering(facts.polar_inertia, "kg.m^2")});
+  if (facts.transverse_inertia) {
+    table.row({"transverse moment of inertia about the center",
+               format_engineering(*facts.transverse_inertia, "kg.m^2")});
+  }
   table.row({"nodes, bodies", fmt::format("{}, {}", facts.nodes, s.bodies.size())});
   table.row({"degrees of freedom",
              facts.condensed_dofs > 0 ? fmt::format("{}, of which {} without inertia are condensed",
@@ -83,7 +109,7 @@ std::string text_of(const ModelFacts& facts, const Model& model) {
   if (!model.films.empty()) table.row({"oil films", fmt::format("{}", model.films.size())});
   table.row({"contacts", fmt::format("{}", model.contacts.size())});
   table.row({"operating speed", model.has_speed ? format_speed(model.speed) : "not given"});
-  return table.text();
+  return table.text() + rest_text(facts);
 }
 
 std::vector<std::string> table_notes(const Structure& structure,

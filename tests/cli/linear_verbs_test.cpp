@@ -70,6 +70,35 @@ stiffness = 1e6
   EXPECT_EQ(r["contacts"], 1);
   EXPECT_NEAR(r["center_of_mass_m"], (shaft * 0.3 + 5.0 * 0.15) / (shaft + 5.0), 1e-12);
   EXPECT_NEAR(r["polar_inertia_kg_m2"], shaft * 0.02 * 0.02 / 8.0 + 0.06, 1e-12);
+  // of the shaft m (3 r^2 + L^2) / 12 about its middle, and what is off the center by Steiner
+  const double center = r["center_of_mass_m"];
+  const double transverse = shaft * (0.75 * 0.02 * 0.02 + 0.6 * 0.6) / 12.0 +
+                            shaft * std::pow(0.3 - center, 2) + 0.03 +
+                            5.0 * std::pow(0.15 - center, 2);
+  EXPECT_NEAR(r["transverse_inertia_kg_m2"], transverse, 1e-12);
+  // no gravity: nothing is carried, and the ring is 1 mm away
+  ASSERT_EQ(r["bearing_loads"].size(), 2u);
+  EXPECT_EQ(r["bearing_loads"][1]["name"], "bearing 2");
+  EXPECT_EQ(r["bearing_loads"][1]["fy_n"], 0.0);
+  ASSERT_EQ(r["clearances"].size(), 1u);
+  EXPECT_EQ(r["clearances"][0]["name"], "contact 1");
+  EXPECT_EQ(r["clearances"][0]["left_m"], 1e-3);
+
+  // the levers of the weights share the load; the ring is nearer by the sag there
+  r = result({"check", "shaft.toml", "--set", "gravity=10"});
+  const double right = 10.0 * (shaft * 0.3 + 5.0 * 0.15) / 0.6;
+  EXPECT_NEAR(r["bearing_loads"][1]["fy_n"], -right, 1e-9);
+  EXPECT_NEAR(r["bearing_loads"][0]["fy_n"], right - 10.0 * (shaft + 5.0), 1e-9);
+  const json sag = result({"static", "shaft.toml", "--set", "gravity=10"});
+  const double y = sag["stations"][6]["y_m"];
+  EXPECT_NEAR(r["clearances"][0]["distance_m"], -y, 1e-15);
+  EXPECT_NEAR(r["clearances"][0]["left_m"], 1e-3 + y, 1e-15);
+
+  // a rotor that nothing holds has no rest
+  r = result(
+      {"check", "shaft.toml", "--set", "bearing.1.rigid=false", "--set", "bearing.1.damping=1e3"});
+  EXPECT_TRUE(r["bearing_loads"].empty());
+  EXPECT_TRUE(r["clearances"].empty());
 
   // without mass only the disk's dofs are left
   r = result({"check", "shaft.toml", "--set", "material.steel.density=0"});

@@ -172,4 +172,30 @@ TEST(FollowShapes, GoesOnBeyondAnEigenproblemThatFails) {
   EXPECT_EQ(found.gaps[0].reason, "it does not converge");
 }
 
+// A mass m on a film of stiffness k0 + a Omega, the same along x and y: critical where
+// m Omega^2 = k0 + a Omega. The map goes over a stiffness that stands for the film, and the film's own
+// crosses it there; without speeds to look at films are left out.
+TEST(CriticalMap, CrossesAFilmWhereTheModelIsCritical) {
+  const double m = 3.0, k0 = 2e5, a = 400.0;
+  Structure s{.bodies = {{.name = "rotor", .m = m, .spins = true}}};
+  s.linearized.push_back({"film", test::body("rotor"), test::ground(), [&](double Omega, double) {
+                            if (Omega < 10.0) throw NumericalError("no film");
+                            return test::isotropic(k0 + a * Omega, 50.0);
+                          }});
+  EXPECT_TRUE(critical_map(s, {.critical = {.count = 2}}).branches.empty());
+  const CriticalMap map =
+      critical_map(s, {.critical = {.count = 2}, .film_speeds = {5.0, 100.0, 500.0}});
+  EXPECT_TRUE(map.is_common);
+  expect_whole(map);
+  const double critical = (a + std::sqrt(a * a + 4.0 * m * k0)) / (2.0 * m);
+  ASSERT_EQ(map.curves.size(), 1u);  // x and y are alike
+  EXPECT_EQ(map.curves[0].name, "Kxx, Kyy");
+  EXPECT_TRUE(std::isnan(map.curves[0].at(5.0)));
+  ASSERT_EQ(map.crossings.size(), 2u);
+  for (const StiffnessCrossing& c : map.crossings) {
+    EXPECT_NEAR(c.speed, critical, 1e-8 * critical);
+    EXPECT_NEAR(c.stiffness, m * critical * critical, 1e-7 * c.stiffness);
+  }
+}
+
 }  // namespace whirl::critical_map_test

@@ -53,4 +53,17 @@ TEST(RotorProperties, CountDisksAndBodiesThatSpin) {
   EXPECT_NEAR(p.Ip, shaft * 0.05 * 0.05 / 8.0 + 0.2 + 0.3, rounding);
 }
 
+// About its center a cylinder has m (3 r^2 + L^2) / 12, by Steiner's theorem a disk off it m a^2 more.
+TEST(RotorProperties, HaveTheTransverseInertiaOfACylinderAndADisk) {
+  const double L = 1.2, d = 0.1, z = 1.0;
+  Structure s{.shaft = {test::cylinder(0.5, d, 1), test::cylinder(L - 0.5, d, 2)}};
+  const double m = 7810.0 * pi / 4.0 * d * d * L;
+  const double own = m * (0.75 * d * d + L * L) / 12.0;
+  EXPECT_NEAR(rotor_properties(s, make_mesh(s)).Id, own, rounding * own);
+  s.disks = {{.at = at(z), .m = 30.0, .Id = 0.2, .Ip = 0.4}};
+  const RotorProperties p = rotor_properties(s, make_mesh(s));
+  const double a = p.center_of_mass - 0.5 * L, b = z - p.center_of_mass;
+  EXPECT_NEAR(p.Id, own + m * a * a + 0.2 + 30.0 * b * b, rounding * p.Id);
+}
+
 }  // namespace whirl::properties_test

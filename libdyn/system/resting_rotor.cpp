@@ -1,0 +1,20 @@
+#include "libdyn/system/resting_rotor.hpp"
+
+#include "libdyn/system/film_equilibrium.hpp"
+
+namespace whirl::inline dyn {
+
+std::vector<BearingLoad> RestingRotor::journal_loads(const Model& model) const {
+  const auto bearings = static_cast<std::ptrdiff_t>(model.structure.bearings.size());
+  std::vector<BearingLoad> loads(at_rest.bearings.begin(), at_rest.bearings.begin() + bearings);
+  for (const RunningFilm& film : films) loads.push_back({film.name, film.load});
+  return loads;
+}
+
+RestingRotor resting_rotor(const Model& model, const Assembler& assembler, double Omega) {
+  if (!has_linear_films(model)) return {static_equilibrium(assembler, Omega), {}};
+  const auto rotor = FilmEquilibrium(model).at(Omega);
+  return {with_bearing_loads(assembler, rotor->system, rotor->q, rotor->load), rotor->films};
+}
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,26 @@
+#pragma once
+/// A rotor at rest in its bearings and on its oil films at a speed.
+
+#include <vector>
+
+#include "libdyn/system/model.hpp"
+#include "libdyn/system/running_film.hpp"
+#include "libfe/static.hpp"
+
+namespace whirl::inline dyn {
+
+struct RestingRotor {
+  StaticEquilibrium at_rest;
+  std::vector<RunningFilm> films;  ///< those that linear analyses know
+
+  /// What bearings, then films carry; not seals.
+  std::vector<BearingLoad> journal_loads(const Model& model) const;
+};
+
+/// The static equilibrium of a model at a speed [rad/s]; films carry as they do there, contacts are
+/// left out.
+/// @throws ModelError      as static_equilibrium
+/// @throws NumericalError  as FilmEquilibrium::at
+RestingRotor resting_rotor(const Model& model, const Assembler& assembler, double Omega);
+
+}  // namespace whirl::inline dyn
