@@ -43,6 +43,9 @@ SpeedOptions speed_options(const CommandLine& line) {
                      .speeds = call.text("speeds"),
                      .over = call.values("over"),
                      .at = call.text("at")};
+  for (const char* name : {"minimum-speed", "maximum-speed", "trip-speed"}) {
+    given.others.emplace_back(std::string("--") + name, call.text(name));
+  }
   if (line.speed) given.sets.pop_back();  // --speed is the last of them
   return given;
 }

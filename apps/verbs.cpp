@@ -13,6 +13,7 @@
   critical_verb(),   \
   unbalance_verb(),  \
   frf_verb(),        \
+  lateral_verb(),    \
   simulate_verb(),   \
   identify_verb(),   \
   classify_verb(),   \

@@ -288,7 +288,9 @@ ResponseCurve response_curve(const Assembler& assembler, const std::vector<doubl
       builder.add(first + (last - first) * k / options.steps);
     }
     try {
-      for (const Resonance& r : resonances_between(assembler, first, last)) {
+      const std::vector<Resonance> resonances =
+          options.resonances ? *options.resonances : resonances_between(assembler, first, last);
+      for (const Resonance& r : resonances) {
         if (r.half_width < finest * r.speed) {
           builder.expect_unbounded(r.speed);
           continue;

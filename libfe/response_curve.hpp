@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,20 @@
 
 namespace whirl::inline fe {
 
+/// Speeds where the response may have a peak, from the damped modes, with their half-widths.
+struct Resonance {
+  double speed = 0.0;       ///< |Im lambda| = Omega [rad/s]
+  double half_width = 0.0;  ///< |Re lambda| [rad/s]
+};
+
 struct ResponseCurveOptions {
   double phase_step = 4.0;     ///< between neighboring speeds at most [deg]
   int steps = 100;             ///< equal ones across the range, at least
   std::size_t most = 20000;    ///< speeds of the curve
   std::size_t most_peaks = 8;  ///< the highest ones
+  /// Those between the first and the last speed, as another load of this rotor told them; nothing:
+  /// they are looked for.
+  std::optional<std::vector<Resonance>> resonances{};
 };
 
 /// Response over a range of speeds.
@@ -60,12 +70,6 @@ struct LargestResponse {
   double speed = 0.0, amplitude = 0.0;
 };
 std::vector<LargestResponse> largest_responses(const UnbalanceResponse& response);
-
-/// Speeds where the response may have a peak, from the damped modes, with their half-widths.
-struct Resonance {
-  double speed = 0.0;       ///< |Im lambda| = Omega [rad/s]
-  double half_width = 0.0;  ///< |Re lambda| [rad/s]
-};
 
 /// Those of all modes between two speeds, ascending.
 /// @throws NumericalError  if an eigensolver fails

@@ -12,6 +12,7 @@
 // clang-format off
 #define KINDS            \
   layout_kind(),         \
+  lateral_kind(),        \
   static_kind(),         \
   modes_kind(),          \
   campbell_kind(),       \
@@ -25,6 +26,8 @@
   deflection_kind(),     \
   unbalance_over_kind(), \
   frf_kind(),            \
+  lateral_response_kind(), \
+  coupling_kind(),       \
   orbit_kind(),          \
   time_history_kind(),   \
   spectrum_kind(),       \

@@ -18,7 +18,8 @@ struct Analysis {
 };
 
 /// In the order of a report.
-constexpr std::array<Analysis, 16> analyses{{{"static", "Sag and bearing loads"},
+constexpr std::array<Analysis, 17> analyses{{{"lateral", "Lateral analysis"},
+                                             {"static", "Sag and bearing loads"},
                                              {"modes", "Modes"},
                                              {"campbell", "Campbell diagram"},
                                              {"resonances", "Internal resonances"},

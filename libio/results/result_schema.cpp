@@ -4,6 +4,7 @@
 
 #include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/identify.hpp"
+#include "libdyn/motions/lateral_report.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/studies/basins.hpp"
@@ -66,6 +67,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<CriticalOver>());
   add(schema_of<UnbalanceOver>());
   add(schema_of<FrequencyResponse>());
+  add(schema_of<LateralReport>());
   add(schema_of<BranchResult>());
   add(schema_of<CurveResult>());
   add(schema_of<TorusResult>());

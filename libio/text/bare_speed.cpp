@@ -75,6 +75,7 @@ std::vector<BareSpeed> bare_speeds(const SpeedOptions& given) {
     if (set.starts_with(assigned)) look_at("--set " + assigned, set.substr(assigned.size()));
   }
   look_at("--speeds", given.speeds);
+  for (const auto& [option, value] : given.others) look_at(option, value);
   for (const std::string& over : given.over) {
     if (!over.starts_with(assigned)) continue;
     const std::string values = over.substr(assigned.size());

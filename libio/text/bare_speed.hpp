@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace whirl::inline io {
@@ -34,6 +35,8 @@ struct SpeedOptions {
   std::string speeds{};             ///< --speeds
   std::vector<std::string> over{};  ///< --over
   std::string at{};                 ///< --at, along the only --over
+  /// Further options that are a speed each: name with dashes, value.
+  std::vector<std::pair<std::string, std::string>> others{};
 };
 
 /// The bare ones of them, of the model's operation.speed where a path is given.

@@ -417,6 +417,7 @@ def results(whirl, repository, folder):
         ("long", "simulate", models / "dropped_rotor.toml", "--discard", "0", "--revolutions", "128"),
         ("disks", "unbalance", models / "two_disk_mac.toml", "--speeds", "0:8000:400rpm"),
         ("responses", "frf", models / "two_disk_mac.toml", "--from", "7:forward,7:x"),
+        ("lateral", "lateral", models / "compressor.toml", "--minimum-speed", "4000rpm", "--cross-coupling", "5MN/m"),
         ("critical", "critical", models / "two_disk_mac.toml"),
         ("shapes", "modes", models / "two_disk_mac.toml"),
         ("locus", "modes", models / "two_disk_mac.toml",

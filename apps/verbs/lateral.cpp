@@ -1,0 +1,104 @@
+#include "apps/verb.hpp"
+#include "apps/verbs/common.hpp"
+#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/motions/static_study.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
+#include "libio/results/columns.hpp"
+#include "libio/results/motion_results.hpp"
+#include "libio/text/lateral_values.hpp"
+#include "libio/texts/lateral_text.hpp"
+
+namespace whirl::inline cli {
+
+namespace {
+
+struct LateralVerbOptions {
+  Option<double> minimum_speed{"minimum-speed", "S",
+                               "least continuous speed; left out: the operating speed",
+                               parse_running_speed};
+  Option<double> maximum_speed{"maximum-speed", "S",
+                               "largest continuous speed; left out: the operating speed",
+                               parse_running_speed};
+  Option<double> trip_speed{"trip-speed", "S",
+                            "at which it is stopped; left out: 1.05 times the largest",
+                            parse_running_speed};
+  Option<double> coupling{"cross-coupling", "Q",
+                          "cross-coupled stiffness to be expected, such as 2MN/m", parse_coupling};
+  Option<std::vector<Stage>> stages{
+      "stages", "P:D:H:R,...",
+      "instead, what makes it: power, diameter, least width and density ratio of each impeller",
+      parse_stages};
+  auto fields() { return std::tie(minimum_speed, maximum_speed, trip_speed, coupling, stages); }
+};
+
+OperatingRange range_of(const LateralVerbOptions& options, const Model& model) {
+  OperatingRange range;
+  range.maximum = options.maximum_speed.value_or(model.speed);
+  range.minimum = options.minimum_speed.value_or(
+      model.speed > 0.0 ? std::min(model.speed, range.maximum) : range.maximum);
+  range.trip = options.trip_speed.value_or(1.05 * range.maximum);
+  if (!(range.maximum > 0.0)) {
+    throw wrong_option("maximum-speed", "", "the model has no operating speed: give one");
+  }
+  if (range.minimum > range.maximum) {
+    throw wrong_option("minimum-speed", options.minimum_speed.text, "is above the maximum speed");
+  }
+  if (range.trip < range.maximum) {
+    throw wrong_option("trip-speed", options.trip_speed.text, "is below the maximum speed");
+  }
+  return range;
+}
+
+LateralOptions lateral_options(const LateralVerbOptions& options, const Model& model) {
+  LateralOptions how{.range = range_of(options, model)};
+  how.has_anticipated = options.coupling.is_given || options.stages.is_given;
+  how.anticipated = options.coupling.value_or(0.0);
+  if (options.stages) {
+    if (options.coupling) throw options.stages.wrong("leave out --cross-coupling, which it tells");
+    for (const Stage& stage : *options.stages) {
+      how.anticipated += anticipated_coupling(stage, how.range.maximum);
+    }
+  }
+  return how;
+}
+
+Report run_lateral(const Invocation& call, const LateralVerbOptions& options) {
+  Model model = call.model();
+  const LateralOptions how = lateral_options(options, model);
+  model.speed = how.range.maximum;  // at which the rotor is weighed and looked at
+  const Assembler assembler(model.structure);
+  const LateralStudy study = lateral_report(model, how);
+  const StaticStudy rest = static_study(model, assembler);
+  Report report = begin_report(call, model, record_of(study.report));
+  report.record.merge(record_of(study.criticals)).set("campbell", record_of(study.campbell));
+  report.text = text_of(study);
+  Model rotor = model;
+  rotor.contacts.clear();  // their clearances are not left out
+  report.add_notes(linear_notes(rotor, study.report.speeds));
+  write_file(call, model, report, [&](ResultWriter& file) {
+    write_points(file, model, assembler);
+    write_result(file, study.report);
+    write_result(file, study.criticals);
+    write_result(file, study.campbell);
+    write_result(file, rest.at_rest);
+    if (!rest.on_films.films.empty()) write_result(file, rest.on_films);
+    if (rest.line.z.size() > 0) write_result(file, rest.line);
+  });
+  return report;
+}
+
+}  // namespace
+
+Verb lateral_verb() {
+  return {
+      .name = "lateral",
+      .group = "Linear rotordynamics",
+      .summary =
+          "the lateral analysis after API 617: margins, limits, stability, passes and failures",
+      .example =
+          "whirl lateral models/compressor.toml --minimum-speed 4000rpm --maximum-speed 5250rpm",
+      .run = run_lateral,
+  };
+}
+
+}  // namespace whirl::inline cli

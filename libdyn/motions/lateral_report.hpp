@@ -1,0 +1,278 @@
+#pragma once
+/// The lateral analysis of a machine after [API617]: how it answers to unbalance, how far its critical
+/// speeds are from its own, how stable it is, and whether that is enough.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libbase/column.hpp"
+#include "libbase/constants.hpp"
+#include "libbase/field.hpp"
+#include "libdyn/motions/lateral_unbalance.hpp"
+#include "libdyn/system/stations.hpp"
+#include "libfe/campbell.hpp"
+#include "libfe/coupling_stability.hpp"
+#include "libfe/response_curve.hpp"
+
+namespace whirl::inline dyn {
+
+struct LateralOptions {
+  OperatingRange range;
+  double anticipated = 0.0;      ///< Q_A, cross-coupled stiffness to be expected [N/m]; 0: none is
+  bool has_anticipated = false;  ///< whether Q_A is told
+  std::vector<NamedPoint> probes{};  ///< where vibration is measured; empty: at bearings and films
+  int modes = 8;                     ///< of the Campbell diagram
+  int criticals = 6;                 ///< critical speeds that are looked for
+};
+
+/// What is carried by a bearing or film.
+struct LateralJournal {
+  std::string name;
+  double mass = 0.0;  ///< [kg]
+
+  static constexpr auto columns() {
+    return std::tuple{
+        column("name", &LateralJournal::name, "", "bearing or oil film"),
+        column("mass", &LateralJournal::mass, "kg", "that it carries at rest at full speed")};
+  }
+};
+
+/// One place of the unbalance of a case.
+struct LateralPlane {
+  int of_case = 0;  ///< from 0
+  std::string station;
+  double moment = 0.0;  ///< [kg.m]
+  double phase = 0.0;   ///< [rad]
+
+  static constexpr auto columns() {
+    using P = LateralPlane;
+    return std::tuple{column("case", &P::of_case, "", "case of unbalance")
+                          .within(valid::numbers_of("cases"))
+                          .from_one(),
+                      column("station", &P::station, "", "where it is"),
+                      column("moment", &P::moment, "kg.m", "unbalance"),
+                      column("phase", &P::phase, "rad", "angle to the first one, 0 or pi")};
+  }
+};
+
+/// What an unbalance does, all in all.
+struct LateralCase {
+  double mode_speed = 0.0;       ///< undamped critical speed of the mode that it excites [rad/s]
+  Whirl whirl = Whirl::planar;   ///< of that mode
+  double vibration = 0.0;        ///< largest at probes at operating speeds, peak to peak [m]
+  int probe = 0;                 ///< where, from 0
+  double vibration_speed = 0.0;  ///< and when [rad/s]
+  double scaling = 0.0;          ///< that brings it to the limit, 6 at most
+
+  static constexpr auto columns() {
+    using C = LateralCase;
+    return std::tuple{
+        column("mode_speed", &C::mode_speed, "rad/s", "undamped critical speed of its mode"),
+        column("whirl", &C::whirl, "", "sense of whirl of that mode"),
+        column("vibration", &C::vibration, "m", "largest at operating speeds, peak to peak"),
+        column("vibration_probe", &C::probe, "", "where it is largest")
+            .within(valid::numbers_of("probes"))
+            .from_one(),
+        column("vibration_speed", &C::vibration_speed, "rad/s", "where it is largest"),
+        column("scaling", &C::scaling, "", "that brings it to the limit, 6 at most")};
+  }
+};
+
+/// Vibration of a probe over speed.
+struct LateralResponse {
+  int of_case = 0;   ///< from 0
+  int probe = 0;     ///< from 0
+  Vec peak_to_peak;  ///< along the major axis, per speed [m]
+
+  static constexpr auto columns() {
+    using R = LateralResponse;
+    return std::tuple{
+        column("case", &R::of_case, "", "case of unbalance")
+            .within(valid::numbers_of("cases"))
+            .from_one(),
+        column("probe", &R::probe, "", "probe").within(valid::numbers_of("probes")).from_one(),
+        column("peak_to_peak", &R::peak_to_peak, "m", "along the major axis").along("lateral_speeds")};
+  }
+};
+
+/// A place where vibration is measured.
+struct LateralProbe {
+  std::string station;
+
+  static constexpr auto columns() {
+    return std::tuple{column("probe", &LateralProbe::station, "", "station").axis()};
+  }
+};
+
+/// A peak of the response to one case.
+struct LateralPeak : ResponsePeak {
+  int of_case = 0;  ///< from 0
+  SeparationMargin margin;
+
+  double found() const { return margin.actual; }
+  double required() const { return margin.required; }
+
+  static constexpr auto columns() {
+    using enum Written;
+    using P = LateralPeak;
+    return std::tuple{column("case", &P::of_case, "", "case of unbalance")
+                          .within(valid::numbers_of("cases"))
+                          .from_one(),
+                      column("probe", &P::row, "", "where it is largest")
+                          .within(valid::numbers_of("probes"))
+                          .from_one(),
+                      column("speed", &P::speed, "rad/s", "speed of the peak"),
+                      column("amplitude", &P::amplitude, "m", "major semi-axis there"),
+                      column("below", &P::below, "rad/s", "0.707 of the peak, below it"),
+                      column("above", &P::above, "rad/s", "0.707 of the peak, above it"),
+                      column("amplification", &P::amplification, "", "factor").only(in_json),
+                      column("margin", &P::found, "", "to the operating speeds").only(in_json),
+                      column("required_margin", &P::required, "", "[API617]").only(in_json)};
+  }
+};
+
+/// What a case takes of a running clearance, scaled to the vibration limit.
+struct LateralClearance {
+  int of_case = 0;  ///< from 0
+  std::string name;
+  double left = 0.0;     ///< of the clearance where the rotor rests [m]
+  double largest = 0.0;  ///< major semi-axis there up to the trip speed, scaled [m]
+  double speed = 0.0;    ///< where it is that large [rad/s]
+
+  double share() const { return largest / left; }
+
+  static constexpr auto columns() {
+    using enum Written;
+    using C = LateralClearance;
+    return std::tuple{column("case", &C::of_case, "", "case of unbalance")
+                          .within(valid::numbers_of("cases"))
+                          .from_one(),
+                      column("name", &C::name, "", "whose clearance it is"),
+                      column("left", &C::left, "m", "running clearance, beside the rotor at rest"),
+                      column("largest", &C::largest, "m", "scaled response, from the middle"),
+                      column("speed", &C::speed, "rad/s", "where it is that large"),
+                      column("share", &C::share, "", "of the running clearance").only(in_json)};
+  }
+};
+
+enum class LateralRule {
+  separation_margin,  ///< of a peak, over the nearest operating speed
+  vibration,          ///< at a probe, peak to peak [m]
+  running_clearance,  ///< share of it that the scaled response takes
+  log_decrement,      ///< with the anticipated cross-coupling
+  coupling_ratio      ///< cross-coupling that the rotor bears over the anticipated one
+};
+constexpr auto choices(LateralRule) {
+  using enum LateralRule;
+  return std::array{Choice<LateralRule>{"separation margin", separation_margin},
+                    Choice<LateralRule>{"vibration", vibration},
+                    Choice<LateralRule>{"running clearance", running_clearance},
+                    Choice<LateralRule>{"log decrement", log_decrement},
+                    Choice<LateralRule>{"cross-coupling", coupling_ratio}};
+}
+
+enum class Verdict { passed, failed, unknown };
+constexpr auto choices(Verdict) {
+  return std::array{Choice<Verdict>{"passed", Verdict::passed},
+                    Choice<Verdict>{"failed", Verdict::failed},
+                    Choice<Verdict>{"unknown", Verdict::unknown}};
+}
+
+/// A rule beside what was found.
+struct LateralCheck {
+  LateralRule rule = LateralRule::separation_margin;
+  int of_case = -1;    ///< from 0; -1: of none
+  std::string place;   ///< station, clearance; of a stability: where the cross-coupling is
+  double speed = nan;  ///< at which it was found [rad/s]
+  double found = nan;  ///< in SI, as the rule says
+  double limit = nan;  ///< likewise
+  Verdict verdict = Verdict::unknown;
+
+  static constexpr auto columns() {
+    using C = LateralCheck;
+    return std::tuple{column("rule", &C::rule, "", "what is asked for"),
+                      column("case", &C::of_case, "", "case of unbalance; 0: of none").from_one(),
+                      column("place", &C::place, "", "where"),
+                      column("speed", &C::speed, "rad/s", "at which it was found"),
+                      column("found", &C::found, "", "what was found, in SI"),
+                      column("limit", &C::limit, "", "what is asked for, in SI"),
+                      column("verdict", &C::verdict, "", "passed, failed or unknown")};
+  }
+};
+
+/// The report; group /lateral.
+struct LateralReport {
+  double minimum_speed = 0.0, maximum_speed = 0.0, trip_speed = 0.0;  ///< [rad/s]
+  double vibration_limit = 0.0;                                       ///< peak to peak [m]
+  std::string coupled_station;  ///< where the cross-coupled stiffness acts
+  double anticipated = nan;     ///< Q_A [N/m]; NaN: not told
+  double limit = nan;           ///< Q_0 [N/m]; NaN: the rotor bears all that was tried
+  double log_decrement = nan;   ///< with Q_A, or without any cross-coupling
+  std::vector<double> speeds;   ///< of the responses [rad/s]
+  std::vector<LateralProbe> probes;
+  std::vector<LateralJournal> journals;
+  std::vector<LateralCase> cases;
+  std::vector<LateralPlane> planes;
+  std::vector<LateralResponse> responses;
+  std::vector<LateralPeak> peaks;
+  std::vector<LateralClearance> clearances;
+  std::vector<CoupledMode> coupled_modes;
+  std::vector<LateralCheck> checks;
+  std::vector<double> unbounded;  ///< undamped resonances [rad/s]
+
+  bool is_passed() const;
+
+  static constexpr std::string_view group = "/lateral";
+  static constexpr auto columns() {
+    using enum Written;
+    using R = LateralReport;
+    return std::tuple{
+        column("minimum_speed", &R::minimum_speed, "rad/s", "least continuous speed"),
+        column("maximum_speed", &R::maximum_speed, "rad/s", "largest continuous speed"),
+        column("trip_speed", &R::trip_speed, "rad/s", "at which it is stopped"),
+        column("vibration_limit", &R::vibration_limit, "m", "at probes, peak to peak"),
+        column("coupled_station", &R::coupled_station, "", "where cross-coupled stiffness acts"),
+        column("anticipated", &R::anticipated, "N/m", "cross-coupled stiffness to be expected"),
+        column("limit", &R::limit, "N/m", "cross-coupled stiffness that the rotor bears"),
+        column("log_decrement", &R::log_decrement, "", "with that to be expected"),
+        column("passed", &R::is_passed, "", "every check but those that are unknown").only(in_json),
+        column("speed", &R::speeds, "rad/s", "rotor speed")
+            .axis("lateral_speeds+")
+            .within(valid::finite)
+            .as("speeds_rpm"),
+        rows(&R::probes, "probes+"),
+        rows(&R::cases, "cases+").prefixed("case_").numbered("number", "case of unbalance"),
+        rows(&R::responses, "responses+").prefixed("response_"),
+        rows(&R::journals, "journals").prefixed("journal_").maybe(),
+        rows(&R::planes, "planes").prefixed("plane_").maybe(),
+        rows(&R::peaks, "peaks").prefixed("peak_").maybe(),
+        rows(&R::clearances, "clearances").prefixed("clearance_").maybe(),
+        rows(&R::coupled_modes, "coupled_modes").prefixed("coupled_").maybe(),
+        rows(&R::checks, "checks").prefixed("check_").maybe(),
+        column("unbounded", &R::unbounded, "rad/s", "undamped resonances").only(in_json)};
+  }
+};
+
+/// The report with the analyses that it rests on.
+struct LateralStudy {
+  LateralReport report;
+  CriticalSpeeds criticals;
+  Campbell campbell;
+};
+
+/// Analyses a model with its oil films linearized; its own unbalance and bow are left out.
+///
+/// Modes are those of critical speeds up to 1.5 times the maximum continuous speed; responses go from a
+/// tenth of it to that, and vibration is told along the major axis. For running clearances the
+/// unbalance is scaled so that the probes are at the vibration limit. Cross-coupled stiffness acts at
+/// the node that is nearest to the middle between the outermost journals, at the maximum continuous
+/// speed.
+///
+/// @throws ModelError      if nothing carries the shaft, or there is none
+/// @throws NumericalError  as the analyses
+/// @source [API617], [API684]
+LateralStudy lateral_report(const Model& model, const LateralOptions& options);
+
+}  // namespace whirl::inline dyn

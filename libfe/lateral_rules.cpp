@@ -1,0 +1,31 @@
+#include "libfe/lateral_rules.hpp"
+
+#include <cmath>
+
+#include "libbase/constants.hpp"
+
+namespace whirl::inline fe {
+
+double analysis_unbalance(double mass, double maximum) {
+  constexpr double allowed = 6350e-6;  // [kg.m rpm / kg]
+  return 2.0 * allowed * mass / (maximum / rpm);
+}
+
+double vibration_limit(double maximum) {
+  return 25.4e-6 * std::sqrt(12000.0 / (maximum / rpm));
+}
+
+SeparationMargin separation_margin(const ResponsePeak& peak, const OperatingRange& range) {
+  if (peak.speed < range.minimum) return separation_margin(peak, range.minimum);
+  SeparationMargin margin = separation_margin(peak, range.maximum);
+  if (peak.speed <= range.maximum) margin.actual = 0.0;
+  return margin;
+}
+
+double anticipated_coupling(const Stage& stage, double maximum) {
+  constexpr double wachel = 3.0;
+  const double torque = stage.power / maximum;
+  return wachel * torque / (stage.diameter * stage.width) * stage.density_ratio;
+}
+
+}  // namespace whirl::inline fe

@@ -1,0 +1,23 @@
+#pragma once
+/// What a machine is run at and what its impellers do, as options of a lateral analysis give it.
+
+#include <string_view>
+#include <vector>
+
+#include "libbase/error.hpp"
+#include "libfe/lateral_rules.hpp"
+#include "libio/text/units.hpp"
+
+namespace whirl::inline io {
+
+/// A speed above zero [rad/s].
+Parsed<double> parse_running_speed(std::string_view text);
+
+/// A cross-coupled stiffness above zero [N/m].
+Parsed<double> parse_coupling(std::string_view text);
+
+/// Impellers, with commas between: power, diameter, least width and density ratio of each,
+/// "1200kW:450mm:18mm:1.3".
+Parsed<std::vector<Stage>> parse_stages(std::string_view text);
+
+}  // namespace whirl::inline io

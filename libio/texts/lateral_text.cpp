@@ -1,0 +1,192 @@
+#include "libio/texts/lateral_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libio/text/format.hpp"
+#include "libio/text/table.hpp"
+#include "libio/texts/modes_text.hpp"
+#include "libio/texts/row_table.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// A number of a check in the unit that people use for its rule.
+std::string amount_text(LateralRule rule, double value) {
+  if (!std::isfinite(value)) return "-";
+  switch (rule) {
+    case LateralRule::separation_margin:
+    case LateralRule::running_clearance:
+      return fmt::format("{:.1f} %", 100.0 * value);
+    case LateralRule::vibration:
+      return fmt::format("{:.1f} um", 1e6 * value);
+    case LateralRule::log_decrement:
+      return fmt::format("{:.3f}", value);
+    case LateralRule::coupling_ratio:
+      break;
+  }
+  return fmt::format("{:.2f}", value);
+}
+
+/// "at least", "at most".
+const char* sense_of(LateralRule rule) {
+  const bool is_most = rule == LateralRule::vibration || rule == LateralRule::running_clearance;
+  return is_most ? "at most" : "at least";
+}
+
+std::string coupling_text(const LateralReport& r) {
+  const std::string limit =
+      std::isfinite(r.limit)
+          ? fmt::format("the rotor bears {} there before it whirls by itself",
+                        format_engineering(r.limit, "N/m"))
+          : "no cross-coupled stiffness that was tried makes the rotor whirl by itself";
+  const std::string told = r.anticipated > 0.0
+                               ? fmt::format("with the {} that are to be expected",
+                                             format_engineering(r.anticipated, "N/m"))
+                               : "without any cross-coupled stiffness beside that of the model";
+  return fmt::format(
+      "\n  Stability at {:.0f} rpm, level I, cross-coupled stiffness at {}:\n"
+      "  logarithmic decrement {} {}; {}.\n",
+      r.maximum_speed / rpm, r.coupled_station, texts::number_text(r.log_decrement, ".4f"), told,
+      limit);
+}
+
+std::string cases_text(const LateralReport& r) {
+  return table_of(
+      r.planes, {{"case", [](const LateralPlane& p) { return std::to_string(p.of_case + 1); }},
+                 {"for the mode at [rpm]",
+                  [&](const LateralPlane& p) {
+                    return fmt::format(
+                        "{:.1f}", r.cases[static_cast<std::size_t>(p.of_case)].mode_speed / rpm);
+                  }},
+                 shown("station").as("unbalance at"),
+                 shown("moment", "g.mm", ".1f").as("unbalance"),
+                 {"phase [deg]",
+                  [](const LateralPlane& p) { return fmt::format("{:.0f}", p.phase / degree); }}});
+}
+
+std::string peaks_text(const LateralReport& r) {
+  if (r.peaks.empty()) return "  The responses have no peaks.\n";
+  return table_of(
+      r.peaks,
+      {{"case", [](const LateralPeak& p) { return std::to_string(p.of_case + 1); }},
+       {"peak [rpm]", [](const LateralPeak& p) { return fmt::format("{:.1f}", p.speed / rpm); }},
+       {"probe",
+        [&](const LateralPeak& p) { return r.probes[static_cast<std::size_t>(p.row)].station; }},
+       {"peak to peak [um]",
+        [](const LateralPeak& p) { return fmt::format("{:.2f}", 2e6 * p.amplitude); }},
+       {"amplification",
+        [](const LateralPeak& p) { return texts::number_text(p.amplification(), ".2f"); }},
+       {"margin",
+        [](const LateralPeak& p) {
+          return amount_text(LateralRule::separation_margin, p.margin.actual);
+        }},
+       {"required", [](const LateralPeak& p) {
+          return amount_text(LateralRule::separation_margin, p.margin.required);
+        }}});
+}
+
+}  // namespace
+
+std::vector<std::string> check_header() {
+  return {"rule", "case", "where", "at [rpm]", "found", "asked for", "verdict"};
+}
+
+std::vector<std::string> check_cells(const LateralCheck& c) {
+  const std::string limit =
+      std::isfinite(c.limit) ? fmt::format("{} {}", sense_of(c.rule), amount_text(c.rule, c.limit))
+                             : "-";
+  return {std::string(name_of(c.rule)),
+          c.of_case < 0 ? "-" : std::to_string(c.of_case + 1),
+          c.place,
+          texts::number_text(c.speed / rpm, ".0f"),
+          amount_text(c.rule, c.found),
+          limit,
+          c.verdict == Verdict::failed ? "FAILED" : std::string(name_of(c.verdict))};
+}
+
+std::string rule_text(LateralRule rule) {
+  switch (rule) {
+    case LateralRule::separation_margin:
+      return "17 (1 - 1 / (AF - 1.5)) %, at most 16 %, of the minimum speed below it; 10 % more, "
+             "at "
+             "most 26 %, of the maximum speed above it; none if the amplification factor is below "
+             "2.5 "
+             "[API 617]";
+    case LateralRule::vibration:
+      return "25.4 sqrt(12 000 / N) um peak to peak at probes from minimum to maximum speed, N the "
+             "maximum [rpm] [API 617]";
+    case LateralRule::running_clearance:
+      return "75 % of the running clearance up to the trip speed, with unbalance that brings the "
+             "probes to the vibration limit, at most six times as much [API 617]";
+    case LateralRule::log_decrement:
+      return "0.1 at the maximum speed with the cross-coupled stiffness to be expected, level I "
+             "[API 617]";
+    case LateralRule::coupling_ratio:
+      break;
+  }
+  return "cross-coupled stiffness that the rotor bears over that to be expected, level I [API 617]";
+}
+
+std::string short_rule_text(LateralRule rule) {
+  switch (rule) {
+    case LateralRule::separation_margin:
+      return "17 (1 - 1 / (AF - 1.5)) %";
+    case LateralRule::vibration:
+      return "25.4 sqrt(12 000 / N) um";
+    case LateralRule::running_clearance:
+      return "75 %, scaled";
+    case LateralRule::log_decrement:
+      return "0.1 with QA, level I";
+    case LateralRule::coupling_ratio:
+      break;
+  }
+  return "Q0 / QA of 2, level I";
+}
+
+std::vector<LateralRule> rules_of(const LateralReport& report) {
+  std::vector<LateralRule> rules;
+  for (const LateralCheck& c : report.checks) {
+    if (std::find(rules.begin(), rules.end(), c.rule) == rules.end()) rules.push_back(c.rule);
+  }
+  return rules;
+}
+
+std::string verdict_text(const LateralReport& report) {
+  const auto count = [&](Verdict v) {
+    return std::count_if(report.checks.begin(), report.checks.end(),
+                         [v](const LateralCheck& c) { return c.verdict == v; });
+  };
+  return fmt::format("{} of {} checks passed, {} failed, {} unknown", count(Verdict::passed),
+                     report.checks.size(), count(Verdict::failed), count(Verdict::unknown));
+}
+
+std::string text_of(const LateralStudy& study) {
+  const LateralReport& r = study.report;
+  std::string text = fmt::format(
+      "Lateral analysis after API 617 and API 684: {:.0f} to {:.0f} rpm, trip at {:.0f} rpm\n\n",
+      r.minimum_speed / rpm, r.maximum_speed / rpm, r.trip_speed / rpm);
+  text +=
+      table_of(r.journals, {shown("name").as("journal"), shown("mass", "kg", ".2f").as("carries")});
+  text += "\n" + text_of(study.criticals);
+  text += "\nUnbalance, twice 6350 W / N, at the antinodes of modes\n\n" + cases_text(r);
+  text += "\nPeaks of the vibration at probes\n\n" + peaks_text(r);
+  for (const Threshold& t : study.campbell.thresholds) {
+    text += fmt::format("\n  threshold of instability: {:.1f} rpm, whirling at {:.1f} rpm\n",
+                        t.speed / rpm, t.frequency / rpm);
+  }
+  text += coupling_text(r);
+  Table checks(check_header());
+  for (const LateralCheck& c : r.checks) checks.row(check_cells(c));
+  text += fmt::format("\nChecks: {}\n\n{}\n", verdict_text(r), checks.text());
+  for (const LateralRule rule : rules_of(r)) {
+    text += fmt::format("  {}: {}\n", name_of(rule), rule_text(rule));
+  }
+  return text;
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,28 @@
+#pragma once
+/// The report of a lateral analysis for people.
+
+#include <string>
+#include <vector>
+
+#include "libdyn/motions/lateral_report.hpp"
+
+namespace whirl::inline io {
+
+/// Cells of the table of passes and failures, with its header.
+std::vector<std::string> check_header();
+std::vector<std::string> check_cells(const LateralCheck& check);
+
+/// What a rule says, and where it stands: "17 (1 - 1 / (AF - 1.5)) % ... [API 617]".
+std::string rule_text(LateralRule rule);
+/// The same in a cell of a table: "17 (1 - 1 / (AF - 1.5)) %".
+std::string short_rule_text(LateralRule rule);
+/// The rules that a report was checked by, each once.
+std::vector<LateralRule> rules_of(const LateralReport& report);
+
+/// "2 failed, 1 unknown of 12 checks"
+std::string verdict_text(const LateralReport& report);
+
+/// All of it.
+std::string text_of(const LateralStudy& study);
+
+}  // namespace whirl::inline io

@@ -1,0 +1,134 @@
+// whirl lateral: keys of its JSON, its table, and calls that mean nothing.
+
+#include <cmath>
+#include <set>
+
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace lateral_test {
+
+constexpr const char* machine = R"(format = 1
+gravity = 9.81
+[operation]
+speed = "9000 rpm"
+[material.steel]
+density = 7800
+youngs_modulus = "211 GPa"
+poisson_ratio = 0.3
+[[shaft]]
+material = "steel"
+length = "900 mm"
+outer_diameter = "80 mm"
+elements = 12
+[[disk]]
+name = "wheel"
+node = 7
+mass = "60 kg"
+polar_inertia = 1.2
+diametral_inertia = 0.7
+[[bearing]]
+name = "left"
+node = 2
+stiffness = "60 MN/m"
+damping = "60 kN.s/m"
+[[bearing]]
+name = "right"
+node = 12
+stiffness = "60 MN/m"
+damping = "60 kN.s/m"
+[[contact]]
+name = "labyrinth"
+node = 6
+clearance = "0.3 mm"
+stiffness = 1e8
+)";
+
+class Lateral : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write("machine.toml", machine);
+  }
+  /// What a wrong call says.
+  std::string problem(std::vector<std::string> words) {
+    words.insert(words.begin(), {"lateral", "machine.toml"});
+    const Outcome outcome = whirl(words);
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.err;
+  }
+};
+
+TEST_F(Lateral, TellsEveryCheckBesideItsLimit) {
+  const json r = result({"lateral", "machine.toml", "--minimum-speed", "8000rpm", "--maximum-speed",
+                         "9500rpm", "--cross-coupling", "3MN/m"});
+  EXPECT_NEAR(r["minimum_speed_rpm"], 8000.0, 1e-9);
+  EXPECT_NEAR(r["maximum_speed_rpm"], 9500.0, 1e-9);
+  EXPECT_NEAR(r["trip_speed_rpm"], 1.05 * 9500.0, 1e-9);
+  EXPECT_NEAR(r["vibration_limit_m"], 25.4e-6 * std::sqrt(12000.0 / 9500.0), 1e-15);
+  ASSERT_EQ(r["journals"].size(), 2u);
+  ASSERT_FALSE(r["cases"].empty());
+  EXPECT_EQ(r["planes"][0]["station"], "7 wheel");
+  EXPECT_NEAR(r["anticipated_n_m"], 3e6, 1e-6);
+  EXPECT_GT(r["limit_n_m"], 0.0);
+  EXPECT_FALSE(r["criticals"].empty());
+  EXPECT_FALSE(r["campbell"]["branches"].empty());
+  bool all = true;
+  std::set<std::string> rules;
+  for (const json& check : r["checks"]) {
+    rules.insert(check["rule"]);
+    if (check["verdict"] == "failed") all = false;
+    if (check["verdict"] == "unknown") continue;
+    const bool is_most = check["rule"] == "vibration" || check["rule"] == "running clearance";
+    const double found = check["found"], limit = check["limit"];
+    EXPECT_EQ(check["verdict"] == "passed", is_most ? found <= limit : found >= limit);
+  }
+  EXPECT_EQ(r["passed"], all);
+  EXPECT_EQ(rules, (std::set<std::string>{"separation margin", "vibration", "running clearance",
+                                          "log decrement", "cross-coupling"}));
+}
+
+// T = P / Omega; 3 T / (D H) times the density ratio, summed.
+TEST_F(Lateral, SumsTheCrossCouplingOfItsStages) {
+  const json r =
+      result({"lateral", "machine.toml", "--stages", "1MW:400mm:10mm:1.2,500kW:0.4m:10mm:1.2"});
+  const double torque = 1e6 / (9000.0 * M_PI / 30.0);
+  EXPECT_NEAR(r["anticipated_n_m"], 1.5 * 3.0 * torque / (0.4 * 0.01) * 1.2, 1e-3);
+}
+
+TEST_F(Lateral, PrintsItsTableWithTheRules) {
+  const std::string out = whirl({"lateral", "machine.toml"}).out;
+  EXPECT_TRUE(has(out, "Checks: ")) << out;
+  EXPECT_TRUE(has(out, "[API 617]"));
+  EXPECT_TRUE(has(out, "contact labyrinth"));
+}
+
+TEST_F(Lateral, SaysWhatIsWrongWithItsSpeeds) {
+  EXPECT_TRUE(has(problem({"--minimum-speed", "9500rpm"}), "is above the maximum speed"));
+  EXPECT_TRUE(has(problem({"--trip-speed", "8000rpm"}), "is below the maximum speed"));
+  EXPECT_TRUE(has(problem({"--maximum-speed", "0rpm"}), "expected a number above zero"));
+  EXPECT_TRUE(has(problem({"--maximum-speed", "5 kg"}), "--maximum-speed"));
+  EXPECT_TRUE(
+      has(whirl({"lateral", "machine.toml", "--minimum-speed", "800"}).err, "--minimum-speed"));
+  write("no_speed.toml",
+        std::string(machine).replace(std::string(machine).find("[operation]"), 30, ""));
+  EXPECT_TRUE(has(whirl({"lateral", "no_speed.toml"}).err, "has no operating speed"));
+}
+
+TEST_F(Lateral, SaysWhatIsWrongWithItsStages) {
+  EXPECT_TRUE(has(problem({"--stages", "1MW:400mm:10mm"}), "power, diameter, width and density"));
+  EXPECT_TRUE(has(problem({"--stages", "1MW:400mm:10kg:1.2"}), "--stages"));
+  EXPECT_TRUE(has(problem({"--stages", "1MW:400mm:0mm:1.2"}), "expected a number above zero"));
+  EXPECT_TRUE(has(problem({"--cross-coupling", "-1MN/m"}), "expected a number above zero"));
+  EXPECT_TRUE(has(problem({"--stages", "1MW:400mm:10mm:1.2", "--cross-coupling", "1MN/m"}),
+                  "leave out --cross-coupling"));
+}
+
+TEST_F(Lateral, NeedsAShaftThatIsHeld) {
+  write("rotor.toml", jeffcott);
+  EXPECT_TRUE(has(whirl({"lateral", "rotor.toml", "--maximum-speed", "900rpm"}).err,
+                  "a lateral analysis needs a shaft"));
+}
+
+}  // namespace lateral_test
+}  // namespace whirl::test

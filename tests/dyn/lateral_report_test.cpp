@@ -1,0 +1,185 @@
+// The lateral analysis of a rotor that is nearly a Jeffcott rotor, beside its closed forms.
+
+#include "libdyn/motions/lateral_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libbase/error.hpp"
+#include "tests/support/rotors.hpp"
+
+namespace whirl::lateral_report_test {
+
+using std::numbers::pi;
+using test::node;
+using test::rpm;
+
+/// A disk amid a massless shaft, very stiff beside its bearings: a mass m on 2 k, 2 c.
+struct StiffRotor {
+  static constexpr double m = 200.0, k = 2e7, zeta = 0.06, g = 9.81;
+  double c = 2.0 * zeta * std::sqrt(2.0 * k * m) / 2.0;
+  double clearance = 0.4e-3;
+
+  double omega() const { return std::sqrt(2.0 * k / m); }
+
+  Model model() const {
+    Model model;
+    Structure& s = model.structure;
+    s.shaft = {test::massless_cylinder(0.6, 0.8, 4)};
+    s.disks = {{.name = "wheel", .at = node(3), .m = m}};
+    s.bearings = {test::bearing(node(1), test::isotropic(k, c)),
+                  test::bearing(node(5), test::isotropic(k, c))};
+    s.bearings[0].name = "left";
+    s.bearings[1].name = "right";
+    s.gravity = g;
+    model.contacts = {
+        {.name = "seal", .at = node(3), .clearance = clearance, .law = Radial<>{.k = 1e8}}};
+    model.speed = 9000.0 * rpm;
+    model.has_speed = true;
+    return model;
+  }
+};
+
+constexpr double stiff = 2e-4;  // relative: 2 k of the bearings over the stiffness of the shaft
+                                // is 4e-5
+
+LateralOptions options(double minimum, double maximum) {
+  return {.range = {minimum * rpm, maximum * rpm, 1.05 * maximum * rpm}};
+}
+
+const LateralCheck& check_of(const LateralReport& report, LateralRule rule) {
+  const auto found = std::find_if(report.checks.begin(), report.checks.end(),
+                                  [&](const LateralCheck& c) { return c.rule == rule; });
+  EXPECT_NE(found, report.checks.end());
+  return *found;
+}
+
+// One mode, one antinode: all of the weight at the wheel, U = 2 * 6350 m / N. Highest at
+// w = (1 - 2 zeta^2)^(-1/2), half the power at 1 / w^2 = 1 - 2 zeta^2 +- 2 zeta (1 - zeta^2)^(1/2).
+TEST(LateralReport, HasThePeakOfAJeffcottRotorAndItsMargin) {
+  const StiffRotor rotor;
+  const LateralReport r = lateral_report(rotor.model(), options(8000.0, 9000.0)).report;
+  ASSERT_EQ(r.cases.size(), 1u);
+  ASSERT_EQ(r.planes.size(), 1u);
+  EXPECT_EQ(r.planes[0].station, "3 wheel + seal");
+  const double U = 2.0 * 6350e-6 * rotor.m / 9000.0;
+  EXPECT_NEAR(r.planes[0].moment, U, stiff * U);
+  ASSERT_EQ(r.journals.size(), 2u);
+  EXPECT_NEAR(r.journals[0].mass, 0.5 * rotor.m, stiff * rotor.m);
+
+  const double zeta = rotor.zeta, root = std::sqrt(1.0 - zeta * zeta);
+  const double middle = 1.0 - 2.0 * zeta * zeta, peak = rotor.omega() / std::sqrt(middle);
+  const double width = rotor.omega() * (1.0 / std::sqrt(middle - 2.0 * zeta * root) -
+                                        1.0 / std::sqrt(middle + 2.0 * zeta * root));
+  ASSERT_EQ(r.peaks.size(), 1u);
+  EXPECT_NEAR(r.peaks[0].speed, peak, stiff * peak);
+  const double AF = peak / width;
+  EXPECT_NEAR(r.peaks[0].amplification(), AF, stiff * AF);
+  const LateralCheck& margin = check_of(r, LateralRule::separation_margin);
+  EXPECT_NEAR(margin.found, (8000.0 * rpm - peak) / (8000.0 * rpm), stiff);
+  EXPECT_NEAR(margin.limit, 0.17 * (1.0 - 1.0 / (AF - 1.5)), stiff);
+  EXPECT_EQ(margin.verdict, Verdict::passed);
+}
+
+// At a speed w times the critical one bearings move by e w^2 / ((1 - w^2)^2 + (2 zeta w)^2)^(1/2), peak
+// to peak twice as far; scaled to the limit, the wheel takes this share of what its sag m g / (2 k) leaves.
+TEST(LateralReport, ScalesTheResponseToTheLimitForClearances) {
+  const StiffRotor rotor;
+  const LateralReport r = lateral_report(rotor.model(), options(8000.0, 9000.0)).report;
+  const auto response = [&](double Omega) {
+    const double w = Omega / rotor.omega(), e = r.planes[0].moment / rotor.m;
+    return e * w * w / std::hypot(1.0 - w * w, 2.0 * rotor.zeta * w);
+  };
+  const double slowest = 8000.0 * rpm;  // above the peak: the larger response
+  const LateralCheck& vibration = check_of(r, LateralRule::vibration);
+  EXPECT_NEAR(vibration.found, 2.0 * response(slowest), stiff * vibration.found);
+  EXPECT_NEAR(vibration.speed, slowest, 1e-9 * slowest);
+  EXPECT_NEAR(vibration.limit, 25.4e-6 * std::sqrt(12000.0 / 9000.0), 1e-15);
+
+  const double scaling = std::min(6.0, vibration.limit / vibration.found);
+  EXPECT_NEAR(r.cases[0].scaling, scaling, stiff * scaling);
+  const double sag = rotor.m * rotor.g / (2.0 * rotor.k), left = rotor.clearance - sag;
+  ASSERT_EQ(r.clearances.size(), 1u);
+  EXPECT_EQ(r.clearances[0].name, "contact seal");
+  EXPECT_NEAR(r.clearances[0].left, left, stiff * left);
+  const double peak = r.peaks[0].speed;
+  const double largest = scaling * response(peak);
+  EXPECT_NEAR(r.clearances[0].largest, largest, 2.0 * stiff * largest);
+  const LateralCheck& share = check_of(r, LateralRule::running_clearance);
+  EXPECT_NEAR(share.found, largest / left, 3.0 * stiff * share.found);
+  EXPECT_EQ(share.limit, 0.75);
+}
+
+// Q_0 = 2 c omega_n; without cross-coupling delta = 2 pi zeta / (1 - zeta^2)^(1/2).
+TEST(LateralReport, KnowsWhatCrossCouplingItBears) {
+  const StiffRotor rotor;
+  LateralOptions how = options(8000.0, 9000.0);
+  const double limit = 2.0 * rotor.c * rotor.omega();
+  const LateralReport alone = lateral_report(rotor.model(), how).report;
+  EXPECT_NEAR(alone.limit, limit, 2.0 * stiff * limit);
+  EXPECT_EQ(alone.coupled_station, "3 wheel + seal");
+  EXPECT_TRUE(std::isnan(alone.anticipated));
+  const double delta = 2.0 * pi * rotor.zeta / std::sqrt(1.0 - rotor.zeta * rotor.zeta);
+  EXPECT_NEAR(alone.log_decrement, delta, 2.0 * stiff * delta);
+  EXPECT_TRUE(std::none_of(alone.checks.begin(), alone.checks.end(), [](const LateralCheck& c) {
+    return c.rule == LateralRule::coupling_ratio;
+  }));
+
+  how.anticipated = 0.6 * limit;
+  how.has_anticipated = true;
+  const LateralReport r = lateral_report(rotor.model(), how).report;
+  const LateralCheck& ratio = check_of(r, LateralRule::coupling_ratio);
+  EXPECT_NEAR(ratio.found, 1.0 / 0.6, 3.0 * stiff);
+  EXPECT_EQ(ratio.verdict, Verdict::failed);
+  EXPECT_FALSE(r.is_passed());
+  EXPECT_NEAR(r.log_decrement, 0.4 * delta, 0.01 * delta);  // lambda is linear in Q but for Q^2
+}
+
+// A critical speed among the operating speeds has no margin, however far from either end.
+TEST(LateralReport, FailsWhereThePeakIsAmongOperatingSpeeds) {
+  const StiffRotor rotor;
+  const LateralReport r = lateral_report(rotor.model(), options(3000.0, 9000.0)).report;
+  const LateralCheck& margin = check_of(r, LateralRule::separation_margin);
+  EXPECT_EQ(margin.found, 0.0);
+  EXPECT_EQ(margin.verdict, Verdict::failed);
+  const LateralCheck& vibration = check_of(r, LateralRule::vibration);
+  EXPECT_NEAR(vibration.found, 2.0 * r.peaks[0].amplitude, 1e-9 * vibration.found);
+  EXPECT_NEAR(vibration.speed, r.peaks[0].speed, 1e-9 * vibration.speed);
+}
+
+// Two antinodes against each other have the load of their own journal each; one beyond the journals has
+// that of the nearest one.
+TEST(LateralUnbalance, IsWhatTheJournalsCarryNextToEachAntinode) {
+  Mesh mesh;
+  mesh.z = {0.0, 1.0, 2.0, 3.0, 4.0};
+  const std::vector<Journal> journals{{"left", 0, 0.0, 60.0}, {"right", 3, 3.0, 100.0}};
+  const double N = 10000.0 * rpm;
+  const auto unit = [](double mass) { return 2.0 * 6350e-6 * mass / 10000.0; };
+  const auto both = unbalance_planes({{1, 1.0}, {2, -0.8}}, journals, mesh, N);
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NEAR(both[0].moment, unit(60.0), 1e-15);
+  EXPECT_EQ(both[0].phase, 0.0);
+  EXPECT_NEAR(both[1].moment, unit(100.0), 1e-15);
+  EXPECT_EQ(both[1].phase, pi);
+  const auto amid = unbalance_planes({{2, 1.0}}, journals, mesh, N);
+  ASSERT_EQ(amid.size(), 1u);
+  EXPECT_NEAR(amid[0].moment, unit(160.0), 1e-15);
+  const auto beyond = unbalance_planes({{4, 1.0}}, journals, mesh, N);
+  ASSERT_EQ(beyond.size(), 1u);
+  EXPECT_NEAR(beyond[0].moment, unit(100.0), 1e-15);
+}
+
+TEST(LateralReport, SaysWhatItNeeds) {
+  Model model = StiffRotor{}.model();
+  model.structure.bearings.clear();
+  EXPECT_THROW(lateral_report(model, options(8000.0, 9000.0)), ModelError);
+  Model bodies;
+  bodies.structure.bodies = {{.name = "rotor", .m = 1.0, .spins = true}};
+  bodies.structure.bearings = {test::bearing(test::body("rotor"), test::isotropic(1e6))};
+  EXPECT_THROW(lateral_report(bodies, options(8000.0, 9000.0)), ModelError);
+}
+
+}  // namespace whirl::lateral_report_test

@@ -1,0 +1,73 @@
+// Cross-coupled stiffness that a rotor bears.
+
+#include "libfe/coupling_stability.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/rotors.hpp"
+
+namespace whirl::coupling_stability_test {
+
+using test::at;
+using test::pi;
+
+constexpr double exact = 1e-8;  // relative: roots to 1e-10, eigenvalues to 1e-11
+
+// A mass on springs and dampers, x + i y = r e^(lambda t): m lambda^2 + c lambda + k - i Q = 0. It whirls
+// by itself where lambda = i omega: m omega^2 = k and Q_0 = c omega, at any speed.
+TEST(CouplingStability, OfAJeffcottRotorIsTheClosedForm) {
+  const double m = 40.0, omega = 300.0, zeta = 0.04;
+  const double k = m * omega * omega, c = 2.0 * zeta * m * omega;
+  const Structure s{.bodies = {{.name = "rotor", .m = m, .spins = true}},
+                    .bearings = {test::bearing(test::body("rotor"), test::isotropic(k, c))}};
+  const double QA = 0.4 * c * omega;
+  for (const double Omega : {150.0, 900.0}) {
+    const CouplingStability found =
+        coupling_stability(s, Omega, test::body("rotor"), {.anticipated = QA});
+    ASSERT_TRUE(found.at_limit);
+    EXPECT_NEAR(found.at_limit->coupling, c * omega, exact * c * omega) << Omega;
+    EXPECT_NEAR(found.at_limit->frequency, omega, exact * omega) << Omega;
+    ASSERT_FALSE(found.modes.empty());
+    EXPECT_EQ(found.modes.front().coupling, 0.0);
+    std::vector<CoupledMode> all = found.modes;
+    ASSERT_TRUE(found.at_anticipated);
+    all.push_back(*found.at_anticipated);
+    for (const CoupledMode& mode : all) {
+      const Complex lambda =
+          (-c + std::sqrt(Complex(c * c - 4.0 * m * k, 4.0 * m * mode.coupling))) / (2.0 * m);
+      EXPECT_NEAR(mode.log_decrement, -2.0 * pi * lambda.real() / lambda.imag(), 1e-6);
+      EXPECT_NEAR(mode.frequency, lambda.imag(), exact * omega);
+    }
+    EXPECT_EQ(found.at_anticipated->coupling, QA);
+  }
+}
+
+// At Q_0 no mode of the rotor with it grows, and one neither grows nor decays.
+TEST(CouplingStability, IsWhereTheFirstModeOfADiskedShaftLosesItsDamping) {
+  const Structure s = test::two_disk(test::orthotropic(1e6, 1.6e6, 300.0, 500.0));
+  const double Omega = 400.0;
+  const CouplingStability found = coupling_stability(s, Omega, at(0.75), {});
+  ASSERT_TRUE(found.at_limit);
+  Structure coupled = s;
+  BearingCoefficients Q;
+  Q.K << 0.0, found.at_limit->coupling, -found.at_limit->coupling, 0.0;
+  coupled.links.push_back(test::bearing(at(0.75), Q));
+  double fastest = -INFINITY;
+  for (const Mode& mode : complex_modes(assemble(coupled, Omega), 8).oscillatory) {
+    fastest = std::max(fastest, mode.lambda.real() / std::abs(mode.lambda));
+  }
+  EXPECT_NEAR(fastest, 0.0, 1e-8);
+}
+
+// Without damping any cross-coupled stiffness is too much: nothing is borne, nothing is lost on the way.
+TEST(CouplingStability, OfAnUndampedRotorIsNone) {
+  const Structure s = test::two_disk(test::isotropic(1e6));
+  const CouplingStability found = coupling_stability(s, 400.0, at(0.75), {.anticipated = 1e4});
+  ASSERT_TRUE(found.at_anticipated);
+  EXPECT_LT(found.at_anticipated->log_decrement, 0.0);
+}
+
+}  // namespace whirl::coupling_stability_test

@@ -1,0 +1,70 @@
+// Rules of the lateral analysis of compressors, beside numbers by hand.
+
+#include "libfe/lateral_rules.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/rotors.hpp"
+
+namespace whirl::lateral_rules_test {
+
+using test::rpm;
+
+constexpr double rounding = 1e-12;  // relative
+
+/// A peak of some amplification at a speed [rpm].
+ResponsePeak peak(double speed, double AF) {
+  return {.speed = speed * rpm,
+          .below = speed * rpm * (1.0 - 0.5 / AF),
+          .above = speed * rpm * (1.0 + 0.5 / AF)};
+}
+
+// 25.4 um at 12 000 rpm, twice as much at a quarter of it; 6350 * 100 kg / 10 000 rpm = 63.5 g.mm, twice.
+TEST(LateralRules, AllowVibrationAndUnbalanceByTheSpeed) {
+  EXPECT_NEAR(vibration_limit(12000.0 * rpm), 25.4e-6, rounding * 25.4e-6);
+  EXPECT_NEAR(vibration_limit(3000.0 * rpm), 50.8e-6, rounding * 50.8e-6);
+  EXPECT_NEAR(analysis_unbalance(100.0, 10000.0 * rpm), 127e-6, rounding * 127e-6);
+}
+
+// AF = 4: 17 (1 - 1 / 2.5) = 10.2 % below, of 5000 rpm; 20.2 % above, of 6000 rpm.
+TEST(LateralRules, AskForMarginsFromTheNearestOperatingSpeed) {
+  const OperatingRange range{5000.0 * rpm, 6000.0 * rpm, 6300.0 * rpm};
+  const SeparationMargin below = separation_margin(peak(4000.0, 4.0), range);
+  EXPECT_TRUE(below.is_below);
+  EXPECT_NEAR(below.actual, 0.2, rounding);
+  EXPECT_NEAR(below.required, 0.102, rounding);
+  const SeparationMargin above = separation_margin(peak(7200.0, 4.0), range);
+  EXPECT_FALSE(above.is_below);
+  EXPECT_NEAR(above.actual, 0.2, rounding);
+  EXPECT_NEAR(above.required, 0.202, rounding);
+  EXPECT_FALSE(above.is_kept());
+}
+
+// Sharp peaks ask for 16 and 26 % at most, broad ones for nothing.
+TEST(LateralRules, AskForNoMoreOfSharpPeaksAndForNothingOfBroadOnes) {
+  const OperatingRange range{5000.0 * rpm, 6000.0 * rpm, 6300.0 * rpm};
+  EXPECT_EQ(separation_margin(peak(4000.0, 100.0), range).required, 0.16);
+  EXPECT_EQ(separation_margin(peak(7000.0, 100.0), range).required, 0.26);
+  EXPECT_EQ(separation_margin(peak(4999.0, 2.4), range).required, 0.0);
+  EXPECT_TRUE(separation_margin(peak(5500.0, 2.4), range).is_kept());
+}
+
+TEST(LateralRules, ForbidSharpPeaksAmongOperatingSpeeds) {
+  const OperatingRange range{5000.0 * rpm, 6000.0 * rpm, 6300.0 * rpm};
+  for (const double speed : {5000.0, 5500.0, 6000.0}) {
+    const SeparationMargin margin = separation_margin(peak(speed, 8.0), range);
+    EXPECT_EQ(margin.actual, 0.0) << speed;
+    EXPECT_GT(margin.required, 0.1) << speed;
+    EXPECT_FALSE(margin.is_kept()) << speed;
+  }
+}
+
+// 1 MW at 10 000 rpm are 954.930 N.m; 3 * 954.930 / (0.4 * 0.01) * 1.2 = 859 436.7 N/m.
+TEST(LateralRules, ExpectOfAnImpellerTheCrossCouplingOfItsTorque) {
+  const Stage stage{.power = 1e6, .diameter = 0.4, .width = 0.01, .density_ratio = 1.2};
+  EXPECT_NEAR(anticipated_coupling(stage, 10000.0 * rpm), 859436.7, 0.1);
+}
+
+}  // namespace whirl::lateral_rules_test
