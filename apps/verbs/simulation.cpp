@@ -60,12 +60,6 @@ Report motion_report(const Invocation& call, const Model& model, const Run& run,
   report.failure = integration.failure;
   report.status = status_of(integration.outcome);
   note_tables(call, model, report);
-  const bool goes_on = !call.values("from").empty() || model.start.from == StartFrom::file;
-  if (goes_on && run.scene.contacts.repeats_after() != 1) {
-    report.add_notes(
-        {"forces that do not repeat with the revolution begin with their phases of t = "
-         "0, not as they were where the other motion ended"});
-  }
   return report;
 }
 

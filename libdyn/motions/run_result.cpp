@@ -49,7 +49,9 @@ ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long r
 
 MotionEnd motion_end(const Scene& scene, const MotionState& state) {
   const FullState end = full_state(scene, state);
-  return {end.displacement, end.velocity, state.phase};
+  MotionEnd motion{end.displacement, end.velocity, state.phase};
+  if (scene.contacts.repeats_after() != 1) motion.revolution = state.revolution;
+  return motion;
 }
 
 RunFacts run_facts(const Simulation& simulation) {

@@ -63,6 +63,8 @@ ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long r
 struct MotionEnd {
   Vec displacement, velocity;  ///< full vectors, see DofMap [m, rad], [m/s, rad/s]
   double phase = 0.0;          ///< [rad]
+  /// Number of the revolution, where forces do not repeat with it.
+  std::optional<double> revolution{};
 
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
@@ -73,7 +75,11 @@ struct MotionEnd {
         column("end_velocity", &MotionEnd::velocity, "m/s, rad/s",
                "velocity at the end: x, y, theta_x, theta_y of every node, then of every body")
             .along("full"),
-        column("end_phase", &MotionEnd::phase, "rad", "phase at the end").within(valid::finite)};
+        column("end_phase", &MotionEnd::phase, "rad", "phase at the end").within(valid::finite),
+        column("end_revolution", &MotionEnd::revolution, "",
+               "revolution at the end, where forces do not repeat with it")
+            .within(valid::finite)
+            .maybe()};
   }
 };
 MotionEnd motion_end(const Scene& scene, const MotionState& state);

@@ -115,6 +115,7 @@ MotionState start_state(const Model& model, const Scene& scene,
                         const std::optional<EarlierEnd>& earlier) {
   MotionState state = start_state(model, scene, earlier ? &earlier->state : nullptr);
   if (earlier) state.phase = earlier->phase;
+  if (earlier && scene.contacts.repeats_after() != 1) state.revolution = earlier->revolution;
   return state;
 }
 

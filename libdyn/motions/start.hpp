@@ -18,10 +18,12 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
 /// The end of an earlier motion; a stopped one ends within a turn.
 struct EarlierEnd {
   FullState state;
-  double phase = 0.0;  ///< [rad]
+  double phase = 0.0;   ///< [rad]
+  long revolution = 0;  ///< where forces do not repeat with it
 };
 
-/// The same at the phase at which the earlier motion ended; nothing: there is none.
+/// The same at the phase at which the earlier motion ended, and in its revolution where forces do not
+/// repeat with it; nothing: there is none.
 MotionState start_state(const Model& model, const Scene& scene,
                         const std::optional<EarlierEnd>& earlier);
 

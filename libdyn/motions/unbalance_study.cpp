@@ -1,13 +1,18 @@
 #include "libdyn/motions/unbalance_study.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
+#include "libfe/critical.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {
 
 namespace {
+
+constexpr int modes_of_order = 12;  ///< that a force of another order may meet
 
 /// What is asked of every orbit, stations x speeds [m].
 template <class Ask>
@@ -46,6 +51,31 @@ void add_curves(const UnbalanceResponse& curve, UnbalanceStudy& study) {
     of.curve_y = curve.y.row(i).transpose();
     of.curve_major = major.row(i).transpose();
   }
+}
+
+/// Adds the speeds at which forces of other orders meet modes, with some across each peak.
+void add_peaks_of_orders(const Assembler& assembler, std::vector<double>& speeds,
+                         Failure& failure) {
+  const std::vector<OscillatingLoad> loads = oscillating_loads(assembler);
+  if (speeds.empty() || loads.empty()) return;
+  const double first = speeds.front(), last = speeds.back();
+  for (const OscillatingLoad& load : loads) {
+    if (!(load.order > 0.0)) continue;
+    try {
+      for (const Critical& c :
+           critical_speeds(assembler, {.count = modes_of_order, .order = load.order})) {
+        if (!std::isfinite(c.damped_speed) || !(c.damping_ratio > 0.0)) continue;
+        for (const double widths : {-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0}) {
+          const double speed = c.damped_speed * (1.0 + widths * c.damping_ratio);
+          if (speed > first && speed < last) speeds.push_back(speed);
+        }
+      }
+    } catch (const std::runtime_error& error) {
+      failure = error.what();
+    }
+  }
+  std::sort(speeds.begin(), speeds.end());
+  speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
 }
 
 /// Responses to forces of other frequencies.
@@ -149,7 +179,10 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
   for (const NamedPoint& p : options.stations) points.push_back(p.point);
   UnbalanceResponse rows;
   if (options.has_given_speeds) rows = unbalance_response(assembler, options.speeds, points);
-  const ResponseCurve curve = response_curve(assembler, options.speeds, points);
+  std::vector<double> speeds = options.speeds;
+  Failure failure;
+  if (!options.has_given_speeds) add_peaks_of_orders(assembler, speeds, failure);
+  const ResponseCurve curve = response_curve(assembler, speeds, points);
   if (!options.has_given_speeds) rows = curve.response;
 
   UnbalanceStudy study{.speeds = rows.speeds,
@@ -157,7 +190,7 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
                        .unbounded = curve.unbounded,
                        .largest = largest_responses(curve.response),
                        .forced = forced_responses(options.stations, assembler, rows.speeds, points),
-                       .failure = curve.failure};
+                       .failure = curve.failure ? curve.failure : failure};
   if (options.has_given_speeds) add_curves(curve.response, study);
   for (const ResponsePeak& peak : curve.peaks) {
     const StationResponse& at = study.stations[static_cast<std::size_t>(peak.row)];

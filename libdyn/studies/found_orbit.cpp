@@ -9,6 +9,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/hill.hpp"
+#include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
 
@@ -123,7 +124,12 @@ FoundOrbit find_orbit_near(const Scene& scene, const Vec& start, const OrbitOpti
 FoundOrbit find_orbit_after(const Trajectory& transient, const Scene& scene,
                             const OrbitOptions& options) {
   if (transient.outcome == Outcome::reached_end) {
-    return find_orbit_near(scene, transient.state.y, options);
+    // an orbit begins where forces do
+    const long repeats = std::max(1L, scene.contacts.repeats_after());
+    Trajectory on{.system = &scene.contacts, .state = transient.state};
+    on.revolutions = (repeats - on.state.revolution % repeats) % repeats;
+    if (on.revolutions > 0) integrate_single(on, {});
+    return find_orbit_near(scene, on.state.y, options);
   }
   return {.period = options.period,
           .shortest_period = options.period,

@@ -58,6 +58,8 @@ EarlierEnd earlier_end(const std::string& path) {
   }
   const auto ended = read_result<MotionEnd>(*file);
   EarlierEnd end{{ended.displacement, ended.velocity}, ended.phase};
+  constexpr double most = 1e15;  // of a file that may come from a stranger
+  end.revolution = static_cast<long>(std::clamp(ended.revolution.value_or(0.0), 0.0, most));
   if (!end.state.displacement.allFinite() || !end.state.velocity.allFinite()) {
     throw ModelError(
         {path}, "",
