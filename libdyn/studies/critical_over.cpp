@@ -71,10 +71,8 @@ CriticalOver critical_over(const ModelAt& model_at, ParameterName parameter,
   const SolveShapes solve = [&](double value) {
     return lowest(model_at(value), sampler, options, known[value]);
   };
-  const std::vector<ShapedValue> first = solve(values.front());
-  const auto last = std::min(first.size(), static_cast<std::size_t>(options.count));
-  const double limit = last > 0 ? followed_up_to * first[last - 1].value : 0.0;
-  const ShapeBranches followed = follow_shapes(values, solve, sampler.weight(), limit);
+  const ShapeBranches followed =
+      follow_shapes(values, solve, sampler.weight(), shape_limit(values, solve, options.count));
   for (const ShapeBranch& branch : followed.branches) {
     if (auto wanted = branch_of(branch, values, known, options.count)) {
       result.branches.push_back(std::move(*wanted));

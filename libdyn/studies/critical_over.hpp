@@ -44,6 +44,7 @@ struct CriticalOver : OverValues {
 ///
 /// @param values   ascending, one at least [SI]
 /// @param options  count: at each value; one that is among these at any is followed through all
+/// @throws NumericalError, ModelError  if none can be computed at any value
 CriticalOver critical_over(const ModelAt& model_at, ParameterName parameter,
                            const std::vector<double>& values, const CriticalOptions& options);
 

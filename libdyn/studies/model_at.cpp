@@ -1,6 +1,7 @@
 #include "libdyn/studies/model_at.hpp"
 
 #include <algorithm>
+#include <exception>
 
 #include "libbase/error.hpp"
 
@@ -20,6 +21,23 @@ std::vector<double> places_of(const Mesh& mesh) {
 }
 
 }  // namespace
+
+double shape_limit(const std::vector<double>& values, const SolveShapes& solve, int count) {
+  constexpr double headroom = 1.05;
+  std::exception_ptr first;
+  for (const double value : values) {
+    try {
+      const std::vector<ShapedValue> found = solve(value);
+      const auto last = std::min(found.size(), static_cast<std::size_t>(count));
+      return last > 0 ? headroom * found[last - 1].value : 0.0;
+    } catch (const NumericalError&) {
+      if (!first) first = std::current_exception();
+    } catch (const ModelError&) {
+      if (!first) first = std::current_exception();
+    }
+  }
+  std::rethrow_exception(first);
+}
 
 std::vector<ValueGap> gaps_of(const ShapeBranches& followed) {
   std::vector<ValueGap> gaps;

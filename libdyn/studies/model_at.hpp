@@ -50,8 +50,11 @@ std::vector<ValueGap> gaps_of(const ShapeBranches& followed);
 
 /// Solutions computed beyond those that are wanted, for newcomers.
 inline constexpr int spare_solutions = 2;
-/// Over the numbers of those wanted at the first value: up to there shapes must agree.
-inline constexpr double followed_up_to = 1.05;
+/// Up to which number shapes must agree: a little more than those of the lowest solutions at the first
+/// value that can be computed.
+/// @param count  of these
+/// @throws NumericalError, ModelError  what the first value throws, if all throw
+double shape_limit(const std::vector<double>& values, const SolveShapes& solve, int count);
 
 /// Shapes of models that differ, told at the same points: the nodes of a first model by their places
 /// along the shaft, then its bodies. Between nodes of another mesh a shape is straight.

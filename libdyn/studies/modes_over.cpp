@@ -142,16 +142,9 @@ ModesOver modes_over(const ModelAt& model_at, ParameterName parameter,
   result.parameter = std::move(parameter);
   result.values = values;
   ModesAtValues modes(model_at, count, values.front());
-  double limit = 0.0;
-  const SolveShapes solve = [&](double value) {
-    std::vector<ShapedValue> found = modes.lowest(value);
-    const auto last = std::min(found.size(), static_cast<std::size_t>(count));
-    if (limit == 0.0 && last > 0) limit = followed_up_to * found[last - 1].value;
-    return found;
-  };
-  solve(values.front());
+  const SolveShapes solve = [&](double value) { return modes.lowest(value); };
   const Sparse W = modes.weight();
-  const ShapeBranches followed = follow_shapes(values, solve, W, limit);
+  const ShapeBranches followed = follow_shapes(values, solve, W, shape_limit(values, solve, count));
   for (const ShapeBranch& branch : followed.branches) {
     if (!is_wanted(branch, values, count)) continue;
     const auto number = static_cast<int>(result.branches.size());

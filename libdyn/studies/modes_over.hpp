@@ -70,6 +70,7 @@ struct ModesOver : OverValues {
 ///
 /// @param values  ascending, one at least [SI]
 /// @param count   modes at each value; a mode that is among these at any is followed through all
+/// @throws NumericalError, ModelError  if modes cannot be computed at any value
 ModesOver modes_over(const ModelAt& model_at, ParameterName parameter,
                      const std::vector<double>& values, int count);
 

@@ -1,5 +1,7 @@
 #include "libdyn/studies/unbalance_over.hpp"
 
+#include <exception>
+
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
@@ -65,6 +67,11 @@ UnbalanceOver unbalance_over(const ModelAt& model_at, ParameterName parameter,
       result.probes.push_back({probe, none, none, none});
     }
   }
+  std::exception_ptr first;
+  const auto add_gap = [&](std::size_t i, const char* why) {
+    if (!first) first = std::current_exception();
+    result.gaps.push_back({values[i], why});
+  };
   for (std::size_t i = 0; i < values.size(); ++i) {
     try {
       const Model model = model_at(values[i]);
@@ -77,11 +84,12 @@ UnbalanceOver unbalance_over(const ModelAt& model_at, ParameterName parameter,
       add_value(model, assembler, stations, options.speeds(model), static_cast<Eigen::Index>(i),
                 result);
     } catch (const NumericalError& error) {
-      result.gaps.push_back({values[i], error.what()});
+      add_gap(i, error.what());
     } catch (const ModelError& error) {
-      result.gaps.push_back({values[i], error.what()});
+      add_gap(i, error.what());
     }
   }
+  if (result.gaps.size() == values.size()) std::rethrow_exception(first);
   return result;
 }
 

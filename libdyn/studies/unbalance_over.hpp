@@ -95,7 +95,8 @@ struct UnbalanceOverOptions {
 
 /// Responses at values; where one cannot be computed that is told, and the others come.
 /// @param values  ascending, one at least [SI]
-/// @throws ModelError  if the first model has no such stations
+/// @throws NumericalError, ModelError  if the first model has no such stations, or no value can be
+///                                     computed
 UnbalanceOver unbalance_over(const ModelAt& model_at, ParameterName parameter,
                              const std::vector<double>& values,
                              const UnbalanceOverOptions& options);

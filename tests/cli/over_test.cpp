@@ -142,6 +142,18 @@ TEST_F(Over, UnbalanceFollowsTheDamping) {
   EXPECT_EQ(kinds("u.h5"), (std::vector<std::string>{"unbalance_over"}));
 }
 
+// At rest an oil film carries nothing: that value is left out, and told.
+TEST_F(Over, ValuesThatCannotBeComputedAreTold) {
+  const std::vector<std::string> call{"modes", WHIRL_SOURCE_DIR "/models/two_disk_oil_film.toml",
+                                      "--over", "operation.speed=0,300rad/s"};
+  const json r = result(call);
+  ASSERT_EQ(r["gaps"].size(), 1u);
+  EXPECT_EQ(r["gaps"][0]["value"], 0.0);
+  EXPECT_TRUE(r["branches"][0]["frequency_rpm"][0].is_null());
+  EXPECT_TRUE(r["branches"][0]["frequency_rpm"][1].is_number());
+  EXPECT_TRUE(has(whirl(call).out, "not computed at operation.speed = 0 rad/s"));
+}
+
 TEST_F(Over, WrongCallsAreToldBeforeTheWork) {
   for (const std::string verb : {"modes", "critical", "unbalance"}) {
     SCOPED_TRACE(verb);

@@ -7,6 +7,7 @@
 #include "libdyn/studies/critical_over.hpp"
 #include "libdyn/studies/modes_over.hpp"
 #include "libdyn/studies/unbalance_over.hpp"
+#include "libfe/campbell.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::over_test {
@@ -107,6 +108,48 @@ TEST(ModesOver, OneValueIsThatModel) {
     EXPECT_EQ(found.branches[i].log_decrement(0), modes.oscillatory[i].log_decrement());
     EXPECT_EQ(found.branches[i].whirl, modes.oscillatory[i].whirl);
   }
+}
+
+// Over the speed they are a Campbell diagram, which follows modes in its own way.
+TEST(ModesOver, OverTheSpeedIsACampbellDiagram) {
+  constexpr double solves = 1e-9;
+  const std::vector<double> speeds{50.0, 150.0, 250.0, 350.0, 450.0};
+  const ModelAt at = [](double speed) {
+    Model model = flexible(1e6);
+    model.speed = speed;
+    return model;
+  };
+  const ModesOver found = modes_over(at, {}, speeds, 6);
+  const Campbell diagram = campbell(Assembler(flexible(1e6).structure), speeds, 6);
+  ASSERT_GE(found.branches.size(), 6u);
+  ASSERT_EQ(diagram.branches.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(found.branches[i].whirl, diagram.branches[i].whirl);
+    for (std::size_t n = 0; n < speeds.size(); ++n) {
+      const auto row = static_cast<Eigen::Index>(n);
+      const double frequency = diagram.branches[i].frequency[n];
+      EXPECT_NEAR(found.branches[i].frequency(row), frequency, solves * frequency);
+      EXPECT_NEAR(found.branches[i].log_decrement(row), diagram.branches[i].log_decrement[n],
+                  solves);
+    }
+  }
+}
+
+// The first value that fails is a gap as any other; if all fail there is no answer.
+TEST(ModesOver, AValueThatCannotBeComputedIsAGap) {
+  const ModelAt at = [](double value) {
+    if (value < 2.5) throw ModelError({}, "", "no such model");
+    return jeffcott(test::isotropic(k, c));
+  };
+  const ModelAt later = [&, calls = 0](double value) mutable {
+    return calls++ == 0 ? at(3.0) : at(value);  // the first is asked for its points
+  };
+  const ModesOver found = modes_over(later, {}, {1.0, 2.0, 3.0}, 2);
+  ASSERT_EQ(found.gaps.size(), 2u);
+  EXPECT_EQ(found.gaps[1].value, 2.0);
+  ASSERT_EQ(found.branches.size(), 2u);
+  EXPECT_TRUE(std::isnan(found.branches[0].frequency(0)));
+  EXPECT_TRUE(std::isfinite(found.branches[0].frequency(2)));
 }
 
 // A bearing that moves along the shaft changes the nodes of the mesh: 9 where it is at one, else 10.
