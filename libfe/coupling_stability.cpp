@@ -12,9 +12,9 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr double sure = 0.8;        ///< MAC from which a mode is the one before
-constexpr int most_steps = 200;     ///< along one mode
-constexpr double root_tol = 1e-10;  ///< of Q_0, relative
+constexpr double same_mode = 0.8;      ///< MAC from which a mode is the one before
+constexpr int steps_along_mode = 200;  ///< along one mode
+constexpr double root_tol = 1e-10;     ///< of Q_0, relative
 
 /// The rotor with some cross-coupled stiffness at a station.
 class CoupledRotor {
@@ -76,19 +76,20 @@ struct Followed {
 
 /// Follows a mode up to where it grows, and at least to Q_A.
 /// @param size  Q that the mass of the rotor and the damping of the mode would bear [N/m]
-Followed follow(const CoupledRotor& rotor, const Mode& start, double size, double anticipated) {
+Followed follow_coupling(const CoupledRotor& rotor, const Mode& start, double size,
+                         double anticipated) {
   constexpr double farthest = 20.0, smallest = 1e-4;
   Followed f{.Q = {0.0}, .modes = {start}};
   double step = 0.05 * size;
   const double last = std::max(farthest * size, 1.01 * anticipated);
-  for (int i = 0; i < most_steps && f.Q.back() < last; ++i) {
+  for (int i = 0; i < steps_along_mode && f.Q.back() < last; ++i) {
     const double Q = f.Q.back() + step;
     const auto [mode, agreement] = rotor.like(f.modes.back(), Q);
-    if (agreement < sure && step > smallest * size) {
+    if (agreement < same_mode && step > smallest * size) {
       step *= 0.5;
       continue;
     }
-    if (agreement < sure) return f;  // it is lost
+    if (agreement < same_mode) return f;  // it is lost
     const double before = f.modes.back().lambda.real(), now = mode.lambda.real();
     if (before < 0.0 && now >= 0.0 && std::isinf(f.limit)) {
       const double from = f.Q.back();
@@ -137,7 +138,7 @@ std::vector<Mode> candidates(const std::vector<Mode>& modes, double Omega) {
   return found;
 }
 
-CoupledMode told(double Q, const Mode& mode) {
+CoupledMode coupled_mode(double Q, const Mode& mode) {
   return {Q, mode.log_decrement(), mode.frequency()};
 }
 
@@ -152,7 +153,7 @@ CouplingStability coupling_stability(const Structure& structure, double Omega, c
   for (const Mode& mode : candidates(split_modes(rotor, mass), Omega)) {
     const double zeta = std::max(std::abs(mode.damping_ratio()), 1e-3);
     const double size = 2.0 * zeta * mass * std::norm(mode.lambda);
-    all.push_back(follow(rotor, mode, size, options.anticipated));
+    all.push_back(follow_coupling(rotor, mode, size, options.anticipated));
   }
   if (all.empty()) return found;
   const auto first = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
@@ -160,21 +161,21 @@ CouplingStability coupling_stability(const Structure& structure, double Omega, c
     return a.modes.front().log_decrement() < b.modes.front().log_decrement();
   });
   for (const Followed& f : all) {
-    const CoupledMode there = told(options.anticipated, f.at(rotor, options.anticipated));
+    const CoupledMode there = coupled_mode(options.anticipated, f.at(rotor, options.anticipated));
     if (!found.at_anticipated || there.log_decrement < found.at_anticipated->log_decrement) {
       found.at_anticipated = there;
     }
   }
   if (std::isfinite(first->limit)) {
-    found.at_limit = told(first->limit, first->at(rotor, first->limit));
+    found.at_limit = coupled_mode(first->limit, first->at(rotor, first->limit));
     const double last = std::max(1.25 * first->limit, 1.05 * options.anticipated);
     for (int i = 0; i <= options.steps; ++i) {
       const double Q = last * i / options.steps;
-      found.modes.push_back(told(Q, first->at(rotor, Q)));
+      found.modes.push_back(coupled_mode(Q, first->at(rotor, Q)));
     }
   } else {
     for (std::size_t i = 0; i < first->Q.size(); ++i) {
-      found.modes.push_back(told(first->Q[i], first->modes[i]));
+      found.modes.push_back(coupled_mode(first->Q[i], first->modes[i]));
     }
   }
   return found;

@@ -64,7 +64,8 @@ struct Lateral {
       throw ModelError({}, "bearing",
                        "a lateral analysis needs a bearing or an oil film on the shaft");
     }
-    probes = options.probes.empty() ? at_journals() : options.probes;
+    probes = at_probes();
+    if (probes.empty()) probes = at_journals();
   }
 
   static Structure bare(const Model& model) {
@@ -75,6 +76,18 @@ struct Lateral {
     s.unbalances.clear();
     s.bow = {};
     return s;
+  }
+
+  /// Stations with a probe of the model, each once; vibration is told along the major axis there.
+  std::vector<NamedPoint> at_probes() const {
+    std::vector<NamedPoint> all;
+    for (const NamedPoint& p : named_points(model, assembler)) {
+      if (std::any_of(structure.probes.begin(), structure.probes.end(),
+                      [&](const Probe& probe) { return assembler.point(probe.at) == p.point; })) {
+        all.push_back(p);
+      }
+    }
+    return all;
   }
 
   std::vector<NamedPoint> at_journals() const {

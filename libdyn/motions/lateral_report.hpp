@@ -22,9 +22,8 @@ struct LateralOptions {
   OperatingRange range;
   double anticipated = 0.0;      ///< Q_A, cross-coupled stiffness to be expected [N/m]; 0: none is
   bool has_anticipated = false;  ///< whether Q_A is told
-  std::vector<NamedPoint> probes{};  ///< where vibration is measured; empty: at bearings and films
-  int modes = 8;                     ///< of the Campbell diagram
-  int criticals = 6;                 ///< critical speeds that are looked for
+  int modes = 8;                 ///< of the Campbell diagram
+  int criticals = 6;             ///< critical speeds that are looked for
 };
 
 /// What is carried by a bearing or film.
@@ -93,7 +92,8 @@ struct LateralResponse {
             .within(valid::numbers_of("cases"))
             .from_one(),
         column("probe", &R::probe, "", "probe").within(valid::numbers_of("probes")).from_one(),
-        column("peak_to_peak", &R::peak_to_peak, "m", "along the major axis").along("lateral_speeds")};
+        column("peak_to_peak", &R::peak_to_peak, "m", "along the major axis")
+            .along("lateral_speeds")};
   }
 };
 
@@ -265,7 +265,8 @@ struct LateralStudy {
 /// Analyses a model with its oil films linearized; its own unbalance and bow are left out.
 ///
 /// Modes are those of critical speeds up to 1.5 times the maximum continuous speed; responses go from a
-/// tenth of it to that, and vibration is told along the major axis. For running clearances the
+/// tenth of it to that, at the stations of the model's probes, without any at bearings and oil films,
+/// and vibration is told along the major axis. For running clearances the
 /// unbalance is scaled so that the probes are at the vibration limit. Cross-coupled stiffness acts at
 /// the node that is nearest to the middle between the outermost journals, at the maximum continuous
 /// speed.

@@ -150,6 +150,17 @@ TEST(LateralReport, FailsWhereThePeakIsAmongOperatingSpeeds) {
   EXPECT_NEAR(vibration.speed, r.peaks[0].speed, 1e-9 * vibration.speed);
 }
 
+// With probes of its own vibration is that of their stations, each once, along the major axis.
+TEST(LateralReport, LooksAtTheProbesOfTheModel) {
+  Model model = StiffRotor{}.model();
+  model.structure.probes = {{.name = "x", .at = node(4)},
+                            {.name = "y", .at = node(4), .angle = 0.5 * pi}};
+  const LateralReport r = lateral_report(model, options(8000.0, 9000.0)).report;
+  ASSERT_EQ(r.probes.size(), 1u);
+  EXPECT_TRUE(r.probes[0].station.starts_with("4")) << r.probes[0].station;
+  EXPECT_EQ(r.responses.size(), 1u);
+}
+
 // Two antinodes against each other have the load of their own journal each; one beyond the journals has
 // that of the nearest one.
 TEST(LateralUnbalance, IsWhatTheJournalsCarryNextToEachAntinode) {
