@@ -143,8 +143,9 @@ void add_probes(const std::vector<Probe>& probes, double size, double factor, Pa
     line.y = {bar_begins * s, bar_ends * s};
     line.hover.assign(2, probe_name(probe));
     panel.curves.push_back(std::move(line));
+    const bool is_left = c < 0.0;  // names stand towards the middle
     panel.labels.push_back({bar_ends * c, bar_ends * s, probe.name,
-                            c < 0.0 ? Anchor::end : Anchor::start, c < 0.0 ? -6.0 : 6.0,
+                            is_left ? Anchor::start : Anchor::end, is_left ? 6.0 : -6.0,
                             s < 0.0 ? 12.0 : -4.0, Paint::stator});
   }
 }
