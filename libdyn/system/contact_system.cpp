@@ -195,8 +195,10 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
                             (back * fc_).cwiseAbs().maxCoeff() / (turn * turn),
                             (back * fs_).cwiseAbs().maxCoeff() / (turn * turn)});
     for (const Oscillation& o : oscillations_) {
-      for (const Vec* f : {&o.cosine, &o.sine}) {
-        size = std::max(size, (back * *f).cwiseAbs().maxCoeff() / (o.frequency * o.frequency));
+      for (const Vec* f : {&o.cosine, &o.sine}) {  // as if slow, or as if nothing held it
+        const double slow = (back * least_squares(K_, *f)).cwiseAbs().maxCoeff(),
+                     fast = (back * *f).cwiseAbs().maxCoeff() / (o.frequency * o.frequency);
+        size = std::max(size, slow > 0.0 ? std::min(slow, fast) : fast);
       }
     }
     clearance = size > 0.0 && std::isfinite(size) ? size : 1e-3;

@@ -250,6 +250,13 @@ TEST(MotionForces, ConstantOnesAreInTheStart) {
   EXPECT_EQ(state.y.head(scene.contacts.coordinates()), equilibrium(scene.contacts));
 }
 
+// Tolerances are told by how far a slow force moves the rotor, not by what it would do to a free mass.
+TEST(MotionForces, ThatAreSlowHaveTheScaleOfWhatTheyMove) {
+  const Coupled still{.forces = {{.at = body("rotor"), .size = 50.0}}};
+  const Coupled slow{.forces = {{.at = body("rotor"), .size = 50.0, .frequency = 1e-3}}};
+  EXPECT_LT(slow.scene().contacts.length_scale(), 2.0 * still.scene().contacts.length_scale());
+}
+
 // What is zero is no load: motions without it repeat as if it were not there.
 TEST(MotionForces, OfSizeZeroAreNone) {
   const Coupled rotor{.forces = {{.at = body("rotor"), .size = 0.0, .frequency = 3.0}}};
