@@ -47,6 +47,12 @@ ResponsePeak with_both_sides(ResponsePeak peak) {
   return peak;
 }
 
+/// Ascending, each once.
+void sort_out(std::vector<double>& speeds) {
+  std::sort(speeds.begin(), speeds.end());
+  speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
+}
+
 /// What all parts of the report ask of a model.
 struct Lateral {
   const Model& model;
@@ -140,8 +146,7 @@ struct Lateral {
     const OperatingRange& r = options.range;
     std::vector<double> all{first_speed * r.maximum, r.minimum, r.maximum, r.trip,
                             std::max(last_speed * r.maximum, r.trip)};
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_out(all);
     return all;
   }
 };
@@ -163,11 +168,11 @@ std::vector<std::vector<double>> find_peaks(const Lateral& lateral,
       report.peaks.push_back(
           {peak, static_cast<int>(c), separation_margin(peak, lateral.options.range)});
     }
-    if (c == 0) report.unbounded = curve.unbounded;
+    report.unbounded.insert(report.unbounded.end(), curve.unbounded.begin(), curve.unbounded.end());
     report.speeds.insert(report.speeds.end(), speeds.back().begin(), speeds.back().end());
   }
-  std::sort(report.speeds.begin(), report.speeds.end());
-  report.speeds.erase(std::unique(report.speeds.begin(), report.speeds.end()), report.speeds.end());
+  sort_out(report.speeds);
+  sort_out(report.unbounded);
   return speeds;
 }
 
@@ -226,6 +231,14 @@ void add_checks(const Lateral& lateral, LateralReport& report) {
   for (const LateralPeak& p : report.peaks) {
     add({LateralRule::separation_margin, p.of_case, probe(p.row), p.speed, p.margin.actual,
          p.margin.required},
+        true);
+  }
+  for (const double speed : report.unbounded) {  // without damping: as sharp as can be
+    const ResponsePeak sharp{
+        .speed = speed, .below = (1.0 - 1e-9) * speed, .above = (1.0 + 1e-9) * speed};
+    const SeparationMargin margin = separation_margin(sharp, lateral.options.range);
+    add({LateralRule::separation_margin, -1, "undamped resonance", speed, margin.actual,
+         margin.required},
         true);
   }
   for (std::size_t c = 0; c < report.cases.size(); ++c) {

@@ -150,6 +150,22 @@ TEST(LateralReport, FailsWhereThePeakIsAmongOperatingSpeeds) {
   EXPECT_NEAR(vibration.speed, r.peaks[0].speed, 1e-9 * vibration.speed);
 }
 
+// Without damping the peak has no end: it asks for the largest margin, and there is no other one.
+TEST(LateralReport, KeepsFarthestFromAnUndampedResonance) {
+  StiffRotor rotor;
+  rotor.c = 0.0;
+  const LateralReport r = lateral_report(rotor.model(), options(5200.0, 9000.0)).report;
+  EXPECT_TRUE(r.peaks.empty());
+  ASSERT_EQ(r.unbounded.size(), 1u);
+  const LateralCheck& margin = check_of(r, LateralRule::separation_margin);
+  EXPECT_NEAR(margin.speed, rotor.omega(), stiff * rotor.omega());
+  EXPECT_EQ(margin.limit, 0.16);
+  EXPECT_EQ(margin.verdict, Verdict::passed);
+  // 4271 rpm is 14.6 % below 5000 rpm
+  const LateralReport near = lateral_report(rotor.model(), options(5000.0, 9000.0)).report;
+  EXPECT_EQ(check_of(near, LateralRule::separation_margin).verdict, Verdict::failed);
+}
+
 // With probes of its own vibration is that of their stations, each once, along the major axis.
 TEST(LateralReport, LooksAtTheProbesOfTheModel) {
   Model model = StiffRotor{}.model();
