@@ -1,8 +1,10 @@
 // whirl lateral: keys of its JSON, its table, and calls that mean nothing.
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "libio/figures/figures.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
@@ -94,6 +96,36 @@ TEST_F(Lateral, SumsTheCrossCouplingOfItsStages) {
       result({"lateral", "machine.toml", "--stages", "1MW:400mm:10mm:1.2,500kW:0.4m:10mm:1.2"});
   const double torque = 1e6 / (9000.0 * M_PI / 30.0);
   EXPECT_NEAR(r["anticipated_n_m"], 1.5 * 3.0 * torque / (0.4 * 0.01) * 1.2, 1e-3);
+}
+
+// An amplification of 4 asks for 10.2 % below 8000 rpm and for 20.2 % above 9500 rpm: the border of what
+// is too near goes through both, and down to 2.5 at the speeds themselves, 10 % above the upper one.
+TEST_F(Lateral, DrawsWhatIsTooNearAndEveryCheck) {
+  const json r = result({"lateral", "machine.toml", "--minimum-speed", "8000rpm", "--maximum-speed",
+                         "9500rpm", "--out", "l.h5"});
+  const ResultView view(folder / "l.h5");
+  const auto kind = std::find_if(figure_kinds().begin(), figure_kinds().end(),
+                                 [](const FigureKind& k) { return k.name == "lateral"; });
+  const std::vector<Figure> figures = figures_of(*kind, view);
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_EQ(figures[0].table.rows.size(), r["checks"].size());
+  const Curve& border = figures[0].panels.at(0).curves.at(0);
+  const auto goes_through = [&](double rpm, double AF) {
+    for (std::size_t i = 1; i < border.x.size(); ++i) {
+      const double low = std::min(border.y[i - 1], border.y[i]);
+      const double high = std::max(border.y[i - 1], border.y[i]);
+      if (AF < low || AF > high || low == high) continue;
+      const double share = (AF - border.y[i - 1]) / (border.y[i] - border.y[i - 1]);
+      const double x = border.x[i - 1] + share * (border.x[i] - border.x[i - 1]);
+      if (std::abs(x - rpm) < 5.0) return true;  // between points of a curve
+    }
+    return false;
+  };
+  EXPECT_TRUE(goes_through(8000.0 * (1.0 - 0.102), 4.0));
+  EXPECT_TRUE(goes_through(9500.0 * (1.0 + 0.202), 4.0));
+  EXPECT_TRUE(goes_through(8000.0, 2.5));
+  EXPECT_TRUE(goes_through(9500.0 * 1.1, 2.5));
+  EXPECT_FALSE(goes_through(8000.0, 4.0));
 }
 
 TEST_F(Lateral, PrintsItsTableWithTheRules) {
