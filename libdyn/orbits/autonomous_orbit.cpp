@@ -79,9 +79,8 @@ void require_isotropy(const ContactSystem& system, const Mat& S) {
       system.acceleration(angle, turned.data(), b.data());
       if ((b - R.topLeftCorner(n, n) * a).norm() > isotropic * a.norm()) {
         throw NumericalError(
-            "the rotating frame: gravity, forces, bearings or contacts tell directions apart, so "
-            "that "
-            "nothing repeats there");
+            "the rotating frame: gravity, bearings or contacts, or a force, tell directions apart, "
+            "so that nothing repeats there");
       }
     }
   }

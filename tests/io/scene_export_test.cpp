@@ -40,9 +40,9 @@ TEST(ExportFormats, AreOursAndThoseOfMeshio) {
   EXPECT_EQ(export_format("vtk").mesh, nullptr);
   EXPECT_EQ(export_format("abaqus").ending, ".inp");
   ASSERT_NE(export_format("abaqus").mesh, nullptr);
-  EXPECT_TRUE(says(
-      refusal([] { export_format("abacus"); }),
-      "unknown format, did you mean \"abaqus\"?; there are vtk, xdmf, csv, mtx, mat, abaqus,"));
+  EXPECT_TRUE(says(refusal([] { export_format("abacus"); }),
+                   "unknown format, did you mean \"abaqus\"?; there are vtk, xdmf, csv, uff, mtx, "
+                   "mat, abaqus,"));
 }
 
 using SceneExport = InResultFolder;
