@@ -15,7 +15,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr std::size_t least = 40;  ///< columns; a table of less says nothing
+constexpr std::size_t fewest_columns = 40;  ///< columns; a table of less says nothing
 
 }  // namespace
 
@@ -26,12 +26,12 @@ std::size_t terminal_columns() {
     const auto [end, error] =
         std::from_chars(digits.data(), digits.data() + digits.size(), columns);
     if (error == std::errc() && end == digits.data() + digits.size() && columns > 0) {
-      return std::max(least, columns);
+      return std::max(fewest_columns, columns);
     }
   }
   winsize size{};
   const bool is_known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return is_known ? std::max<std::size_t>(least, size.ws_col) : 0;
+  return is_known ? std::max<std::size_t>(fewest_columns, size.ws_col) : 0;
 }
 
 std::size_t display_width(const std::string& text) {
