@@ -474,7 +474,7 @@ TEST_F(Plot, TellsWhatCanBeDrawn) {
     return outcome.err;
   };
   EXPECT_EQ(problem({"orbitt"}), "orbitt: unknown kind of figure, did you mean \"orbit\"?\n");
-  EXPECT_TRUE(has(problem({"xyzzy"}), "there are layout, static, modes, "));
+  EXPECT_TRUE(has(problem({"xyzzy"}), "there are layout, lateral, static, modes, "));
   EXPECT_TRUE(has(problem({"campbell"}), "does not hold what this figure needs"));
   EXPECT_TRUE(has(problem({"orbit", "--which", "moon"}), "there are rotor"));
   EXPECT_TRUE(has(problem({"orbit", "--out", "x.jpg"}), ".svg, .png or .pdf"));
