@@ -231,23 +231,40 @@ void add_seals(SideView& v) {
   }
 }
 
+/// Two rectangles above and below the shaft, as long as they are, that leave a gap to it.
+void add_ring(SideView& v, const char* name, Paint paint, double at, double half_length, double low,
+              const std::string& hover) {
+  const double high = low + 0.5 * v.symbol(), left = at - half_length, right = at + half_length;
+  for (const double side : {1.0, -1.0}) {
+    v.panel.curves.push_back(area(name, paint, {left, right, right, left, left},
+                                  {side * low, side * low, side * high, side * high, side * low},
+                                  hover));
+  }
+}
+
+/// Bearings of oil films, as long as they are.
+void add_films(SideView& v) {
+  for (const OilFilm& f : v.model.films) {
+    const double at = v.position(f.at);
+    if (at < 0.0) continue;
+    const double low = std::max(mm * f.bearing.radius, v.shaft_radius(at)) +
+                       std::max(mm * f.bearing.clearance, 0.004 * v.length);
+    add_ring(v, "oil film", Paint::bearing, at, 0.5 * mm * f.bearing.length, low,
+             fmt::format("oil film {}: clearance {}", f.name, format_length(f.bearing.clearance)));
+    v.add_name(at, low + 0.5 * v.symbol(), f.name, Paint::bearing, true);
+  }
+}
+
 void add_contacts(SideView& v) {
   const double symbol = v.symbol();
   for (const Contact& c : v.model.contacts) {
     const double at = v.position(c.at);
     if (at < 0.0) continue;
     const double radius = c.friction.radius > 0.0 ? mm * c.friction.radius : v.shaft_radius(at);
-    const double low = radius + std::max(mm * c.clearance, 0.004 * v.length),
-                 high = low + 0.5 * symbol;
-    for (const double side : {1.0, -1.0}) {
-      v.panel.curves.push_back(
-          area("contact", Paint::stator,
-               {at - 0.8 * symbol, at + 0.8 * symbol, at + 0.8 * symbol, at - 0.8 * symbol,
-                at - 0.8 * symbol},
-               {side * low, side * low, side * high, side * high, side * low},
-               fmt::format("contact {}: clearance {}", c.name, format_length(c.clearance))));
-    }
-    v.add_name(at, high, c.name, Paint::stator, true);
+    const double low = radius + std::max(mm * c.clearance, 0.004 * v.length);
+    add_ring(v, "contact", Paint::stator, at, 0.8 * symbol, low,
+             fmt::format("contact {}: clearance {}", c.name, format_length(c.clearance)));
+    v.add_name(at, low + 0.5 * symbol, c.name, Paint::stator, true);
   }
 }
 
@@ -301,6 +318,7 @@ std::vector<Figure> layout_figures(const ResultView& result) {
   add_disks(v);
   add_bearings(v);
   add_seals(v);
+  add_films(v);
   add_contacts(v);
   add_probe_bars(v);
   add_nodes(v);
@@ -328,7 +346,7 @@ FigureKind layout_kind() {
   return {
       .name = "layout",
       .title = "Layout",
-      .summary = "the rotor to scale, with disks, bearings, seals and contacts",
+      .summary = "the rotor to scale, with disks, bearings, seals, oil films and contacts",
       .needs_model = true,
       .make = layout_figures,
   };

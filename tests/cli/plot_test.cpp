@@ -567,6 +567,21 @@ TEST_F(Plot, ASagShowsReactionsAndMoments) {
   EXPECT_FALSE(named(f.panels[0], "bearing").empty());
 }
 
+// Bearings of oil films are as long as they are, above and below the journals, which they leave room.
+TEST_F(Plot, ALayoutShowsOilFilmsToScale) {
+  make({"modes", WHIRL_SOURCE_DIR "/models/compressor.toml"}, "m.h5");
+  const ResultView view(folder / "m.h5");
+  const auto films = named(panel_of("layout", view), "oil film");
+  ASSERT_EQ(films.size(), 2 * view.model->films.size());
+  for (std::size_t i = 0; i < films.size(); ++i) {
+    const JournalBearing& bearing = view.model->films[i / 2].bearing;
+    const auto [left, right] = std::minmax_element(films[i].x.begin(), films[i].x.end());
+    EXPECT_NEAR(*right - *left, 1e3 * bearing.length, 1e-9);
+    EXPECT_GT(std::abs(films[i].y.front()), 1e3 * bearing.radius);
+    EXPECT_EQ(films[i].y.front() > 0.0, i % 2 == 0);
+  }
+}
+
 // Modes are told in a table and drawn one by one too, between the nodes as well.
 TEST_F(Plot, ModesHaveATableAndShapesBetweenTheNodes) {
   const json r = result({"modes", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--out", "m.h5"});
