@@ -173,12 +173,12 @@ class CurveBuilder {
 
 /// How many of the lowest modes may come below the line frequency = speed up to a speed. Of two modes
 /// that are one pair at rest the forward one may never do, so that twice as many are followed.
-int modes_to_follow(const Assembler& assembler, double last) {
+int modes_to_follow(const Assembler& assembler, double last, double order) {
   const ModeFinder finder(assembler);
   for (int count = first_modes;; count *= 2) {
     const Modes modes = finder.at(last, count);
     const auto below = std::count_if(modes.oscillatory.begin(), modes.oscillatory.end(),
-                                     [&](const Mode& m) { return m.frequency() <= last; });
+                                     [&](const Mode& m) { return m.frequency() <= order * last; });
     if (below < count) return 2 * static_cast<int>(below) + 2;
   }
 }
@@ -256,12 +256,14 @@ std::vector<LargestResponse> largest_responses(const UnbalanceResponse& response
   return all;
 }
 
-std::vector<Resonance> resonances_between(const Assembler& assembler, double first, double last) {
+std::vector<Resonance> resonances_between(const Assembler& assembler, double first, double last,
+                                          double order) {
   std::vector<double> speeds;
   for (int k = 0; k <= campbell_steps; ++k) {
     speeds.push_back(first + (last - first) * k / campbell_steps);
   }
-  const Campbell diagram = campbell(assembler, speeds, modes_to_follow(assembler, last));
+  const Campbell diagram =
+      campbell(assembler, speeds, modes_to_follow(assembler, last, order), order);
   std::vector<Resonance> found;
   for (const Crossing& crossing : diagram.crossings) {
     const auto after = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(

@@ -15,8 +15,8 @@ namespace whirl::inline fe {
 
 /// Speeds where the response may have a peak, from the damped modes, with their half-widths.
 struct Resonance {
-  double speed = 0.0;       ///< |Im lambda| = Omega [rad/s]
-  double half_width = 0.0;  ///< |Re lambda| [rad/s]
+  double speed = 0.0;       ///< |Im lambda| = order Omega [rad/s]
+  double half_width = 0.0;  ///< |Re lambda| / order [rad/s]
 };
 
 struct ResponseCurveOptions {
@@ -72,7 +72,9 @@ struct LargestResponse {
 std::vector<LargestResponse> largest_responses(const UnbalanceResponse& response);
 
 /// Those of all modes between two speeds, ascending.
+/// @param order  of the load: its frequency over the speed, 1 for unbalance
 /// @throws NumericalError  if an eigensolver fails
-std::vector<Resonance> resonances_between(const Assembler& assembler, double first, double last);
+std::vector<Resonance> resonances_between(const Assembler& assembler, double first, double last,
+                                          double order = 1.0);
 
 }  // namespace whirl::inline fe

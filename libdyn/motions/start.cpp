@@ -21,8 +21,9 @@ namespace {
 constexpr double rigid = 1e-12;
 
 Vec at_rest_under_gravity(const Model& model, const Scene& scene) {
-  if (model.structure.gravity == 0.0 && !has_constant_force(model.structure))
-    return Vec::Zero(scene.contacts.coordinates());
+  const bool is_loaded = model.structure.gravity != 0.0 || has_constant_force(model.structure) ||
+                         !scene.contacts.constant_load().isZero(0.0);
+  if (!is_loaded) return Vec::Zero(scene.contacts.coordinates());
   if (model.films.empty()) {
     require_supports(scene.assembler, model.speed, "start.from = \"static\" needs");
   }

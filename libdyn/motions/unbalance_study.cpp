@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
-#include "libfe/critical.hpp"
+#include "libbase/error.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {
 
 namespace {
-
-constexpr int modes_of_order = 12;  ///< that a force of another order may meet
 
 /// What is asked of every orbit, stations x speeds [m].
 template <class Ask>
@@ -56,21 +53,19 @@ void add_curves(const UnbalanceResponse& curve, UnbalanceStudy& study) {
 /// Adds the speeds at which forces of other orders meet modes, with some across each peak.
 void add_peaks_of_orders(const Assembler& assembler, std::vector<double>& speeds,
                          Failure& failure) {
-  const std::vector<OscillatingLoad> loads = oscillating_loads(assembler);
-  if (speeds.empty() || loads.empty()) return;
+  if (speeds.size() < 2) return;
   const double first = speeds.front(), last = speeds.back();
-  for (const OscillatingLoad& load : loads) {
+  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
     if (!(load.order > 0.0)) continue;
     try {
-      for (const Critical& c :
-           critical_speeds(assembler, {.count = modes_of_order, .order = load.order})) {
-        if (!std::isfinite(c.damped_speed) || !(c.damping_ratio > 0.0)) continue;
+      for (const Resonance& r : resonances_between(assembler, first, last, load.order)) {
+        if (!(r.half_width > 0.0)) continue;
         for (const double widths : {-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0}) {
-          const double speed = c.damped_speed * (1.0 + widths * c.damping_ratio);
+          const double speed = r.speed + widths * r.half_width;
           if (speed > first && speed < last) speeds.push_back(speed);
         }
       }
-    } catch (const std::runtime_error& error) {
+    } catch (const NumericalError& error) {
       failure = error.what();
     }
   }

@@ -56,6 +56,19 @@ double rim_speed_of(const AnyGeometry& geometry, double Omega, const Friction& f
   return turns(geometry) ? 0.0 : Omega * rim_radius_of(geometry).value_or(friction.radius);
 }
 
+/// What is said of a load that changes too often for a revolution at this speed.
+NumericalError too_often(const Structure& structure, const OscillatingLoad& load, double ratio) {
+  std::string name;
+  for (const Force& f : structure.forces) {
+    const bool is_it = !f.is_constant() && f.order == load.order && f.frequency == load.frequency;
+    if (is_it && name.empty()) name = f.name;
+  }
+  return NumericalError(
+      fmt::format("force \"{}\", {}, is {:.4g} times the frequency of the speed, expected {:g} "
+                  "times at most",
+                  name, load.label(), ratio, most_often));
+}
+
 /// A law with what follows from the operation: how much friction bends a blade.
 AnyContactLaw<> law_at(double Omega, AnyContactLaw<> any, const Friction& friction) {
   if (auto* law = std::get_if<BladeTip<>>(&any)) {
@@ -135,6 +148,11 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
   f0_ = load(static_load(assembler));
   fc_ = load(u.real());  // Re(u e^(i phase)) = Re u cos - Im u sin
   fs_ = load(-u.imag());
+  if (Omega_ == 0.0) {  // what turns with the rotor stands still with it
+    f0_ += fc_;
+    fc_.setZero();
+    fs_.setZero();
+  }
   for (const OscillatingLoad& f : oscillating_loads(assembler)) {
     if (f.amplitude.isZero(0.0)) continue;
     const Vec cosine = load(f.amplitude.real()), sine = load(-f.amplitude.imag());
@@ -143,12 +161,7 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
       continue;
     }
     const double ratio = f.order > 0.0 ? f.order : f.frequency / phase_rate();
-    if (ratio > most_often) {
-      throw ModelError({}, "force",
-                       fmt::format("{} is {:.4g} times the frequency of the speed, expected {:g} "
-                                   "times at most",
-                                   f.label(), ratio, most_often));
-    }
+    if (ratio > most_often) throw too_often(assembler.structure(), f, ratio);
     oscillations_.push_back({f.order, f.at(Omega_), ratio, cosine, sine});
   }
 

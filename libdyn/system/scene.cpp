@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -67,12 +68,23 @@ void add_force(std::vector<Vec>& rows, const Assembler& assembler, const System&
   }
 }
 
-/// How a model is reduced: the band reaches beyond the frequencies of its forces.
-Reduction reduction_of(const Model& model) {
+/// A reduced rotor: the band that is chosen for it reaches beyond the frequencies of its forces.
+ReducedSystem reduced_rotor(const System& system, const Model& model, const std::vector<Vec>& ports,
+                            const std::vector<Vec>& others, ReductionError* error) {
   Reduction how = model.reduction;
   const double highest = band_by_force * highest_frequency(model.structure, model.speed);
-  if (how.band == 0.0 && highest > 2.0 * std::abs(model.speed)) how.band = highest;
-  return how;
+  const bool is_chosen = how.band == 0.0 && highest > 0.0;
+  if (is_chosen && model.speed != 0.0) how.band = std::max(highest, 2.0 * std::abs(model.speed));
+  if (!is_chosen || model.speed != 0.0) return reduce(system, how, ports, others, error);
+  // at rest the modes say how wide it is by itself
+  ReductionError found;
+  ReducedSystem reduced = reduce(system, how, ports, others, &found);
+  if (found.band > 0.0 && found.band < highest) {
+    how.band = highest;
+    return reduce(system, how, ports, others, error);
+  }
+  if (error) *error = found;
+  return reduced;
 }
 
 }  // namespace
@@ -113,8 +125,8 @@ Scene make_scene(Assembler assembler, const Model& model, ReductionEstimate want
     }
   }
   ReductionError error;
-  ReducedSystem reduced = reduce(system, reduction_of(model), ports, others,
-                                 wanted == ReductionEstimate::yes ? &error : nullptr);
+  ReducedSystem reduced = reduced_rotor(system, model, ports, others,
+                                        wanted == ReductionEstimate::yes ? &error : nullptr);
   ContactSystem contacts(assembler, reduced, model.contacts, model.films);
   return {std::move(assembler), std::move(system), std::move(reduced), error, std::move(contacts)};
 }

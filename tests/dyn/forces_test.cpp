@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -14,14 +15,18 @@
 #include "libdyn/motions/equilibrium.hpp"
 #include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/studies/found_orbit.hpp"
+#include "libdyn/studies/map.hpp"
 #include "libdyn/studies/torus_branch.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libfe/unbalance.hpp"
+#include "tests/support/oil_films.hpp"
 #include "tests/support/trajectories.hpp"
 
 namespace whirl::motion_forces_test {
@@ -272,6 +277,59 @@ TEST(MotionForces, OfAnOrderAreConstantAtRest) {
   EXPECT_EQ(rotor.scene().contacts.constant_load(), same.scene().contacts.constant_load());
 }
 
+// So does order 1, as the response to it at rest has it: a simulation from its equilibrium stays there.
+TEST(MotionForces, OfOrderOneAreConstantAtRest) {
+  const Coupled rotor{.Omega = 0.0,
+                      .forces = {{.at = body("rotor"), .size = 9.0, .order = 1.0, .phase = 1.0}}};
+  Model model = rotor.model();
+  model.structure.gravity = 0.0;
+  const Scene scene = make_scene(model);
+  EXPECT_TRUE(scene.contacts.cosine_load().isZero(0.0));
+  EXPECT_TRUE(scene.contacts.sine_load().isZero(0.0));
+  MotionState state = start_of(model, scene);
+  const Vec full = steady(scene.assembler, 0.0, 0.0);
+  EXPECT_LT((displacement(scene, state) - full).norm(), 1e-12 * full.norm());
+  const Vec before = state.y;
+  run(scene, state, 2, {.tolerance = 1e-12});
+  EXPECT_LT(distance(scene.contacts, state.y, before), 1e-10);
+}
+
+/// The band that a shaft at rest is reduced for under a force of a frequency; 0: without one.
+double band_at_rest(double frequency) {
+  Model model = TwoDiskRub{.speed = 0.0}.model();
+  model.reduction = {.method = ReductionMethod::modal_residual};
+  if (frequency > 0.0) {
+    model.structure.forces = {{.at = node(4), .size = 5.0, .frequency = frequency}};
+  }
+  return make_scene(model).error.band;
+}
+
+// A slow force takes nothing off the band that is chosen without it, a fast one widens it.
+TEST(MotionForces, WidenTheBandOfAReduction) {
+  const double own = band_at_rest(0.0);
+  EXPECT_GT(own, 10.0);
+  EXPECT_EQ(band_at_rest(1.0), own);
+  EXPECT_EQ(band_at_rest(2.0 * own), 3.0 * own);
+}
+
+// A frequency that no lane could follow fails at its speed, by the name of its force; others of a study
+// go on.
+TEST(MotionForces, ThatAreTooFastFailAtTheirSpeed) {
+  const auto model_at = [](std::span<const double> values) {
+    return Coupled{
+        .Omega = values[0],
+        .forces = {{.name = "horn", .at = body("rotor"), .size = 1.0, .frequency = 71.0}}}
+        .model();
+  };
+  const MapResult points = map(study_models(model_at),
+                               {.grid = {.axes = {{60.0, 0.001}}},
+                                .classify = {.discard = 20, .revolutions = 20, .exponents = 20}});
+  ASSERT_TRUE(points.points[0] && points.points[1]);
+  EXPECT_FALSE(points.points[0]->has_failed());
+  EXPECT_NE(points.points[1]->failure.text().find("force \"horn\""), std::string::npos)
+      << points.points[1]->failure.text();
+}
+
 /// P3, whose own motion repeats with the revolution, with forces along x.
 Model rubbing(std::vector<Force> forces) {
   RotorStator rotor = P3;
@@ -383,6 +441,42 @@ TEST(MotionForces, OfFractionsAreClassifiedWithTheirPeriod) {
   EXPECT_EQ(found.kind, MotionKind::periodic);
   EXPECT_EQ(found.period, 3);
   EXPECT_TRUE(found.is_proven);
+}
+
+/// The study of the response over speeds that it chooses, to a force of twice the speed.
+UnbalanceStudy response_to_twice(const Model& model, double first, double last) {
+  return unbalance_study(model, Assembler(linear_structure(model)),
+                         {.speeds = {first, last}, .has_given_speeds = false, .stations = {}});
+}
+
+// The peaks of an order are found where modes depend on the speed by oil films, and of free rotors: two
+// masses m on a spring k meet 2x at half of sqrt(2 k / m), damped.
+TEST(MotionForces, HaveThePeaksOfTheirOrdersOnFilmsAndFree) {
+  MassOnFilm rotor{};
+  Model on_film = rotor.model();
+  on_film.films[0].is_linearized = true;
+  on_film.structure.forces = {{.at = on_film.films[0].at, .size = 1.0, .order = 2.0}};
+  const UnbalanceStudy film = response_to_twice(on_film, 50.0, 500.0);
+  EXPECT_FALSE(film.failure) << film.failure.text();
+
+  constexpr double m = 2.0, k = 1e4, c = 2.0;
+  Model free;
+  Structure& s = free.structure;
+  s.bodies = {{.name = "a", .m = m, .spins = true}, {.name = "b", .m = m, .spins = true}};
+  s.links = {bearing(body("a"), isotropic(k, c))};
+  s.links[0].to = body("b");
+  s.forces = {{.at = body("a"), .size = 1.0, .order = 2.0}};
+  const UnbalanceStudy study = response_to_twice(free, 10.0, 200.0);
+  EXPECT_FALSE(study.failure) << study.failure.text();
+  const double w = std::sqrt(2.0 * k / m), decay = c / m;
+  const double damped = std::sqrt(w * w - decay * decay);
+  for (const double widths : {-1.0, 0.0, 1.0}) {
+    const double expected = 0.5 * (damped + widths * decay);
+    const bool is_there = std::any_of(study.speeds.begin(), study.speeds.end(), [&](double speed) {
+      return std::abs(speed - expected) < 0.01 * decay;
+    });
+    EXPECT_TRUE(is_there) << expected;
+  }
 }
 
 // In the frame of the rotor a forward force of order 1 stands still, others do not.
