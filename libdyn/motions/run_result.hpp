@@ -88,6 +88,8 @@ MotionEnd motion_end(const Scene& scene, const MotionState& state);
 struct StudyStart {
   Vec displacement, velocity;  ///< full vectors, see DofMap [m, rad], [m/s, rad/s]
   double phase = 0.0;          ///< [rad]
+  /// Number of the revolution, where forces of the motion before did not repeat with it.
+  std::optional<double> revolution{};
 
   static constexpr std::string_view group = "/from";
   static constexpr auto columns() {
@@ -100,7 +102,11 @@ struct StudyStart {
                           .along("full")
                           .within(valid::finite),
                       column("phase", &StudyStart::phase, "rad", "phase that they begin at")
-                          .within(valid::finite)};
+                          .within(valid::finite),
+                      column("revolution", &StudyStart::revolution, "",
+                             "revolution that they begin in, where forces do not repeat with it")
+                          .within(valid::finite)
+                          .maybe()};
   }
 };
 

@@ -7,6 +7,11 @@
 
 namespace whirl::inline dyn {
 
+long until_forces_repeat(const ContactSystem& system, long revolution) {
+  const long repeats = std::max(1L, system.repeats_after());
+  return (repeats - revolution % repeats) % repeats;
+}
+
 Trajectory run_transient(const Scene& scene, const MotionState& start,
                          const TransientOptions& options) {
   require_coordinates(scene.contacts);
@@ -14,6 +19,8 @@ Trajectory run_transient(const Scene& scene, const MotionState& start,
   Trajectory transient{.system = &scene.contacts,
                        .state = start,
                        .revolutions = std::max(least, options.revolutions)};
+  transient.revolutions +=
+      until_forces_repeat(scene.contacts, start.revolution + transient.revolutions);
   if (transient.revolutions == 0) return transient;
   integrate_single(transient, {.tolerance = options.tolerance, .watch = [&](long done) {
                                  if (options.progress) {

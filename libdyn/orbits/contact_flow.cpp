@@ -83,9 +83,11 @@ void require_periodic_loads(const ContactSystem& system) {
       follow_the_speed
           ? "an order that is no fraction of small whole numbers makes a torus of every motion: "
             "there are no orbits and no return map; see whirl simulate and classify"
-          : "a force with a frequency of its own makes a torus of every motion, but at speeds in a "
-            "simple ratio to it: there are no orbits and no return map; see whirl simulate and "
-            "classify, or give the force an order of the speed");
+          : "a force with a frequency of its own makes a torus of every motion that has the "
+            "frequency "
+            "of the speed too, but at speeds in a simple ratio to it: there are no orbits of whole "
+            "revolutions and no return map; see whirl simulate and classify, or give the force an "
+            "order of the speed");
 }
 
 void require_loads_of_a_revolution(const Flow& flow) {

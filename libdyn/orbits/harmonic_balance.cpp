@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "libbase/error.hpp"
 #include "libbase/newton.hpp"
@@ -57,16 +58,30 @@ void HarmonicOptions::check() const {
   }
 }
 
+namespace {
+
+/// Number of the harmonic of a motion that a load is; nothing where it does not repeat with it.
+std::optional<long> harmonic_of(const HarmonicProblem::OrderLoad& load, int period) {
+  const long k = std::lround(load.order * period);
+  if (k < 1 || std::abs(load.order * period - static_cast<double>(k)) > order_digits * period) {
+    return std::nullopt;
+  }
+  return k;
+}
+
+std::string no_harmonic(const HarmonicProblem::OrderLoad& load, int period) {
+  return fmt::format("harmonic balance: a force of order {:g} does not repeat with a period of {}",
+                     load.order, period);
+}
+
+}  // namespace
+
 int HarmonicProblem::highest_load(int period) const {
   int highest = period;
   for (const OrderLoad& load : orders) {
-    const auto k = static_cast<int>(std::lround(load.order * period));
-    if (std::abs(load.order * period - k) > order_digits * period) {
-      throw OptionError(
-          fmt::format("harmonic balance: a force of order {:g} does not repeat with a period of {}",
-                      load.order, period));
-    }
-    highest = std::max(highest, k);
+    const auto k = harmonic_of(load, period);
+    if (!k) throw OptionError(no_harmonic(load, period));
+    highest = std::max(highest, static_cast<int>(*k));
   }
   return highest;
 }
@@ -91,10 +106,14 @@ HarmonicEquations::HarmonicEquations(const HarmonicProblem& problem, int period,
     loads_.col(2 * period) = problem.fs;
   }
   for (const HarmonicProblem::OrderLoad& load : problem.orders) {
-    const auto k = std::lround(load.order * period);
-    if (k > harmonics) continue;
-    loads_.col(2 * k - 1) += load.cosine;
-    loads_.col(2 * k) += load.sine;
+    const auto k = harmonic_of(load, period);
+    if (!k) throw NumericalError(no_harmonic(load, period));
+    if (*k > harmonics) {
+      throw NumericalError(fmt::format(
+          "harmonic balance: a force is harmonic {} of the orbit, there are {}", *k, harmonics));
+    }
+    loads_.col(2 * *k - 1) += load.cosine;
+    loads_.col(2 * *k) += load.sine;
   }
   springs_ = Vec::Zero(ports);
   int unheld = factorize();

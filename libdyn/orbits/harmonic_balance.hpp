@@ -63,7 +63,7 @@ struct HarmonicOptions {
 class HarmonicEquations {
  public:
   /// @param problem  must live as long as the equations
-  /// @throws NumericalError  at an undamped resonance with a harmonic
+  /// @throws NumericalError  at an undamped resonance with a harmonic, or where a load is none of them
   HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics);
 
   Eigen::Index ports() const { return U_.rows(); }

@@ -82,6 +82,13 @@ Mat shooting_jacobian(std::span<const Mat> tangents) {
 Vec shoot(const Flow& flow, PeriodicOrbit& orbit, WithTangent wanted) {
   const std::size_t m = orbit.states.size();
   const Eigen::Index n = flow.scale.size();
+  if (orbit.period / static_cast<long>(m) % flow.repeats != 0) {
+    orbit.failure = fmt::format(
+        "the forces repeat after {} revolutions, an orbit of {} in {} parts does not follow them",
+        flow.repeats, orbit.period, m);
+    orbit.residual = std::numeric_limits<double>::infinity();
+    return {};
+  }
   const std::vector<FlowResult> passages =
       flow.go(orbit.states, orbit.period / static_cast<long>(m), wanted);
   Vec gaps(n * std::ssize(orbit.states));

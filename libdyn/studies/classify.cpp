@@ -9,6 +9,7 @@
 #include "libbase/fractal_dimension.hpp"
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/proven_orbit.hpp"
+#include "libdyn/system/oscillations.hpp"
 #include "libdyn/system/require_coordinates.hpp"
 #include "libdyn/taylor/mixed.hpp"
 
@@ -178,7 +179,7 @@ class BatchClassifier {
       c.kind = MotionKind::not_settled;
     } else {
       // a force that does not repeat makes a torus of a motion that attracts
-      const bool is_torus = c.exponents(0) > -c.zero || s.system->repeats_after() == 0;
+      const bool is_torus = c.exponents(0) > -c.zero || !loads_repeat(*s.system);
       c.kind = is_torus ? MotionKind::quasi_periodic : MotionKind::periodic;
     }
   }

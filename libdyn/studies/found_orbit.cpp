@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/error.hpp"
+#include "libdyn/motions/transient.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/hill.hpp"
@@ -15,13 +16,32 @@ namespace whirl::inline dyn {
 
 namespace {
 
+/// States at the starts of all revolutions, from those at the starts of segments.
+std::vector<Vec> every_revolution(const ContactSystem& system, const PeriodicOrbit& orbit) {
+  const auto segments = std::ssize(orbit.states);
+  if (segments == orbit.period || !orbit.is_good()) return orbit.states;
+  std::vector<Vec> states;
+  for (const Vec& start : orbit.states) {
+    Trajectory t{.system = &system, .revolutions = orbit.period / segments - 1};
+    t.state.y = start;
+    integrate_single(t, {.tolerance = flow_tolerance, .sections = true});
+    if (t.outcome != Outcome::reached_end) return orbit.states;
+    states.push_back(start);
+    for (long i = 0; i < t.revolutions; ++i) {
+      states.emplace_back(
+          Eigen::Map<const Vec>(t.sections.data() + i * start.size(), start.size()));
+    }
+  }
+  return states;
+}
+
 FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
   const Flow flow = flow_of(scene.contacts);
   PeriodicOrbit orbit = find_orbit(flow, start, {.period = period});
   FoundOrbit found{.period = period, .shortest_period = period};
   found.residual = orbit.residual;
   found.steps = std::max(1L, std::ssize(orbit.residuals)) - 1;
-  found.states = orbit.states;
+  found.states = every_revolution(scene.contacts, orbit);
   found.multipliers = orbit.multipliers;
   found.contacts = orbit.contacts;
   found.failure = orbit.failure;
@@ -123,18 +143,16 @@ FoundOrbit find_orbit_near(const Scene& scene, const Vec& start, const OrbitOpti
 
 FoundOrbit find_orbit_after(const Trajectory& transient, const Scene& scene,
                             const OrbitOptions& options) {
-  if (transient.outcome == Outcome::reached_end) {
-    // an orbit begins where forces do
-    const long repeats = std::max(1L, scene.contacts.repeats_after());
-    Trajectory on{.system = &scene.contacts, .state = transient.state};
-    on.revolutions = (repeats - on.state.revolution % repeats) % repeats;
-    if (on.revolutions > 0) integrate_single(on, {});
-    return find_orbit_near(scene, on.state.y, options);
+  Trajectory end = transient;
+  if (end.outcome == Outcome::reached_end) {  // an orbit begins where forces do
+    end.revolutions = until_forces_repeat(scene.contacts, end.state.revolution);
+    if (end.revolutions > 0) integrate_single(end, {.tolerance = flow_tolerance});
   }
+  if (end.outcome == Outcome::reached_end) return find_orbit_near(scene, end.state.y, options);
   return {.period = options.period,
           .shortest_period = options.period,
-          .states = {transient.state.y},
-          .failure = !transient.failure ? "stopped in the transient" : transient.failure};
+          .states = {end.state.y},
+          .failure = !end.failure ? "stopped in the transient" : end.failure};
 }
 
 double guessed_period(const Scene& scene, const Vec& start) {

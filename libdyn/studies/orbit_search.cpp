@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "libdyn/motions/transient.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/studies/basins.hpp"
 #include "libdyn/taylor/batch.hpp"
@@ -26,7 +27,8 @@ std::optional<PeriodicOrbit> orbit_near(const Scene& scene, const Flow& flow,
                                         const MotionState& start,
                                         const OrbitSearchOptions& options) {
   Trajectory t{.system = &scene.contacts, .state = start, .revolutions = options.discard};
-  if (options.discard > 0) integrate_single(t, {.tolerance = start_tolerance});
+  t.revolutions += until_forces_repeat(scene.contacts, start.revolution + options.discard);
+  if (t.revolutions > 0) integrate_single(t, {.tolerance = start_tolerance});
   if (t.outcome != Outcome::reached_end) return std::nullopt;
   PeriodicOrbit orbit = find_orbit(flow, t.state.y, {.period = options.period});
   if (!orbit.is_good()) return std::nullopt;

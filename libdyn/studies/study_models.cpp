@@ -26,13 +26,15 @@ StudyModels study_models(std::function<Model(std::span<const double>)> model) {
 }
 
 StudyMotion begin_motion(const StudyModels& models, std::span<const double> values,
-                         const FullState* from) {
+                         const FullState* from, long revolution) {
   StudyMotion motion;
   try {
     const StudyMember member = models.member(values);
     motion.scene = member.scene;
     motion.subject.system = &motion.scene->contacts;
-    motion.subject.found.end = models.start(member, from);
+    MotionState& state = motion.subject.found.end;
+    state = models.start(member, from);
+    if (from && motion.scene->contacts.repeats_after() != 1) state.revolution = revolution;
   } catch (const NumericalError& error) {
     motion.failure = error.what();
   }

@@ -16,7 +16,7 @@ constexpr std::size_t carried_piece = 16, most_fresh = 64;  ///< values that go 
 /// Motions of a piece that have settled, with the states in which the next ones begin.
 struct Settled {
   std::vector<StudyMotion> motions;
-  std::vector<FullState> ends;
+  std::vector<SweepEnd> ends;
 };
 
 /// One way along the values and back, each motion going on from the one before.
@@ -28,10 +28,10 @@ class Chain {
   /// Settles the motion at a point, and finds where the next one begins.
   void go(std::size_t point, Settled& piece) {
     const auto from = before(point);
-    if (from && last_ != from) end_ = points_[*from] ? points_[*from]->end : FullState{};
+    if (from && last_ != from) end_ = points_[*from] ? points_[*from]->end : SweepEnd{};
     const bool goes_on = from && end_.displacement.size() > 0 && end_.displacement.allFinite();
-    StudyMotion motion =
-        begin_motion(models_, {&options_.values[value_of(point)], 1}, goes_on ? &end_ : nullptr);
+    StudyMotion motion = begin_motion(models_, {&options_.values[value_of(point)], 1},
+                                      goes_on ? &end_ : nullptr, end_.revolution);
     last_ = point;
     end_ = end_of(motion);
     piece.motions.push_back(std::move(motion));
@@ -52,7 +52,7 @@ class Chain {
   }
 
   /// Settles a motion and says where the next one begins; nowhere if it fails.
-  FullState end_of(StudyMotion& motion) const {
+  SweepEnd end_of(StudyMotion& motion) const {
     if (motion.failure) return {};
     settle({&motion.subject, 1}, options_.classify);
     const Classification& found = motion.subject.found;
@@ -63,7 +63,9 @@ class Chain {
       integrate_single(
           on, {.tolerance = options_.classify.tolerance, .watch = options_.classify.watch});
     }
-    return on.outcome == Outcome::reached_end ? full_state(*motion.scene, on.state) : FullState{};
+    if (on.outcome != Outcome::reached_end) return {};
+    const bool is_same_again = on.system->repeats_after() == 1;
+    return {full_state(*motion.scene, on.state), is_same_again ? 0 : on.state.revolution};
   }
 
   const StudyModels& models_;
@@ -71,7 +73,7 @@ class Chain {
   const PointRows<SweepPoint>& points_;
   std::size_t values_;
   std::optional<std::size_t> last_;
-  FullState end_;  ///< of the last motion
+  SweepEnd end_;  ///< of the last motion
 };
 
 /// Tells settled motions apart and portrays them.
@@ -123,6 +125,10 @@ ColumnSizes SweepResult::sizes() const {
 }
 
 bool SweepResult::leaves_out(std::string_view column) const {
+  if (column == "end_revolution") {
+    return std::none_of(points.begin(), points.end(),
+                        [](const auto& p) { return p && p->end.revolution != 0; });
+  }
   if (column == "contact_angle") return spectrum_revolutions == 0 || system.contacts.empty();
   return spectrum_revolutions == 0 && (column == "max_radius" || column == "spectrum");
 }

@@ -22,9 +22,14 @@ struct SweepOptions {
   int threads = 1;
 };
 
+/// Where a motion of a sweep ended; empty if the next one starts afresh.
+struct SweepEnd : FullState {
+  long revolution = 0;  ///< where forces do not repeat with it
+};
+
 struct SweepPoint {
   ClassifiedMotion motion{};
-  FullState end{};  ///< where the next value starts; empty if it starts afresh
+  SweepEnd end{};
   Portrait portrait{};
 
   static constexpr auto columns() {
@@ -45,6 +50,10 @@ struct SweepPoint {
             "end_velocity", [](auto& p) -> auto& { return p.end.velocity; }, "m/s, rad/s",
             "velocity that the next value starts from")
             .along("full"),
+        column(
+            "end_revolution", [](auto& p) -> auto& { return p.end.revolution; }, "",
+            "revolution that the next value starts in, where forces do not repeat with it")
+            .maybe(),
         column(
             "max_radius", [](auto& p) -> auto& { return p.portrait.max_radius; }, "m",
             "largest distance from the axis")
@@ -80,7 +89,7 @@ struct SweepResult {
   Vec orders() const;   ///< of the spectra
   Vec sectors() const;  ///< of the contact angles
   ColumnSizes sizes() const;
-  /// Whether a column of the portraits was not asked for, or has nothing to say.
+  /// Whether a column was not asked for, or has nothing to say.
   bool leaves_out(std::string_view column) const;
   static constexpr auto columns() {
     using C = SweepResult;

@@ -1,10 +1,12 @@
 // Loads of other frequencies than that of the speed: their angles, and when they repeat.
 
+#include "libdyn/system/oscillations.hpp"
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
-
-#include "libdyn/system/contact_system.hpp"
+#include <vector>
 
 namespace whirl::inline dyn {
 
@@ -13,6 +15,14 @@ namespace {
 constexpr long most_repeats = 1000;  ///< denominator of an order that counts as a fraction
 constexpr long most_chance = 32;  ///< the same of a frequency that happens to be one at this speed
 constexpr double fraction_digits = 1e-12;  ///< of it, as decimals have it
+
+/// The least denominator of a ratio that is a fraction; 0: none is so small.
+long denominator_of(double ratio, long most) {
+  for (long q = 1; q <= most; ++q) {
+    if (std::abs(ratio * q - std::round(ratio * q)) <= fraction_digits * q) return q;
+  }
+  return 0;
+}
 
 }  // namespace
 
@@ -25,13 +35,26 @@ double Oscillation::start_angle(long revolution) const {
 long ContactSystem::repeats_after() const {
   long together = 1;
   for (const Oscillation& o : oscillations_) {
-    const long most = o.order > 0.0 ? most_repeats : most_chance;
-    long q = 1;
-    while (q <= most && std::abs(o.ratio * q - std::round(o.ratio * q)) > fraction_digits * q) ++q;
-    if (q > most) return 0;
+    const long q = denominator_of(o.ratio, o.order > 0.0 ? most_repeats : most_chance);
+    if (q == 0) return 0;
     together = std::lcm(together, q);
   }
   return together <= most_repeats ? together : 0;
+}
+
+bool loads_repeat(const ContactSystem& system) {
+  if (system.repeats_after() > 0) return true;
+  std::vector<double> ratios;
+  for (const Oscillation& o : system.oscillations()) ratios.push_back(o.ratio);
+  const bool turns = std::any_of(system.contacts().begin(), system.contacts().end(),
+                                 [](const ReducedContact& c) { return c.turns(); });
+  if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0) ||
+      (turns && system.Omega() != 0.0)) {
+    ratios.push_back(1.0);
+  }
+  return std::all_of(ratios.begin(), ratios.end(), [&](double ratio) {
+    return denominator_of(ratio / ratios[0], most_chance) > 0;
+  });
 }
 
 }  // namespace whirl::inline dyn

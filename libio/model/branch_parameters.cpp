@@ -35,6 +35,11 @@ double value_at(const BranchParameter& p, const std::string& at) {
 BranchParameter parameter_of(const std::string& over, const std::string& at, int points) {
   const auto axis = parse_axis(over, points);
   if (!axis) throw wrong_option("over", over, axis.problem);
+  if (axis->path.starts_with("force.") && axis->path.ends_with(".order")) {
+    throw wrong_option("over", over,
+                       "between whole orders motions repeat after other times, or never: there is "
+                       "no branch along them; see whirl sweep and map");
+  }
   BranchParameter p{.axis = *axis, .range = {}};
   ParameterRange& range = p.range;
   const auto& values = axis->values;

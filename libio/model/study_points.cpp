@@ -37,7 +37,10 @@ StudyModels StudyPoints::models() const {
                 model.start.from = StartFrom::file;
                 model.start.whirl.clear();
                 MotionState state = family_.start(model, *member.scene, start);
-                if (!from) state.phase = earlier_->phase;
+                if (from) return state;
+                state.phase = earlier_->phase;
+                const bool is_same_again = member.scene->contacts.repeats_after() == 1;
+                if (!is_same_again) state.revolution = earlier_->revolution;
                 return state;
               }};
 }

@@ -33,7 +33,8 @@ bool is_same_start(const ResultReader& file, const EarlierEnd& start) {
   const auto then = read_result<StudyStart>(file);
   const auto is_same = [](const Vec& a, const Vec& b) { return a.size() == b.size() && a == b; };
   return is_same(then.displacement, start.state.displacement) &&
-         is_same(then.velocity, start.state.velocity) && then.phase == start.phase;
+         is_same(then.velocity, start.state.velocity) && then.phase == start.phase &&
+         then.revolution.value_or(0.0) == static_cast<double>(start.revolution);
 }
 
 /// Takes over what an earlier run of the same line has left in its file.
@@ -93,7 +94,9 @@ void StudyFile::save() {
   if (place_.file.empty()) return;
   const auto file = begin_();
   if (const auto& start = place_.start) {
-    write_result(*file, StudyStart{start->state.displacement, start->state.velocity, start->phase});
+    StudyStart from{start->state.displacement, start->state.velocity, start->phase};
+    if (start->revolution != 0) from.revolution = static_cast<double>(start->revolution);
+    write_result(*file, from);
   }
   write_(*file);
   file->commit();

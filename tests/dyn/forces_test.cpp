@@ -15,13 +15,18 @@
 #include "libdyn/motions/equilibrium.hpp"
 #include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/motions/transient.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/studies/found_orbit.hpp"
 #include "libdyn/studies/map.hpp"
+#include "libdyn/studies/orbit_result.hpp"
+#include "libdyn/studies/orbit_search.hpp"
+#include "libdyn/studies/sweep.hpp"
 #include "libdyn/studies/torus_branch.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libdyn/taylor/batch.hpp"
@@ -371,6 +376,55 @@ TEST(MotionForces, OfOrdersHaveOrbitsOfTheirPeriod) {
       OptionError);
 }
 
+// There is a state for every revolution of the period, each where the one before leads to.
+TEST(MotionForces, OrbitsTellTheStartsOfAllRevolutions) {
+  const Model model = rubbing({{.order = 0.5}});
+  const Scene scene = make_scene(model);
+  const FoundOrbit orbit = find_orbit_near(scene, settled(model, scene, 400).y, {.period = 4});
+  ASSERT_TRUE(orbit.is_good()) << orbit.failure.text();
+  ASSERT_EQ(orbit.states.size(), 4u);
+  EXPECT_EQ(orbit_result(scene, orbit).displacement.cols(), 4);
+  MotionState state;
+  state.y = orbit.states[0];
+  for (std::size_t i = 1; i < 4; ++i) {
+    run(scene, state, 1, {.tolerance = 1e-13});
+    EXPECT_LT(distance(scene.contacts, state.y, orbit.states[i]), 1e-8) << i;
+  }
+  EXPECT_GT(distance(scene.contacts, orbit.states[0], orbit.states[1]), 1e-4);
+}
+
+// Orbits begin where forces do: what leads to them ends there, however many revolutions are left out.
+TEST(MotionForces, TransientsEndWhereForcesBeginAnew) {
+  const Model model = rubbing({{.order = 0.5}});
+  const Scene scene = make_scene(model);
+  const MotionState start = start_of(model, scene);
+  EXPECT_EQ(until_forces_repeat(scene.contacts, 401), 1);
+  EXPECT_EQ(until_forces_repeat(scene.contacts, 402), 0);
+  const Trajectory transient = run_transient(scene, start, {.revolutions = 401});
+  EXPECT_EQ(transient.state.revolution, 402);
+  const OrbitSearch search =
+      search_orbits(scene, start, {.period = 2, .starts = 1, .discard = 401, .size = 1e-3}, {});
+  ASSERT_EQ(search.orbits.size(), 1u);
+  EXPECT_LT(search.orbits[0].orbit.residuals[0], 1e-5);  // as near as a motion that has settled
+}
+
+// A map or series that the forces do not fit is refused wherever it is asked for.
+TEST(MotionForces, RefuseMapsAndSeriesOfOtherPeriods) {
+  const Model model = rubbing({{.order = 0.5}});
+  const Scene scene = make_scene(model);
+  const Flow flow = flow_of(scene.contacts);
+  PeriodicOrbit orbit{.period = 1, .states = {start_of(model, scene).y}};
+  EXPECT_EQ(shoot(flow, orbit).size(), 0);
+  EXPECT_NE(orbit.failure.text().find("repeat after 2 revolutions"), std::string::npos);
+  const HarmonicProblem half = harmonic_problem(scene.contacts);
+  EXPECT_NO_THROW(HarmonicEquations(half, 2, 4));
+  EXPECT_THROW(HarmonicEquations(half, 1, 4), NumericalError);
+  const Scene fast = make_scene(rubbing({{.order = 5.0}}));
+  const HarmonicProblem fifth = harmonic_problem(fast.contacts);
+  EXPECT_NO_THROW(HarmonicEquations(fifth, 1, 5));
+  EXPECT_THROW(HarmonicEquations(fifth, 1, 4), NumericalError);
+}
+
 // The work of all forces is what damping and contact take: on an orbit the same by both series.
 TEST(MotionForces, DoTheWorkThatIsMeasured) {
   const Model model = rubbing({{.order = 2.0}});
@@ -430,6 +484,59 @@ TEST(MotionForces, OfTheirOwnFrequencyMakeTori) {
       find_orbit_near(scene, start_of(model, scene).y, {.method = OrbitMethod::harmonic_balance}),
       ModelError);
   EXPECT_THROW(find_torus(scene, start_of(model, scene), {}), ModelError);
+}
+
+/// Without unbalance.
+Model without_unbalance(double Omega, std::vector<Force> forces) {
+  for (Force& f : forces) {
+    f.at = body("rotor");
+    f.size = 9.0;
+  }
+  Model model = Coupled{.Omega = Omega, .forces = std::move(forces)}.model();
+  model.structure.unbalances.clear();
+  return model;
+}
+
+// Alone a shaker makes a motion that repeats with it, spinning or not, and so do two in a simple ratio;
+// what has the frequency of the speed, or another ratio, makes a torus.
+TEST(MotionForces, OfTheirOwnFrequencyAloneArePeriodic) {
+  using enum MotionKind;
+  const auto kind = [](const Model& model) {
+    const Scene scene = make_scene(model);
+    EXPECT_EQ(scene.contacts.repeats_after(), 0);
+    return classify(scene.contacts, start_of(model, scene), {.discard = 200, .revolutions = 300})
+        .kind;
+  };
+  EXPECT_EQ(kind(without_unbalance(60.0, {{.frequency = 71.3}})), periodic);
+  EXPECT_EQ(kind(without_unbalance(0.0, {{.frequency = 71.3}})), periodic);
+  EXPECT_EQ(kind(without_unbalance(60.0, {{.frequency = 71.3}, {.frequency = 1.5 * 71.3}})),
+            periodic);
+  EXPECT_EQ(kind(without_unbalance(60.0, {{.frequency = 71.3}, {.frequency = 97.0 / 1.3}})),
+            quasi_periodic);
+  EXPECT_EQ(kind(without_unbalance(60.0, {{.frequency = 71.3}, {.order = 2.0}})), quasi_periodic);
+  EXPECT_EQ(
+      kind(Coupled{.forces = {{.at = body("rotor"), .size = 9.0, .frequency = 71.3}}}.model()),
+      quasi_periodic);
+}
+
+// A sweep of one value, up and down, is one motion that goes on: the shaker is never begun anew.
+TEST(MotionForces, GoOnFromValueToValueOfASweep) {
+  const Coupled rotor{.forces = {{.at = body("rotor"), .size = 9.0, .frequency = 71.3}}};
+  const SweepResult found =
+      sweep(study_models([&](std::span<const double>) { return rotor.model(); }),
+            {.values = {0.0, 1.0},
+             .classify = {.discard = 20, .revolutions = 10, .exponents = 10, .tolerance = 1e-12}});
+  ASSERT_EQ(found.points.size(), 4u);
+  const Scene scene = rotor.scene();
+  MotionState state = start_of(rotor.model(), scene);
+  for (const std::size_t point : {0u, 1u, 3u, 2u}) {
+    run(scene, state, 30, {.tolerance = 1e-13});
+    const SweepEnd& end = found.points[point]->end;
+    EXPECT_EQ(end.revolution, state.revolution);
+    const Vec expected = displacement(scene, state);
+    EXPECT_LT((end.displacement - expected).norm(), 1e-8 * expected.norm()) << point;
+  }
+  EXPECT_FALSE(found.leaves_out("end_revolution"));
 }
 
 // Periods of motions under fractions are multiples of their denominator, and proven with it.
