@@ -374,8 +374,9 @@ class FigureView {
     const cell = panel.cells?.command && this.cellAt(panel, x, y);
     if (!cell) return;
     const cells = panel.cells, number = (v) => String(Number(v.toPrecision(12)));
-    const text = cells.command.replaceAll("{x}", number(cells.x[cell.i] * cells.x_factor)).replaceAll("{y}", number(cells.y[cell.j] * cells.y_factor));
-    this.tellCommand(text, []);
+    const values = { x: cells.x[cell.i] * cells.x_factor, y: cells.y[cell.j] * cells.y_factor };
+    const told = (_, sign, name) => number(sign ? -values[name] : values[name]);
+    this.tellCommand(cells.command.replace(/\{(-?)([xy])\}/g, told), []);
   }
 
   /** Shows a command line below the figure, with what is to be said before it. */

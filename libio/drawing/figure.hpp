@@ -114,7 +114,7 @@ struct Cells {
   std::string title{};             ///< of the values: "amplitude [um]"
   bool prints_values = false;
   std::vector<std::string> x_names{}, y_names{};  ///< instead of numbers along the axes
-  /// Command line of a cell, {x} and {y} in SI, which are the axes' numbers times the factors.
+  /// Command line of a cell, {x}, {y}, or negated {-x}, {-y}: in SI, the axes' numbers times factors.
   std::string command{};
   double x_factor = 1.0, y_factor = 1.0;
 

@@ -94,6 +94,17 @@ std::string command_on_model(const ResultView& result, const std::string& verb,
   return shell_line(words);
 }
 
+namespace {
+
+/// The value of a path that begins with a minus: "2" of "-2", "{-x}" of "{x}".
+std::string negated(const std::string& value) {
+  if (value.starts_with('-')) return value.substr(1);
+  if (value.starts_with('{')) return "{-" + value.substr(1);
+  return "-" + value;
+}
+
+}  // namespace
+
 std::string set_command(const std::string& paths, const std::string& value,
                         const std::string& unit) {
   std::string text;
@@ -102,7 +113,7 @@ std::string set_command(const std::string& paths, const std::string& value,
     const bool is_negative = paths[from] == '-';
     const std::size_t start = from + (is_negative ? 1 : 0);
     text += " --set " + shell_word(paths.substr(start, to - start) + "=");
-    text += (is_negative ? "-" : "") + value;
+    text += is_negative ? negated(value) : value;
     if (!unit.empty()) text += shell_word(unit);
     from = to + 1;
   }

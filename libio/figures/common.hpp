@@ -51,8 +51,8 @@ std::string command_on_model(const ResultView& result, const std::string& verb,
                              const std::vector<std::string_view>& kept);
 
 /// " --set a.b=2rad/s" to be added to such a line.
-/// @param paths  one path, or several with commas, for one value at all
-/// @param value  a number [unit], or a place for one: "{x}"
+/// @param paths  one path, or several with commas, for one value at all; "-a.b": the value negated
+/// @param value  a number [unit], or a place for one: "{x}", negated "{-x}"
 std::string set_command(const std::string& paths, const std::string& value,
                         const std::string& unit);
 

@@ -11,6 +11,7 @@
 #include "libio/drawing/figure_json.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/drawing/svg.hpp"
+#include "libio/figures/common.hpp"
 #include "libio/text/xml.hpp"
 
 namespace whirl::plot_test {
@@ -328,6 +329,14 @@ TEST(Paints, AreNamedOnce) {
   }
   EXPECT_EQ(std::string(paint_colors(series_paint(0)).name), "series_1");
   EXPECT_EQ(std::string(paint_colors(series_paint(9)).name), names.back());
+}
+
+// A path with a minus has the negative of the value, whatever its sign.
+TEST(SetCommand, NegatesValues) {
+  using figures::set_command;
+  EXPECT_EQ(set_command("a.xy,-a.yx", "2", "N"), " --set a.xy=2N --set a.yx=-2N");
+  EXPECT_EQ(set_command("a.xy,-a.yx", "-2", "N"), " --set a.xy=-2N --set a.yx=2N");
+  EXPECT_EQ(set_command("-a.yx", "{x}", ""), " --set a.yx={-x}");
 }
 
 }  // namespace whirl::plot_test
