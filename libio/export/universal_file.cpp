@@ -30,6 +30,8 @@ struct UniversalEnd {
   long node = 0;
   int direction = 0;  ///< 1, 2: x, y; 4, 5: about them; 0: a scalar
   std::string name;
+
+  bool is_tilt() const { return direction > 3; }
 };
 
 /// A record of 80 columns.
@@ -45,19 +47,26 @@ std::string entity_name(std::string name) {
   return name.empty() ? "NONE" : name.substr(0, 10);
 }
 
-/// Where a label such as "7 seal x" is.
+/// Where a label is, such as "7 seal x" or the name of a probe.
 class UniversalEnds {
  public:
   UniversalEnds(const Model& model, const Assembler& assembler)
-      : points_(named_points(model, assembler)), nodes_(assembler.mesh().nodes()) {}
+      : points_(named_points(model, assembler)), nodes_(assembler.mesh().nodes()) {
+    for (const Probe& probe : model.structure.probes) {
+      probes_.push_back({assembler.point(probe.at), probe.name});
+    }
+  }
 
   UniversalEnd of(const std::string& label) const {
+    for (const NamedPoint& probe : probes_) {
+      if (probe.name == label) return {number_of(probe), 0, entity_name(label)};
+    }
     const auto blank = label.rfind(' ');
     const std::string place = label.substr(0, blank), direction = label.substr(blank + 1);
     UniversalEnd end{.name = "NONE"};
     for (const NamedPoint& p : points_) {
       if (p.label() != place) continue;
-      end.node = p.node() > 0 ? p.node() : nodes_ + p.point.index + 1;
+      end.node = number_of(p);
       if (!p.name.empty()) end.name = entity_name(p.name);
     }
     constexpr std::array<std::pair<std::string_view, int>, 4> known{
@@ -70,7 +79,12 @@ class UniversalEnds {
   }
 
  private:
-  std::vector<NamedPoint> points_;
+  /// Bodies stand behind the nodes.
+  long number_of(const NamedPoint& p) const {
+    return p.node() > 0 ? p.node() : nodes_ + p.point.index + 1;
+  }
+
+  std::vector<NamedPoint> points_, probes_;
   long nodes_;
 };
 
@@ -97,7 +111,7 @@ struct UniversalForm {
   const char* name;
   CVec ResponsePair::*values;
   int data;
-  const char* unit;
+  const char *unit, *tilt_unit;
 };
 
 void add_values(std::string& text, const std::vector<double>& hz, const std::vector<Complex>& H,
@@ -136,9 +150,10 @@ void add_response(std::string& text, const FrequencyResponse& found, const Respo
                                          UniversalCode::complex_double, H.size(), is_even ? 1 : 0,
                                          is_even ? hz.front() : 0.0, step, found.speed / rpm));
   add_universal_record(text, axis_record(UniversalCode::frequency, "Frequency", "Hz"));
-  add_universal_record(text, axis_record(form.data, form.name, form.unit));
+  add_universal_record(
+      text, axis_record(form.data, form.name, to.is_tilt() ? form.tilt_unit : form.unit));
   add_universal_record(text, axis_record(UniversalCode::excitation_force, "Excitation",
-                                         from.direction > 3 ? "N.m" : "N"));
+                                         from.is_tilt() ? "N.m" : "N"));
   add_universal_record(text, axis_record(UniversalCode::rpm, "Speed", "rpm"));
   add_values(text, hz, H, is_even);
   text += fmt::format("{}\n", universal_delimiter);
@@ -157,10 +172,12 @@ std::string universal_text(const FrequencyResponse& found, const Model& model,
   long number = 0;
   for (const ResponsePair& pair : found.pairs) {
     for (const UniversalForm& form :
-         {UniversalForm{"receptance", &ResponsePair::receptance, UniversalCode::displacement, "m"},
-          UniversalForm{"mobility", &ResponsePair::mobility, UniversalCode::velocity, "m/s"},
+         {UniversalForm{"receptance", &ResponsePair::receptance, UniversalCode::displacement, "m",
+                        "rad"},
+          UniversalForm{"mobility", &ResponsePair::mobility, UniversalCode::velocity, "m/s",
+                        "rad/s"},
           UniversalForm{"accelerance", &ResponsePair::accelerance, UniversalCode::acceleration,
-                        "m/s^2"}}) {
+                        "m/s^2", "rad/s^2"}}) {
       add_response(text, found, pair, form, ends, ++number);
     }
   }

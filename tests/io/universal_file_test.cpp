@@ -139,6 +139,27 @@ TEST_F(Universal, HasTheValuesAndThePlaces) {
   EXPECT_EQ(columns(all[3].records[6], 32, 41), "big_stator");
 }
 
+// A motion is a displacement or a tilt, by its direction.
+TEST_F(Universal, TellsUnits) {
+  const auto all = functions(response({hertz, 2.0 * hertz}, "3:theta_x", "5:theta_y,3:y"));
+  ASSERT_EQ(all.size(), 6u);
+  const char* units[] = {"rad", "rad/s", "rad/s^2", "m", "m/s", "m/s^2"};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string unit = columns(all[i].records[9], 48, 67);
+    EXPECT_EQ(unit.substr(0, unit.find(' ')), units[i]);
+    EXPECT_EQ(columns(all[i].records[10], 48, 51), "N.m ");
+  }
+}
+
+// A probe has a node and its name; the format knows no angles.
+TEST_F(Universal, HasProbesWhereTheyAre) {
+  model.structure.probes = {{.name = "DE 1X", .at = test::node(4), .angle = 0.7}};
+  const auto all = functions(response({hertz, 2.0 * hertz}, "3:x", "DE 1X"));
+  EXPECT_EQ(columns(all[0].records[6], 32, 41), "DE_1X     ");
+  EXPECT_EQ(integer(all[0].records[6], 42, 51), 4);
+  EXPECT_EQ(integer(all[0].records[6], 52, 55), 0);
+}
+
 // Frequencies that are not even stand beside the values, with the six digits of the format.
 TEST_F(Universal, WritesUnevenFrequenciesOneByOne) {
   const std::vector<double> frequencies{hertz * 1.0, hertz * 20.0, hertz * 123.456789};
