@@ -23,13 +23,16 @@ struct ProbeLines {
   std::vector<double> peak_to_peak;  ///< [m]
 };
 
-ProbeLines lines_of(const Vec& time, const Vec& reading) {
+/// Of whole revolutions, so that harmonics of the speed are lines: the last ones, as ResponseSpectra.
+ProbeLines lines_of(const RecordedMotion& motion, const Vec& reading) {
   ProbeLines lines;
-  const auto count = static_cast<Eigen::Index>(smooth_length(reading.size()));
+  const long revolutions = smooth_length(reading.size() / motion.per_revolution);
+  const Eigen::Index count = revolutions * motion.per_revolution;
   if (count < 4) return lines;
   const Vec used = reading.tail(count);
   const Vec centered = used.array() - used.mean();
-  const Spectrum spectrum = hann_spectrum(centered.cast<Complex>(), time(1) - time(0));
+  const Spectrum spectrum =
+      hann_spectrum(centered.cast<Complex>(), motion.time(1) - motion.time(0));
   for (Eigen::Index k = 0; k < count / 2; ++k) {
     lines.frequency.push_back(static_cast<double>(k) * spectrum.bin);
     // a cosine is two circles of half its amplitude
@@ -91,7 +94,7 @@ std::vector<Figure> probe_spectra(const ResultView& result) {
   std::vector<Figure> figures;
   std::vector<std::string> units;
   for (const ProbeSignal& probe : m.record.probes) {
-    const ProbeLines lines = lines_of(m.time, probe.displacement);
+    const ProbeLines lines = lines_of(m, probe.displacement);
     if (!(largest_of(lines.peak_to_peak) > 0.0)) continue;
     const DisplayUnit unit = unit_of(probe);
     auto known = std::find(units.begin(), units.end(), unit.name);

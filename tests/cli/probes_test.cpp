@@ -1,5 +1,6 @@
 // Probes from a model file to JSON, tables, result files and pictures.
 
+#include <algorithm>
 #include <cmath>
 
 #include "libdyn/motions/run_result.hpp"
@@ -100,6 +101,23 @@ TEST_F(Probes, TellMotions) {
     const Curve& c = f.panels.at(0).curves.at(0);
     constexpr double of_rest = 1e-2;  // what is left of the transient
     EXPECT_NEAR(*std::max_element(c.y.begin(), c.y.end()), 2e6 * radius, of_rest * 2e6 * radius);
+  }
+}
+
+// 70 revolutions are no number of samples for the transform: it takes 64 of them, where the speed is
+// a line of the spectrum and so the reading at its full size, 2 e r^2 / |1 - r^2 + 2 i zeta r|.
+TEST_F(Probes, SpectraAreOfWholeRevolutions) {
+  constexpr double ratio = 0.6, of_rest = 1e-2;  // what is left of the transient
+  const double size = 2e6 * e * ratio * ratio / std::hypot(1.0 - ratio * ratio, 2.0 * zeta * ratio);
+  result({"simulate", "rotor.toml", "--speed", "60rad/s", "--discard", "1000", "--revolutions",
+          "70", "--out", "run.h5"});
+  const ResultView view(folder / "run.h5");
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.name != "spectrum") continue;
+    const Curve& c = figures_of(kind, view).at(1).panels.at(0).curves.at(0);
+    const auto top = std::max_element(c.y.begin(), c.y.end());
+    EXPECT_NEAR(*top, size, of_rest * size);
+    EXPECT_NEAR(c.x[static_cast<std::size_t>(top - c.y.begin())], ratio * omega / hertz, 1e-9);
   }
 }
 
