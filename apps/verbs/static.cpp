@@ -30,7 +30,7 @@ Verb static_verb() {
   return {
       .name = "static",
       .group = "The model",
-      .summary = "sag under gravity and bearing loads",
+      .summary = "sag under gravity and constant forces, and bearing loads",
       .example = "whirl static models/two_disk_double_rub.toml",
       .run = run_static,
   };

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libfe/bending.hpp"
+#include "libfe/forces.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
@@ -128,6 +129,12 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
   }
 }
 
+/// What bends the rotor of a result.
+std::string loads_of(const ResultView& result) {
+  if (!result.model || !has_constant_force(result.model->structure)) return "gravity";
+  return result.model->structure.gravity == 0.0 ? "constant forces" : "gravity and constant forces";
+}
+
 std::vector<Figure> static_figures(const ResultView& result) {
   const auto& of = result_of<BendingLine>(result);
   const Vec& z = of.z;
@@ -135,9 +142,10 @@ std::vector<Figure> static_figures(const ResultView& result) {
                                    {"bending moment", "N.m", of.moment},
                                    {"shear force", "N", of.shear}}};
   if (z.size() < 2 || lines[0].values.isZero(0.0)) return {};  // nothing has a weight
-  Figure f{.subtitle =
-               "Static deflection under gravity, with the reactions of the bearings; "
-               "bending moment and shear force",
+  Figure f{.subtitle = fmt::format(
+               "Static deflection under {}, with the reactions of the bearings; bending moment and "
+               "shear force",
+               loads_of(result)),
            .height = 640.0};
   for (const Line& line : lines) f.panels.push_back(panel_of(z, line, &line != lines.data()));
   f.panels.front().share = 1.3;
@@ -154,7 +162,8 @@ FigureKind static_kind() {
   return {
       .name = "static",
       .title = "Sag and bending",
-      .summary = "sag under gravity, bearing loads, bending moment and shear force",
+      .summary =
+          "sag under gravity and constant forces, bearing loads, bending moment and shear force",
       .needs = {dataset_of<BendingLine>(&BendingLine::z),
                 dataset_of<BendingLine>(&BendingLine::deflection),
                 dataset_of<BendingLine>(&BendingLine::moment),

@@ -582,6 +582,36 @@ TEST_F(Plot, ALayoutShowsOilFilmsToScale) {
   }
 }
 
+// It says what the shaft bends under.
+TEST_F(Plot, ASagNamesItsLoads) {
+  const std::string rotor = R"([material.steel]
+density = "7850 kg/m^3"
+youngs_modulus = "210 GPa"
+shear_modulus = "80 GPa"
+[[shaft]]
+material = "steel"
+length = "1 m"
+outer_diameter = "30 mm"
+[[bearing]]
+at = "0 m"
+stiffness = "1 MN/m"
+[[bearing]]
+at = "1 m"
+stiffness = "1 MN/m"
+)";
+  const std::string force = "[[force]]\nat = \"0.5 m\"\nforce = \"10 N\"\n",
+                    gravity = "gravity = 9.81\n", head = "format = 1\n";
+  const auto subtitle = [&](const std::string& text) {
+    write("rotor.toml", text);
+    make({"static", "rotor.toml"}, "s.h5");
+    return figures_in("static", ResultView(folder / "s.h5")).at(0).subtitle;
+  };
+  EXPECT_TRUE(has(subtitle(head + gravity + rotor), "under gravity, with"));
+  EXPECT_TRUE(
+      has(subtitle(head + gravity + rotor + force), "under gravity and constant forces, with"));
+  EXPECT_TRUE(has(subtitle(head + rotor + force), "under constant forces, with"));
+}
+
 // Modes are told in a table and drawn one by one too, between the nodes as well.
 TEST_F(Plot, ModesHaveATableAndShapesBetweenTheNodes) {
   const json r = result({"modes", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--out", "m.h5"});
