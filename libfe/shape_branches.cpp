@@ -63,6 +63,7 @@ class Follower {
       : solve_(solve), W_(W), limit_(limit) {}
 
   void begin_or_advance(double at) {
+    asked_ = at;
     auto found = solved(at);
     if (!found) return;
     if (!has_begun_) {
@@ -76,13 +77,16 @@ class Follower {
 
  private:
   std::optional<std::vector<ShapedValue>> solved(double at) {
+    std::string reason;
     try {
       return solve_(at);
     } catch (const NumericalError& error) {
-      result_.gaps.push_back({at, error.what()});
+      reason = error.what();
     } catch (const ModelError& error) {
-      result_.gaps.push_back({at, error.what()});
+      reason = error.what();
     }
+    // nobody asked for those between
+    if (at == asked_) result_.gaps.push_back({at, std::move(reason)});
     return {};
   }
 
@@ -189,6 +193,7 @@ class Follower {
   double limit_;
   bool has_begun_ = false;
   double at_ = 0.0;
+  double asked_ = 0.0;      ///< where branches are to be told
   std::vector<int> alive_;  ///< branches that reach the last value
   ShapeBranches result_;
 };

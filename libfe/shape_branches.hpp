@@ -23,7 +23,7 @@ struct ShapeBranch {
   std::vector<ShapedValue> found;
 };
 
-/// A value of the parameter at which the eigenproblem failed.
+/// A value of the parameter that was asked for, at which the eigenproblem failed.
 struct ShapeGap {
   double at = 0.0;
   std::string reason;
@@ -45,7 +45,8 @@ using SolveShapes = std::function<std::vector<ShapedValue>(double at)>;
 /// none that agrees by 0.8, values of the parameter between are solved too, down to 1/64 of a step.
 /// Equal solutions count as one space, from which each branch takes what is most like its own shape. A
 /// branch that finds no successor ends, one that nothing precedes begins. Where the eigenproblem
-/// fails the branches go on at the next value, and the failure is told.
+/// fails the branches go on at the next value, and the failure is told; between the values that were
+/// asked for it is not.
 ///
 /// @param at     ascending; where branches are told beside the values between
 /// @param W      symmetric, of the size of the shapes

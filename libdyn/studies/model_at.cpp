@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <optional>
 
 #include "libbase/error.hpp"
 
@@ -25,7 +26,7 @@ std::vector<double> places_of(const Mesh& mesh) {
 double shape_limit(const std::vector<double>& values, const SolveShapes& solve, int count) {
   constexpr double headroom = 1.05;
   std::exception_ptr first;
-  for (const double value : values) {
+  const auto limit_at = [&](double value) -> std::optional<double> {
     try {
       const std::vector<ShapedValue> found = solve(value);
       const auto last = std::min(found.size(), static_cast<std::size_t>(count));
@@ -35,6 +36,15 @@ double shape_limit(const std::vector<double>& values, const SolveShapes& solve, 
     } catch (const ModelError&) {
       if (!first) first = std::current_exception();
     }
+    return {};
+  };
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto low = limit_at(values[i]);
+    if (!low) continue;
+    for (std::size_t k = values.size() - 1; k > i; --k) {
+      if (const auto high = limit_at(values[k])) return std::max(*low, *high);
+    }
+    return *low;
   }
   std::rethrow_exception(first);
 }

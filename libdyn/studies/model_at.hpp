@@ -51,7 +51,7 @@ std::vector<ValueGap> gaps_of(const ShapeBranches& followed);
 /// Solutions computed beyond those that are wanted, for newcomers.
 inline constexpr int spare_solutions = 2;
 /// Up to which number shapes must agree: a little more than those of the lowest solutions at the first
-/// value that can be computed.
+/// and the last value that can be computed, whichever is higher.
 /// @param count  of these
 /// @throws NumericalError, ModelError  what the first value throws, if all throw
 double shape_limit(const std::vector<double>& values, const SolveShapes& solve, int count);

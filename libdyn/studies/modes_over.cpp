@@ -91,6 +91,14 @@ int growth_of(Complex lambda) {
   return lambda.real() > 0.0 ? 1 : -1;
 }
 
+/// Where the real part of a branch is zero on the straight line between two of its places.
+ModesOverThreshold threshold_on_line(const ShapeBranch& branch, std::size_t i, int number) {
+  const Complex left = branch.found[i].eigenvalue, right = branch.found[i + 1].eigenvalue;
+  const double share = left.real() / (left.real() - right.real());
+  return {branch.at[i] + share * (branch.at[i + 1] - branch.at[i]),
+          left.imag() + share * (right.imag() - left.imag()), number};
+}
+
 /// The eigenvalue of a branch between two of its places: that of the shape most like theirs.
 Complex eigenvalue_between(const ShapeBranch& branch, std::size_t i, double at,
                            ModesAtValues& modes, const Sparse& W) {
@@ -111,6 +119,22 @@ Complex eigenvalue_between(const ShapeBranch& branch, std::size_t i, double at,
   return lambda;
 }
 
+/// Where the real part of a branch is zero between two of its places, to threshold_tol; on the
+/// straight line between them if a model there cannot be computed.
+ModesOverThreshold threshold_between(const ShapeBranch& branch, std::size_t i, int number,
+                                     ModesAtValues& modes, const Sparse& W) {
+  const auto at = [&](double value) { return eigenvalue_between(branch, i, value, modes, W); };
+  try {
+    const double root =
+        bracketed_root([&](double value) { return at(value).real(); }, branch.at[i],
+                       branch.at[i + 1], threshold_tol * (branch.at[i + 1] - branch.at[i]));
+    return {root, std::isfinite(root) ? at(root).imag() : nan, number};
+  } catch (const NumericalError&) {
+  } catch (const ModelError&) {  // such as a number that must be whole
+  }
+  return threshold_on_line(branch, i, number);
+}
+
 void add_thresholds(const ShapeBranch& branch, int number, ModesAtValues& modes, const Sparse& W,
                     std::vector<ModesOverThreshold>& thresholds) {
   int before = 0;
@@ -121,13 +145,8 @@ void add_thresholds(const ShapeBranch& branch, int number, ModesAtValues& modes,
       if (i > from + 1) {  // a place between them is one, to rounding
         thresholds.push_back({branch.at[from + 1], branch.found[from + 1].value, number});
       } else {
-        const auto at = [&](double value) {
-          return eigenvalue_between(branch, from, value, modes, W);
-        };
-        const double root =
-            bracketed_root([&](double value) { return at(value).real(); }, branch.at[from],
-                           branch.at[i], threshold_tol * (branch.at[i] - branch.at[from]));
-        if (std::isfinite(root)) thresholds.push_back({root, at(root).imag(), number});
+        const ModesOverThreshold found = threshold_between(branch, from, number, modes, W);
+        if (std::isfinite(found.value)) thresholds.push_back(found);
       }
     }
     if (now != 0) before = now, from = i;

@@ -69,6 +69,38 @@ TEST(ModesOver, CrossCouplingTakesTheDampingOfAJeffcottRotor) {
   EXPECT_EQ(found.thresholds[0].branch, is_first ? 0 : 1);
 }
 
+// Where only whole steps make a model, as with a number of elements, the threshold is on the straight
+// line between its neighbors; nothing between them is told as left out.
+TEST(ModesOver, AThresholdBetweenModelsThatAreNoneIsOnTheLine) {
+  constexpr double step = 750.0, solves = 1e-9;
+  const ModelAt at = [](double q) {
+    if (std::fmod(q, step) != 0.0) throw ModelError({}, "", "expected a whole number");
+    return cross_coupled(q);
+  };
+  const double left = 5.0 * step, right = 6.0 * step;  // c omega = 4000 N/m
+  const ModesOver found = modes_over(at, {}, {left, right}, 2);
+  ASSERT_EQ(found.thresholds.size(), 1u);
+  EXPECT_TRUE(found.gaps.empty());
+  const Complex a = forward_root(left), b = forward_root(right);
+  const double share = a.real() / (a.real() - b.real()), expected = left + share * step;
+  EXPECT_NEAR(found.thresholds[0].value, expected, solves * expected);
+  EXPECT_NEAR(found.thresholds[0].frequency, a.imag() + share * (b.imag() - a.imag()),
+              solves * omega);
+}
+
+// The second of two numbers that grow with the value, at the end where it is larger.
+TEST(ShapeLimit, IsThatOfTheHigherEnd) {
+  const SolveShapes rising = [](double at) {
+    if (at > 4.0) throw NumericalError("too stiff");
+    return std::vector<ShapedValue>{{at, {}}, {2.0 * at, {}}, {9.0 * at, {}}};
+  };
+  const SolveShapes falling = [&](double at) { return rising(5.0 - at); };
+  EXPECT_DOUBLE_EQ(shape_limit({1.0, 2.0, 3.0, 4.0, 5.0}, rising, 2), 1.05 * 8.0);
+  EXPECT_DOUBLE_EQ(shape_limit({0.0, 1.0, 4.0}, falling, 2), 1.05 * 8.0);
+  EXPECT_DOUBLE_EQ(shape_limit({3.0}, rising, 2), 1.05 * 6.0);
+  EXPECT_THROW(shape_limit({6.0, 7.0}, rising, 2), NumericalError);
+}
+
 // The same threshold if it is one of the values, and none if all grow or none do.
 TEST(ModesOver, AThresholdMayBeOneOfTheValues) {
   const double q = c * omega;

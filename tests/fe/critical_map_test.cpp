@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "libbase/error.hpp"
@@ -170,6 +171,26 @@ TEST(FollowShapes, GoesOnBeyondAnEigenproblemThatFails) {
   ASSERT_EQ(found.gaps.size(), 1u);
   EXPECT_EQ(found.gaps[0].at, 2.0);
   EXPECT_EQ(found.gaps[0].reason, "it does not converge");
+}
+
+// Shapes that turn by 60 degrees in a step are looked at between, where there is nothing here: nobody
+// asked for these values, and they are no gaps.
+TEST(FollowShapes, DoesNotTellGapsBetweenTheValues) {
+  int refused = 0;
+  const SolveShapes solve = [&](double t) {
+    if (t != std::round(t)) {
+      ++refused;
+      throw ModelError({}, "", "expected a whole number");
+    }
+    const double a = t * std::numbers::pi / 3.0;
+    return std::vector<ShapedValue>{{1.0, Eigen::Vector2cd(std::cos(a), std::sin(a))},
+                                    {2.0, Eigen::Vector2cd(-std::sin(a), std::cos(a))}};
+  };
+  Sparse W(2, 2);
+  W.setIdentity();
+  const ShapeBranches found = follow_shapes({0.0, 1.0, 2.0}, solve, W, 10.0);
+  EXPECT_GT(refused, 0);
+  EXPECT_TRUE(found.gaps.empty());
 }
 
 // A mass m on a film of stiffness k0 + a Omega, the same along x and y: critical where
