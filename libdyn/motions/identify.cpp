@@ -7,6 +7,7 @@
 
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/campbell.hpp"
+#include "libfe/forces.hpp"
 #include "libfe/own_frequency_modes.hpp"
 
 namespace whirl::inline dyn {
@@ -16,14 +17,13 @@ namespace {
 constexpr int largest_number = 9;     ///< in a ratio p:q
 constexpr double good_enough = 0.01;  ///< error of a ratio from which smaller numbers are preferred
 constexpr double located = 0.25;      ///< error of a peak's place, in bins
+constexpr double wide = 1.5;          ///< distance of one line from another, in bins
 
 /// The two strongest lines that turn in the rotating frame.
-std::optional<FrequencyRatio> resonance_of(const std::vector<IdentifiedPeak>& peaks, double Omega,
-                                           double bin) {
+std::optional<FrequencyRatio> resonance_of(const std::vector<IdentifiedPeak>& peaks) {
   std::vector<double> turning;
   for (const IdentifiedPeak& p : peaks) {
-    const double seen = std::abs(p.frequency - Omega);
-    if (!is_forced(p.frequency, Omega, bin)) turning.push_back(seen);
+    if (p.forced.empty()) turning.push_back(std::abs(p.frequency_rotating));
   }
   if (turning.size() < 2) return std::nullopt;
   return ratio_of(std::max(turning[0], turning[1]), std::min(turning[0], turning[1]));
@@ -35,7 +35,7 @@ std::vector<Peak> distinct_peaks(const Vec& total, double bin, const IdentifyOpt
   std::vector<Peak> kept;
   for (const Peak& peak : find_peaks(total, bin, options.share, 4 * options.most_peaks)) {
     const bool is_other_half = std::any_of(kept.begin(), kept.end(), [&](const Peak& p) {
-      return std::abs(p.frequency + peak.frequency) < 1.5 * bin;
+      return std::abs(p.frequency + peak.frequency) < wide * bin;
     });
     if (!is_other_half) kept.push_back(peak);
   }
@@ -45,21 +45,43 @@ std::vector<Peak> distinct_peaks(const Vec& total, double bin, const IdentifyOpt
   return kept;
 }
 
-/// Names the peaks that are combinations of stronger ones.
-void find_combinations(std::vector<IdentifiedPeak>& peaks, double Omega, double bin) {
+/// Names the peaks that are forced, and those that are combinations of stronger ones.
+void find_causes(std::vector<IdentifiedPeak>& peaks, const std::vector<ForcedLine>& lines,
+                 double bin) {
   std::vector<double> stronger;
   for (IdentifiedPeak& p : peaks) {
-    if (std::abs(p.frequency) < 1.5 * bin) continue;  // it rests
-    const bool turns_with_it = is_forced(p.frequency, Omega, bin);
-    if (!turns_with_it) p.combination = combination_of(p.frequency, stronger, located * bin);
-    if (!p.combination) stronger.push_back(turns_with_it ? Omega : p.frequency);
+    const ForcedLine* forced = forced_line_at(p.frequency, lines, bin);
+    if (forced) p.forced = forced->name;
+    if (std::abs(p.frequency) < wide * bin) continue;  // it rests
+    if (!forced) p.combination = combination_of(p.frequency, stronger, located * bin);
+    if (!p.combination) stronger.push_back(forced ? forced->frequency : p.frequency);
   }
 }
 
 }  // namespace
 
-bool is_forced(double frequency, double Omega, double bin) {
-  return std::abs(frequency - Omega) < 1.5 * bin;
+std::vector<ForcedLine> forced_lines(const Assembler& assembler, double Omega) {
+  std::vector<ForcedLine> lines{{"1X", Omega}};
+  const CVec synchronous = synchronous_forces(assembler);
+  if (synchronous.size() > 0) lines.push_back({"1X", -Omega});
+  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
+    const double w = load.at(Omega);
+    if (w == 0.0) continue;  // of an order, at rest
+    lines.push_back({load.label(), w});
+    lines.push_back({load.label(), -w});
+  }
+  return lines;
+}
+
+const ForcedLine* forced_line_at(double frequency, const std::vector<ForcedLine>& lines,
+                                 double bin) {
+  const ForcedLine* nearest = nullptr;
+  double least = wide * bin;
+  for (const ForcedLine& line : lines) {
+    const double away = std::abs(frequency - line.frequency);
+    if (away < least) least = away, nearest = &line;
+  }
+  return nearest;
 }
 
 FrequencyRatio ratio_of(double high, double low) {
@@ -161,8 +183,8 @@ Identification identify(const Model& model, const Scene& scene, const Recording&
     }
     result.peaks.push_back(std::move(found));
   }
-  find_combinations(result.peaks, system.Omega, spectra.bin());
-  result.resonance = resonance_of(result.peaks, system.Omega, spectra.bin());
+  find_causes(result.peaks, forced_lines(scene.assembler, system.Omega), spectra.bin());
+  result.resonance = resonance_of(result.peaks);
   return result;
 }
 

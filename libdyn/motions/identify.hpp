@@ -29,6 +29,7 @@ struct IdentifiedPeak {
   double shift = 0.0;                      ///< |frequency| over that mode's, less one
   std::optional<Combination> combination;  ///< of stronger peaks that are none themselves
   double frequency_rotating = 0.0;         ///< seen from the rotor [rad/s]
+  std::string forced{};                    ///< what drives it, as ForcedLine::name; "": nothing
 
   /// Of the best mode, from 1; nothing if there are no modes.
   std::optional<int> mode_number() const {
@@ -59,7 +60,8 @@ struct IdentifiedPeak {
             .only(in_file)
             .maybe(),
         column("combination", &IdentifiedPeak::combination_terms, "", "of these frequencies")
-            .only(in_json)};
+            .only(in_json),
+        column("forced", &IdentifiedPeak::forced, "", "what drives it").only(in_json).maybe()};
   }
 };
 
@@ -111,10 +113,21 @@ Sparse mac_weights(const DofMap& dofs, double length);
 /// The ratio p:q of small numbers nearest to high / low; smaller numbers win among good ones.
 FrequencyRatio ratio_of(double high, double low);
 
-/// Whether a peak is the response to what turns with the rotor.
+/// A frequency that something has by itself, whatever the rotor does.
+struct ForcedLine {
+  std::string name;        ///< "1X" of the speed; "2x", "40 Hz" of forces
+  double frequency = 0.0;  ///< signed [rad/s]
+};
+
+/// Those of a rotor at a speed: the speed itself, and those of forces either way, as a force along a
+/// direction drives both.
+std::vector<ForcedLine> forced_lines(const Assembler& assembler, double Omega);
+
+/// The line nearest to a peak, if it is one of them within the width of a spectral line; else null.
 ///
 /// @param bin  distance of spectral lines [rad/s]
-bool is_forced(double frequency, double Omega, double bin);
+const ForcedLine* forced_line_at(double frequency, const std::vector<ForcedLine>& lines,
+                                 double bin);
 
 /// The system with the stiffness of its contacts added at their stations, as if closed for good: of
 /// rings and blades to lateral displacements, of faces to tilts.

@@ -12,9 +12,9 @@ namespace whirl::inline io {
 namespace {
 
 /// What a peak is beside the mode of its shape: forced, a combination, or that mode, shifted.
-std::string shift_text(const IdentifiedPeak& p, double Omega, double bin) {
+std::string shift_text(const IdentifiedPeak& p) {
   constexpr double far = 0.1;  // of a mode's frequency: a peak beyond is not that mode's own
-  if (is_forced(p.frequency, Omega, bin)) return "forced (1X)";
+  if (!p.forced.empty()) return fmt::format("forced ({})", p.forced);
   const std::string shift = fmt::format("{:+.1f} %", 100.0 * p.shift);
   if (!p.combination) return shift;
   const std::string made_of = p.combination->text();
@@ -46,8 +46,7 @@ std::string text_of(const Identification& found, double Omega) {
   columns.push_back({"best", [](const IdentifiedPeak& p) {
                        return p.mac.empty() ? "-" : fmt::format("mode {}", p.mode + 1);
                      }});
-  columns.push_back(
-      {"shift", [&](const IdentifiedPeak& p) { return shift_text(p, Omega, found.bin); }});
+  columns.push_back({"shift", shift_text});
   std::string text = table_of(found.peaks, columns);
   if (const auto& r = found.resonance) {
     text += fmt::format("\n  seen from the rotor {:.1f} : {:.1f} rpm = {}:{} within {:.2g} %\n",

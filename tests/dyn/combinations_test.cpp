@@ -88,7 +88,7 @@ TEST(Identify, NamesWhatIsMadeOfStrongerPeaks) {
   }
   const Identification found = identify(model, scene, r, {});
   ASSERT_EQ(found.peaks.size(), 3u);
-  EXPECT_TRUE(is_forced(found.peaks[0].frequency, Omega, found.bin));
+  EXPECT_EQ(found.peaks[0].forced, "1X");
   EXPECT_FALSE(found.peaks[0].combination);
   EXPECT_FALSE(found.peaks[1].combination);
   const auto& made = found.peaks[2].combination;
