@@ -115,6 +115,12 @@ double highest_frequency(const Structure& structure, double Omega) {
   return highest;
 }
 
+bool has_oscillating_force(const Structure& structure) {
+  const std::vector<Force>& forces = structure.forces;
+  return std::any_of(forces.begin(), forces.end(),
+                     [](const Force& f) { return !f.is_constant() && !f.is_synchronous(); });
+}
+
 bool has_constant_force(const Structure& structure) {
   return any_of(structure, &Force::is_constant);
 }

@@ -46,6 +46,8 @@ Vec2 steady_acceleration(const Structure& structure);
 double highest_frequency(const Structure& structure, double Omega);
 
 bool has_constant_force(const Structure& structure);
+/// Whether there are oscillating_loads().
+bool has_oscillating_force(const Structure& structure);
 /// Whether anything has the frequency of the speed.
 bool has_synchronous_load(const Structure& structure);
 

@@ -30,13 +30,16 @@ class LinearAxis {
 };
 
 /// Report on a result over values under a headline, with the file of --out.
-/// @param text  the tables of the result
+/// @param text   the tables of the result
+/// @param notes  on the result, before those on the model
 template <class Result>
 Report over_report(const Invocation& call, const LinearAxis& over, std::string_view what,
-                   const Result& result, const std::string& text) {
+                   const Result& result, const std::string& text,
+                   const std::vector<std::string>& notes = {}) {
   const Model& model = over.model();
   Report report = begin_report(call, model, record_of(result));
   report.text = headline(what, model) + "\n" + text;
+  report.add_notes(notes);
   report.add_notes(linear_notes(model, speeds_over(call.values("over"), model.speed)));
   write_file(call, model, report, [&](ResultWriter& file) {
     file.attribute("/", "speed", model.speed);

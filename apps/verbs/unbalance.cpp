@@ -35,7 +35,7 @@ Report run_response_over(const Invocation& call, const UnbalanceVerbOptions& opt
       {.speeds = [&](const Model& m) { return options.speeds.value_or(speeds_of(m)); },
        .stations = options.stations.is_given ? *options.stations : ""});
   return over_report(call, over, "Unbalance response over a value", found,
-                     text_of(found, over.axis()));
+                     text_of(found, over.axis()), notes_of_unbalance_over(over.model()));
 }
 
 Report run_unbalance(const Invocation& call, const UnbalanceVerbOptions& options) {

@@ -54,8 +54,10 @@ Run run_model(const Model& model, const RunOptions& options,
   Scene scene = make_scene(model);
   simulated.method = method_for(scene.contacts, options.method);
   std::vector<NamedPoint> stations = select_points(model, scene.assembler, options.stations);
+  // a probe takes no more than a station
+  const std::size_t written_stations = stations.size() + model.structure.probes.size();
   require_memory(simulated, bytes_of_sample(scene.contacts.coordinates(), model.contacts.size(),
-                                            options.is_written ? stations.size() : 0));
+                                            options.is_written ? written_stations : 0));
   const MotionState start = start_state(model, scene, earlier);
   if (start.phase > 0.0) {
     // samples begin with a revolution: what is left of this one is not recorded

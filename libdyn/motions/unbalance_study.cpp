@@ -73,28 +73,6 @@ void add_peaks_of_orders(const Assembler& assembler, std::vector<double>& speeds
   speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
 }
 
-/// Responses to forces of other frequencies.
-std::vector<ForcedResponse> forced_responses(const std::vector<NamedPoint>& stations,
-                                             const Assembler& assembler,
-                                             const std::vector<double>& speeds,
-                                             const std::vector<Point>& points) {
-  std::vector<ForcedResponse> all;
-  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
-    const UnbalanceResponse found = oscillating_response(assembler, load, speeds, points);
-    for (StationResponse& at : station_responses(stations, found)) {
-      ForcedResponse of{.force = load.label(), .node = at.node, .name = at.name};
-      (load.order > 0.0 ? of.order : of.frequency) = load.order > 0.0 ? load.order : load.frequency;
-      of.label = std::move(at.label);
-      of.x = std::move(at.x);
-      of.y = std::move(at.y);
-      of.major = std::move(at.major);
-      of.minor = std::move(at.minor);
-      all.push_back(std::move(of));
-    }
-  }
-  return all;
-}
-
 /// Where the points of probes are, in their order.
 std::vector<Point> points_of(const Assembler& assembler) {
   std::vector<Point> points;
@@ -104,16 +82,58 @@ std::vector<Point> points_of(const Assembler& assembler) {
   return points;
 }
 
-/// Readings of the probes of a structure over speeds at which the response is bounded.
-std::vector<CVec> readings(const Assembler& assembler, const std::vector<double>& speeds) {
-  const UnbalanceResponse response = unbalance_response(assembler, speeds, points_of(assembler));
+/// Readings of the probes of a structure, of a response that is told at their points, too.
+std::vector<CVec> readings_of(const UnbalanceResponse& response, const Assembler& assembler) {
   std::vector<CVec> all;
   for (const Probe& probe : assembler.structure().probes) {
-    const auto i = static_cast<Eigen::Index>(all.size());
+    const auto i =
+        std::find(response.points.begin(), response.points.end(), assembler.point(probe.at)) -
+        response.points.begin();
     all.push_back(
         probe.along(CVec(response.x.row(i).transpose()), CVec(response.y.row(i).transpose())));
   }
   return all;
+}
+
+/// The same of any response that is bounded: it is solved again if it lacks one of the points.
+std::vector<CVec> readings(const Assembler& assembler, const UnbalanceResponse& known) {
+  const std::vector<Point> points = points_of(assembler);
+  const bool has_all = std::all_of(points.begin(), points.end(), [&](const Point& p) {
+    return std::find(known.points.begin(), known.points.end(), p) != known.points.end();
+  });
+  return readings_of(has_all ? known : unbalance_response(assembler, known.speeds, points),
+                     assembler);
+}
+
+/// Adds the responses to forces of other frequencies, of stations and along probes.
+/// @param points  of the stations
+void add_forced(const std::vector<NamedPoint>& stations, const Assembler& assembler,
+                std::vector<Point> points, UnbalanceStudy& study) {
+  const std::vector<Point> of_probes = points_of(assembler);
+  points.insert(points.end(), of_probes.begin(), of_probes.end());
+  for (const OscillatingLoad& load : oscillating_loads(assembler)) {
+    const UnbalanceResponse found = oscillating_response(assembler, load, study.speeds, points);
+    const auto name = [&](auto& of) {
+      of.force = load.label();
+      (load.order > 0.0 ? of.order : of.frequency) = load.order > 0.0 ? load.order : load.frequency;
+    };
+    for (StationResponse& at : station_responses(stations, found)) {
+      ForcedResponse of{.node = at.node, .name = at.name};
+      name(of);
+      of.label = std::move(at.label);
+      of.x = std::move(at.x);
+      of.y = std::move(at.y);
+      of.major = std::move(at.major);
+      of.minor = std::move(at.minor);
+      study.forced.push_back(std::move(of));
+    }
+    const std::vector<CVec> told = readings_of(found, assembler);
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      ForcedReading of{assembler.structure().probes[i], {}, {}, {}, told[i]};
+      name(of);
+      study.forced_probes.push_back(std::move(of));
+    }
+  }
 }
 
 /// The largest of the peaks and of the sizes at the speeds of a curve.
@@ -130,12 +150,14 @@ ProbePeak largest_of(const ResponseCurve& curve, const Vec& sizes,
   return largest;
 }
 
-void add_probes(const Assembler& assembler, const ResponseCurve& curve, UnbalanceStudy& study) {
+/// @param asked  the response at the speeds of the study
+void add_probes(const Assembler& assembler, const ResponseCurve& curve,
+                const UnbalanceResponse& asked, UnbalanceStudy& study) {
   const std::vector<Probe>& probes = assembler.structure().probes;
   if (probes.empty()) return;
   const bool has_curve = !study.curve_speeds.empty();
-  const std::vector<CVec> curves = readings(assembler, curve.response.speeds);
-  const std::vector<CVec> rows = has_curve ? readings(assembler, study.speeds) : curves;
+  const std::vector<CVec> curves = readings(assembler, curve.response);
+  const std::vector<CVec> rows = has_curve ? readings(assembler, asked) : curves;
   UnbalanceSolver solver(assembler);
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const std::vector<Point> point{assembler.point(probes[i].at)};
@@ -184,7 +206,6 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
                        .stations = station_responses(options.stations, rows),
                        .unbounded = curve.unbounded,
                        .largest = largest_responses(curve.response),
-                       .forced = forced_responses(options.stations, assembler, rows.speeds, points),
                        .failure = curve.failure ? curve.failure : failure};
   if (options.has_given_speeds) add_curves(curve.response, study);
   for (const ResponsePeak& peak : curve.peaks) {
@@ -193,7 +214,8 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
     if (model.has_speed && model.speed > 0.0) of.separation = separation_margin(peak, model.speed);
     study.peaks.push_back(std::move(of));
   }
-  add_probes(assembler, curve, study);
+  add_forced(options.stations, assembler, points, study);
+  add_probes(assembler, curve, rows, study);
   study.clearances = clearance_uses(model, assembler, curve.response.speeds);
   return study;
 }

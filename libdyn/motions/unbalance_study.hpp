@@ -140,6 +140,35 @@ struct ProbeResponse : ProbeLabel {
   }
 };
 
+/// What a probe reads of forces of another frequency than that of the speed:
+/// Re(amplitude e^(i w t)).
+struct ForcedReading : ProbeLabel {
+  std::string force;                ///< "2x", "40 Hz"
+  std::optional<double> order;      ///< of the speed
+  std::optional<double> frequency;  ///< of its own [rad/s]
+  CVec amplitude;                   ///< per speed [m]; NaN at undamped resonances
+
+  Vec peak_to_peak() const { return 2.0 * amplitude.cwiseAbs(); }
+  /// Ahead of w t, -180 to 180 [deg].
+  Vec phase_deg() const { return amplitude.cwiseArg() / degree; }
+
+  static constexpr auto columns() {
+    using enum Written;
+    using F = ForcedReading;
+    return std::tuple_cat(
+        ProbeLabel::columns(),
+        std::tuple{
+            column("force", &F::force, "", "order or frequency of the force"),
+            column("order", &F::order, "", "of the speed").only(in_json),
+            column("frequency", &F::frequency, "rad/s", "of its own").only(in_json),
+            column("amplitude", &F::amplitude, "m", "complex amplitude of what a probe reads")
+                .along("speeds")
+                .only(in_file),
+            column("peak_to_peak", &F::peak_to_peak, "m", "of the reading").only(in_json),
+            column("phase_deg", &F::phase_deg, "", "ahead of the force's angle").only(in_json)});
+  }
+};
+
 /// A peak of the largest response, and how far it is from the operating speed.
 struct StationPeak : ResponsePeak {
   std::optional<int> node;  ///< of the station that moves most
@@ -187,12 +216,13 @@ struct UnbalanceStudy {
   std::vector<double> curve_speeds;  ///< as many as curves need; empty if speeds are these [rad/s]
   std::vector<StationPeak> peaks;
   std::vector<ClearanceUse> clearances;
-  std::vector<double> unbounded;         ///< undamped resonances [rad/s]
-  std::vector<LargestResponse> largest;  ///< per station
-  std::vector<ForcedResponse> forced;    ///< to forces of other frequencies, force by force
-  Failure failure;                       ///< why narrow peaks may be missing
-  std::vector<ProbeResponse> probes{};   ///< those of the model
-  std::vector<ProbePeak> probe_peaks{};  ///< those of all of them
+  std::vector<double> unbounded;               ///< undamped resonances [rad/s]
+  std::vector<LargestResponse> largest;        ///< per station
+  std::vector<ForcedResponse> forced;          ///< to forces of other frequencies, force by force
+  Failure failure;                             ///< why narrow peaks may be missing
+  std::vector<ProbeResponse> probes{};         ///< those of the model
+  std::vector<ProbePeak> probe_peaks{};        ///< those of all of them
+  std::vector<ForcedReading> forced_probes{};  ///< likewise, force by force
 
   static constexpr std::string_view group = "/unbalance";
   static constexpr auto columns() {
@@ -217,6 +247,11 @@ struct UnbalanceStudy {
             .maybe()
             .only(in_file),
         rows(&UnbalanceStudy::probes, "probes").maybe().only(in_json),
+        rows(&UnbalanceStudy::forced_probes, "forced_probes")
+            .prefixed("forced_probe_")
+            .maybe()
+            .only(in_file),
+        rows(&UnbalanceStudy::forced_probes, "forced_probes").maybe().only(in_json),
         rows(&UnbalanceStudy::clearances, "clearances").only(in_json),
         column("unbounded", &UnbalanceStudy::unbounded, "rad/s", "undamped resonances")
             .only(in_json)};

@@ -138,6 +138,15 @@ FigureTable table_of_peaks(const ResultView& result, const std::vector<ResponseP
   return t;
 }
 
+/// Says of pictures what they leave out.
+void add_notes(const Response& r, std::vector<Figure>& figures) {
+  if (r.study.forced.empty()) return;
+  for (Figure& f : figures) {
+    f.notes.push_back(
+        "At the frequency of the speed; responses to forces of other frequencies are not drawn.");
+  }
+}
+
 /// Complex amplitudes over speed that one figure shows.
 struct BodeCurves {
   std::vector<std::string> names;
@@ -252,6 +261,7 @@ std::vector<Figure> bode_figures(const ResultView& result) {
   if ((r.x.cwiseAbs() - r.y.cwiseAbs()).cwiseAbs().maxCoeff() > same * r.x.cwiseAbs().maxCoeff()) {
     figures.push_back(bode_along(result, r, r.y, "y"));
   }
+  add_notes(r, figures);
   return figures;
 }
 
@@ -325,6 +335,7 @@ std::vector<Figure> polar_figures(const ResultView& result) {
     constexpr std::size_t most = 8;
     if (figures.size() == of_probes + most) break;
   }
+  add_notes(r, figures);
   return figures;
 }
 
@@ -371,7 +382,9 @@ std::vector<Figure> deflection_figures(const ResultView& result) {
   }
   p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::dash_dot});
   f.panels.push_back(p);
-  return {f};
+  std::vector<Figure> figures{std::move(f)};
+  add_notes(r, figures);
+  return figures;
 }
 
 }  // namespace

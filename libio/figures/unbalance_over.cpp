@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libfe/forces.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 
@@ -103,6 +104,10 @@ std::vector<Figure> unbalance_over_figures(const ResultView& result) {
   f.panels.push_back(stations.take());
   if (!found.peaks.empty()) f.panels.push_back(peaks_panel(result, found, axis));
   f.height = 120.0 + 220.0 * static_cast<double>(f.panels.size());
+  if (result.model && has_oscillating_force(result.model->structure)) {
+    f.notes.push_back(
+        "At the frequency of the speed; responses to forces of other frequencies are not drawn.");
+  }
   return {f};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
+#include "libfe/forces.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 #include "libio/texts/some_rows.hpp"
@@ -79,6 +80,13 @@ std::string text_of(const CriticalOver& found, const ParameterAxis& axis) {
              "excitation\n\n{}",
              rows.which, table_of(rows.shown, undamped), table_of(rows.shown, damped)) +
          gaps_text(found.gaps, axis);
+}
+
+std::vector<std::string> notes_of_unbalance_over(const Model& model) {
+  if (!has_oscillating_force(model.structure)) return {};
+  return {
+      "over a value the response is that at the frequency of the speed alone, without that to "
+      "forces of other frequencies; without --over whirl unbalance tells both"};
 }
 
 std::string text_of(const UnbalanceOver& found, const ParameterAxis& axis) {

@@ -2,6 +2,7 @@
 /// Linear analyses over a value of the model for people: tables for some twenty of the values.
 
 #include <string>
+#include <vector>
 
 #include "libdyn/studies/critical_over.hpp"
 #include "libdyn/studies/modes_over.hpp"
@@ -18,5 +19,8 @@ std::string text_of(const CriticalOver& found, const ParameterAxis& axis);
 
 /// Largest responses of stations and probes, and the peaks of all values.
 std::string text_of(const UnbalanceOver& found, const ParameterAxis& axis);
+
+/// What responses over a value leave out of a model.
+std::vector<std::string> notes_of_unbalance_over(const Model& model);
 
 }  // namespace whirl::inline io

@@ -64,6 +64,33 @@ std::string text_of(const std::vector<ProbeResponse>& probes) {
               {"amplification", amplification_text}});
 }
 
+std::string text_of(const std::vector<ForcedReading>& readings, const std::vector<double>& speeds) {
+  if (readings.empty()) return "";
+  const auto top = [](const ForcedReading& f) {  // NaN compares as smaller
+    const Vec size = f.peak_to_peak();
+    Eigen::Index at = 0;
+    for (Eigen::Index i = 1; i < size.size(); ++i) {
+      if (size(i) > size(at) || !std::isfinite(size(at))) at = i;
+    }
+    return at;
+  };
+  const auto text_at = [](const ForcedReading& f, Eigen::Index i) {
+    const double reading = f.peak_to_peak()(i);
+    return std::isfinite(reading) ? reading_text(reading, f) : "-";
+  };
+  return "\nThe same along the probes, peak to peak\n\n" +
+         table_of(readings,
+                  {shown("force"),
+                   shown("name").as("probe"),
+                   {"largest", [=](const ForcedReading& f) { return text_at(f, top(f)); }},
+                   {"at [rpm]",
+                    [=, &speeds](const ForcedReading& f) {
+                      return fmt::format("{:.1f}", speeds[static_cast<std::size_t>(top(f))] / rpm);
+                    }},
+                   {"at the highest speed",
+                    [=](const ForcedReading& f) { return text_at(f, f.amplitude.size() - 1); }}});
+}
+
 std::string text_of(const std::vector<ProbeSummary>& probes) {
   if (probes.empty()) return "";
   return "\n" + table_of(probes,

@@ -14,6 +14,10 @@ std::string reading_text(double reading, const ProbeLabel& probe);
 /// Peaks along every probe, peak to peak; empty without probes.
 std::string text_of(const std::vector<ProbeResponse>& probes);
 
+/// Readings of forces of other frequencies; a dash where they are not bounded; empty without probes.
+/// @param speeds  of the readings [rad/s]
+std::string text_of(const std::vector<ForcedReading>& readings, const std::vector<double>& speeds);
+
 /// Mean and peak to peak along every probe; empty without probes.
 std::string text_of(const std::vector<ProbeSummary>& probes);
 

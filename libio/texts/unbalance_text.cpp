@@ -90,10 +90,12 @@ std::string forced_text(const UnbalanceStudy& study) {
                                     return fmt::format("{:.3f}", 1e6 * largest(f, nullptr));
                                   }},
                                  {"at [rpm]", speed},
-                                 {"at the highest speed [um]", [](const ForcedResponse& f) {
+                                 {"at the highest speed [um]",
+                                  [](const ForcedResponse& f) {
                                     return texts::number_text(1e6 * f.major(f.major.size() - 1),
                                                               ".3f");
-                                  }}});
+                                  }}}) +
+         text_of(study.forced_probes, study.speeds);
 }
 
 /// A clearance that the response goes beyond.

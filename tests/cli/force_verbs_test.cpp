@@ -2,8 +2,12 @@
 
 #include <cmath>
 #include <complex>
+#include <map>
 #include <numbers>
 
+#include "libdyn/motions/unbalance_study.hpp"
+#include "libio/figures/figures.hpp"
+#include "libio/results/columns.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
@@ -142,6 +146,90 @@ TEST_F(ForceVerbs, OrbitsRepeatWithForcesOfTheirOrder) {
   const Outcome along = whirl({"continue", "rotor.toml", "--over", "force.force 1.order=1:2:0.1"});
   EXPECT_EQ(along.status, 2);
   EXPECT_TRUE(has(along.err, "there is no branch along them")) << along.err;
+}
+
+// Lines of forces are those of no mode, and no pair of them is a resonance of modes.
+TEST_F(ForceVerbs, IdentifyNamesLinesOfForces) {
+  write_rotor(twice + shaker +
+              "[operation]\nspeed = \"900 rpm\"\n[damping]\nrayleigh = {mass = 20}\n");
+  const std::vector<std::string> call{"identify", "rotor.toml", "--discard", "200"};
+  const json r = result(call);
+  std::map<std::string, double> lines;
+  for (const json& peak : r["peaks"]) {
+    EXPECT_TRUE(peak["combination"].is_null());
+    lines[peak.value("forced", "nothing")] = peak["frequency_rpm"].get<double>();
+  }
+  ASSERT_EQ(lines.size(), 3u);
+  constexpr double of_a_bin = 0.02 * 900.0 / 512.0;
+  EXPECT_NEAR(lines["1X"], 900.0, of_a_bin);
+  EXPECT_NEAR(std::abs(lines["2x"]), 1800.0, of_a_bin);
+  EXPECT_NEAR(lines["12 Hz"], -720.0, of_a_bin);
+  EXPECT_TRUE(r["resonance"].is_null());
+  const std::string told = whirl(call).out;
+  for (const char* name : {"forced (1X)", "forced (2x)", "forced (12 Hz)"}) {
+    EXPECT_TRUE(has(told, name)) << told;
+  }
+}
+
+// Along x cos a + y sin a a force along x is read as its cosine, one that turns backward as large as it
+// is, a ahead.
+TEST_F(ForceVerbs, ProbesReadTheOthers) {
+  write_rotor(twice + shaker + R"([[probe]]
+name = "1X"
+body = "rotor"
+angle = "60 deg"
+)");
+  const std::vector<std::string> call{"unbalance",      "rotor.toml", "--speeds",
+                                      "300:900:300rpm", "--out",      "u.h5"};
+  const json r = result(call);
+  ASSERT_EQ(r["forced_probes"].size(), 2u);
+  const json &two = r["forced_probes"][0], &own = r["forced_probes"][1];
+  EXPECT_EQ(two["name"], "1X");
+  EXPECT_EQ(two["force"], "2x");
+  EXPECT_EQ(two["order"], 2.0);
+  EXPECT_EQ(own["force"], "12 Hz");
+  EXPECT_NEAR(own["frequency_rpm"].get<double>(), 720.0, 1e-9);
+  const auto study = read_result<UnbalanceStudy>(ResultReader(folder / "u.h5"));
+  ASSERT_EQ(study.forced_probes.size(), 2u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double Omega = (300.0 + 300.0 * static_cast<double>(i)) * pi / 30.0, w = 24.0 * pi;
+    const Complex of_two = 3.0 * std::cos(pi / 3.0) * receptance(2.0 * Omega),
+                  of_own = 5.0 * receptance(w) * std::polar(1.0, pi / 3.0);
+    for (const auto& [found, reading] : {std::pair(two, of_two), std::pair(own, of_own)}) {
+      const double size = 2.0 * std::abs(reading);
+      EXPECT_NEAR(found["peak_to_peak_m"][i].get<double>(), size, rounding * size);
+      EXPECT_NEAR(found["phase_deg"][i].get<double>(), std::arg(reading) * 180.0 / pi, 1e-6);
+    }
+    EXPECT_LT(std::abs(study.forced_probes[1].amplitude(static_cast<Eigen::Index>(i)) - of_own),
+              rounding * std::abs(of_own));
+  }
+  const std::string told = whirl(call).out;
+  EXPECT_TRUE(has(told, "The same along the probes")) << told;
+}
+
+// What leaves them out says so.
+TEST_F(ForceVerbs, WhatLeavesOthersOutSaysSo) {
+  write_rotor(twice);
+  result({"unbalance", "rotor.toml", "--out", "u.h5"});
+  const json over =
+      result({"unbalance", "rotor.toml", "--over", "bearing.shaft.damping=4,8", "--out", "o.h5"});
+  EXPECT_TRUE(has(over["notes"].dump(), "without that to forces of other frequencies")) << over;
+  for (const char* file : {"u.h5", "o.h5"}) {
+    const ResultView view(folder / file);
+    std::size_t drawn = 0;
+    for (const FigureKind& kind : figure_kinds()) {
+      if (kind.name != "bode" && kind.name != "polar" && kind.name != "unbalance_over") continue;
+      for (const Figure& f : figures_of(kind, view)) {
+        ++drawn;
+        ASSERT_FALSE(f.notes.empty()) << kind.name;
+        EXPECT_TRUE(has(f.notes.back(), "forces of other frequencies are not drawn")) << kind.name;
+      }
+    }
+    EXPECT_GT(drawn, 0u) << file;
+  }
+  write("rotor.toml", jeffcott);
+  EXPECT_EQ(result({"unbalance", "rotor.toml", "--over", "bearing.shaft.damping=4,8"})["notes"],
+            json::array());
 }
 
 // A reader of universal files that knows nothing of whirl.
