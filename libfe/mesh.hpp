@@ -64,7 +64,8 @@ LayerSpan span_of(const Layer& layer, const Structure& structure, const Mesh& me
 /// Outer diameter of the shaft and its layers at a position [m]; the larger one at a step.
 double shaft_diameter(const Structure& structure, const Mesh& mesh, double z);
 
-/// All stations of a structure, in the order disks, bearings, links, unbalances, forces, layers, others.
+/// All stations of a structure, in the order disks, bearings, links, unbalances, forces,
+/// probes, layers, others.
 std::vector<const Station*> all_stations(const Structure& structure);
 
 }  // namespace whirl::inline fe
