@@ -1,15 +1,13 @@
 #include "libdyn/system/contact_system.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
 #include "libbase/dense.hpp"
-#include "libbase/error.hpp"
 #include "libcontact/blade.hpp"
+#include "libdyn/system/oscillations.hpp"
 #include "libfe/forces.hpp"
 
 namespace whirl::inline dyn {
@@ -20,7 +18,6 @@ constexpr double rest_slip = 1e-12;  ///< of the rim speed: as good as no slip
 /// Relative difference of rows, centers and rim speeds up to which contacts slip alike: more than
 /// rounding in a reduction, less than anybody can mean.
 constexpr double alike = 1e-9;
-constexpr double most_often = 5000;  ///< frequency of a load: what sines of lanes can take
 
 /// Whether the slip of two contacts is the same in every motion.
 bool slip_alike(const ReducedContact& a, const ReducedContact& b) {
@@ -54,19 +51,6 @@ PlaneRows relative_rows(Closing closing, const DofMap& dofs, const Point& at,
 /// Speed of the rotor's surface in the slip; what turns has its own in the gap's motion.
 double rim_speed_of(const AnyGeometry& geometry, double Omega, const Friction& friction) {
   return turns(geometry) ? 0.0 : Omega * rim_radius_of(geometry).value_or(friction.radius);
-}
-
-/// What is said of a load that changes too often for a revolution at this speed.
-NumericalError too_often(const Structure& structure, const OscillatingLoad& load, double ratio) {
-  std::string name;
-  for (const Force& f : structure.forces) {
-    const bool is_it = !f.is_constant() && f.order == load.order && f.frequency == load.frequency;
-    if (is_it && name.empty()) name = f.name;
-  }
-  return NumericalError(
-      fmt::format("force \"{}\", {}, is {:.4g} times the frequency of the speed, expected {:g} "
-                  "times at most",
-                  name, load.label(), ratio, most_often));
 }
 
 /// A law with what follows from the operation: how much friction bends a blade.
@@ -160,8 +144,7 @@ ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& re
       f0_ += cosine;
       continue;
     }
-    const double ratio = f.order > 0.0 ? f.order : f.frequency / phase_rate();
-    if (ratio > most_often) throw too_often(assembler.structure(), f, ratio);
+    const double ratio = frequency_ratio(assembler.structure(), f, phase_rate());
     oscillations_.push_back({f.order, f.at(Omega_), ratio, cosine, sine});
   }
 

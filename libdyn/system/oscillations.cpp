@@ -2,11 +2,16 @@
 
 #include "libdyn/system/oscillations.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 #include <vector>
+
+#include "libbase/error.hpp"
 
 namespace whirl::inline dyn {
 
@@ -14,6 +19,8 @@ namespace {
 
 constexpr long most_repeats = 1000;  ///< denominator of an order that counts as a fraction
 constexpr long most_chance = 32;  ///< the same of a frequency that happens to be one at this speed
+constexpr double most_often =
+    5000;  ///< ratio to the frequency of the speed: what sines of lanes can take
 constexpr double fraction_digits = 1e-12;  ///< of it, as decimals have it
 
 /// The least denominator of a ratio that is a fraction; 0: none is so small.
@@ -24,7 +31,26 @@ long denominator_of(double ratio, long most) {
   return 0;
 }
 
+/// What is said of a load that changes too often for a revolution at this speed.
+NumericalError too_often(const Structure& structure, const OscillatingLoad& load, double ratio) {
+  std::string name;
+  for (const Force& f : structure.forces) {
+    const bool is_it = !f.is_constant() && f.order == load.order && f.frequency == load.frequency;
+    if (is_it && name.empty()) name = f.name;
+  }
+  return NumericalError(
+      fmt::format("force \"{}\", {}, is {:.4g} times the frequency of the speed, expected {:g} "
+                  "times at most",
+                  name, load.label(), ratio, most_often));
+}
+
 }  // namespace
+
+double frequency_ratio(const Structure& structure, const OscillatingLoad& load, double phase_rate) {
+  const double ratio = load.order > 0.0 ? load.order : load.frequency / phase_rate;
+  if (ratio > most_often) throw too_often(structure, load, ratio);
+  return ratio;
+}
 
 double Oscillation::start_angle(long revolution) const {
   const auto r = static_cast<double>(revolution);
