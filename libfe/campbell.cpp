@@ -14,6 +14,9 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double sure = 0.8;            ///< MAC from which a match needs no second look
+constexpr double lost = 0.1;            ///< MAC below which modes are others
+constexpr double lost_at_last = 0.3;    ///< the same at speeds as near as can be
+constexpr double jump_at_last = 0.5;    ///< relative distance of eigenvalues that are others there
 constexpr int deepest = 6;              ///< halvings of a speed interval
 constexpr int spare_modes = 2;          ///< computed beyond those followed, for newcomers
 constexpr double clear = 1e-8;          ///< real part over size from which a mode grows, or decays
@@ -31,7 +34,9 @@ struct Front {
 };
 
 /// Assigns modes to branches, best agreement first. Returns the poorest agreement that was used.
-double follow(const Front& from, const std::vector<Mode>& found, const Sparse& M, Front& to) {
+/// @param is_last  whether no speeds between will tell more: modes that differ much are others
+double follow(const Front& from, const std::vector<Mode>& found, const Sparse& M, bool is_last,
+              Front& to) {
   const std::size_t branches = from.modes.size(), candidates = found.size();
   struct Pair {
     double score, agreement;
@@ -49,6 +54,8 @@ double follow(const Front& from, const std::vector<Mode>& found, const Sparse& M
       const Mode& a = from.modes[b];
       const double agreement = std::norm(a.shape.dot(Mz)) / (inertia[b] * own);
       const double distance = std::abs(a.lambda - z.lambda) / std::abs(a.lambda);
+      if (agreement < (is_last ? lost_at_last : lost)) continue;
+      if (is_last && distance > jump_at_last) continue;
       pairs.push_back({agreement - 0.2 * std::min(distance, 1.0), agreement, b, c});
     }
   }
@@ -59,7 +66,7 @@ double follow(const Front& from, const std::vector<Mode>& found, const Sparse& M
   to.is_alive.assign(branches, false);
   double poorest = 1.0;
   for (const Pair& p : pairs) {
-    if (to.is_alive[p.branch] || is_taken[p.candidate] || p.agreement < 0.1) continue;
+    if (to.is_alive[p.branch] || is_taken[p.candidate]) continue;
     to.is_alive[p.branch] = is_taken[p.candidate] = true;
     to.modes[p.branch] = found[p.candidate];
     poorest = std::min(poorest, p.agreement);
@@ -121,9 +128,10 @@ class Tracker {
 
   Front advance(const Front& from, const Look& end, int depth) const {
     Front to{.Omega = end.Omega, .eigenvalues = by_growth(end.modes)};
-    const double poorest = follow(from, end.modes, end.M, to);
     // at rest equal pairs of planar modes match either sense of whirl by half: nothing to refine
     const bool is_degenerate = from.Omega == 0.0 || end.Omega == 0.0;
+    const bool is_last = depth == deepest && !is_degenerate;
+    const double poorest = follow(from, end.modes, end.M, is_last, to);
     if (poorest >= sure || depth == deepest || is_degenerate) return to;
     const Look middle = look(0.5 * (from.Omega + end.Omega));
     return advance(advance(from, middle, depth + 1), end, depth + 1);
@@ -286,7 +294,7 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
   }
   const ModeFinder finder(assembler);
   FollowedModes modes(assembler, finder, speeds, branches + spare_modes);
-  const Tracker tracker(finder, modes, branches, !assembler.structure().linearized.empty());
+  const Tracker tracker(finder, modes, branches, assembler.depends_on_speed());
 
   const std::vector<Front> fronts = all_fronts(tracker, speeds, result.gaps);
   const std::size_t branch_count = fronts.back().modes.size();

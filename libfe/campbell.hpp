@@ -104,7 +104,9 @@ struct Campbell {
 ///
 /// Modes of neighboring speeds belong together if their shapes agree (MAC weighted with M); where
 /// they do not agree well, speeds between are computed too until they do. A speed whose modes cannot
-/// be computed is left out and told, and its neighbors are compared with one another.
+/// be computed is left out and told, and its neighbors are compared with one another. A branch ends
+/// where no mode is like it any more; if bearings change with speed, one begins for a mode that comes
+/// among the lowest then.
 ///
 /// Where more modes, or fewer, grow at a speed than at the one before, thresholds of instability lie
 /// between: the roots over speed of the real parts of the eigenvalues, the largest one first. Modes

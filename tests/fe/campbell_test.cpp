@@ -251,6 +251,26 @@ TEST(Campbell, ABranchThatStopsOscillatingIsNotANumberFromThere) {
   EXPECT_TRUE(std::isnan(c.branches[0].log_decrement[4]));
 }
 
+// The same backwards: the block creeps at first, and has a branch from where it oscillates.
+TEST(Campbell, AModeThatBeginsToOscillateHasABranchFromThere) {
+  const double m = 2.0, k = 800.0, critical = 2.0 * std::sqrt(k * m);
+  const TableBearing table{
+      {.speed = {0.0, 1000.0},
+       .rows = {test::orthotropic(k, 2.0 * k, 1.25 * critical), test::orthotropic(k, 2.0 * k)}}};
+  const Structure s{.bodies = {{.name = "block", .m = m}},
+                    .bearings = {test::bearing(test::body("block"), AnyBearing(table))}};
+  const std::vector<double> speeds{100.0, 200.0, 230.0, 600.0, 1000.0};
+  const Campbell c = campbell(Assembler(s), speeds, 2);
+  ASSERT_EQ(c.branches.size(), 2u);
+  const auto& along_x = c.branches[1].frequency;
+  EXPECT_TRUE(std::isnan(along_x[0]));
+  EXPECT_TRUE(std::isnan(along_x[1]));
+  for (std::size_t i = 2; i < speeds.size(); ++i) {
+    const double zeta = 1.25 * (1.0 - speeds[i] / 1000.0);
+    EXPECT_NEAR(along_x[i], std::sqrt(k / m * (1.0 - zeta * zeta)), 1e-8);
+  }
+}
+
 // ---- the rest -----------------------------------------------------------------------------------
 
 TEST(Campbell, SpeedsMustAscendFromZeroOrAbove) {
