@@ -7,6 +7,7 @@
 
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
+#include "libio/text/vendor_units.hpp"
 
 namespace whirl::inline io {
 
@@ -86,7 +87,10 @@ std::optional<double> TableReader::quantity(const ConfigNode& value, const std::
     case ConfigNode::Kind::string: {
       const auto parsed = parse_as(value.text, unit);
       if (!parsed) {
-        report(parsed.problem);
+        const std::string hint = vendor_hint(value.text, unit);
+        report(hint.empty() ? parsed.problem
+                            : fmt::format("found {}, expected {}{}", value.as_written(),
+                                          expected_quantity(unit), hint));
         return std::nullopt;
       }
       number = *parsed;

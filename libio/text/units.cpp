@@ -61,6 +61,7 @@ constexpr Unit units[] = {
     {"N", 1, 0, dim(1, 1, -2), "numkMG"},
     {"lbf", lbf, 0, dim(1, 1, -2), "k"},
     {"W", 1, 0, dim(1, 2, -3), "mkM"},
+    {"hp", 550.0 * lbf * 0.3048, 0, dim(1, 2, -3), ""},
     {"Pa", 1, 0, dim(1, -1, -2), "numkMG"},
     {"bar", 1, 5, dim(1, -1, -2), "m"},
     {"psi", psi, 0, dim(1, -1, -2), ""},

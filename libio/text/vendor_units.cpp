@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
+#include <cstring>
 #include <utility>
 
 namespace whirl::inline io {
@@ -77,6 +79,17 @@ Parsed<std::string> unit_in_table(std::string_view text, std::string_view si_uni
   const std::string meant = respelled(text);
   if (parse_as("1 " + meant, si_unit)) return meant;
   return Result::failed(as_written.problem);
+}
+
+std::string vendor_hint(const std::string& quantity, std::string_view si_unit) {
+  char* rest = nullptr;
+  std::strtod(quantity.c_str(), &rest);
+  const std::string number = quantity.substr(0, static_cast<std::size_t>(rest - quantity.c_str()));
+  const std::string unit(rest + std::strspn(rest, " "));
+  if (number.empty() || unit.empty()) return "";
+  const Parsed<std::string> meant = unit_in_table(unit, si_unit);
+  if (!meant || *meant == unit) return "";
+  return fmt::format("; did you mean \"{} {}\"?", number, *meant);
 }
 
 }  // namespace whirl::inline io

@@ -17,4 +17,7 @@ namespace whirl::inline io {
 /// @return  or what is wrong with the text as it stands
 Parsed<std::string> unit_in_table(std::string_view text, std::string_view si_unit);
 
+/// What a quantity with a unit of vendors may mean: "; did you mean "5 lbf/in"?", or nothing.
+std::string vendor_hint(const std::string& quantity, std::string_view si_unit);
+
 }  // namespace whirl::inline io

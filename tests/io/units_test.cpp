@@ -8,6 +8,8 @@
 #include <numbers>
 #include <random>
 
+#include "libio/text/vendor_units.hpp"
+
 namespace whirl::units_test {
 
 constexpr double pi = std::numbers::pi;
@@ -58,9 +60,9 @@ INSTANTIATE_TEST_SUITE_P(
         // pressures and viscosities
         Good{"3 Pa", "Pa", 3.0}, Good{"3 kPa", "Pa", 3e3}, Good{"3 MPa", "Pa", 3e6},
         Good{"3 bar", "Pa", 3e5}, Good{"10 psi", "Pa", 10.0 * psi},
-        Good{"30000 ksi", "Pa", 3e7 * psi}, Good{"18 cP", "Pa.s", 0.018}, Good{"3 P", "Pa.s", 0.3},
-        Good{"18 mPa.s", "Pa.s", 0.018}, Good{"2e-6 reyn", "Pa.s", 2e-6 * psi},
-        Good{"2 ureyn", "Pa.s", 2e-6 * psi},
+        Good{"1 hp", "W", 745.69987158227022}, Good{"30000 ksi", "Pa", 3e7 * psi},
+        Good{"18 cP", "Pa.s", 0.018}, Good{"3 P", "Pa.s", 0.3}, Good{"18 mPa.s", "Pa.s", 0.018},
+        Good{"2e-6 reyn", "Pa.s", 2e-6 * psi}, Good{"2 ureyn", "Pa.s", 2e-6 * psi},
         // speeds and angles
         Good{"3.65 krpm", "rad/s", 3650.0 * pi / 30.0}, Good{"50 Hz", "rad/s", 100.0 * pi},
         Good{"2 kHz", "rad/s", 4000.0 * pi}, Good{"50 rev/s", "rad/s", 100.0 * pi},
@@ -287,6 +289,15 @@ TEST(Units, GarbageIsNeitherCrashNorInfinity) {
     }
   }
   EXPECT_GT(good, 1000);  // the search reaches good texts too
+}
+
+// Units as vendors write them are no units of model files, but what they may mean is told.
+TEST(Units, OfVendorsAreRecognized) {
+  EXPECT_EQ(vendor_hint("5e5 lb/in", "N/m"), "; did you mean \"5e5 lbf/in\"?");
+  EXPECT_EQ(vendor_hint("500 lb-s/in", "N.s/m"), "; did you mean \"500 lbf.s/in\"?");
+  EXPECT_EQ(vendor_hint("5 lb", "kg"), "");
+  EXPECT_EQ(vendor_hint("5 furlong", "m"), "");
+  EXPECT_EQ(vendor_hint("lb/in", "N/m"), "");
 }
 
 }  // namespace whirl::units_test
