@@ -106,11 +106,14 @@ class Tracker {
   /// Follows all branches to another speed, halving the way where shapes change much.
   Front advance(const Front& from, double Omega) const { return advance(from, look(Omega), 0); }
 
-  /// Makes branches of other modes, the lowest first, where some have ended or there were too few.
+  /// Makes branches of other modes that are among the lowest, as many as are followed.
   void add_others(Front& front) const {
-    auto missing = branches_ - std::count(front.is_alive.begin(), front.is_alive.end(), true);
+    if (!adds_) return;
     for (const Mode& mode : front.others) {
-      if (!adds_ || missing-- <= 0) return;
+      const auto lower =
+          std::count_if(front.eigenvalues.begin(), front.eigenvalues.end(),
+                        [&](Complex lambda) { return lambda.imag() < mode.frequency(); });
+      if (lower >= branches_) continue;
       front.modes.push_back(mode);
       front.is_alive.push_back(true);
     }

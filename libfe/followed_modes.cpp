@@ -13,7 +13,7 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr int smallest = 75;  ///< dofs; all modes of smaller systems come at once, and fast
-constexpr std::size_t longest_span = 60;  ///< speeds, then all modes are looked at again
+constexpr std::size_t longest_span = 100;  ///< speeds, then all modes are looked at again
 constexpr std::size_t memory = 5;         ///< speeds that an extrapolation uses
 constexpr double settled = 1e-7;  ///< relative step of Newton's iteration: the next is its square
 constexpr double alike = 0.9;     ///< MAC of a mode at neighboring speeds
