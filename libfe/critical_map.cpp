@@ -299,12 +299,10 @@ void add_crossings(CriticalMap& map, const std::vector<ShapeBranch>& branches,
   }
 }
 
-Whirl most_frequent(const ShapeBranch& branch, const DofMap& dofs) {
-  std::map<Whirl, int> count;
-  for (const ShapedValue& found : branch.found) ++count[whirl_of(orbits(dofs, found.shape))];
-  const auto most = std::max_element(
-      count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most->first;
+Whirl usual_sense(const ShapeBranch& branch, const DofMap& dofs) {
+  std::vector<Whirl> seen;
+  for (const ShapedValue& found : branch.found) seen.push_back(whirl_of(orbits(dofs, found.shape)));
+  return most_frequent(seen);
 }
 
 }  // namespace
@@ -338,7 +336,7 @@ CriticalMap critical_map(const Structure& given, const CriticalMapOptions& optio
   std::erase_if(followed.branches,
                 [&](const ShapeBranch& b) { return b.found.front().value > map.top; });
   for (const ShapeBranch& b : followed.branches) {
-    CriticalMapBranch branch{.whirl = most_frequent(b, system.dofs)};
+    CriticalMapBranch branch{.whirl = usual_sense(b, system.dofs)};
     for (std::size_t i = 0; i < b.at.size(); ++i) {
       branch.x.push_back(std::pow(10.0, b.at[i]));
       branch.speed.push_back(b.found[i].value);

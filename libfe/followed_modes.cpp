@@ -12,9 +12,8 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int smallest = 75;  ///< dofs; all modes of smaller systems come at once, and fast
 constexpr std::size_t longest_span = 100;  ///< speeds, then all modes are looked at again
-constexpr std::size_t memory = 5;         ///< speeds that an extrapolation uses
+constexpr std::size_t memory = 5;          ///< speeds that an extrapolation uses
 constexpr double settled = 1e-7;  ///< relative step of Newton's iteration: the next is its square
 constexpr double alike = 0.9;     ///< MAC of a mode at neighboring speeds
 constexpr double near = 0.3;      ///< relative step of its eigenvalue
@@ -26,10 +25,6 @@ constexpr int most_owns = 12;  ///< systems until a frequency is its own
 
 /// Nothing is known for sure about a span.
 struct Doubt {};
-
-bool oscillates(Complex lambda) {
-  return lambda.imag() > hardly_oscillating * std::abs(lambda.real());
-}
 
 /// Whether eigenpairs, shapes of length one, agree.
 bool agree(const EigenPair& a, const EigenPair& b, double distance, double mac) {
@@ -217,7 +212,7 @@ FollowedModes::FollowedModes(const Assembler& assembler, const ModeFinder& finde
     : assembler_(assembler),
       finder_(finder),
       count_(static_cast<std::size_t>(count)),
-      is_large_(assembler.dofs().T.cols() >= smallest) {
+      is_large_(assembler.dofs().T.cols() >= dense_below) {
   std::vector<double> spinning;
   std::unique_copy(std::upper_bound(speeds.begin(), speeds.end(), 0.0), speeds.end(),
                    std::back_inserter(spinning));

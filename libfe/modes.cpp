@@ -21,7 +21,6 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int dense_below = 75;          ///< dofs; dense solvers are as fast there
 constexpr int dense_after = 160;         ///< dofs; where Arnoldi failed, dense ones are faster
 constexpr double visible = 1e-3;         ///< of the largest orbit: smaller ones have no sense
 constexpr double flat = 1e-4;            ///< axis ratio below which an orbit is a line
@@ -116,7 +115,7 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
         stiffness_ratio(system, q) <= rigid_share * body.first_flexible * body.first_flexible;
     if (is_rigid) {
       modes.rigid_body.push_back(mode_of(lambda, q, system.dofs));
-    } else if (lambda.imag() <= hardly_oscillating * std::abs(lambda.real())) {
+    } else if (!oscillates(lambda)) {
       modes.overdamped.push_back(lambda);
     } else {
       modes.oscillatory.push_back(mode_of(lambda, q, system.dofs));
@@ -281,6 +280,16 @@ Whirl whirl_of(const std::vector<Orbit>& orbits) {
   if (forward && backward) return Whirl::mixed;
   if (forward) return Whirl::forward;
   return backward ? Whirl::backward : Whirl::planar;
+}
+
+Whirl most_frequent(const std::vector<Whirl>& seen) {
+  Whirl most = Whirl::planar;
+  std::ptrdiff_t times = 0;
+  for (const auto& [name, whirl] : choices(Whirl{})) {
+    const auto here = std::count(seen.begin(), seen.end(), whirl);
+    if (here > times) times = here, most = whirl;
+  }
+  return most;
 }
 
 Mode mode_of(Complex lambda, const CVec& q, const DofMap& dofs) {

@@ -2,6 +2,7 @@
 /// Complex modes of a damped, spinning system, and what their orbits look like.
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -40,6 +41,12 @@ constexpr double heavy_damping = 0.5;
 
 /// |Im| over |Re| of an eigenvalue below which it hardly oscillates.
 constexpr double hardly_oscillating = 0.2;
+inline bool oscillates(Complex lambda) {
+  return lambda.imag() > hardly_oscillating * std::abs(lambda.real());
+}
+
+/// Coordinates below which all modes of a system are found at once: dense solvers are as fast there.
+constexpr int dense_below = 75;
 
 /// One oscillatory mode, q = Re(shape e^(lambda t)).
 struct Mode {
@@ -144,6 +151,9 @@ class ModeFinder {
 
 /// Orbits of all points (nodes, then bodies) of a complex shape.
 std::vector<Orbit> orbits(const DofMap& dofs, const CVec& shape);
+
+/// The sense seen most often, of equals the first of the enumeration; planar where none was seen.
+Whirl most_frequent(const std::vector<Whirl>& seen);
 
 /// Sense of whirl from orbits: points below a thousandth of the largest are not asked.
 Whirl whirl_of(const std::vector<Orbit>& orbits);

@@ -141,7 +141,7 @@ class OwnModes {
     sort();
     Modes modes{{}, std::move(rest.overdamped), std::move(rest.rigid_body)};
     for (const Found& f : found_) {
-      if (f.pair.lambda.imag() <= hardly_oscillating * std::abs(f.pair.lambda.real())) {
+      if (!oscillates(f.pair.lambda)) {
         modes.overdamped.push_back(f.pair.lambda);
       } else if (static_cast<int>(modes.oscillatory.size()) < count_) {
         modes.oscillatory.push_back(mode_of(f.pair.lambda, f.pair.q, dofs_));
