@@ -214,8 +214,9 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
     if (model.has_speed && model.speed > 0.0) of.separation = separation_margin(peak, model.speed);
     study.peaks.push_back(std::move(of));
   }
-  add_forced(options.stations, assembler, points, study);
   add_probes(assembler, curve, rows, study);
+  if (!options.tells_all) return study;
+  add_forced(options.stations, assembler, points, study);
   study.clearances = clearance_uses(model, assembler, curve.response.speeds);
   return study;
 }

@@ -19,6 +19,7 @@ struct UnbalanceOptions {
   std::vector<double> speeds;     ///< ascending [rad/s]
   bool has_given_speeds = false;  ///< else only their range counts, and the curve's own are taken
   std::vector<NamedPoint> stations;
+  bool tells_all = true;  ///< responses to forces of other frequencies and clearances, too
 };
 
 /// Orbits of a station: u(t) = Re(value e^(i Omega t)).

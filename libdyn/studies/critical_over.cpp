@@ -1,9 +1,8 @@
 #include "libdyn/studies/critical_over.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <utility>
 
 #include "libbase/constants.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
@@ -32,30 +31,20 @@ std::vector<ShapedValue> lowest(const Model& model, const ShapeSampler& sampler,
   return found;
 }
 
-/// A branch at the values where it was found; none if it is never among the lowest ones.
-std::optional<CriticalOverBranch> branch_of(const ShapeBranch& followed,
-                                            const std::vector<double>& values,
-                                            const CriticalsAt& known, int count) {
+CriticalOverBranch branch_of(const std::vector<ToldAt>& places, const std::vector<double>& values,
+                             const CriticalsAt& known) {
   const Vec gaps = Vec::Constant(std::ssize(values), nan);
   CriticalOverBranch branch{.speed = gaps, .damped_speed = gaps, .damping_ratio = gaps};
-  std::map<Whirl, int> senses;
-  bool is_among = false;
-  for (std::size_t i = 0; i < followed.at.size(); ++i) {
-    const auto value = std::lower_bound(values.begin(), values.end(), followed.at[i]);
-    if (value == values.end() || *value != followed.at[i]) continue;  // one between them
-    const int number = followed.found[i].number;
-    const Critical& critical = known.at(*value).at(static_cast<std::size_t>(number));
-    const auto k = value - values.begin();
-    branch.speed(k) = critical.speed;
-    branch.damped_speed(k) = critical.damped_speed;
-    branch.damping_ratio(k) = critical.damping_ratio;
-    ++senses[critical.whirl];
-    is_among = is_among || number < count;
+  std::vector<Whirl> seen;
+  for (const ToldAt& at : places) {
+    const Critical& critical = known.at(values[static_cast<std::size_t>(at.index)])
+                                   .at(static_cast<std::size_t>(at.found.number));
+    branch.speed(at.index) = critical.speed;
+    branch.damped_speed(at.index) = critical.damped_speed;
+    branch.damping_ratio(at.index) = critical.damping_ratio;
+    seen.push_back(critical.whirl);
   }
-  if (!is_among) return {};
-  branch.whirl = std::max_element(senses.begin(), senses.end(), [](const auto& a, const auto& b) {
-                   return a.second < b.second;
-                 })->first;
+  branch.whirl = most_frequent(seen);
   return branch;
 }
 
@@ -74,9 +63,9 @@ CriticalOver critical_over(const ModelAt& model_at, ParameterName parameter,
   const ShapeBranches followed =
       follow_shapes(values, solve, sampler.weight(), shape_limit(values, solve, options.count));
   for (const ShapeBranch& branch : followed.branches) {
-    if (auto wanted = branch_of(branch, values, known, options.count)) {
-      result.branches.push_back(std::move(*wanted));
-    }
+    const std::vector<ToldAt> places = told_places(branch, values);
+    if (!is_among_lowest(places, options.count)) continue;
+    result.branches.push_back(branch_of(places, values, known));
   }
   result.gaps = gaps_of(followed);
   return result;

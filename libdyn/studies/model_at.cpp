@@ -55,6 +55,21 @@ std::vector<ValueGap> gaps_of(const ShapeBranches& followed) {
   return gaps;
 }
 
+std::vector<ToldAt> told_places(const ShapeBranch& branch, const std::vector<double>& values) {
+  std::vector<ToldAt> places;
+  for (std::size_t i = 0; i < branch.at.size(); ++i) {
+    const auto value = std::lower_bound(values.begin(), values.end(), branch.at[i]);
+    if (value == values.end() || *value != branch.at[i]) continue;
+    places.push_back({value - values.begin(), branch.found[i]});
+  }
+  return places;
+}
+
+bool is_among_lowest(const std::vector<ToldAt>& places, int count) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](const ToldAt& at) { return at.found.number < count; });
+}
+
 ShapeSampler::ShapeSampler(const Assembler& first)
     : places_(places_of(first.mesh())), bodies_(first.dofs().bodies()) {
   const double length = first.structure().length();

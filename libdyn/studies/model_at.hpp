@@ -48,6 +48,15 @@ struct ValueGap {
 };
 std::vector<ValueGap> gaps_of(const ShapeBranches& followed);
 
+/// Where a branch was found at one of the values that were asked for, not between them.
+struct ToldAt {
+  Eigen::Index index = 0;  ///< of the value
+  const ShapedValue& found;
+};
+std::vector<ToldAt> told_places(const ShapeBranch& branch, const std::vector<double>& values);
+/// Whether it is ever among so many lowest solutions there.
+bool is_among_lowest(const std::vector<ToldAt>& places, int count);
+
 /// Solutions computed beyond those that are wanted, for newcomers.
 inline constexpr int spare_solutions = 2;
 /// Up to which number shapes must agree: a little more than those of the lowest solutions at the first

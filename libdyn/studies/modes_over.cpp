@@ -52,37 +52,22 @@ class ModesAtValues {
   std::map<double, std::vector<Mode>> known_;
 };
 
-ModesOverBranch branch_of(const ShapeBranch& followed, const std::vector<double>& values,
+ModesOverBranch branch_of(const std::vector<ToldAt>& places, const std::vector<double>& values,
                           const ModesAtValues& modes) {
   const auto count = std::ssize(values);
   ModesOverBranch branch{.frequency = Vec::Constant(count, nan),
                          .log_decrement = Vec::Constant(count, nan),
                          .eigenvalue = CVec::Constant(count, Complex(nan, nan))};
-  std::map<Whirl, int> senses;
-  for (std::size_t i = 0; i < followed.at.size(); ++i) {
-    const auto value = std::lower_bound(values.begin(), values.end(), followed.at[i]);
-    if (value == values.end() || *value != followed.at[i]) continue;  // one between them
-    const Mode& mode = modes.mode(*value, followed.found[i]);
-    const auto k = value - values.begin();
-    branch.frequency(k) = mode.frequency();
-    branch.log_decrement(k) = mode.log_decrement();
-    branch.eigenvalue(k) = mode.lambda;
-    ++senses[mode.whirl];
+  std::vector<Whirl> seen;
+  for (const ToldAt& at : places) {
+    const Mode& mode = modes.mode(values[static_cast<std::size_t>(at.index)], at.found);
+    branch.frequency(at.index) = mode.frequency();
+    branch.log_decrement(at.index) = mode.log_decrement();
+    branch.eigenvalue(at.index) = mode.lambda;
+    seen.push_back(mode.whirl);
   }
-  const auto most =
-      std::max_element(senses.begin(), senses.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (most != senses.end()) branch.whirl = most->first;
+  branch.whirl = most_frequent(seen);
   return branch;
-}
-
-/// Whether a branch is ever among the lowest modes, at one of the values.
-bool is_wanted(const ShapeBranch& followed, const std::vector<double>& values, int count) {
-  for (std::size_t i = 0; i < followed.at.size(); ++i) {
-    const bool is_told = std::binary_search(values.begin(), values.end(), followed.at[i]);
-    if (is_told && followed.found[i].number < count) return true;
-  }
-  return false;
 }
 
 /// The sign of a real part; 0 within rounding.
@@ -165,9 +150,10 @@ ModesOver modes_over(const ModelAt& model_at, ParameterName parameter,
   const Sparse W = modes.weight();
   const ShapeBranches followed = follow_shapes(values, solve, W, shape_limit(values, solve, count));
   for (const ShapeBranch& branch : followed.branches) {
-    if (!is_wanted(branch, values, count)) continue;
+    const std::vector<ToldAt> places = told_places(branch, values);
+    if (!is_among_lowest(places, count)) continue;
     const auto number = static_cast<int>(result.branches.size());
-    result.branches.push_back(branch_of(branch, values, modes));
+    result.branches.push_back(branch_of(places, values, modes));
     add_thresholds(branch, number, modes, W, result.thresholds);
   }
   std::stable_sort(result.thresholds.begin(), result.thresholds.end(),

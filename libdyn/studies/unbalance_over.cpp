@@ -20,8 +20,8 @@ UnbalanceResponse at_operation(const Model& model, const Assembler& assembler,
 void add_value(const Model& model, const Assembler& assembler,
                const std::vector<NamedPoint>& stations, const std::vector<double>& speeds,
                Eigen::Index k, UnbalanceOver& result) {
-  const UnbalanceStudy study =
-      unbalance_study(model, assembler, {.speeds = speeds, .stations = stations});
+  const UnbalanceStudy study = unbalance_study(
+      model, assembler, {.speeds = speeds, .stations = stations, .tells_all = false});
   const std::vector<Probe>& probes = assembler.structure().probes;
   std::vector<Point> points;
   for (const NamedPoint& p : stations) points.push_back(p.point);
