@@ -92,8 +92,10 @@ std::vector<Complex> by_growth(const std::vector<Mode>& modes) {
 class Tracker {
  public:
   /// @param adds  whether modes that begin to oscillate become branches
-  Tracker(const ModeFinder& finder, FollowedModes& modes, int branches, bool adds)
-      : finder_(finder), modes_(modes), branches_(branches), adds_(adds) {}
+  Tracker(FollowedModes& modes, int branches, bool adds)
+      : modes_(modes), branches_(branches), adds_(adds) {}
+
+  const FollowedModes& modes() const { return modes_; }
 
   Front start(double Omega) const {
     const std::vector<Mode>& found = modes_.at(Omega);
@@ -124,10 +126,10 @@ class Tracker {
   struct Look {
     double Omega = 0.0;
     const std::vector<Mode>& modes;
-    Sparse M;
+    const Sparse& M;
   };
 
-  Look look(double Omega) const { return {Omega, modes_.at(Omega), finder_.system(Omega).M}; }
+  Look look(double Omega) const { return {Omega, modes_.at(Omega), modes_.mass(Omega)}; }
 
   Front advance(const Front& from, const Look& end, int depth) const {
     Front to{.Omega = end.Omega, .eigenvalues = by_growth(end.modes)};
@@ -140,7 +142,6 @@ class Tracker {
     return advance(advance(from, middle, depth + 1), end, depth + 1);
   }
 
-  const ModeFinder& finder_;
   FollowedModes& modes_;
   int branches_;
   bool adds_;
@@ -192,14 +193,21 @@ std::vector<Front> all_fronts(const Tracker& tracker, const std::vector<double>&
 /// ends between them.
 double crossing(const Tracker& tracker, const Front& low, const Front& high, std::size_t branch,
                 double order) {
+  const Mode &below = low.modes[branch], &above = high.modes[branch];
   Front near = low;  // the last one
+  Mode mode = below;
   const auto gap = [&](double Omega) {
     if (Omega == low.Omega || Omega == high.Omega) {
       near = Omega == low.Omega ? low : high;
+    } else if (const auto own = tracker.modes().like(mode, below, above, Omega)) {
+      mode = *own;
+      return mode.frequency() - order * Omega;
     } else {
       near = tracker.advance(near, Omega);
     }
-    return near.is_alive[branch] ? near.modes[branch].frequency() - order * Omega : nan;
+    if (!near.is_alive[branch]) return nan;
+    mode = near.modes[branch];
+    return mode.frequency() - order * Omega;
   };
   try {
     return bracketed_root(gap, low.Omega, high.Omega, crossing_tol * high.Omega);
@@ -297,7 +305,7 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
   }
   const ModeFinder finder(assembler);
   FollowedModes modes(assembler, finder, speeds, branches + spare_modes);
-  const Tracker tracker(finder, modes, branches, assembler.depends_on_speed());
+  const Tracker tracker(modes, branches, assembler.depends_on_speed());
 
   const std::vector<Front> fronts = all_fronts(tracker, speeds, result.gaps);
   const std::size_t branch_count = fronts.back().modes.size();

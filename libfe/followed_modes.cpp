@@ -43,9 +43,12 @@ void align(EigenPair& pair, const EigenPair& other) {
   pair.q *= std::polar(1.0, -std::arg(other.q.dot(pair.q)));
 }
 
+EigenPair pair_of(const Mode& mode) {
+  return {mode.lambda, mode.shape.normalized()};
+}
 std::vector<EigenPair> pairs_of(const std::vector<Mode>& modes) {
   std::vector<EigenPair> pairs;
-  for (const Mode& mode : modes) pairs.push_back({mode.lambda, mode.shape.normalized()});
+  for (const Mode& mode : modes) pairs.push_back(pair_of(mode));
   return pairs;
 }
 
@@ -60,6 +63,7 @@ class AtSpeed {
   }
 
   const DofMap& dofs() const { return system_.dofs; }
+  const Sparse& M() const { return system_.M; }
 
   /// The eigenpair that a guess leads to; none: it is not like the one at the speed before.
   std::optional<EigenPair> pair(EigenPair guess, const EigenPair& before) {
@@ -231,6 +235,7 @@ const FollowedModes::Known& FollowedModes::compute(double Omega) {
   Known known;
   try {
     known.modes = finder_.at(Omega, static_cast<int>(count_)).oscillatory;
+    known.M = finder_.system(Omega).M;
   } catch (const NumericalError& error) {
     known.why_not = error.what();
   }
@@ -243,6 +248,7 @@ std::vector<FollowedModes::Known> FollowedModes::followed(const std::vector<doub
   const std::vector<EigenPair> first = pairs_of(low.modes);
   std::vector<std::vector<EigenPair>> pairs(speeds.size());
   std::vector<DofMap> dofs(speeds.size());
+  std::vector<Sparse> M(speeds.size());
   const auto advance = [&](std::vector<Track>& tracks, std::size_t i) {
     if (tracks.empty()) return;
     Looks looks(assembler_, finder_);
@@ -251,6 +257,7 @@ std::vector<FollowedModes::Known> FollowedModes::followed(const std::vector<doub
       if (!track.is_over()) pairs[i].push_back(track.last());
     }
     dofs[i] = looks.at(speeds[i]).dofs();
+    M[i] = looks.at(speeds[i]).M();
   };
   std::vector<Track> upward = tracks_from(speeds.front(), first);
   for (std::size_t i = 1; i < speeds.size(); ++i) advance(upward, i);
@@ -261,7 +268,8 @@ std::vector<FollowedModes::Known> FollowedModes::followed(const std::vector<doub
   const std::size_t enough = std::min(low.modes.size(), high.modes.size());
   std::vector<Known> between;
   for (std::size_t i = 1; i + 1 < speeds.size(); ++i) {
-    between.push_back({lowest_modes(std::move(pairs[i]), dofs[i], count_, enough), {}});
+    between.push_back(
+        {lowest_modes(std::move(pairs[i]), dofs[i], count_, enough), std::move(M[i]), {}});
   }
   return between;
 }
@@ -281,7 +289,7 @@ void FollowedModes::follow_span(const std::vector<double>& speeds) {
   }
 }
 
-std::vector<Mode> FollowedModes::between(double below, double above, double Omega) const {
+FollowedModes::Known FollowedModes::between(double below, double above, double Omega) const {
   const Known &low = known_.at(below), &high = known_.at(above);
   if (!low.why_not.empty() || !high.why_not.empty()) throw Doubt{};
   std::vector<EigenPair> others = pairs_of(high.modes), found;
@@ -305,8 +313,19 @@ std::vector<Mode> FollowedModes::between(double below, double above, double Omeg
     follow(guess, pair);
   }
   for (const EigenPair& pair : others) follow(pair, pair);
-  return lowest_modes(std::move(found), there.dofs(), count_,
-                      std::min(low.modes.size(), high.modes.size()));
+  return {lowest_modes(std::move(found), there.dofs(), count_,
+                       std::min(low.modes.size(), high.modes.size())),
+          there.M(),
+          {}};
+}
+
+std::optional<Mode> FollowedModes::like(const Mode& guess, const Mode& below, const Mode& above,
+                                        double Omega) const {
+  if (!is_large_) return std::nullopt;
+  AtSpeed there(assembler_, finder_, Omega);
+  const std::optional<EigenPair> pair = there.pair(pair_of(guess), pair_of(below));
+  if (!pair || !oscillates(pair->lambda) || !is_like(*pair, pair_of(above))) return std::nullopt;
+  return mode_of(pair->lambda, pair->q, there.dofs());
 }
 
 const FollowedModes::Known& FollowedModes::known_at(double Omega) {
@@ -316,8 +335,7 @@ const FollowedModes::Known& FollowedModes::known_at(double Omega) {
   const double below = std::prev(above)->first;
   if (!is_large_ || below == 0.0) return compute(Omega);
   try {
-    return known_.insert_or_assign(Omega, Known{between(below, above->first, Omega), {}})
-        .first->second;
+    return known_.insert_or_assign(Omega, between(below, above->first, Omega)).first->second;
   } catch (const Doubt&) {
     return compute(Omega);
   }

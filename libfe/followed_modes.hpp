@@ -2,6 +2,7 @@
 /// Modes at many speeds: all at a few of them, each for itself between.
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,18 +32,28 @@ class FollowedModes {
   ///
   /// @throws NumericalError  if modes cannot be computed there
   const std::vector<Mode>& at(double Omega);
+  /// Mass matrix at a speed [rad/s], by which shapes of modes there are compared.
+  const Sparse& mass(double Omega) { return known_at(Omega).M; }
+
+  /// The mode at a speed between two at which it is known; nothing where what it is followed to is not
+  /// like both, or the system is small.
+  ///
+  /// @param guess  the mode at a speed as near as can be
+  std::optional<Mode> like(const Mode& guess, const Mode& below, const Mode& above,
+                           double Omega) const;
 
  private:
   /// What is known at a speed.
   struct Known {
     std::vector<Mode> modes;
+    Sparse M;
     std::string why_not;  ///< they cannot be computed; empty: they can
   };
   const Known& known_at(double Omega);
   const Known& compute(double Omega);
   void follow_span(const std::vector<double>& speeds);
   std::vector<Known> followed(const std::vector<double>& speeds) const;
-  std::vector<Mode> between(double below, double above, double Omega) const;
+  Known between(double below, double above, double Omega) const;
 
   const Assembler& assembler_;
   const ModeFinder& finder_;
