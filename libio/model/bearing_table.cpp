@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <sstream>
 
 #include "libio/model/table_columns.hpp"
 #include "libio/text/delimited.hpp"
@@ -19,8 +18,8 @@ using Kind = CoefficientColumn::Kind;
 /// A table while its lines are read.
 struct OpenTable {
   CoefficientTable table{};
-  std::vector<int> lines{};  ///< where its rows stand
-  Delimiter delimiter = Delimiter::comma;
+  std::vector<Where> places{};  ///< where its rows stand: the cell of the speed, or whirl frequency
+  NumberMarks marks{};
   std::vector<CoefficientColumn> columns{};
 
   bool has(Kind kind) const {
@@ -29,42 +28,41 @@ struct OpenTable {
   }
 };
 
-std::optional<double> value_of(const std::string& cell, const CoefficientColumn& column,
-                               Delimiter delimiter, const ReportProblem& report) {
-  const auto number = plain_number(cell, delimiter);
+std::optional<double> value_of(const Cell& cell, const CoefficientColumn& column,
+                               const NumberMarks& marks, const ReportProblem& report) {
+  const auto number = plain_number(cell.text, marks);
   if (!number) {
-    report(column.name, number.problem);
+    report(cell.place, column.name, number.problem);
     return std::nullopt;
   }
   const auto value =
       parse_as(*number + (column.unit.empty() ? "" : " " + column.unit), column.si_unit);
-  if (!value) report(column.name, value.problem);
+  if (!value) report(cell.place, column.name, value.problem);
   return value.value;
 }
 
 /// Adds the row of a line.
-void add_row(OpenTable& open, const std::vector<std::string>& parts, int line,
+void add_row(OpenTable& open, const std::vector<Cell>& cells, Where where,
              const ReportProblem& report) {
-  if (parts.size() != open.columns.size()) {
-    report("", fmt::format("found {} columns, expected {} as in the first line", parts.size(),
-                           open.columns.size()));
-    return;
-  }
   BearingCoefficients row;
   double speed = 0.0, whirl = 0.0;
   bool has_place = true;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
     const CoefficientColumn& column = open.columns[i];
-    const auto value = value_of(parts[i], column, open.delimiter, report);
+    const auto value = value_of(cells[i], column, open.marks, report);
     if (!value) {
       has_place = has_place && column.kind == Kind::entry;
       continue;
     }
     if (column.kind == Kind::speed) {
       speed = *value;
+      where.column = cells[i].place;
     } else if (column.kind == Kind::whirl) {
       whirl = *value;
-      if (whirl < 0.0) report("whirl", "a whirl frequency is zero or more, for either sense");
+      if (!open.has(Kind::speed)) where.column = cells[i].place;
+      if (whirl < 0.0) {
+        report(cells[i].place, "whirl", "a whirl frequency is zero or more, for either sense");
+      }
     } else {
       (row.*column.matrix)(column.row, column.column) = *value;
     }
@@ -73,7 +71,7 @@ void add_row(OpenTable& open, const std::vector<std::string>& parts, int line,
   if (open.has(Kind::speed)) open.table.speed.push_back(speed);
   if (open.has(Kind::whirl)) open.table.whirl.push_back(whirl);
   open.table.rows.push_back(row);
-  open.lines.push_back(line);
+  open.places.push_back(where);
 }
 
 /// Rows of a table over both in the order of speeds, at one speed in that of frequencies.
@@ -85,86 +83,98 @@ void sort_rows(OpenTable& open) {
     return std::pair(t.speed[a], t.whirl[a]) < std::pair(t.speed[b], t.whirl[b]);
   });
   CoefficientTable sorted;
-  std::vector<int> lines;
+  std::vector<Where> places;
   for (const std::size_t i : order) {
     sorted.speed.push_back(t.speed[i]);
     sorted.whirl.push_back(t.whirl[i]);
     sorted.rows.push_back(t.rows[i]);
-    lines.push_back(open.lines[i]);
+    places.push_back(open.places[i]);
   }
   open.table = std::move(sorted);
-  open.lines = std::move(lines);
+  open.places = std::move(places);
 }
 
 /// Reports rows that do not ascend, of a table over one of both, or that are there twice.
-void check_order(OpenTable& open, const std::function<ReportProblem(int)>& report_at) {
+void check_order(OpenTable& open, std::vector<Problem>& problems) {
   const bool has_both = open.has(Kind::speed) && open.has(Kind::whirl);
   if (has_both) sort_rows(open);
   const CoefficientTable& t = open.table;
   for (std::size_t i = 1; i < t.rows.size(); ++i) {
+    const Where& where = open.places[i];
     if (has_both) {
       if (t.speed[i] != t.speed[i - 1] || t.whirl[i] != t.whirl[i - 1]) continue;
-      report_at(open.lines[i])(
-          "whirl",
-          fmt::format("this speed and whirl frequency are in line {} already", open.lines[i - 1]));
+      problems.push_back({where, "whirl",
+                          fmt::format("this speed and whirl frequency are in line {} already",
+                                      open.places[i - 1].line)});
     } else if (!t.speed.empty() && t.speed[i] <= t.speed[i - 1]) {
-      report_at(open.lines[i])("speed", "speeds must ascend from line to line");
+      problems.push_back({where, "speed", "speeds must ascend from line to line"});
     } else if (!t.whirl.empty() && t.whirl[i] <= t.whirl[i - 1]) {
-      report_at(open.lines[i])("whirl", "whirl frequencies must ascend from line to line");
+      problems.push_back({where, "whirl", "whirl frequencies must ascend from line to line"});
     }
   }
 }
 
-bool is_comment(const std::string& line) {
-  const std::string text = trimmed(line);
-  return text.empty() || text[0] == '#' || text[0] == '!' || text[0] == '%' ||
-         text.starts_with("//");
+/// A line below the names.
+struct RowLine {
+  const TableLine* line;
+  std::vector<Cell> cells;
+};
+
+/// Lines below the names as cells, and what the marks in their numbers say.
+std::vector<RowLine> row_lines(OpenTable& open, const std::vector<TableLine>& lines) {
+  std::vector<RowLine> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::vector<Cell> cells = cells_of(lines[i].text, open.marks.delimiter);
+    while (cells.size() > open.columns.size() && cells.back().text.empty()) cells.pop_back();
+    for (const Cell& cell : cells) open.marks.add(cell.text);
+    rows.push_back({&lines[i], std::move(cells)});
+  }
+  return rows;
 }
 
 }  // namespace
 
 CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
-                                     std::vector<Problem>& problems) {
+                                     std::vector<Problem>& problems, std::vector<Problem>* doubts) {
   OpenTable open;
   const std::size_t others = problems.size();  // of other tables
-  const auto report_at = [&](int number) -> ReportProblem {
-    return [&problems, &file, number](std::string key, std::string message) {
-      problems.push_back({{file, number, 1}, std::move(key), std::move(message)});
+  const auto report_to = [&](std::vector<Problem>& to, const TableLine& line) -> ReportProblem {
+    return [&to, &file, &line](int place, std::string key, std::string message) {
+      to.push_back({{file, line.number, place + line.skipped}, std::move(key), std::move(message)});
     };
   };
-  std::istringstream lines(text);
-  std::string line;
-  int names = 0;  // line of the names
-  bool is_below_names = true;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets begin so
-    if (is_comment(line)) continue;
-    if (names == 0) {
-      names = number;
-      open.delimiter = delimiter_of(line);
-      open.columns = columns_named(line, open.delimiter, report_at(number));
-      if (problems.size() > others) return open.table;  // what is wrong here is so in every row
-      continue;
-    }
-    std::vector<std::string> cells = cells_of(line, open.delimiter);
-    while (cells.size() > open.columns.size() && cells.back().empty()) cells.pop_back();
-    if (is_below_names) {
-      is_below_names = false;
-      const bool has_units = is_line_of_units(cells);
-      if (has_units) take_units(open.columns, cells, report_at(number));
-      check_columns(open.columns, report_at(names));
+  const std::vector<TableLine> lines = table_lines(text, coefficients_named_in);
+  if (!lines.empty()) {
+    const ReportProblem report = report_to(problems, lines[0]);
+    open.marks.delimiter = delimiter_of(lines[0].text);
+    open.columns = columns_named(lines[0].text, open.marks.delimiter, report);
+    if (problems.size() > others) return open.table;  // what is wrong here is so in every row
+    std::vector<RowLine> rows = row_lines(open, lines);
+    if (!rows.empty()) {
+      const bool has_units = is_line_of_units(rows[0].cells);
+      if (has_units) take_units(open.columns, rows[0].cells, report_to(problems, *rows[0].line));
+      check_columns(open.columns, report);
       if (problems.size() > others) return open.table;
-      if (has_units) continue;
+      if (has_units) rows.erase(rows.begin());
     }
-    add_row(open, cells, number, report_at(number));
+    for (const auto& [line, cells] : rows) {
+      const ReportProblem report_row = report_to(problems, *line);
+      if (cells.size() == open.columns.size()) {
+        add_row(open, cells, {file, line->number, 1}, report_row);
+      } else {
+        report_count(cells, open.columns.size(), open.marks.delimiter, report_row);
+      }
+    }
+    check_order(open, problems);
+    if (doubts) doubt_columns(open.columns, report_to(*doubts, lines[0]));
   }
-  check_order(open, report_at);
   if (open.table.rows.empty() && problems.size() == others) {
     problems.push_back({{file},
                         "",
                         "the table has no rows; expected a line of column names and one line per "
                         "speed or whirl frequency"});
   }
+  tell_once(problems, others);
   return open.table;
 }
 

@@ -16,11 +16,13 @@ namespace whirl::inline io {
 /// columns_named). Units stand in brackets behind names, in a line below them, or with the values;
 /// without any, SI. Commas, semicolons, tabs or blanks delimit; where commas do not, decimals may
 /// have them. Speeds must ascend, or whirl frequencies where there are no speeds; rows over both may
-/// come in any order.
+/// come in any order. See table_lines for names in a comment.
 ///
 /// @param file      for messages
-/// @param problems  receives what is wrong, with file and line
+/// @param problems  receives what is wrong, with its place; what is so in many rows once
+/// @param doubts    receives what is right and seldom meant, as a missing kyy; null: nobody asks
 CoefficientTable parse_bearing_table(const std::string& text, const std::string& file,
-                                     std::vector<Problem>& problems);
+                                     std::vector<Problem>& problems,
+                                     std::vector<Problem>* doubts = nullptr);
 
 }  // namespace whirl::inline io

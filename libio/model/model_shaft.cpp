@@ -6,6 +6,7 @@
 #include "libio/model/bow_table.hpp"
 #include "libio/model/model_builder.hpp"
 #include "libio/model/shaft_table.hpp"
+#include "libio/text/delimited.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
@@ -121,17 +122,18 @@ void ModelBuilder::add_shaft_table(TableReader& table, const Segment& common, st
   if (from) rows = parse_shaft_table(from->text, from->name, wrong);
   for (const ShaftRow& row : rows) {
     const Where where{from->name, row.line, 1};
+    const Where at_material{from->name, row.line, row.material_place};
     Material material = common.material;
     if (const auto found = materials_.find(row.material); found != materials_.end()) {
       material = found->second;
     } else if (!row.material.empty()) {
       const auto near = nearest(row.material, material_names());
-      wrong.push_back({where, "material",
+      wrong.push_back({at_material, "material",
                        fmt::format("found {}, expected one of {}{}", in_quotes(row.material),
                                    fmt::join(material_names(), ", "),
                                    near ? fmt::format("; did you mean \"{}\"?", *near) : "")});
     } else if (!table.has("material")) {
-      wrong.push_back({where, "material", "missing, expected the name of a material"});
+      wrong.push_back({at_material, "material", "missing, expected the name of a material"});
     }
     const Rayleigh damping = row.has_damping ? row.damping : common.damping;
     if (row.layer == 1) {
@@ -154,13 +156,14 @@ void ModelBuilder::add_shaft_table(TableReader& table, const Segment& common, st
                 .theory = common.theory,
                 .shear = common.shear,
                 .damping = damping,
-                .where = where};
+                .where = {from->name, row.line, row.inner_place}};
     const double end = s.length();
     layer.to = {.kind = Station::Kind::position, .z = end, .where = where, .key = "layer"};
     layer.from = layer.to;
     if (!s.shaft.empty()) layer.from.z = end - s.shaft.back().length;
     s.layers.push_back(layer);
   }
+  tell_once(wrong, 0);
   // nothing is said of stations on a shaft that is not whole
   if (!wrong.empty() || rows.empty()) s.shaft.push_back({});
   problems_.insert(problems_.end(), wrong.begin(), wrong.end());

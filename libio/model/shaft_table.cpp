@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -17,34 +18,54 @@ namespace {
 constexpr double same_length = 1e-9;  ///< relative: rounding of units
 constexpr double most_in_row = 100'000, most_layers = 1000;
 
+/// Names of a diameter: outer or inner, at both ends or one.
+/// @param words  "od", "outer", ...
+ColumnKind diameter(const std::string& name, Range range, const std::vector<std::string>& words,
+                    const std::string& end = "") {
+  ColumnKind kind{.name = name, .unit = "m", .range = range};
+  for (const std::string& word : words) {
+    kind.synonyms.push_back(word + end);
+    if (end.empty()) continue;
+    kind.synonyms.push_back(end + word);
+    kind.synonyms.push_back(word + end[0]);
+  }
+  return kind;
+}
+
 const std::vector<ColumnKind>& shaft_columns() {
   using enum Range;
+  static const std::vector<std::string> outer{"od",         "outer",          "outerdia",
+                                              "odia",       "outerdiam",      "outerdiameter",
+                                              "outsidedia", "outsidediameter"};
+  static const std::vector<std::string> inner{"id",        "inner",          "innerdia",
+                                              "idia",      "innerdiam",      "innerdiameter",
+                                              "insidedia", "insidediameter", "bore"};
+  static const std::string positions =
+      "positions are no lengths and are not read; segments follow one another by a column length, "
+      "such as length [mm]";
   static const std::vector<ColumnKind> columns{
-      {.name = "length", .unit = "m", .range = positive, .synonyms = {"l"}},
-      {.name = "outer_diameter", .unit = "m", .range = positive, .synonyms = {"od", "outer"}},
-      {.name = "outer_left",
-       .unit = "m",
-       .range = positive,
-       .synonyms = {"od_left", "odl", "outer_diameter_left"}},
-      {.name = "outer_right",
-       .unit = "m",
-       .range = positive,
-       .synonyms = {"od_right", "odr", "outer_diameter_right"}},
-      {.name = "inner_diameter", .unit = "m", .range = nonnegative, .synonyms = {"id", "inner"}},
-      {.name = "inner_left",
-       .unit = "m",
-       .range = nonnegative,
-       .synonyms = {"id_left", "idl", "inner_diameter_left"}},
-      {.name = "inner_right",
-       .unit = "m",
-       .range = nonnegative,
-       .synonyms = {"id_right", "idr", "inner_diameter_right"}},
-      {.name = "material", .is_text = true},
-      {.name = "layer", .range = positive},
+      {.name = "length", .unit = "m", .range = positive, .synonyms = {"l", "len", "lg"}},
+      diameter("outer_diameter", positive, outer),
+      diameter("outer_left", positive, outer, "left"),
+      diameter("outer_right", positive, outer, "right"),
+      diameter("inner_diameter", nonnegative, inner),
+      diameter("inner_left", nonnegative, inner, "left"),
+      diameter("inner_right", nonnegative, inner, "right"),
+      {.name = "material", .is_text = true, .synonyms = {"mat", "matl"}},
+      {.name = "layer", .range = positive, .synonyms = {"layerno"}},
       {.name = "elements", .range = positive},
       {.name = "carries", .is_text = true},
       {.name = "rayleigh_mass", .unit = "1/s", .range = nonnegative, .synonyms = {"alpha"}},
-      {.name = "rayleigh_stiffness", .unit = "s", .range = nonnegative, .synonyms = {"beta"}}};
+      {.name = "rayleigh_stiffness", .unit = "s", .range = nonnegative, .synonyms = {"beta"}},
+      {.name = "station",
+       .is_text = true,
+       .synonyms = {"sta", "stano", "stationno", "stationnumber", "no", "nr", "#", "segment",
+                    "segmentno", "section", "sectionno", "row"},
+       .unit_problem = positions},
+      {.name = "position",
+       .unit = "m",
+       .synonyms = {"z", "at", "pos", "axialposition", "location", "axiallocation", "distance"},
+       .problem = positions}};
   return columns;
 }
 
@@ -78,7 +99,8 @@ std::optional<int> whole(const DelimitedRow& row, const char* column, double mos
   const auto value = row.number(column);
   if (!value) return std::nullopt;
   if (*value == std::floor(*value) && *value <= most) return static_cast<int>(*value);
-  report(column, fmt::format("found {:g}, expected a whole number from 1 to {:g}", *value, most));
+  report(row.place(column), column,
+         fmt::format("found {:g}, expected a whole number from 1 to {:g}", *value, most));
   return std::nullopt;
 }
 
@@ -90,22 +112,30 @@ std::pair<std::optional<double>, std::optional<double>> ends(const DelimitedRow&
   return {row.number(side + "_left"), row.number(side + "_right")};
 }
 
+/// Where the cell of a side's diameter is.
+int place_of(const DelimitedRow& row, const std::string& side) {
+  return std::max(row.place(side + "_diameter"), row.place(side + "_left"));
+}
+
 void read_diameters(const DelimitedRow& from, bool is_layer, ShaftRow& row,
                     const ReportProblem& report) {
   const auto outer = ends(from, "outer"), inner = ends(from, "inner");
+  row.inner_place = place_of(from, "inner");
   if (!outer.first || !outer.second) {
-    report("outer_diameter", "missing, expected an outer diameter (m) at both ends");
+    report(place_of(from, "outer"), "outer_diameter",
+           "missing, expected an outer diameter (m) at both ends");
     return;
   }
   if (is_layer && (!inner.first || !inner.second)) {
-    report("inner_diameter", "missing, expected the inner diameter (m) of the layer at both ends");
+    report(row.inner_place, "inner_diameter",
+           "missing, expected the inner diameter (m) of the layer at both ends");
     return;
   }
   row.left = {*outer.first, inner.first.value_or(0.0)};
   row.right = {*outer.second, inner.second.value_or(0.0)};
   for (const Section& end : {row.left, row.right}) {
     if (end.inner < end.outer) continue;
-    report("inner_diameter",
+    report(row.inner_place, "inner_diameter",
            fmt::format("found {:g} mm, expected less than the outer diameter of {:g} mm",
                        1e3 * end.inner, 1e3 * end.outer));
     return;
@@ -113,30 +143,41 @@ void read_diameters(const DelimitedRow& from, bool is_layer, ShaftRow& row,
 }
 
 /// What of a row does not go with its being a layer, or the shaft itself.
-void check_place(const DelimitedRow& from, const ShaftRow* base, ShaftRow& row,
+/// @param has_layers  whether the table says which rows are layers
+void check_place(const DelimitedRow& from, const ShaftRow* base, bool has_layers, ShaftRow& row,
                  const ReportProblem& report) {
   const auto length = from.number("length");
   if (row.layer == 1) {
-    if (!length) report("length", "missing, expected a length (m)");
+    if (!length) {
+      report(from.place("length"), "length",
+             base && !has_layers
+                 ? "missing, expected a length (m); or, if this lies on the row before, a column "
+                   "layer with 2 here"
+                 : "missing, expected a length (m)");
+    }
     if (row.carries != Carries::both) {
-      report("carries", "the shaft itself carries both; layers have a number above 1");
+      report(from.place("carries"), "carries",
+             "the shaft itself carries both; layers have a number above 1");
     }
     row.length = length.value_or(0.0);
     return;
   }
   if (!base) {
-    report("layer", fmt::format("found {}, expected a row of layer 1 before it, on which it lies",
-                                row.layer));
+    report(
+        from.place("layer"), "layer",
+        fmt::format("found {}, expected a row of layer 1 before it, on which it lies", row.layer));
     return;
   }
   if (row.elements > 0) {
-    report("elements", "a layer has the elements of the row that it lies on; leave them out");
+    report(from.place("elements"), "elements",
+           "a layer has the elements of the row that it lies on; leave them out");
   }
   row.length = length.value_or(base->length);
   if (std::abs(row.length - base->length) > same_length * base->length) {
-    report("length", fmt::format("found {:.9g} mm, expected the {:.9g} mm of line {}, on which the "
-                                 "layer lies",
-                                 1e3 * row.length, 1e3 * base->length, base->line));
+    report(from.place("length"), "length",
+           fmt::format("found {:.9g} mm, expected the {:.9g} mm of line {}, on which the "
+                       "layer lies",
+                       1e3 * row.length, 1e3 * base->length, base->line));
   }
 }
 
@@ -148,7 +189,7 @@ void read_carries(const DelimitedRow& from, ShaftRow& row, const ReportProblem& 
     row.carries = value;
     return;
   }
-  report("carries",
+  report(from.place("carries"), "carries",
          fmt::format("found \"{}\", expected one of both, stiffness, mass", found->second));
 }
 
@@ -168,8 +209,8 @@ std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::stri
   }
   std::optional<ShaftRow> base;
   for (const DelimitedRow& from : table.rows) {
-    const ReportProblem report = [&](std::string key, std::string message) {
-      problems.push_back({{file, from.line, 1}, std::move(key), std::move(message)});
+    const ReportProblem report = [&](int place, std::string key, std::string message) {
+      problems.push_back({{file, from.line, place}, std::move(key), std::move(message)});
     };
     ShaftRow row{.line = from.line};
     row.layer = whole(from, "layer", most_layers, report).value_or(1);
@@ -177,15 +218,17 @@ std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::stri
     if (const auto name = from.texts.find("material"); name != from.texts.end()) {
       row.material = name->second;
     }
+    row.material_place = from.place("material");
     row.damping = {from.number("rayleigh_mass").value_or(0.0),
                    from.number("rayleigh_stiffness").value_or(0.0)};
     row.has_damping = from.number("rayleigh_mass") || from.number("rayleigh_stiffness");
     read_carries(from, row, report);
     read_diameters(from, row.layer > 1, row, report);
-    check_place(from, base ? &*base : nullptr, row, report);
+    check_place(from, base ? &*base : nullptr, table.has("layer"), row, report);
     if (row.layer == 1) base = row;
     rows.push_back(row);
   }
+  tell_once(problems, before);
   return rows;
 }
 

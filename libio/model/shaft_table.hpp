@@ -15,8 +15,9 @@ struct ShaftRow {
   int layer = 1;        ///< 1: the shaft itself
   double length = 0.0;  ///< [m]
   Section left, right;
-  std::string material;  ///< name; empty: that of the whole table
-  int elements = 0;      ///< 0: not given
+  std::string material;                     ///< name; empty: that of the whole table
+  int material_place = 1, inner_place = 1;  ///< of these cells in the line, from 1
+  int elements = 0;                         ///< 0: not given
   Carries carries = Carries::both;
   Rayleigh damping;
   bool has_damping = false;
@@ -29,10 +30,11 @@ struct ShaftRow {
 /// or inner_left and inner_right; material; layer; elements; carries; rayleigh_mass,
 /// rayleigh_stiffness. Only length and an outer diameter are needed. Rows follow one another from
 /// left to right; one with a layer above 1 lies on the last one of layer 1, and may leave its length
-/// out.
+/// out. Numbers of stations or rows ("Sta. No.", "#") are not read; positions are refused, as they
+/// are no lengths.
 ///
 /// @param file      for messages
-/// @param problems  receives what is wrong, with file and line
+/// @param problems  receives what is wrong, with its place; what is so in many rows once
 /// @return          rows; if there are problems, they are of no use
 std::vector<ShaftRow> parse_shaft_table(const std::string& text, const std::string& file,
                                         std::vector<Problem>& problems);

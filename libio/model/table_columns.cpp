@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -69,16 +68,6 @@ constexpr Synonym synonyms[] = {{"rpm", "speed", "rpm"},          {"n", "speed",
                                 {"excitationfreq", "whirl"},      {"excitationfrequency", "whirl"},
                                 {"precessionfrequency", "whirl"}, {"vibrationfrequency", "whirl"}};
 
-/// A name in lower case, without what stands between its words.
-std::string plain_name(std::string_view name) {
-  std::string plain;
-  for (const char c : name) {
-    if (std::string_view(" \t_-.").find(c) != std::string_view::npos) continue;
-    plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return plain;
-}
-
 std::optional<CoefficientColumn> column_of(std::string_view name) {
   std::string plain = plain_name(name);
   std::string_view unit;
@@ -99,31 +88,11 @@ std::optional<CoefficientColumn> column_of(std::string_view name) {
   return std::nullopt;
 }
 
-/// What a cell of the line of names says.
-struct NameAndUnit {
-  std::string name, unit;
-  bool has_unit = false;
-};
-
-/// Takes a unit in brackets off a cell; one without brackets only if nothing else is known.
 NameAndUnit split(const std::string& cell) {
-  const auto bracket = cell.find_first_of("[(");
-  if (bracket != std::string::npos) {
-    const auto end = cell.find_last_of("])");
-    const auto from = bracket + 1;
-    const auto size = end == std::string::npos || end < from ? std::string::npos : end - from;
-    return {trimmed(std::string_view(cell).substr(0, bracket)),
-            trimmed(std::string_view(cell).substr(from, size)), true};
-  }
-  if (column_of(cell)) return {cell, "", false};
-  for (const char* between : {" ", "_", ","}) {
-    const auto at = cell.find(between);
-    if (at == std::string::npos) continue;
-    const std::string name = cell.substr(0, at), unit = trimmed(cell.substr(at + 1));
+  return name_and_unit(cell, [](const std::string& name, const std::string& unit) {
     const auto column = column_of(name);
-    if (column && unit_in_table(unit, column->si_unit)) return {name, unit, true};
-  }
-  return {cell, "", false};
+    return column && (unit.empty() || unit_in_table(unit, column->si_unit));
+  });
 }
 
 bool is_in_brackets(const std::string& word) {
@@ -131,94 +100,99 @@ bool is_in_brackets(const std::string& word) {
 }
 
 /// Cells of a line of names. Blanks delimit, and stand within names: "Rotor speed (rpm) Kxx".
-std::vector<std::string> name_cells(const std::string& line, Delimiter delimiter) {
-  std::vector<std::string> words = cells_of(line, delimiter);
-  while (words.size() > 1 && words.back().empty()) words.pop_back();
+std::vector<Cell> name_cells(const std::string& line, Delimiter delimiter) {
+  std::vector<Cell> words = cells_of(line, delimiter);
+  while (words.size() > 1 && words.back().text.empty()) words.pop_back();
   if (delimiter != Delimiter::blanks) return words;
   constexpr std::size_t most_words = 3;
-  std::vector<std::string> cells;
+  const auto joined = [&](std::size_t first, std::size_t count) {
+    std::string all = words[first].text;
+    for (std::size_t k = 1; k < count; ++k) all += " " + words[first + k].text;
+    return all;
+  };
+  const auto has_brackets = [&](std::size_t first, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      if (is_in_brackets(words[first + k].text)) return true;
+    }
+    return false;
+  };
+  std::vector<Cell> cells;
   for (std::size_t i = 0; i < words.size();) {
-    if (is_in_brackets(words[i]) && !cells.empty()) {
-      cells.back() += " " + words[i++];
+    if (is_in_brackets(words[i].text) && !cells.empty()) {
+      cells.back().text += " " + words[i++].text;
       continue;
     }
-    std::size_t taken = 1;
-    for (std::size_t count = std::min(most_words, words.size() - i); count > 1; --count) {
-      const auto first = words.begin() + static_cast<std::ptrdiff_t>(i);
-      if (std::any_of(first, first + static_cast<std::ptrdiff_t>(count), is_in_brackets)) continue;
-      const std::string joined =
-          fmt::format("{}", fmt::join(first, first + static_cast<std::ptrdiff_t>(count), " "));
-      if (!column_of(split(joined).name)) continue;
-      taken = count;
-      break;
+    std::size_t count = std::min(most_words, words.size() - i);
+    while (count > 1 && (has_brackets(i, count) || !column_of(split(joined(i, count)).name))) {
+      --count;
     }
-    std::string cell = words[i];
-    for (std::size_t k = 1; k < taken; ++k) cell += " " + words[i + k];
-    cells.push_back(cell);
-    i += taken;
+    cells.push_back({joined(i, count), words[i].place});
+    i += count;
   }
   return cells;
 }
 
-void set_unit(CoefficientColumn& column, const std::string& unit, const ReportProblem& report) {
+void set_unit(CoefficientColumn& column, const std::string& unit, int place,
+              const ReportProblem& report) {
   if (unit.empty() || unit == "-") return;
   const auto meant = unit_in_table(unit, column.si_unit);
   if (meant) {
     column.unit = *meant;
     column.needs_unit = false;
   } else {
-    report(column.name, fmt::format("the unit [{}] does not fit: {}", unit, meant.problem));
+    report(place, column.name, fmt::format("the unit [{}] does not fit: {}", unit, meant.problem));
   }
+}
+
+void report_unknown(const std::string& name, int place, const ReportProblem& report) {
+  const std::vector<std::string> names = known_names();
+  const auto near = nearest(plain_name(name), names);
+  report(place, name,
+         near ? fmt::format("unknown column, did you mean \"{}\"?", *near)
+              : fmt::format("unknown column, known are {}", fmt::join(names, ", ")));
 }
 
 }  // namespace
 
+std::size_t coefficients_named_in(const std::string& line) {
+  const std::vector<Cell> cells = name_cells(line, delimiter_of(line));
+  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), [](const Cell& cell) {
+    return column_of(split(cell.text).name).has_value();
+  }));
+}
+
 std::vector<CoefficientColumn> columns_named(const std::string& line, Delimiter delimiter,
                                              const ReportProblem& report) {
   std::vector<CoefficientColumn> columns;
-  for (const std::string& cell : name_cells(line, delimiter)) {
-    const NameAndUnit said = split(cell);
+  const std::vector<Cell> cells = name_cells(line, delimiter);
+  if (begins_as_number(cells.front().text)) {
+    report(cells.front().place, "",
+           fmt::format("found numbers, expected a line with the names of the columns first: {}",
+                       fmt::join(known_names(), ", ")));
+    return columns;
+  }
+  for (const Cell& cell : cells) {
+    const NameAndUnit said = split(cell.text);
     const auto column = column_of(said.name);
-    if (!column) {
-      const std::vector<std::string> names = known_names();
-      const auto near = nearest(plain_name(said.name), names);
-      report(said.name, near ? fmt::format("unknown column, did you mean \"{}\"?", *near)
-                             : fmt::format("unknown column, known are {}", fmt::join(names, ", ")));
-    }
+    if (!column) report_unknown(said.name, cell.place, report);
     columns.push_back(column.value_or(CoefficientColumn{}));
-    if (column && said.has_unit) set_unit(columns.back(), said.unit, report);
+    columns.back().place = cell.place;
+    if (column && said.has_unit) set_unit(columns.back(), said.unit, cell.place, report);
   }
   return columns;
 }
 
-bool is_line_of_units(const std::vector<std::string>& cells) {
-  bool has_any = false;
-  for (const std::string& cell : cells) {
-    if (cell.empty() || cell == "-") continue;
-    const bool is_one_over = cell.starts_with("1/");
-    const char first = is_in_brackets(cell) ? 'x' : cell.front();
-    const bool is_number = std::string_view("+-.0123456789").find(first) != std::string_view::npos;
-    if (is_number && !is_one_over) return false;
-    // what is no number and no unit, such as nan, is reported as a value
-    static constexpr std::string_view never[] = {"nan", "inf", "infinity"};
-    if (std::find(std::begin(never), std::end(never), plain_name(cell)) != std::end(never)) {
-      return false;
-    }
-    has_any = true;
-  }
-  return has_any;
-}
-
-void take_units(std::vector<CoefficientColumn>& columns, const std::vector<std::string>& cells,
+void take_units(std::vector<CoefficientColumn>& columns, const std::vector<Cell>& cells,
                 const ReportProblem& report) {
   if (cells.size() > columns.size()) {
-    report("", fmt::format("found {} units, expected {} as there are columns", cells.size(),
-                           columns.size()));
+    report(cells[columns.size()].place, "",
+           fmt::format("found {} units, expected {} as there are columns", cells.size(),
+                       columns.size()));
     return;
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const bool is_bracketed = is_in_brackets(cells[i]);
-    set_unit(columns[i], is_bracketed ? split(cells[i]).unit : cells[i], report);
+    const std::string& text = cells[i].text;
+    set_unit(columns[i], is_in_brackets(text) ? split(text).unit : text, cells[i].place, report);
   }
 }
 
@@ -229,17 +203,32 @@ void check_columns(const std::vector<CoefficientColumn>& columns, const ReportPr
     has_place = has_place || column.kind != Kind::entry;
     for (std::size_t k = 0; k < i; ++k) {
       if (column.name.empty() || columns[k].name != column.name) continue;
-      report(column.name, "this column is there already");
+      report(column.place, column.name, "this column is there already");
       break;
     }
     if (column.needs_unit) {
-      report(column.name,
+      report(column.place, column.name,
              "its unit is missing; write it behind the name, such as [rpm] or [Hz], or in a line "
              "of units below");
     }
   }
   if (!has_place) {
-    report("", "a column of speeds or of whirl frequencies is missing: name it speed or whirl");
+    report(1, "", "a column of speeds or of whirl frequencies is missing: name it speed or whirl");
+  }
+}
+
+void doubt_columns(const std::vector<CoefficientColumn>& columns, const ReportProblem& report) {
+  for (const CoefficientColumn& column : columns) {
+    if (column.kind != Kind::entry) continue;
+    // the one of the other direction: kyy of kxx, kyx of kxy
+    std::string other = column.name;
+    for (char& c : other) c = c == 'x' ? 'y' : c == 'y' ? 'x' : c;
+    const bool is_there = std::any_of(columns.begin(), columns.end(),
+                                      [&](const CoefficientColumn& c) { return c.name == other; });
+    if (is_there) continue;
+    report(
+        column.place, other,
+        fmt::format("this table has no such column beside {}: it is taken as zero", column.name));
   }
 }
 

@@ -19,6 +19,7 @@ struct CoefficientColumn {
   Mat2 BearingCoefficients::*matrix = nullptr;  ///< of an entry
   int row = 0, column = 0;
   bool needs_unit = false;  ///< named as other programs do, who do not mean SI
+  int place = 1;            ///< of its name in the line
 };
 
 /// Columns that a line names, one per cell; what is not understood is reported.
@@ -29,14 +30,17 @@ struct CoefficientColumn {
 std::vector<CoefficientColumn> columns_named(const std::string& line, Delimiter delimiter,
                                              const ReportProblem& report);
 
-/// Whether a line has units of columns and nothing else; no number begins with what a unit does.
-bool is_line_of_units(const std::vector<std::string>& cells);
+/// How many known columns a line names.
+std::size_t coefficients_named_in(const std::string& line);
 
 /// Gives columns the units of such a line.
-void take_units(std::vector<CoefficientColumn>& columns, const std::vector<std::string>& cells,
+void take_units(std::vector<CoefficientColumn>& columns, const std::vector<Cell>& cells,
                 const ReportProblem& report);
 
 /// Reports what columns lack as a whole: speeds and frequencies, units, or that one is there twice.
 void check_columns(const std::vector<CoefficientColumn>& columns, const ReportProblem& report);
+
+/// Reports what may be forgotten: one of kxx and kyy, of kxy and kyx, ...
+void doubt_columns(const std::vector<CoefficientColumn>& columns, const ReportProblem& report);
 
 }  // namespace whirl::inline io

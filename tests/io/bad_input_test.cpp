@@ -471,7 +471,7 @@ TEST(BadInput, MistakesOfTheCommandLineComeFirstAndThoseOfTablesLast) {
     EXPECT_EQ(error.problems()[0].where.file, "--set gravity=down");
     EXPECT_EQ(error.problems()[1].where, (Where{"m", 9, 8}));  // the body does not spin
     EXPECT_EQ(error.problems()[2].where, (Where{"m", 10, 10}));
-    EXPECT_EQ(error.problems()[3].where, (Where{"bearing.1.table", 2, 1}));
+    EXPECT_EQ(error.problems()[3].where, (Where{"bearing.1.table", 2, 3}));
   }
 }
 

@@ -73,9 +73,9 @@ TEST(BearingTable, CommentsBlanksQuotesAndSemicolonsAreFine) {
 
 TEST(BearingTable, ProblemsNameTheirLines) {
   EXPECT_EQ(problems("speed,kxx\n1,2\n# comment\n3,4 N.s/m\n5\n5,x\n"),
-            "bearing.csv:4:1: kxx: found \"4 N.s/m\", expected a stiffness (N/m)\n"
-            "bearing.csv:5:1: found 1 columns, expected 2 as in the first line\n"
-            "bearing.csv:6:1: kxx: \"x\" is not a number, expected a stiffness (N/m)\n");
+            "bearing.csv:4:3: kxx: found \"4 N.s/m\", expected a stiffness (N/m)\n"
+            "bearing.csv:5:2: found 1 columns, expected 2 as in the first line\n"
+            "bearing.csv:6:3: kxx: \"x\" is not a number, expected a stiffness (N/m)\n");
 }
 
 TEST(BearingTable, ColumnsThatCannotBe) {
@@ -87,13 +87,13 @@ TEST(BearingTable, ColumnsThatCannotBe) {
             "bearing.csv:1:1: a column of speeds or of whirl frequencies is missing: name it speed "
             "or whirl\n");
   EXPECT_EQ(problems("speed,kxx,kxx\n1,2,3\n"),
-            "bearing.csv:1:1: kxx: this column is there already\n");
+            "bearing.csv:1:11: kxx: this column is there already\n");
 }
 
 TEST(BearingTable, AWrongUnitIsSaidOnce) {
   EXPECT_EQ(
       problems("speed [rpm],kxx [Pa]\n1,2\n3,4\n5,6\n"),
-      "bearing.csv:1:1: kxx: the unit [Pa] does not fit: found \"1 Pa\", expected a stiffness "
+      "bearing.csv:1:13: kxx: the unit [Pa] does not fit: found \"1 Pa\", expected a stiffness "
       "(N/m)\n");
 }
 
@@ -207,19 +207,104 @@ TEST(BearingTable, WhatIsNotUnderstoodIsNamed) {
       "bearing.csv:1:1: speed: its unit is missing; write it behind the name, such as [rpm] or "
       "[Hz], or in a line of units below\n");
   EXPECT_NE(problems("Speed (rpm),Kxx (lb/in),Eccentricity\n1,2,3\n")
-                .find("bearing.csv:1:1: Eccentricity: unknown column, known are speed"),
+                .find("bearing.csv:1:25: Eccentricity: unknown column, known are speed"),
             std::string::npos);
   EXPECT_EQ(
       problems("Speed (rpm),Kxx (furlong)\n1,2\n"),
-      "bearing.csv:1:1: kxx: the unit [furlong] does not fit: unknown unit \"furlong\" in \"1 "
+      "bearing.csv:1:13: kxx: the unit [furlong] does not fit: unknown unit \"furlong\" in \"1 "
       "furlong\", expected a stiffness (N/m)\n");
   EXPECT_EQ(
       problems("speed,kxx\nrpm,lb-s\n1,2\n"),
-      "bearing.csv:2:1: kxx: the unit [lb-s] does not fit: cannot read the unit in \"1 lb-s\", "
+      "bearing.csv:2:5: kxx: the unit [lb-s] does not fit: cannot read the unit in \"1 lb-s\", "
       "expected a stiffness (N/m)\n");
   EXPECT_EQ(problems("speed kxx\n1 2\n2 1,500\n"),
-            "bearing.csv:3:1: kxx: the comma in \"1,500\" may be that of decimals or of thousands; "
-            "write a point, or semicolons between the columns\n");
+            "bearing.csv:3:3: kxx: the comma in \"1,500\" may be that of thousands or of decimals, "
+            "and no other number of this table shows which; write 1500 or 1.5\n");
+}
+
+// ---- numbers that may be read in two ways ----
+
+// 410,000 lb/in are read as 410 lb/in where a comma is one of decimals: a factor of a thousand.
+TEST(BearingTable, ACommaBeforeThreeDigitsIsDecimalOnlyWhereOthersShowIt) {
+  const auto kxx = [](const std::string& rows) {
+    return table("rpm;kxx\n" + rows).rows[0].K(0, 0);
+  };
+  EXPECT_EQ(kxx("1000;410,125\n2000;0,5\n"), 410.125);
+  EXPECT_EQ(kxx("1000;410,125\n2000;12,25\n"), 410.125);
+  EXPECT_EQ(kxx("1000;410,125\n2000;0,500\n"), 410.125);     // no thousand begins with 0
+  EXPECT_EQ(kxx("1000;410,125\n2000;4100,000\n"), 410.125);  // nor has four digits before it
+  EXPECT_EQ(kxx("1000;1,250E+6\n2000;2\n"), 1.25e6);         // nor an exponent
+  EXPECT_EQ(kxx("1000;410.000\n2000;2\n"), 410.0);           // a point is that of whirl
+  EXPECT_EQ(table("rpm\tkxx\n1000\t410,125\n2000\t0,5\n").rows[0].K(0, 0), 410.125);
+
+  EXPECT_EQ(problems("rpm;kxx\n1000;410,000\n2000;0.5\n"),
+            "bearing.csv:2:6: kxx: the comma in \"410,000\" may be that of thousands or of "
+            "decimals, and other numbers of this table have decimal points; write 410000 or "
+            "410.0\n");
+  EXPECT_EQ(problems("rpm;kxx\n1000;-5,250 N/m\n2000;5\n"),
+            "bearing.csv:2:6: kxx: the comma in \"-5,250 N/m\" may be that of thousands or of "
+            "decimals, and no other number of this table shows which; write -5250 or -5.25\n");
+  EXPECT_EQ(problems("rpm;kxx;cxx\n1000;410,000;0.5\n2000;5;0,5\n"),
+            "bearing.csv:2:6: kxx: the comma in \"410,000\" may be that of thousands or of "
+            "decimals, and other numbers of this table have decimal commas and points; write "
+            "410000 or 410.0\n");
+  EXPECT_EQ(problems("rpm;kxx\n1000;410.000\n2000;0,5\n"),
+            "bearing.csv:2:6: kxx: the point in \"410.000\" may be that of thousands or of "
+            "decimals, and other numbers of this table have decimal commas; write 410000 or "
+            "410,0\n");
+  EXPECT_NE(problems("rpm,kxx\n1000,\"410,000\"\n").find("write 410000 or 410.0"),
+            std::string::npos);
+}
+
+// ---- one cause is told once, where it is ----
+
+TEST(BearingTable, OneCauseIsToldOnceWithItsRows) {
+  EXPECT_EQ(
+      problems("rpm;kxx\n4,000;1\n8,000;2\n12,000;3\n"),
+      "bearing.csv:2:1: speed: the comma in \"4,000\" may be that of thousands or of "
+      "decimals, and no other number of this table shows which; write 4000 or 4.0; and 2 more "
+      "rows\n");
+  EXPECT_EQ(
+      problems("rpm,kxx,cxx\n1000,2,1,3,1\n2000,2,2,3,2\n"),
+      "bearing.csv:2:10: found 5 columns, expected 3 as in the first line; numbers with commas "
+      "need semicolons between them; and 1 more row\n");
+  EXPECT_EQ(
+      problems("4000;1;2\nrpm;kxx;kyy\n5000;1;2\n")
+          .find("bearing.csv:1:1: found numbers, expected a line with the names of the columns "
+                "first: speed, whirl, kxx"),
+      0u);
+}
+
+TEST(BearingTable, NamesMayStandInACommentRightAboveTheNumbers) {
+  const CoefficientTable t =
+      table("% some maker\n# Speed (rpm); Kxx (N/m); Kyy (N/m)\n1000;2;3\n2000;4;5\n");
+  EXPECT_DOUBLE_EQ(t.speed[1], 2000.0 * rpm);
+  EXPECT_EQ(t.rows[1].K(1, 1), 5.0);
+  EXPECT_EQ(problems("# Speed; Eccentricity\n1000;2\n").find("bearing.csv:2:1: found numbers"),
+            0u);  // one name is none
+  EXPECT_EQ(problems("# Speed (rpm); Kxx (Pa)\n1000;2\n").find("bearing.csv:1:16: kxx: the unit"),
+            0u);
+  // a comment above a line of names stays one
+  EXPECT_DOUBLE_EQ(table("# speed, kxx\nrpm;kxx\n1000;2\n").speed[0], 1000.0 * rpm);
+}
+
+// A vendor's table without kyy is one of a bearing that holds nothing up.
+TEST(BearingTable, AColumnThatMayBeForgottenIsDoubted) {
+  const auto doubts = [](const std::string& text) {
+    std::vector<Problem> wrong, found;
+    parse_bearing_table(text, "bearing.csv", wrong, &found);
+    EXPECT_TRUE(wrong.empty());
+    std::string all;
+    for (const Problem& p : found) all += describe(p) + "\n";
+    return all;
+  };
+  EXPECT_EQ(
+      doubts("rpm;kxx;kxy;kyx;cxx;cyy\n1;2;3;4;5;6\n"),
+      "bearing.csv:1:5: kyy: this table has no such column beside kxx: it is taken as zero\n");
+  EXPECT_EQ(
+      doubts("rpm;kxx;kyx;kyy\n1;2;3;4\n"),
+      "bearing.csv:1:9: kxy: this table has no such column beside kyx: it is taken as zero\n");
+  EXPECT_EQ(doubts("rpm;kxx;kyy;cxx;cyy\n1;2;3;4;5\n"), "");
 }
 
 }  // namespace whirl::bearing_table_test

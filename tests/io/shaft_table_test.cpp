@@ -74,39 +74,90 @@ TEST(ShaftTable, NamesOfColumnsAreTakenInAnyOrderAndSpelling) {
 TEST(ShaftTable, ProblemsNameTheirLines) {
   EXPECT_EQ(problems_in("length,outer_diameter\n1,0.1\n# \nx,0.1\n1,-2\n2\n"),
             "shaft.csv:4:1: length: \"x\" is not a number, expected a length (m)\n"
-            "shaft.csv:5:1: outer_diameter: found \"-2\", expected a length (m) above zero\n"
-            "shaft.csv:6:1: found 1 columns, expected 2 as in the first line\n");
+            "shaft.csv:5:3: outer_diameter: found \"-2\", expected a length (m) above zero\n"
+            "shaft.csv:6:2: found 1 columns, expected 2 as in the first line\n");
   EXPECT_EQ(problems_in("length,outer_diameter,inner_diameter\n,0.1,\n1,,\n1,0.1,0.1\n"),
             "shaft.csv:2:1: length: missing, expected a length (m)\n"
-            "shaft.csv:3:1: outer_diameter: missing, expected an outer diameter (m) at both ends\n"
-            "shaft.csv:4:1: inner_diameter: found 100 mm, expected less than the outer diameter of "
+            "shaft.csv:3:3: outer_diameter: missing, expected an outer diameter (m) at both ends\n"
+            "shaft.csv:4:7: inner_diameter: found 100 mm, expected less than the outer diameter of "
             "100 mm\n");
+}
+
+// Spreadsheets of stations as engineers keep them: numbers of rows, and their own short names.
+TEST(ShaftTable, NamesOfStationTablesAreKnown) {
+  const std::string data = "1;10;2;1\n2;5;3;0\n";
+  for (const char* names :
+       {"Sta. No.;Length [in];O.D. [in];I.D. (in)", "STA;LEN (IN);OD (In);ID (in)",
+        "Station;Length (inch);Outer Dia. [in];Bore [in]", "No.;L in;OD in;ID in",
+        "#;Length [in];OD [in];ID [in]", "# Sta;Length [in];OD [in];ID [in]",
+        "# drawing 4711, in\n#;Length [in];OD [in];ID [in]", "Sta;Length;OD;ID\n;in;in;in",
+        "Sta;Length;OD;ID\n-;[in];(in);in"}) {
+    SCOPED_TRACE(names);
+    const auto t = rows(std::string(names) + "\n" + data);
+    ASSERT_EQ(t.size(), 2u);
+    EXPECT_DOUBLE_EQ(t[1].length, 5 * 0.0254);
+    EXPECT_DOUBLE_EQ(t[0].left.outer, 2 * 0.0254);
+    EXPECT_DOUBLE_EQ(t[0].right.inner, 0.0254);
+  }
+  // a comment that is no line of names stays one
+  EXPECT_EQ(rows("# length, od\nlength;od\n1;2\n").size(), 1u);
+  EXPECT_EQ(problems_in("# all in mm, od\n1;2\n")
+                .find("shaft.csv:2:1: found numbers, expected a "
+                      "line with the names of the columns first"),
+            0u);
+}
+
+TEST(ShaftTable, PositionsAreNoLengths) {
+  for (const char* name : {"Position [mm]", "Station [mm]", "z", "Axial position (in)"}) {
+    const std::string found = problems_in(std::string("od;") + name + "\n1;2\n");
+    EXPECT_EQ(found.find("shaft.csv:1:4: "), 0u) << name;
+    EXPECT_NE(found.find("positions are no lengths and are not read"), std::string::npos) << name;
+  }
+}
+
+TEST(ShaftTable, ThousandsAreNotTakenForDecimals) {
+  EXPECT_EQ(
+      problems_in("length [in];od [in];material\n3;2.75;a\n3;5,250;b\n4;6,500;a\n"),
+      "shaft.csv:3:3: outer_diameter: the comma in \"5,250\" may be that of thousands or of "
+      "decimals, and other numbers of this table have decimal points; write 5250 or 5.25; and "
+      "1 more row\n");
+  // numbers of steels are words
+  EXPECT_DOUBLE_EQ(rows("length;od;material\n1,5;1,125;1.4301\n")[0].left.outer, 1.125);
+}
+
+TEST(ShaftTable, OneCauseIsToldOnceWithItsRows) {
+  EXPECT_EQ(problems_in("length,od,material\n1,1,a\n,2,b\n1,1,a\n,2,b\n,2,b\n"),
+            "shaft.csv:3:1: length: missing, expected a length (m); or, if this lies on the row "
+            "before, a column layer with 2 here; and 2 more rows\n");
+  EXPECT_EQ(problems_in("length,od\n1,2 lb\n1,3 lb\n1,x\n"),
+            "shaft.csv:2:3: outer_diameter: found \"2 lb\", expected a length (m); and 1 more row\n"
+            "shaft.csv:4:3: outer_diameter: \"x\" is not a number, expected a length (m)\n");
 }
 
 TEST(ShaftTable, LayersLieOnTheRowBefore) {
   const std::string head = "length,outer_diameter,inner_diameter,layer,elements,carries\n";
   EXPECT_EQ(
       problems_in(head + "1,0.1,0,2,,\n"),
-      "shaft.csv:2:1: layer: found 2, expected a row of layer 1 before it, on which it lies\n");
+      "shaft.csv:2:9: layer: found 2, expected a row of layer 1 before it, on which it lies\n");
   EXPECT_EQ(
       problems_in(head + "1,0.1,0,1,,\n0.5,0.2,0.1,2,,\n"),
       "shaft.csv:3:1: length: found 500 mm, expected the 1000 mm of line 2, on which the layer "
       "lies\n");
   EXPECT_EQ(
       problems_in(head + "1,0.1,0,1,,\n,0.2,0.1,2,3,\n"),
-      "shaft.csv:3:1: elements: a layer has the elements of the row that it lies on; leave them "
+      "shaft.csv:3:12: elements: a layer has the elements of the row that it lies on; leave them "
       "out\n");
   EXPECT_EQ(
       problems_in(head + "1,0.1,0,1,,\n,0.2,,2,,\n"),
-      "shaft.csv:3:1: inner_diameter: missing, expected the inner diameter (m) of the layer at "
+      "shaft.csv:3:6: inner_diameter: missing, expected the inner diameter (m) of the layer at "
       "both ends\n");
   EXPECT_EQ(problems_in(head + "1,0.1,0,1.5,,\n"),
-            "shaft.csv:2:1: layer: found 1.5, expected a whole number from 1 to 1000\n");
+            "shaft.csv:2:9: layer: found 1.5, expected a whole number from 1 to 1000\n");
   EXPECT_EQ(
       problems_in(head + "1,0.1,0,1,,mass\n"),
-      "shaft.csv:2:1: carries: the shaft itself carries both; layers have a number above 1\n");
+      "shaft.csv:2:12: carries: the shaft itself carries both; layers have a number above 1\n");
   EXPECT_EQ(problems_in(head + "1,0.1,0,1,,\n,0.2,0.1,2,,weight\n"),
-            "shaft.csv:3:1: carries: found \"weight\", expected one of both, stiffness, mass\n");
+            "shaft.csv:3:13: carries: found \"weight\", expected one of both, stiffness, mass\n");
 }
 
 TEST(ShaftTable, ColumnsThatCannotBe) {
@@ -127,9 +178,9 @@ TEST(ShaftTable, ColumnsThatCannotBe) {
             "shaft.csv:1:1: length: the unit [kg] does not fit: found \"1 kg\", expected a length "
             "(m)\n");
   EXPECT_EQ(problems_in("length,od,material [m]\n2,1,a\n"),
-            "shaft.csv:1:1: material: a column of words has no unit\n");
+            "shaft.csv:1:11: material: a column of words has no unit\n");
   EXPECT_EQ(problems_in("length,od,l\n2,1,2\n"),
-            "shaft.csv:1:1: length: this column is there already\n");
+            "shaft.csv:1:11: length: this column is there already\n");
   for (const char* text : {"", "# nothing\n", "length,od\n"}) {
     EXPECT_NE(problems_in(text).find("shaft.csv: the table has no rows"), std::string::npos)
         << text;
@@ -229,9 +280,12 @@ TEST_F(ShaftTableFile, ProblemsOfTableAndModelAreToldTogether) {
   EXPECT_EQ(
       problem_of("length,od,material\n1,0.1,steal\n1,0.1,\n", "[[disk]]\nat = 0.5\nmas = 1\n"),
       "m:14:1: disk.1.mas: unknown key, did you mean \"mass\"?\n"
-      "t.csv:2:1: material: found \"steal\", expected one of bronze, steel; did you mean "
+      "t.csv:2:7: material: found \"steal\", expected one of bronze, steel; did you mean "
       "\"steel\"?\n"
-      "t.csv:3:1: material: missing, expected the name of a material\n");
+      "t.csv:3:7: material: missing, expected the name of a material\n");
+  EXPECT_EQ(problem_of("length,od,material\n1,0.1,AISI4140\n1,0.1,AISI4140\n1,1,AISI4140\n", ""),
+            "t.csv:2:7: material: found \"AISI4140\", expected one of bronze, steel; and 2 more "
+            "rows\n");
   EXPECT_EQ(problem_of(good, "length = 2\n"),
             "m:12:10: shaft.1.length: stands in the table; leave it out\n");
   EXPECT_EQ(problem_of(good, "[[shaft]]\ntable = \"other.csv\"\n")
