@@ -1,12 +1,16 @@
 #include <algorithm>
+#include <filesystem>
 
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "libdyn/system/model_facts.hpp"
 #include "libio/drawing/terminal_layout.hpp"
+#include "libio/model/file_text.hpp"
+#include "libio/model/model_doubts.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/text/terminal.hpp"
+#include "libio/texts/problems_text.hpp"
 
 namespace whirl::inline cli {
 
@@ -20,6 +24,16 @@ std::string drawn(const Model& model, const Assembler& assembler) {
   return draw_layout(model, assembler, static_cast<int>(width)) + "\n";
 }
 
+/// What the model says and few mean.
+std::vector<Problem> doubts_of(const Invocation& call, const ModelFacts& facts,
+                               const Model& model) {
+  const std::string text = call.model_text.empty() ? file_text(call.file) : call.model_text;
+  std::vector<Problem> doubts =
+      model_doubts(text, call.file, call.sets, std::filesystem::path(call.file).parent_path());
+  for (const Problem& doubt : rest_doubts(facts, model)) doubts.push_back(doubt);
+  return doubts;
+}
+
 Report run_check(const Invocation& call) {
   const Model model = call.model();
   const Assembler assembler(model.structure);
@@ -28,7 +42,9 @@ Report run_check(const Invocation& call) {
   if (!model.films.empty()) report.record.set("oil_films", static_cast<long>(model.films.size()));
   report.text = (model.title.empty() ? call.file : model.title) + "\n\n";
   if (!model.structure.shaft.empty()) report.text += drawn(model, assembler);
-  report.text += text_of(facts, model) + "\n  The model is in order.\n";
+  const std::vector<Problem> doubts = doubts_of(call, facts, model);
+  report.record.set("warnings", record_of_problems(doubts));
+  report.text += text_of(facts, model) + warnings_text(doubts);
   write_file(call, model, report,
              [&](ResultWriter& file) { write_points(file, model, assembler); });
   return report;

@@ -41,6 +41,8 @@ class ModelBuilder {
   };
   /// Those that build() read: a model that is stored has them in it.
   const std::vector<Table>& tables() const { return tables_; }
+  /// What is right in them and seldom meant.
+  const std::vector<Problem>& doubts() const { return doubts_; }
 
  private:
   // model_builder.cpp
@@ -118,6 +120,7 @@ class ModelBuilder {
   const ConfigNode& root_;
   std::filesystem::path directory_;
   std::vector<Problem> problems_;
+  std::vector<Problem> doubts_;
   std::vector<AskedKey>* asked_;
   Model model_;
   std::map<std::string, Material> materials_;

@@ -103,7 +103,7 @@ std::optional<CoefficientTable> ModelBuilder::coefficient_table(TableReader& tab
   const auto from = table_text(table, key, "", 0);  // who owns it, its reader knows
   if (!from) return std::nullopt;
   std::vector<Problem> wrong;
-  const CoefficientTable read = parse_bearing_table(from->text, from->name, wrong);
+  const CoefficientTable read = parse_bearing_table(from->text, from->name, wrong, &doubts_);
   problems_.insert(problems_.end(), wrong.begin(), wrong.end());
   return read;
 }

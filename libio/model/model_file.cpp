@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "libio/model/file_text.hpp"
 #include "libio/model/model_builder.hpp"
 
 namespace whirl::inline io {
@@ -28,7 +29,7 @@ Model parse_model(const std::string& text, const std::string& name,
   return model;
 }
 
-Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets) {
+std::string file_text(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
     throw ModelError({path.string()}, "", "this is a directory; expected a model file");
@@ -39,7 +40,11 @@ Model read_model(const std::filesystem::path& path, const std::vector<std::strin
                      std::string("cannot read the file: ") + std::strerror(errno));
   std::ostringstream text;
   text << file.rdbuf();
-  return parse_model(text.str(), path.string(), sets, path.parent_path());
+  return text.str();
+}
+
+Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets) {
+  return parse_model(file_text(path), path.string(), sets, path.parent_path());
 }
 
 void require_speed(const Model& model) {

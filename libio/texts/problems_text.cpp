@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "libio/text/parameter_axis.hpp"
+
 namespace whirl::inline io {
 
 namespace {
@@ -85,6 +87,46 @@ ModelError renamed(const ModelError& error, const std::string& from, const std::
     problem.key.clear();
   }
   return ModelError(std::move(problems));
+}
+
+ModelError under_over(const ModelError& error, const std::vector<std::string>& over,
+                      const std::vector<std::string>& sets) {
+  std::vector<Problem> problems = error.problems();
+  for (Problem& problem : problems) {
+    const std::string& told = problem.where.file;
+    const bool is_set = std::any_of(sets.begin(), sets.end(),
+                                    [&](const std::string& set) { return told == "--set " + set; });
+    if (is_set || !told.starts_with("--set ")) continue;
+    const std::string path = told.substr(6, told.find('=') - 6);
+    const auto of = std::find_if(over.begin(), over.end(), [&](const std::string& one) {
+      const ParameterAxis axis{.path = one.substr(0, one.find('='))};
+      const std::vector<std::string> paths = axis.paths();
+      return std::find(paths.begin(), paths.end(), path) != paths.end();
+    });
+    if (of != over.end()) problem.where.file = "--over " + *of;
+  }
+  return ModelError(std::move(problems));
+}
+
+std::string warnings_text(const std::vector<Problem>& doubts) {
+  if (doubts.empty()) return "\n  The model is in order.\n";
+  std::string text =
+      fmt::format("\n  The model can be read, but there {}:\n",
+                  doubts.size() == 1 ? std::string("is a warning")
+                                     : fmt::format("are {} warnings", doubts.size()));
+  for (const Problem& doubt : doubts) text += "\n  warning: " + describe(doubt) + "\n";
+  return text;
+}
+
+Record record_of_problems(const std::vector<Problem>& problems) {
+  Record all = Record::array();
+  for (const Problem& problem : problems) {
+    Record one;
+    one.set("file", problem.where.file).set("line", problem.where.line);
+    one.set("column", problem.where.column).set("key", problem.key);
+    all.add(one.set("message", problem.message));
+  }
+  return all;
 }
 
 }  // namespace whirl::inline io

@@ -109,6 +109,18 @@ stiffness = 1e6
   const std::string text = whirl({"check", "shaft.toml"}).out;
   EXPECT_TRUE(has(text, "disk 1 (150 mm)")) << text;
   EXPECT_TRUE(has(text, "The model is in order."));
+  EXPECT_TRUE(r["warnings"].empty());
+
+  // lengths that were meant in millimeters
+  const std::vector<std::string> long_one{"check", "shaft.toml", "--set", "shaft.1.length=300"};
+  const std::string warned = whirl(long_one).out;
+  EXPECT_FALSE(has(warned, "The model is in order.")) << warned;
+  EXPECT_TRUE(has(warned, "The model can be read, but there is a warning:")) << warned;
+  EXPECT_TRUE(has(warned, "did you mean 300 mm, or in?")) << warned;
+  const auto warnings = result(long_one)["warnings"];
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0]["key"], "shaft");
+  EXPECT_EQ(warnings[0]["file"], "shaft.toml");
 
   r = result({"check", "rotor.toml"});
   EXPECT_EQ(r["mass_kg"], m);
