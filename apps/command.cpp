@@ -50,9 +50,11 @@ SpeedOptions speed_options(const CommandLine& line) {
   return given;
 }
 
-/// Problems of a value of --speed are told under that name.
-ModelError under_its_option(const ModelError& error, const std::optional<std::string>& speed) {
-  return speed ? renamed(error, "--set operation.speed=" + *speed, "--speed " + *speed) : error;
+/// Problems of values of --speed and --over are told under these names.
+ModelError under_its_option(const ModelError& error, const CommandLine& line) {
+  const ModelError told = under_over(error, line.call.values("over"), line.call.sets);
+  if (!line.speed) return told;
+  return renamed(told, "--set operation.speed=" + *line.speed, "--speed " + *line.speed);
 }
 
 /// What a verb found goes to the terminal, to standard error and to --json; the status.
@@ -94,7 +96,7 @@ int run_command(const Verb& verb, const std::vector<std::string>& words,
     return execute(verb, line);
   } catch (const ModelError& error) {
     fmt::print(stderr, "{}",
-               problems_text(under_its_option(error, line.speed), {file, line.call.model_text}));
+               problems_text(under_its_option(error, line), {file, line.call.model_text}));
     return exit_status::wrong_input;
   } catch (const FileError& error) {
     return refused(error);

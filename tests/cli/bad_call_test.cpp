@@ -128,6 +128,22 @@ TEST_F(BadCall, WhatIsSetCountsAsIfItStoodInTheFile) {
   EXPECT_TRUE(has(set("title"), "expected PATH=VALUE"));
 }
 
+// A study sets values as --set does; what is wrong with them is told of what was given.
+TEST_F(BadCall, ValuesOfAStudyAreToldUnderOver) {
+  EXPECT_EQ(problem({"modes", "rotor.toml", "--over", "bearing.shaft.stiffness=0:5:1kg"}),
+            "--over bearing.shaft.stiffness=0:5:1kg: bearing.shaft.stiffness: found \"0 kg\", "
+            "expected a stiffness (N/m)\n");
+  const std::string both = problem({"modes", "rotor.toml", "--set", "gravity=1kg", "--over",
+                                    "operation.speed,-bearing.shaft.damping=1:5:1kg"});
+  EXPECT_TRUE(has(both, "--set gravity=1kg: gravity: found")) << both;
+  const std::string second =
+      problem({"modes", "rotor.toml", "--over", "operation.speed,-bearing.shaft.damping=1:5:1kg"});
+  EXPECT_TRUE(has(second,
+                  "--over operation.speed,-bearing.shaft.damping=1:5:1kg: "
+                  "bearing.shaft.damping: found \"-1 kg\", expected a damping"))
+      << second;
+}
+
 TEST_F(BadCall, AWrongModelShowsItsLines) {
   write("bad.toml",
         "format = 1\n"
