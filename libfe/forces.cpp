@@ -91,6 +91,7 @@ std::vector<OscillatingLoad> oscillating_loads(const Assembler& assembler) {
     OscillatingLoad& load = at->second;
     if (is_new) load = {f.order, f.frequency, CVec::Zero(assembler.dofs().full_size)};
     load.amplitude += amplitude_of(f, assembler);
+    load.forces += (load.forces.empty() ? "" : ", ") + f.name;
   }
   std::vector<OscillatingLoad> loads;
   for (auto& [key, load] : all) loads.push_back(std::move(load));

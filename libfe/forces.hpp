@@ -13,6 +13,7 @@ struct OscillatingLoad {
   double order = 0.0;      ///< of the speed; 0: it does not follow it
   double frequency = 0.0;  ///< of its own [rad/s]
   CVec amplitude;          ///< full vector, see DofMap [N, N.m]
+  std::string forces{};    ///< their names: "pump, motor"
 
   /// w at a speed [rad/s].
   double at(double Omega) const { return order > 0.0 ? order * Omega : frequency; }

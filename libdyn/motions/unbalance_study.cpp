@@ -115,6 +115,7 @@ void add_forced(const std::vector<NamedPoint>& stations, const Assembler& assemb
     const UnbalanceResponse found = oscillating_response(assembler, load, study.speeds, points);
     const auto name = [&](auto& of) {
       of.force = load.label();
+      of.forces = load.forces;
       (load.order > 0.0 ? of.order : of.frequency) = load.order > 0.0 ? load.order : load.frequency;
     };
     for (StationResponse& at : station_responses(stations, found)) {

@@ -67,14 +67,16 @@ struct ForcedResponse {
   std::optional<double> frequency;  ///< of its own [rad/s]
   std::optional<int> node;          ///< from 1; nothing: a body
   std::string name, label;
-  CVec x, y;         ///< complex amplitudes, per speed [m]; NaN at undamped resonances
-  Vec major, minor;  ///< semi-axes, the minor one > 0 forward, per speed [m]
+  CVec x, y;             ///< complex amplitudes, per speed [m]; NaN at undamped resonances
+  Vec major, minor;      ///< semi-axes, the minor one > 0 forward, per speed [m]
+  std::string forces{};  ///< names of the forces of that frequency; not in result files
 
   static constexpr auto columns() {
     using enum Written;
     using F = ForcedResponse;
     return std::tuple{
         column("force", &F::force, "", "order or frequency of the force").axis(),
+        column("forces", &F::forces, "", "their names").only(in_json),
         column("order", &F::order, "", "of the speed").only(in_json),
         column("frequency", &F::frequency, "rad/s", "of its own").only(in_json),
         column("node", &F::node, "", "number of the node").only(in_json),
@@ -148,6 +150,7 @@ struct ForcedReading : ProbeLabel {
   std::optional<double> order;      ///< of the speed
   std::optional<double> frequency;  ///< of its own [rad/s]
   CVec amplitude;                   ///< per speed [m]; NaN at undamped resonances
+  std::string forces{};             ///< names of the forces of that frequency; not in result files
 
   Vec peak_to_peak() const { return 2.0 * amplitude.cwiseAbs(); }
   /// Ahead of w t, -180 to 180 [deg].
@@ -160,6 +163,7 @@ struct ForcedReading : ProbeLabel {
         ProbeLabel::columns(),
         std::tuple{
             column("force", &F::force, "", "order or frequency of the force"),
+            column("forces", &F::forces, "", "their names").only(in_json),
             column("order", &F::order, "", "of the speed").only(in_json),
             column("frequency", &F::frequency, "rad/s", "of its own").only(in_json),
             column("amplitude", &F::amplitude, "m", "complex amplitude of what a probe reads")

@@ -80,7 +80,7 @@ std::string text_of(const std::vector<ForcedReading>& readings, const std::vecto
   };
   return "\nThe same along the probes, peak to peak\n\n" +
          table_of(readings,
-                  {shown("force"),
+                  {{"force", [](const ForcedReading& f) { return force_text(f); }},
                    shown("name").as("probe"),
                    {"largest", [=](const ForcedReading& f) { return text_at(f, top(f)); }},
                    {"at [rpm]",

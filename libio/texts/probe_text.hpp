@@ -11,6 +11,12 @@ namespace whirl::inline io {
 /// A reading [m] in the unit of its probe: "12.3 um".
 std::string reading_text(double reading, const ProbeLabel& probe);
 
+/// Names and frequency of forces of a response: "pump, motor (2x)".
+template <class Forced>
+std::string force_text(const Forced& forced) {
+  return forced.forces.empty() ? forced.force : forced.forces + " (" + forced.force + ")";
+}
+
 /// Peaks along every probe, peak to peak; empty without probes.
 std::string text_of(const std::vector<ProbeResponse>& probes);
 

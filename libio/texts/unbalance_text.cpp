@@ -83,7 +83,7 @@ std::string forced_text(const UnbalanceStudy& study) {
     return fmt::format("{:.1f}", study.speeds[static_cast<std::size_t>(at)] / rpm);
   };
   return "\nResponse to forces of other frequencies, at these speeds (major semi-axes)\n\n" +
-         table_of(study.forced, {shown("force"),
+         table_of(study.forced, {{"force", [](const ForcedResponse& f) { return force_text(f); }},
                                  shown("station"),
                                  {"largest [um]",
                                   [&](const ForcedResponse& f) {

@@ -65,6 +65,8 @@ TEST_F(ForceVerbs, UnbalanceHasTheOthers) {
   ASSERT_EQ(r["forced"].size(), 2u);
   const json &two = r["forced"][0], &own = r["forced"][1];
   EXPECT_EQ(two["force"], "2x");
+  EXPECT_EQ(two["forces"], "force 1");
+  EXPECT_EQ(own["forces"], "shaker");
   EXPECT_EQ(two["order"], 2.0);
   EXPECT_TRUE(two["frequency_rpm"].is_null());
   EXPECT_EQ(two["name"], "rotor");
@@ -86,6 +88,7 @@ TEST_F(ForceVerbs, UnbalanceHasTheOthers) {
   EXPECT_NEAR(largest * 100.0 * c / 3.0, 1.0, 1e-3);
   const Outcome told = whirl({"unbalance", "rotor.toml"});
   EXPECT_TRUE(has(told.out, "Response to forces of other frequencies")) << told.out;
+  EXPECT_TRUE(has(told.out, "  shaker (12 Hz)  rotor  ")) << told.out;
   EXPECT_EQ(whirl({"plot", "u.h5", "bode"}).status, 0);
 }
 
