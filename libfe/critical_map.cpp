@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -175,38 +173,19 @@ std::optional<FirstFound> first_found(const std::vector<double>& places, const S
   return {};
 }
 
-/// A stiffness over speed, for one direction, that remembers what it was asked for: curves are
-/// compared at the same speeds, and a film's stiffness takes an equilibrium.
-class StiffnessOverSpeed {
- public:
-  using Find = std::function<Mat2(double Omega)>;
-  explicit StiffnessOverSpeed(Find find) : find_(std::move(find)) {}
-
-  std::function<double(double)> along(Eigen::Index direction) const {
-    return [find = find_, known = known_, direction](double Omega) {
-      auto at = known->find(Omega);
-      if (at == known->end()) at = known->emplace(Omega, find(Omega)).first;
-      return at->second(direction, direction);
-    };
-  }
-
- private:
-  Find find_;
-  std::shared_ptr<std::map<double, Mat2>> known_ = std::make_shared<std::map<double, Mat2>>();
-};
+/// A stiffness over speed, of both directions.
+using StiffnessOverSpeed = std::function<Mat2(double Omega)>;
 
 /// Stiffness of all connections that the map gives another one, by name.
 std::vector<std::pair<std::string, StiffnessOverSpeed>> flexible_connections(const Structure& s) {
   std::vector<std::pair<std::string, StiffnessOverSpeed>> all;
   for (const Connection& b : s.bearings) {
     if (!is_flexible(b)) continue;
-    all.emplace_back(b.name, StiffnessOverSpeed([c = b.coefficients](double Omega) -> Mat2 {
-                       return coefficients(c, Omega).K;
-                     }));
+    all.emplace_back(
+        b.name, [c = b.coefficients](double Omega) -> Mat2 { return coefficients(c, Omega).K; });
   }
   for (const LinearizedConnection& film : s.linearized) {
-    all.emplace_back(film.name, StiffnessOverSpeed(
-                                    [film](double Omega) { return film_stiffness(film, Omega); }));
+    all.emplace_back(film.name, [film](double Omega) { return film_stiffness(film, Omega); });
   }
   return all;
 }
@@ -233,7 +212,9 @@ std::vector<StiffnessCurve> stiffness_curves(const Structure& s, double low, dou
   const auto flexible = flexible_connections(s);
   for (const auto& [name, stiffness] : flexible) {
     for (const Eigen::Index direction : {0, 1}) {
-      const StiffnessCurve c{"", stiffness.along(direction)};
+      const StiffnessCurve c{"", [of = stiffness, direction](double Omega) {
+                               return of(Omega)(direction, direction);
+                             }};
       auto group = std::find_if(groups.begin(), groups.end(),
                                 [&](const Group& g) { return is_same(c, g.curve); });
       if (group == groups.end()) group = groups.insert(groups.end(), Group{c, {}, {}});

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
+#include <map>
 #include <mutex>
 #include <optional>
 
@@ -186,6 +188,11 @@ struct FilmEquilibrium::State {
   std::mutex mutex{};
   std::shared_ptr<const Ports> ports{};  ///< of the last speed, if they depend on that
   std::shared_ptr<const RotorOnFilms> last{};
+  struct Known {
+    std::vector<BearingCoefficients> films;
+    std::exception_ptr failure;  ///< why there are none
+  };
+  std::map<double, Known> known{};  ///< by speed [rad/s]
 
   explicit State(const Model& model) : assembler(model.structure) {
     for (const OilFilm& film : model.films) {
@@ -238,6 +245,26 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::at(double Omega) const {
   return state_->last;
 }
 
+const std::vector<BearingCoefficients>& FilmEquilibrium::coefficients(double Omega) const {
+  const std::lock_guard lock(state_->mutex);
+  const auto [at, is_new] = state_->known.try_emplace(Omega);
+  State::Known& known = at->second;
+  try {
+    if (is_new && !(state_->last && state_->last->Omega == Omega)) {
+      state_->last = state_->found(Omega);
+    }
+  } catch (...) {
+    known.failure = std::current_exception();
+  }
+  if (known.failure) std::rethrow_exception(known.failure);
+  if (is_new) {
+    for (const RunningFilm& film : state_->last->films) {
+      known.films.push_back({.K = film.stiffness, .C = film.damping});
+    }
+  }
+  return known.films;
+}
+
 bool has_linear_films(const Model& model) {
   return std::any_of(model.films.begin(), model.films.end(),
                      [](const OilFilm& film) { return film.is_linearized; });
@@ -251,9 +278,7 @@ Structure linear_structure(const Model& model) {
     if (!film.is_linearized) continue;
     const std::size_t number = structure.linearized.size();
     const auto at = [equilibrium, number](double Omega, double /*omega*/) {
-      const auto rotor = equilibrium->at(Omega);
-      const RunningFilm& running = rotor->films[number];
-      return BearingCoefficients{.K = running.stiffness, .C = running.damping};
+      return equilibrium->coefficients(Omega)[number];
     };
     structure.linearized.push_back({film.name, film.at, film.against, at});
   }

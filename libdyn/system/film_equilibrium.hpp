@@ -39,6 +39,10 @@ class FilmEquilibrium {
   /// @throws NumericalError  if there is none: without speed a film carries nothing
   std::shared_ptr<const RotorOnFilms> at(double Omega) const;
 
+  /// Coefficients of the films there, one after the other; found once for each speed and kept, as many
+  /// analyses ask for them again.
+  const std::vector<BearingCoefficients>& coefficients(double Omega) const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

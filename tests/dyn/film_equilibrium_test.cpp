@@ -37,6 +37,21 @@ MassOnFilm running_at(double e, double Omega) {
   return rotor;
 }
 
+// Coefficients are those of the equilibrium, bit by bit, found once: asked again they are the same place.
+TEST(FilmEquilibrium, RemembersTheCoefficientsOfEachSpeed) {
+  const Model model = running_at(0.4, 300.0).model();
+  const FilmEquilibrium equilibrium(model);
+  const auto& first = equilibrium.coefficients(300.0);
+  const auto& other = equilibrium.coefficients(250.0);
+  EXPECT_EQ(&equilibrium.coefficients(300.0), &first);
+  EXPECT_EQ(first.at(0).K, equilibrium.at(300.0)->films.at(0).stiffness);
+  EXPECT_EQ(first.at(0).C, equilibrium.at(300.0)->films.at(0).damping);
+  EXPECT_NE(other.at(0).K, first.at(0).K);
+  for (int ask = 0; ask < 2; ++ask) {  // without speed a film carries nothing, whenever it is asked
+    EXPECT_THROW(equilibrium.coefficients(0.0), NumericalError);
+  }
+}
+
 RunningFilm running(const Model& model) {
   return FilmEquilibrium(model).at(model.speed)->films.at(0);
 }
