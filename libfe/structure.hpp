@@ -228,6 +228,13 @@ struct Connection {
   bool is_rigid = false;    ///< x and y of both ends are the same
   bool is_clamped = false;  ///< and the tilts too
   Where where{};
+  double clearance = 0.0;  ///< of a bearing or seal, radial [m]; 0: not told
+
+  static constexpr auto fields() {
+    return std::tuple{alternative(
+        "clearance", &Connection::clearance, "m", Range::positive,
+        "radial, that the rotor has there; for checks of clearances, it changes no coefficient")};
+  }
 };
 
 /// A connection whose coefficients follow from the state of the rotor at a speed, as those of an oil

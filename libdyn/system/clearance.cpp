@@ -73,6 +73,15 @@ std::vector<Gap> gaps_of(const Model& model, const Assembler& assembler) {
     gaps.push_back({named("contact", c.name), c.clearance, c.offset, geometry_of(c),
                     assembler.point(c.at), assembler.point(c.against)});
   }
+  const auto add = [&](std::string_view kind, const std::vector<Connection>& list) {
+    for (const Connection& c : list) {
+      if (!(c.clearance > 0.0)) continue;
+      gaps.push_back({named(kind, c.name), c.clearance, Vec2::Zero(), geometry::Ring{},
+                      assembler.point(c.from), assembler.point(c.to)});
+    }
+  };
+  add("bearing", model.structure.bearings);
+  add("seal", model.structure.seals);
   for (const OilFilm& film : model.films) {
     gaps.push_back({named("oil film", film.name), film.bearing.clearance, film.offset,
                     geometry::Ring{}, assembler.point(film.at), assembler.point(film.against)});

@@ -17,7 +17,7 @@ struct SpeedRange {
 
 /// What the steady response to unbalance takes of one clearance.
 struct ClearanceUse {
-  std::string name;                ///< "contact ring", "oil film left"
+  std::string name;                ///< "contact ring", "oil film left", "seal eye"
   double clearance = 0.0;          ///< [m]
   double largest = 0.0;            ///< distance from the middle of the clearance [m]
   double at = 0.0;                 ///< where it is that far [rad/s]
@@ -39,7 +39,7 @@ struct ClearanceUse {
 
 /// What is left of one clearance where the rotor rests.
 struct RunningClearance {
-  std::string name;        ///< "contact ring", "oil film left"
+  std::string name;        ///< "contact ring", "oil film left", "seal eye"
   double clearance = 0.0;  ///< [m]
   double distance = 0.0;   ///< from the middle of the clearance, of a stop towards it [m]
 
@@ -54,12 +54,13 @@ struct RunningClearance {
   }
 };
 
-/// Clearances of contacts and oil films of a rotor that rests, the closest first.
+/// Clearances of contacts, oil films, and of bearings and seals that tell one, of a rotor that rests,
+/// the closest first.
 /// @param displacement  full vector, see DofMap [m, rad]
 std::vector<RunningClearance> running_clearances(const Model& model, const Assembler& assembler,
                                                  const Vec& displacement);
 
-/// Clearances of contacts and oil films beside the linear response to unbalance.
+/// The same clearances beside the linear response to unbalance.
 ///
 /// The distance is the largest in a period: of the orbit from the middle of the clearance circle,
 /// of a face that of its rim along the axis. Static sag is not part of the response. The ends of

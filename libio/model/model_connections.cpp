@@ -130,6 +130,7 @@ void ModelBuilder::read_supports(const char* array, std::vector<Connection>& to)
     if (const auto body = table.string("to")) {
       if (const auto s = named_station(*body, table, "to")) c.to = *s;
     }
+    table.read(c);
     const auto told = kind_of(table);
     if (told) c.coefficients = told->bearing;
     const std::size_t known_tables = tables_.size();

@@ -213,6 +213,30 @@ speed, kxx
   EXPECT_EQ(constant(set.structure.seals[1]).M, isotropic(4.0));
 }
 
+// Bearings and seals tell a clearance, which is no coefficient; links have none.
+TEST(ModelConnections, ClearancesOfBearingsAndSeals) {
+  const std::string text = R"(
+[[bearing]]
+name = "left"
+at = "0 mm"
+stiffness = "4 MN/m"
+clearance = "0.11 mm"
+[[seal]]
+at = "100 mm"
+stiffness = 5
+)";
+  const Model model = rotor(text);
+  EXPECT_DOUBLE_EQ(model.structure.bearings.at(0).clearance, 0.11e-3);
+  EXPECT_EQ(model.structure.seals.at(0).clearance, 0.0);
+  const Model set = parse_model(model.source, "model", {"seal.1.clearance=0.2 mm"});
+  EXPECT_DOUBLE_EQ(set.structure.seals.at(0).clearance, 0.2e-3);
+  EXPECT_THROW(parse_model(model.source, "model", {"bearing.left.clearance=0 mm"}), ModelError);
+  EXPECT_THROW(rotor("[[bearing]]\nat = 0\nclearance = 1e-4\n"), ModelError);  // and no stiffness
+  EXPECT_THROW(rotor("[[link]]\nfrom = { at = 0 }\nto = \"ground\"\nstiffness = 1\n"
+                     "clearance = 1e-4\n"),
+               ModelError);
+}
+
 TEST(ModelConnections, LinksInEveryFormOfStation) {
   const auto& links = rotor(R"(
 [[body]]
