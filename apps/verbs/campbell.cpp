@@ -1,5 +1,7 @@
 #include "libfe/campbell.hpp"
 
+#include <fmt/format.h>
+
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
@@ -12,7 +14,11 @@ namespace whirl::inline cli {
 namespace {
 
 struct CampbellVerbOptions {
-  Option<int> modes{"modes", "N", "how many modes", 8};
+  Option<int> modes{
+      "modes", "N",
+      "how many of the lowest modes; where bearings change with speed all that are among "
+      "them at any speed",
+      8};
   Option<std::vector<double>> speeds = speeds_option();
   auto fields() { return std::tie(modes, speeds); }
 };
@@ -23,6 +29,13 @@ Report run_campbell(const Invocation& call, const CampbellVerbOptions& options) 
   const Campbell diagram = campbell(Assembler(linear_structure(model)), speeds, *options.modes);
   Report report = begin_report(call, model, record_of(diagram));
   report.text = text_of(diagram);
+  if (std::ssize(diagram.branches) > *options.modes) {
+    report.text += fmt::format(
+        "\n  Bearings change with speed: each mode that is among the {} lowest at any speed is one "
+        "of "
+        "these {}.\n",
+        *options.modes, diagram.branches.size());
+  }
   report.add_notes(linear_notes(model, speeds));
   write_file(call, model, report, [&](ResultWriter& file) { write_result(file, diagram); });
   return report;
