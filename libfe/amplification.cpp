@@ -71,13 +71,12 @@ std::vector<ResponsePeak> highest_peaks(std::vector<ResponsePeak> peaks, std::si
 }
 
 SeparationMargin separation_margin(const ResponsePeak& peak, double operating) {
-  constexpr double damped = 2.5;  // amplification factor below which a peak counts for none
   const double AF = peak.amplification();
   SeparationMargin margin{.actual = std::abs(operating - peak.speed) / operating,
                           .required = nan,
                           .is_below = peak.speed < operating};
   if (!std::isfinite(AF)) return margin;
-  if (AF < damped) {
+  if (AF < least_amplification) {
     margin.required = 0.0;
     return margin;
   }

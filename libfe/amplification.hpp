@@ -37,6 +37,10 @@ std::vector<ResponsePeak> response_peaks(const std::vector<double>& speeds, cons
 /// The highest of some peaks, ascending speeds.
 std::vector<ResponsePeak> highest_peaks(std::vector<ResponsePeak> peaks, std::size_t most);
 
+/// Amplification factor below which a peak is critically damped, and no critical speed.
+/// @source [API617], definitions of a lateral analysis
+inline constexpr double least_amplification = 2.5;
+
 /// How far a peak is from the operating speed, and should be.
 struct SeparationMargin {
   double actual = 0.0;    ///< distance over the operating speed

@@ -1,5 +1,6 @@
 #include "libfe/lateral_rules.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "libbase/constants.hpp"
@@ -20,6 +21,15 @@ SeparationMargin separation_margin(const ResponsePeak& peak, const OperatingRang
   SeparationMargin margin = separation_margin(peak, range.maximum);
   if (peak.speed <= range.maximum) margin.actual = 0.0;
   return margin;
+}
+
+double largest_speed_ratio(double density) {
+  constexpr double densest = 60.0;  // [kg/m^3]
+  return density > densest ? 0.0 : std::min(2.5, 2.69 - 0.0115 * density);
+}
+
+StabilityRegion stability_region(double speed_ratio, double density) {
+  return speed_ratio > largest_speed_ratio(density) ? StabilityRegion::b : StabilityRegion::a;
 }
 
 double anticipated_coupling(const Stage& stage, double maximum) {

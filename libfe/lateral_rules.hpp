@@ -2,6 +2,9 @@
 /// Rules of the lateral analysis of compressors [API617]: what of unbalance, vibration, distance and
 /// damping they ask for. Formulas only, in SI.
 
+#include <array>
+
+#include "libbase/field.hpp"
 #include "libfe/amplification.hpp"
 
 namespace whirl::inline fe {
@@ -43,6 +46,30 @@ inline constexpr double most_scaling = 6.0;
 /// that the rotor bears to it, in an analysis of level I.
 inline constexpr double least_log_decrement = 0.1;
 inline constexpr double least_coupling_ratio = 2.0;
+/// The same ratio where a compressor is in region B of the screening.
+inline constexpr double least_coupling_ratio_in_region_b = 10.0;
+
+/// The screening of a compressor: light gas and a stiff rotor, or dense gas or a flexible one.
+enum class StabilityRegion { a, b };
+constexpr auto choices(StabilityRegion) {
+  using enum StabilityRegion;
+  return std::array{Choice<StabilityRegion>{"A", a}, Choice<StabilityRegion>{"B", b}};
+}
+
+/// The largest critical speed ratio of region A at a density.
+///
+///   the less of 2.5 and 2.69 - 0.0115 rho,   rho <= 60 kg/m^3;   beyond, none: zero
+///
+/// The standard draws this line; the numbers are those that [Timbo2020] reads from it.
+///
+/// @param density  average of that of the gas where it enters and where it leaves [kg/m^3]
+/// @source [API617], screening of level I; [Timbo2020], report after API 617
+double largest_speed_ratio(double density);
+
+/// @param speed_ratio  critical speed ratio: maximum continuous speed over the first critical speed on
+///                     rigid supports
+/// @source as largest_speed_ratio
+StabilityRegion stability_region(double speed_ratio, double density);
 
 /// Power of an impeller and the passage of its gas.
 struct Stage {

@@ -13,39 +13,43 @@ namespace whirl::inline cli {
 namespace {
 
 struct LateralVerbOptions {
-  Option<double> minimum_speed{"minimum-speed", "S",
-                               "least continuous speed; left out: the operating speed",
-                               parse_running_speed};
-  Option<double> maximum_speed{"maximum-speed", "S",
-                               "largest continuous speed; left out: the operating speed",
-                               parse_running_speed};
-  Option<double> trip_speed{"trip-speed", "S",
-                            "at which it is stopped; left out: 1.05 times the largest",
-                            parse_running_speed};
+  Option<double> minimum_speed{
+      "minimum-speed", "S",
+      "least continuous speed; left out: minimum_speed of the model, or its speed",
+      parse_running_speed};
+  Option<double> maximum_speed{
+      "maximum-speed", "S",
+      "largest continuous speed; left out: maximum_speed of the model, or its speed",
+      parse_running_speed};
+  Option<double> trip_speed{
+      "trip-speed", "S",
+      "at which it is stopped; left out: trip_speed of the model, or 1.05 times the largest",
+      parse_running_speed};
   Option<double> coupling{"cross-coupling", "Q",
                           "cross-coupled stiffness to be expected, such as 2MN/m", parse_coupling};
   Option<std::vector<Stage>> stages{
       "stages", "P:D:H:R,...",
       "instead, what makes it: power, diameter, least width and density ratio of each impeller",
       parse_stages};
-  auto fields() { return std::tie(minimum_speed, maximum_speed, trip_speed, coupling, stages); }
+  Option<double> gas_density{
+      "gas-density", "RHO",
+      "average of the gas, for the region of the screening of level I, such as 30kg/m^3",
+      parse_gas_density};
+  auto fields() {
+    return std::tie(minimum_speed, maximum_speed, trip_speed, coupling, stages, gas_density);
+  }
 };
 
 OperatingRange range_of(const LateralVerbOptions& options, const Model& model) {
-  OperatingRange range;
-  range.maximum = options.maximum_speed.value_or(model.speed);
-  range.minimum = options.minimum_speed.value_or(
-      model.speed > 0.0 ? std::min(model.speed, range.maximum) : range.maximum);
-  range.trip = options.trip_speed.value_or(1.05 * range.maximum);
+  OperatingRange range = operating_range(model, options.maximum_speed.value_or(0.0));
   if (!(range.maximum > 0.0)) {
     throw wrong_option("maximum-speed", "", "the model has no operating speed: give one");
   }
-  if (range.minimum > range.maximum) {
-    throw wrong_option("minimum-speed", options.minimum_speed.text, "is above the maximum speed");
-  }
-  if (range.trip < range.maximum) {
-    throw wrong_option("trip-speed", options.trip_speed.text, "is below the maximum speed");
-  }
+  range.minimum = options.minimum_speed.value_or(range.minimum);
+  range.trip = options.trip_speed.value_or(range.trip);
+  if (range.minimum > range.maximum)
+    throw options.minimum_speed.wrong("is above the maximum speed");
+  if (range.trip < range.maximum) throw options.trip_speed.wrong("is below the maximum speed");
   return range;
 }
 
@@ -53,6 +57,7 @@ LateralOptions lateral_options(const LateralVerbOptions& options, const Model& m
   LateralOptions how{.range = range_of(options, model)};
   how.has_anticipated = options.coupling.is_given || options.stages.is_given;
   how.anticipated = options.coupling.value_or(0.0);
+  if (options.gas_density) how.gas_density = *options.gas_density;
   if (options.stages) {
     if (options.coupling) throw options.stages.wrong("leave out --cross-coupling, which it tells");
     for (const Stage& stage : *options.stages) {
@@ -96,7 +101,7 @@ Verb lateral_verb() {
       .summary =
           "the lateral analysis after API 617: margins, limits, stability, passes and failures",
       .example =
-          "whirl lateral models/compressor.toml --minimum-speed 4000rpm --maximum-speed 5250rpm",
+          "whirl lateral models/compressor.toml --cross-coupling 5MN/m --gas-density 20kg/m^3",
       .run = run_lateral,
   };
 }

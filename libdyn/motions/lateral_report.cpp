@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
-#include <mutex>
 #include <utility>
 
 #include "libbase/error.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libdyn/system/resting_rotor.hpp"
+#include "libfe/rigid_supports.hpp"
 
 namespace whirl::inline dyn {
 
@@ -20,31 +18,21 @@ constexpr double first_speed = 0.1;  ///< of responses, over the maximum continu
 constexpr double last_speed = 1.5;   ///< likewise, and of modes that are excited
 constexpr int campbell_speeds = 51;
 
-/// Coefficients that are found once for each speed and frequency: every case of unbalance asks for
-/// them, and those of an oil film take an equilibrium. Several threads may ask.
-auto remembered(decltype(LinearizedConnection::at) find) -> decltype(find) {
-  struct Known {
-    std::mutex mutex;
-    std::map<std::pair<double, double>, BearingCoefficients> at;
-  };
-  return [find = std::move(find), known = std::make_shared<Known>()](double Omega, double omega) {
-    const std::pair key(Omega, omega);
-    {
-      const std::lock_guard lock(known->mutex);
-      if (const auto found = known->at.find(key); found != known->at.end()) return found->second;
-    }
-    const BearingCoefficients coefficients = find(Omega, omega);
-    const std::lock_guard lock(known->mutex);
-    return known->at.emplace(key, coefficients).first->second;
-  };
+PeakSides sides_of(const ResponsePeak& peak) {
+  const bool has_below = std::isfinite(peak.below), has_above = std::isfinite(peak.above);
+  if (has_below == has_above) return has_below ? PeakSides::both : PeakSides::none;
+  return has_below ? PeakSides::below : PeakSides::above;
 }
 
-/// Where 0.707 of a peak is reached on one side only, as it is where another peak is near, that side
-/// tells the width alone.
-ResponsePeak with_both_sides(ResponsePeak peak) {
-  if (!std::isfinite(peak.below)) peak.below = 2.0 * peak.speed - peak.above;
-  if (!std::isfinite(peak.above)) peak.above = 2.0 * peak.speed - peak.below;
-  return peak;
+/// Where 0.707 of a peak is reached on one side only, as it is where another peak is near or damping
+/// is heavy, the other side is taken to be as far: an estimate, as the standard asks for both.
+LateralPeak lateral_peak(ResponsePeak peak, int of_case, const OperatingRange& range) {
+  const PeakSides sides = sides_of(peak);
+  if (sides == PeakSides::above) peak.below = 2.0 * peak.speed - peak.above;
+  if (sides == PeakSides::below) peak.above = 2.0 * peak.speed - peak.below;
+  LateralPeak told{peak, of_case, separation_margin(peak, range)};
+  told.sides = sides;
+  return told;
 }
 
 /// Ascending, each once.
@@ -76,7 +64,6 @@ struct Lateral {
 
   static Structure bare(const Model& model) {
     Structure s = linear_structure(model);
-    for (LinearizedConnection& film : s.linearized) film.at = remembered(film.at);
     for (const Unbalance& u : s.unbalances)
       s.stations.push_back(u.at);  // nodes stay where they are
     s.unbalances.clear();
@@ -164,9 +151,7 @@ std::vector<std::vector<double>> find_peaks(const Lateral& lateral,
     const ResponseCurve curve = response_curve(cases[c], landmarks, lateral.points(), how);
     speeds.push_back(curve.response.speeds);
     for (const ResponsePeak& found : curve.peaks) {
-      const ResponsePeak peak = with_both_sides(found);
-      report.peaks.push_back(
-          {peak, static_cast<int>(c), separation_margin(peak, lateral.options.range)});
+      report.peaks.push_back(lateral_peak(found, static_cast<int>(c), lateral.options.range));
     }
     report.unbounded.insert(report.unbounded.end(), curve.unbounded.begin(), curve.unbounded.end());
     report.speeds.insert(report.speeds.end(), speeds.back().begin(), speeds.back().end());
@@ -220,6 +205,31 @@ Verdict verdict_of(double found, double limit, bool is_least) {
   return (is_least ? found >= limit : found <= limit) ? Verdict::passed : Verdict::failed;
 }
 
+/// Checks of level I: of what it asks for that was not given, they are unknown.
+void add_stability_checks(LateralReport& report) {
+  const auto add = [&](LateralRule rule, double found, double limit, const char* missing) {
+    report.checks.push_back({.rule = rule,
+                             .place = report.coupled_station,
+                             .speed = report.maximum_speed,
+                             .found = found,
+                             .limit = limit,
+                             .verdict = verdict_of(found, limit, true),
+                             .missing = missing});
+  };
+  const bool is_told = report.anticipated > 0.0;
+  add(LateralRule::log_decrement, report.log_decrement, least_log_decrement, "");
+  const double ratio =
+      is_told && std::isfinite(report.limit) ? report.limit / report.anticipated : nan;
+  const char* no_coupling = is_told ? "" : "--cross-coupling";
+  add(LateralRule::coupling_ratio, ratio, least_coupling_ratio, no_coupling);
+  const auto region = report.region();
+  const double least = region == StabilityRegion::b   ? least_coupling_ratio_in_region_b
+                       : region == StabilityRegion::a ? least_coupling_ratio
+                                                      : nan;
+  add(LateralRule::stability_region, ratio, least,
+      std::isfinite(report.gas_density) ? no_coupling : "--gas-density");
+}
+
 void add_checks(const Lateral& lateral, LateralReport& report) {
   const auto probe = [&](Eigen::Index i) {
     return report.probes[static_cast<std::size_t>(i)].station;
@@ -251,16 +261,7 @@ void add_checks(const Lateral& lateral, LateralReport& report) {
     add({LateralRule::running_clearance, c.of_case, c.name, c.speed, c.share(), clearance_share},
         false);
   }
-  const OperatingRange& range = lateral.options.range;
-  add({LateralRule::log_decrement, -1, report.coupled_station, range.maximum, report.log_decrement,
-       least_log_decrement},
-      true);
-  if (report.anticipated > 0.0) {
-    const double ratio = std::isfinite(report.limit) ? report.limit / report.anticipated : nan;
-    add({LateralRule::coupling_ratio, -1, report.coupled_station, range.maximum, ratio,
-         least_coupling_ratio},
-        true);
-  }
+  add_stability_checks(report);
 }
 
 void add_stability(const Lateral& lateral, LateralReport& report) {
@@ -274,6 +275,12 @@ void add_stability(const Lateral& lateral, LateralReport& report) {
   report.coupled_modes = found.modes;
   if (found.at_limit) report.limit = found.at_limit->coupling;
   if (found.at_anticipated) report.log_decrement = found.at_anticipated->log_decrement;
+  report.gas_density = lateral.options.gas_density.value_or(nan);
+  try {
+    report.rigid_critical_speed = critical_on_rigid_supports(lateral.structure);
+  } catch (const NumericalError&) {
+    report.rigid_critical_speed = nan;  // the region is unknown then
+  }
 }
 
 /// Equal steps from a tenth of the maximum speed to the end of the responses.
@@ -300,6 +307,27 @@ void add_cases(const Lateral& lateral, const std::vector<UnbalanceCase>& cases,
 }
 
 }  // namespace
+
+OperatingRange operating_range(const Model& model, double maximum) {
+  const MachineSpeeds& told = model.machine;
+  OperatingRange range;
+  range.maximum = maximum > 0.0 ? maximum : told.maximum > 0.0 ? told.maximum : model.speed;
+  const double least = told.minimum > 0.0 ? told.minimum : model.speed;
+  range.minimum = least > 0.0 ? std::min(least, range.maximum) : range.maximum;
+  range.trip = told.trip >= range.maximum ? told.trip : 1.05 * range.maximum;
+  return range;
+}
+
+PeakKind LateralPeak::kind() const {
+  const double AF = amplification();
+  if (!std::isfinite(AF)) return PeakKind::unknown;
+  return AF < least_amplification ? PeakKind::critically_damped : PeakKind::critical_speed;
+}
+
+std::optional<StabilityRegion> LateralReport::region() const {
+  if (!std::isfinite(gas_density) || !std::isfinite(rigid_critical_speed)) return {};
+  return stability_region(critical_speed_ratio(), gas_density);
+}
 
 bool LateralReport::is_passed() const {
   return std::none_of(checks.begin(), checks.end(),

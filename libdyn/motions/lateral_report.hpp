@@ -18,12 +18,21 @@
 
 namespace whirl::inline dyn {
 
+/// Speeds that a model tells of its machine; in their place the operating speed, and a trip speed of
+/// 1.05 times the maximum.
+///
+/// @param maximum  that is gone by instead of the model's [rad/s]; the minimum is no more then, and a trip
+///                 speed below it does not count; 0: that of the model
+/// @return         maximum 0 if there is no speed
+OperatingRange operating_range(const Model& model, double maximum = 0.0);
+
 struct LateralOptions {
   OperatingRange range;
   double anticipated = 0.0;      ///< Q_A, cross-coupled stiffness to be expected [N/m]; 0: none is
   bool has_anticipated = false;  ///< whether Q_A is told
-  int modes = 8;                 ///< of the Campbell diagram
-  int criticals = 6;             ///< critical speeds that are looked for
+  std::optional<double> gas_density = {};  ///< average of the gas [kg/m^3]; nothing: not told
+  int modes = 8;                           ///< of the Campbell diagram
+  int criticals = 6;                       ///< critical speeds that are looked for
 };
 
 /// What is carried by a bearing or film.
@@ -106,30 +115,54 @@ struct LateralProbe {
   }
 };
 
+/// On which sides of a peak 0.707 of it is reached.
+enum class PeakSides { both, below, above, none };
+constexpr auto choices(PeakSides) {
+  using enum PeakSides;
+  return std::array{Choice<PeakSides>{"both", both}, Choice<PeakSides>{"below", below},
+                    Choice<PeakSides>{"above", above}, Choice<PeakSides>{"none", none}};
+}
+
+/// What a peak is by its amplification factor.
+enum class PeakKind { critical_speed, critically_damped, unknown };
+constexpr auto choices(PeakKind) {
+  using enum PeakKind;
+  return std::array{Choice<PeakKind>{"critical speed", critical_speed},
+                    Choice<PeakKind>{"critically damped", critically_damped},
+                    Choice<PeakKind>{"unknown", unknown}};
+}
+
 /// A peak of the response to one case.
 struct LateralPeak : ResponsePeak {
   int of_case = 0;  ///< from 0
   SeparationMargin margin;
+  PeakSides sides = PeakSides::both;  ///< of one, the other side is taken to be as far
 
   double found() const { return margin.actual; }
   double required() const { return margin.required; }
+  PeakKind kind() const;
+  /// Whether its amplification factor follows from one side.
+  bool is_one_sided() const { return sides == PeakSides::below || sides == PeakSides::above; }
 
   static constexpr auto columns() {
     using enum Written;
     using P = LateralPeak;
-    return std::tuple{column("case", &P::of_case, "", "case of unbalance")
-                          .within(valid::numbers_of("cases"))
-                          .from_one(),
-                      column("probe", &P::row, "", "where it is largest")
-                          .within(valid::numbers_of("probes"))
-                          .from_one(),
-                      column("speed", &P::speed, "rad/s", "speed of the peak"),
-                      column("amplitude", &P::amplitude, "m", "major semi-axis there"),
-                      column("below", &P::below, "rad/s", "0.707 of the peak, below it"),
-                      column("above", &P::above, "rad/s", "0.707 of the peak, above it"),
-                      column("amplification", &P::amplification, "", "factor").only(in_json),
-                      column("margin", &P::found, "", "to the operating speeds").only(in_json),
-                      column("required_margin", &P::required, "", "[API617]").only(in_json)};
+    return std::tuple{
+        column("case", &P::of_case, "", "case of unbalance")
+            .within(valid::numbers_of("cases"))
+            .from_one(),
+        column("probe", &P::row, "", "where it is largest")
+            .within(valid::numbers_of("probes"))
+            .from_one(),
+        column("speed", &P::speed, "rad/s", "speed of the peak"),
+        column("amplitude", &P::amplitude, "m", "major semi-axis there"),
+        column("below", &P::below, "rad/s", "0.707 of the peak, below it"),
+        column("above", &P::above, "rad/s", "0.707 of the peak, above it"),
+        column("sides", &P::sides, "", "on which 0.707 of the peak is reached").maybe(),
+        column("amplification", &P::amplification, "", "factor").only(in_json),
+        column("kind", &P::kind, "", "what that makes of it").only(in_json),
+        column("margin", &P::found, "", "to the operating speeds").only(in_json),
+        column("required_margin", &P::required, "", "[API617]").only(in_json)};
   }
 };
 
@@ -162,7 +195,8 @@ enum class LateralRule {
   vibration,          ///< at a probe, peak to peak [m]
   running_clearance,  ///< share of it that the scaled response takes
   log_decrement,      ///< with the anticipated cross-coupling
-  coupling_ratio      ///< cross-coupling that the rotor bears over the anticipated one
+  coupling_ratio,     ///< cross-coupling that the rotor bears over the anticipated one
+  stability_region    ///< the same ratio by the region that speed and gas are in
 };
 constexpr auto choices(LateralRule) {
   using enum LateralRule;
@@ -170,7 +204,8 @@ constexpr auto choices(LateralRule) {
                     Choice<LateralRule>{"vibration", vibration},
                     Choice<LateralRule>{"running clearance", running_clearance},
                     Choice<LateralRule>{"log decrement", log_decrement},
-                    Choice<LateralRule>{"cross-coupling", coupling_ratio}};
+                    Choice<LateralRule>{"cross-coupling", coupling_ratio},
+                    Choice<LateralRule>{"stability region", stability_region}};
 }
 
 enum class Verdict { passed, failed, unknown };
@@ -189,6 +224,7 @@ struct LateralCheck {
   double found = nan;  ///< in SI, as the rule says
   double limit = nan;  ///< likewise
   Verdict verdict = Verdict::unknown;
+  std::string missing{};  ///< what was not given, so that it was not checked; empty: nothing
 
   static constexpr auto columns() {
     using C = LateralCheck;
@@ -198,7 +234,8 @@ struct LateralCheck {
                       column("speed", &C::speed, "rad/s", "at which it was found"),
                       column("found", &C::found, "", "what was found, in SI"),
                       column("limit", &C::limit, "", "what is asked for, in SI"),
-                      column("verdict", &C::verdict, "", "passed, failed or unknown")};
+                      column("verdict", &C::verdict, "", "passed, failed or unknown"),
+                      column("missing", &C::missing, "", "what was not given for it").maybe()};
   }
 };
 
@@ -206,11 +243,13 @@ struct LateralCheck {
 struct LateralReport {
   double minimum_speed = 0.0, maximum_speed = 0.0, trip_speed = 0.0;  ///< [rad/s]
   double vibration_limit = 0.0;                                       ///< peak to peak [m]
-  std::string coupled_station;  ///< where the cross-coupled stiffness acts
-  double anticipated = nan;     ///< Q_A [N/m]; NaN: not told
-  double limit = nan;           ///< Q_0 [N/m]; NaN: the rotor bears all that was tried
-  double log_decrement = nan;   ///< with Q_A, or without any cross-coupling
-  std::vector<double> speeds;   ///< of the responses [rad/s]
+  std::string coupled_station;        ///< where the cross-coupled stiffness acts
+  double anticipated = nan;           ///< Q_A [N/m]; NaN: not told
+  double limit = nan;                 ///< Q_0 [N/m]; NaN: the rotor bears all that was tried
+  double log_decrement = nan;         ///< with Q_A, or without any cross-coupling
+  double rigid_critical_speed = nan;  ///< the first one on rigid supports [rad/s]; NaN: none
+  double gas_density = nan;           ///< average [kg/m^3]; NaN: not told
+  std::vector<double> speeds;         ///< of the responses [rad/s]
   std::vector<LateralProbe> probes;
   std::vector<LateralJournal> journals;
   std::vector<LateralCase> cases;
@@ -223,6 +262,10 @@ struct LateralReport {
   std::vector<double> unbounded;  ///< undamped resonances [rad/s]
 
   bool is_passed() const;
+  /// Maximum speed over the first critical speed on rigid supports.
+  double critical_speed_ratio() const { return maximum_speed / rigid_critical_speed; }
+  /// Of the screening; nothing: not told enough.
+  std::optional<StabilityRegion> region() const;
 
   static constexpr std::string_view group = "/lateral";
   static constexpr auto columns() {
@@ -237,6 +280,16 @@ struct LateralReport {
         column("anticipated", &R::anticipated, "N/m", "cross-coupled stiffness to be expected"),
         column("limit", &R::limit, "N/m", "cross-coupled stiffness that the rotor bears"),
         column("log_decrement", &R::log_decrement, "", "with that to be expected"),
+        column("rigid_critical_speed", &R::rigid_critical_speed, "rad/s",
+               "first critical speed on rigid supports")
+            .maybe(),
+        column("gas_density", &R::gas_density, "kg/m^3", "average of the gas")
+            .as("gas_density_kg_m3")
+            .maybe(),
+        column("critical_speed_ratio", &R::critical_speed_ratio, "",
+               "maximum speed over the first critical speed on rigid supports")
+            .only(in_json),
+        column("region", &R::region, "", "A or B, of the screening").only(in_json),
         column("passed", &R::is_passed, "", "every check but those that are unknown").only(in_json),
         column("speed", &R::speeds, "rad/s", "rotor speed")
             .axis("lateral_speeds+")
@@ -266,10 +319,10 @@ struct LateralStudy {
 ///
 /// Modes are those of critical speeds up to 1.5 times the maximum continuous speed; responses go from a
 /// tenth of it to that, at the stations of the model's probes, without any at bearings and oil films,
-/// and vibration is told along the major axis. For running clearances the
-/// unbalance is scaled so that the probes are at the vibration limit. Cross-coupled stiffness acts at
-/// the node that is nearest to the middle between the outermost journals, at the maximum continuous
-/// speed.
+/// and vibration is told along the major axis. For running clearances the unbalance is scaled so that the
+/// probes are at the vibration limit. Cross-coupled stiffness acts at the node that is nearest to the
+/// middle between the outermost journals, at the maximum continuous speed. A check that asks for what
+/// was not given is unknown, and says what is missing.
 ///
 /// @throws ModelError      if nothing carries the shaft, or there is none
 /// @throws NumericalError  as the analyses

@@ -41,6 +41,24 @@ struct Start {
   std::vector<Displaced> displaced;  ///< likewise
 };
 
+/// Speeds that a machine is run at, for lateral analyses [rad/s]; 0: not told.
+struct MachineSpeeds {
+  double minimum = 0.0, maximum = 0.0;  ///< continuously
+  double trip = 0.0;                    ///< at which it is stopped
+
+  static constexpr auto fields() {
+    using enum Range;
+    using S = MachineSpeeds;
+    return std::tuple{
+        alternative("minimum_speed", &S::minimum, "rad/s", positive,
+                    "least continuous speed, for lateral; left out: speed"),
+        alternative("maximum_speed", &S::maximum, "rad/s", positive,
+                    "largest continuous speed, for lateral; left out: speed"),
+        alternative("trip_speed", &S::trip, "rad/s", positive,
+                    "at which it is stopped, for lateral; left out: 1.05 times the largest")};
+  }
+};
+
 struct Model {
   std::string title;
   std::string source;  ///< text of the model file, with everything set from the command line
@@ -50,6 +68,7 @@ struct Model {
   std::vector<OilFilm> films;
   double speed = 0.0;      ///< operating speed [rad/s]
   bool has_speed = false;  ///< whether the model says it
+  MachineSpeeds machine{};
   Reduction reduction;
   Start start;
 };

@@ -36,7 +36,7 @@ std::string case_name(int number) {
 /// Speeds at which a peak of some amplification would be too near: an area around those of the machine.
 Curve forbidden_area(const LateralReport& r, double highest) {
   const OperatingRange range{r.minimum_speed, r.maximum_speed, r.trip_speed};
-  constexpr double damped = 2.5;
+  constexpr double damped = least_amplification;
   constexpr int points = 60;
   Curve c{.name = "too near", .paint = Paint::alarm};
   c.width = 1.0;
@@ -99,6 +99,7 @@ std::vector<Figure> lateral_figures(const ResultView& result) {
   }
   add_speeds(r, f, p);
   f.table = check_table(r);
+  for (const std::string& remark : remarks_on(r)) f.notes.push_back(remark);
   for (const LateralRule rule : rules_of(r)) {
     f.notes.push_back(fmt::format("{}: {}.", name_of(rule), rule_text(rule)));
     f.notes.back().front() = static_cast<char>(std::toupper(f.notes.back().front()));

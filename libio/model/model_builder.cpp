@@ -193,6 +193,7 @@ void ModelBuilder::read_settings() {
       model_.speed = *speed;
       model_.has_speed = true;
     }
+    read_machine_speeds(table);
     table.finish();
   }
   {
@@ -207,6 +208,21 @@ void ModelBuilder::read_settings() {
     table.finish();
   }
   read_start();
+}
+
+/// Speeds of a machine: none may be above the next one.
+void ModelBuilder::read_machine_speeds(TableReader& table) {
+  MachineSpeeds& s = model_.machine;
+  s = {};
+  table.read(s);
+  const auto check = [&](const char* key, double low, double high, const char* above) {
+    if (low > 0.0 && high > 0.0 && low > high) {
+      table.problem(key, fmt::format("is above {}", above));
+    }
+  };
+  check("minimum_speed", s.minimum, s.maximum, "maximum_speed");
+  check("minimum_speed", s.minimum, s.trip, "trip_speed");
+  check("maximum_speed", s.maximum, s.trip, "trip_speed");
 }
 
 void ModelBuilder::read_rayleigh(TableReader& table, Rayleigh& to) {

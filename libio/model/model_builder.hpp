@@ -78,6 +78,7 @@ class ModelBuilder {
                       const std::vector<std::string>& instead, bool needs_inner);
   std::optional<std::pair<double, double>> diameters(TableReader& table, std::string_view key,
                                                      Range range);
+  void read_machine_speeds(TableReader& table);
   void read_rayleigh(TableReader& table, Rayleigh& to);
   // model_rotor.cpp
   void read_materials();

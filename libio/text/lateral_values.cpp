@@ -22,6 +22,10 @@ Parsed<double> parse_coupling(std::string_view text) {
   return parse_above_zero(text, "N/m");
 }
 
+Parsed<double> parse_gas_density(std::string_view text) {
+  return parse_above_zero(text, "kg/m^3");
+}
+
 /// "1200kW:450mm:18mm:1.3,...": power, diameter, width and density ratio of impellers.
 Parsed<std::vector<Stage>> parse_stages(std::string_view text) {
   using Stages = Parsed<std::vector<Stage>>;

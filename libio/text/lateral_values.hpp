@@ -16,6 +16,9 @@ Parsed<double> parse_running_speed(std::string_view text);
 /// A cross-coupled stiffness above zero [N/m].
 Parsed<double> parse_coupling(std::string_view text);
 
+/// A density above zero [kg/m^3].
+Parsed<double> parse_gas_density(std::string_view text);
+
 /// Impellers, with commas between: power, diameter, least width and density ratio of each,
 /// "1200kW:450mm:18mm:1.3".
 Parsed<std::vector<Stage>> parse_stages(std::string_view text);

@@ -11,7 +11,7 @@ namespace whirl::inline io {
 namespace {
 
 constexpr std::size_t gap = 2;         ///< before a column
-constexpr std::size_t narrowest = 18;  ///< of a folded column
+constexpr std::size_t narrowest = 14;  ///< of a folded column
 
 std::string times(std::string_view sign, std::size_t count) {
   std::string text;

@@ -1,6 +1,7 @@
 #include "libio/texts/lateral_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,15 +28,36 @@ std::string amount_text(LateralRule rule, double value) {
     case LateralRule::log_decrement:
       return fmt::format("{:.3f}", value);
     case LateralRule::coupling_ratio:
+    case LateralRule::stability_region:
       break;
   }
   return fmt::format("{:.2f}", value);
 }
 
-/// "at least", "at most".
+/// "≥", at least, or "≤", at most.
 const char* sense_of(LateralRule rule) {
   const bool is_most = rule == LateralRule::vibration || rule == LateralRule::running_clearance;
-  return is_most ? "at most" : "at least";
+  return is_most ? "≤" : "≥";
+}
+
+/// "≥ 8.9 %"; of a peak that needs no margin, "none".
+std::string limit_text(const LateralCheck& c) {
+  if (!std::isfinite(c.limit)) return "-";
+  if (c.rule == LateralRule::separation_margin && c.limit == 0.0) return "none";
+  return fmt::format("{} {}", sense_of(c.rule), amount_text(c.rule, c.limit));
+}
+
+/// Where the rotor and its gas are in the screening of level I.
+std::string region_text(const LateralReport& r) {
+  if (!std::isfinite(r.rigid_critical_speed)) return "";
+  const std::string ratio = fmt::format(
+      "\n  Critical speed ratio {:.2f}: {:.0f} rpm over {:.1f} rpm, the first critical speed on "
+      "rigid supports",
+      r.critical_speed_ratio(), r.maximum_speed / rpm, r.rigid_critical_speed / rpm);
+  const auto region = r.region();
+  if (!region) return ratio + ".\n";
+  return fmt::format("{}; with {:.3g} kg/m^3 of gas in region {}, where it may be {:.2f}.\n", ratio,
+                     r.gas_density, name_of(*region), largest_speed_ratio(r.gas_density));
 }
 
 std::string coupling_text(const LateralReport& r) {
@@ -53,6 +75,12 @@ std::string coupling_text(const LateralReport& r) {
       "  logarithmic decrement {} {}; {}.\n",
       r.maximum_speed / rpm, r.coupled_station, texts::number_text(r.log_decrement, ".4f"), told,
       limit);
+}
+
+/// By which sides of a peak its amplification factor is known.
+std::string sides_text(const LateralPeak& p) {
+  if (p.is_one_sided()) return "one side";
+  return p.sides == PeakSides::both ? "both sides" : "-";
 }
 
 std::string cases_text(const LateralReport& r) {
@@ -81,11 +109,13 @@ std::string peaks_text(const LateralReport& r) {
         [](const LateralPeak& p) { return fmt::format("{:.2f}", 2e6 * p.amplitude); }},
        {"amplification",
         [](const LateralPeak& p) { return texts::number_text(p.amplification(), ".2f"); }},
+       {"from", [](const LateralPeak& p) { return sides_text(p); }},
        {"margin",
         [](const LateralPeak& p) {
           return amount_text(LateralRule::separation_margin, p.margin.actual);
         }},
        {"required", [](const LateralPeak& p) {
+          if (p.margin.required == 0.0) return std::string("none");
           return amount_text(LateralRule::separation_margin, p.margin.required);
         }}});
 }
@@ -97,15 +127,12 @@ std::vector<std::string> check_header() {
 }
 
 std::vector<std::string> check_cells(const LateralCheck& c) {
-  const std::string limit =
-      std::isfinite(c.limit) ? fmt::format("{} {}", sense_of(c.rule), amount_text(c.rule, c.limit))
-                             : "-";
   return {std::string(name_of(c.rule)),
           c.of_case < 0 ? "-" : std::to_string(c.of_case + 1),
-          c.place,
+          c.missing.empty() ? c.place : fmt::format("not checked: {} not given", c.missing),
           texts::number_text(c.speed / rpm, ".0f"),
           amount_text(c.rule, c.found),
-          limit,
+          limit_text(c),
           c.verdict == Verdict::failed ? "FAILED" : std::string(name_of(c.verdict))};
 }
 
@@ -127,9 +154,17 @@ std::string rule_text(LateralRule rule) {
       return "0.1 at the maximum speed with the cross-coupled stiffness to be expected, level I "
              "[API 617]";
     case LateralRule::coupling_ratio:
+      return "cross-coupled stiffness that the rotor bears over that to be expected, Q0 / QA, "
+             "level I "
+             "[API 617]";
+    case LateralRule::stability_region:
       break;
   }
-  return "cross-coupled stiffness that the rotor bears over that to be expected, level I [API 617]";
+  return "Q0 / QA of 2 in region A and of 10 in region B, else an analysis of level II; B is where "
+         "the "
+         "critical speed ratio is above 2.5 or 2.69 - 0.0115 rho, or the gas denser than 60 "
+         "kg/m^3, rho "
+         "the average density [API 617]";
 }
 
 std::string short_rule_text(LateralRule rule) {
@@ -143,9 +178,34 @@ std::string short_rule_text(LateralRule rule) {
     case LateralRule::log_decrement:
       return "0.1 with QA, level I";
     case LateralRule::coupling_ratio:
+      return "Q0 / QA of 2, level I";
+    case LateralRule::stability_region:
       break;
   }
-  return "Q0 / QA of 2, level I";
+  return "2, in region B 10, level I";
+}
+
+std::vector<std::string> remarks_on(const LateralReport& report) {
+  std::vector<std::string> one_sided, damped;
+  for (const LateralPeak& p : report.peaks) {
+    const std::string speed = fmt::format("{:.0f} rpm", p.speed / rpm);
+    if (p.is_one_sided()) one_sided.push_back(speed);
+    if (p.kind() == PeakKind::critically_damped) damped.push_back(speed);
+  }
+  std::vector<std::string> remarks;
+  if (!one_sided.empty()) {
+    remarks.push_back(
+        fmt::format("Estimated: the amplification factor at {}, where 0.707 of the peak is reached "
+                    "on one side only, "
+                    "and the other is taken to be as far.",
+                    fmt::join(one_sided, ", ")));
+  }
+  if (!damped.empty()) {
+    remarks.push_back(fmt::format(
+        "No critical speed: {}, critically damped, as the amplification factor is below {}.",
+        fmt::join(damped, ", "), least_amplification));
+  }
+  return remarks;
 }
 
 std::vector<LateralRule> rules_of(const LateralReport& report) {
@@ -179,10 +239,11 @@ std::string text_of(const LateralStudy& study) {
     text += fmt::format("\n  threshold of instability: {:.1f} rpm, whirling at {:.1f} rpm\n",
                         t.speed / rpm, t.frequency / rpm);
   }
-  text += coupling_text(r);
+  text += coupling_text(r) + region_text(r);
   Table checks(check_header());
   for (const LateralCheck& c : r.checks) checks.row(check_cells(c));
   text += fmt::format("\nChecks: {}\n\n{}\n", verdict_text(r), checks.text());
+  for (const std::string& remark : remarks_on(r)) text += fmt::format("  {}\n", remark);
   for (const LateralRule rule : rules_of(r)) {
     text += fmt::format("  {}: {}\n", name_of(rule), rule_text(rule));
   }

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <set>
+#include <sstream>
 
 #include "libio/figures/figures.hpp"
+#include "libio/text/table.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
@@ -87,7 +91,101 @@ TEST_F(Lateral, TellsEveryCheckBesideItsLimit) {
   }
   EXPECT_EQ(r["passed"], all);
   EXPECT_EQ(rules, (std::set<std::string>{"separation margin", "vibration", "running clearance",
-                                          "log decrement", "cross-coupling"}));
+                                          "log decrement", "cross-coupling", "stability region"}));
+}
+
+// What was not given is told, and nothing fails for it.
+TEST_F(Lateral, SaysWhatWasNotChecked) {
+  const json r = result({"lateral", "machine.toml"});
+  std::map<std::string, std::string> missing;
+  for (const json& check : r["checks"]) {
+    if (check["missing"] == "") continue;
+    missing[check["rule"]] = check["missing"];
+    EXPECT_EQ(check["verdict"], "unknown");
+  }
+  EXPECT_EQ(missing, (std::map<std::string, std::string>{{"cross-coupling", "--cross-coupling"},
+                                                         {"stability region", "--gas-density"}}));
+  EXPECT_TRUE(r["region"].is_null());
+  const std::string out = whirl({"lateral", "machine.toml"}).out;
+  EXPECT_TRUE(has(out, "not checked: --cross-coupling not given")) << out;
+  EXPECT_TRUE(has(out, "not checked: --gas-density not given"));
+  EXPECT_TRUE(has(out, "2 unknown"));
+  EXPECT_TRUE(has(out, "Critical speed ratio"));
+}
+
+// The region is that of the ratio of its speeds: 60 kg/m^3 take 2, more take nothing.
+TEST_F(Lateral, TellsTheRegionOfTheGas) {
+  const auto in_gas = [&](const char* density) {
+    return result(
+        {"lateral", "machine.toml", "--cross-coupling", "3MN/m", "--gas-density", density});
+  };
+  const json light = in_gas("2kg/m^3"), dense = in_gas("61kg/m^3");
+  EXPECT_NEAR(light["gas_density_kg_m3"], 2.0, 1e-12);
+  const double ratio = light["critical_speed_ratio"], rigid = light["rigid_critical_speed_rpm"];
+  EXPECT_NEAR(ratio, 9000.0 / rigid, 1e-9);
+  EXPECT_EQ(light["region"], ratio > 2.5 ? "B" : "A");
+  EXPECT_EQ(dense["region"], "B");
+  EXPECT_EQ(dense["checks"].back()["rule"], "stability region");
+  EXPECT_EQ(dense["checks"].back()["limit"], 10.0);
+  EXPECT_TRUE(has(problem({"--gas-density", "0kg/m^3"}), "expected a number above zero"));
+  EXPECT_TRUE(has(problem({"--gas-density", "5 kg"}), "--gas-density"));
+}
+
+// [operation] says what the options would; the options win, and the trip speed does not count where it is
+// below what they ask for.
+TEST_F(Lateral, GoesByTheSpeedsOfTheModel) {
+  std::string told = machine;
+  const std::string speed = "speed = \"9000 rpm\"\n";
+  told.replace(told.find(speed), speed.size(),
+               speed +
+                   "minimum_speed = \"8000 rpm\"\nmaximum_speed = \"9500 rpm\"\n"
+                   "trip_speed = \"10500 rpm\"\n");
+  write("told.toml", told);
+  const json r = result({"lateral", "told.toml"});
+  EXPECT_NEAR(r["minimum_speed_rpm"], 8000.0, 1e-9);
+  EXPECT_NEAR(r["maximum_speed_rpm"], 9500.0, 1e-9);
+  EXPECT_NEAR(r["trip_speed_rpm"], 10500.0, 1e-9);
+  const json asked = result({"lateral", "machine.toml", "--minimum-speed", "8000rpm",
+                             "--maximum-speed", "9500rpm", "--trip-speed", "10500rpm"});
+  EXPECT_EQ(r["checks"], asked["checks"]);
+  EXPECT_EQ(r["peaks"], asked["peaks"]);
+  const json other =
+      result({"lateral", "told.toml", "--minimum-speed", "7000rpm", "--maximum-speed", "11000rpm"});
+  EXPECT_NEAR(other["minimum_speed_rpm"], 7000.0, 1e-9);
+  EXPECT_NEAR(other["trip_speed_rpm"], 1.05 * 11000.0, 1e-9);
+}
+
+// In 80 columns the table is one piece: each verdict stands beside its rule.
+TEST_F(Lateral, PrintsOneTableInANarrowTerminal) {
+  ::setenv("COLUMNS", "80", 1);
+  const std::string out =
+      whirl({"lateral", "machine.toml", "--minimum-speed", "8000rpm", "--cross-coupling", "3MN/m"})
+          .out;
+  ::unsetenv("COLUMNS");
+  std::istringstream lines(out);
+  int verdicts = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("  vibration ") && line.ends_with("passed")) ++verdicts;
+    EXPECT_LE(display_width(line), 80u) << line;
+  }
+  EXPECT_GE(verdicts, 1) << out;
+}
+
+// A seal's clearance is a running one, in check, unbalance and lateral; it moves nothing.
+TEST_F(Lateral, KnowsTheClearanceOfASeal) {
+  const std::string seal = "[[seal]]\nname = \"eye\"\nnode = 7\nstiffness = \"1 MN/m\"\n";
+  write("without.toml", machine + seal);
+  write("with.toml", machine + seal + "clearance = \"0.25 mm\"\n");
+  const auto has_eye = [](const json& list) {
+    return std::any_of(list.begin(), list.end(),
+                       [](const json& c) { return c["name"] == "seal eye"; });
+  };
+  for (const char* verb : {"check", "unbalance", "lateral"}) {
+    EXPECT_FALSE(has_eye(result({verb, "without.toml"})["clearances"])) << verb;
+    EXPECT_TRUE(has_eye(result({verb, "with.toml"})["clearances"])) << verb;
+  }
+  EXPECT_EQ(result({"modes", "without.toml"})["modes"], result({"modes", "with.toml"})["modes"]);
+  EXPECT_TRUE(has(whirl({"check", "with.toml"}).out, "seal eye"));
 }
 
 // T = P / Omega; 3 T / (D H) times the density ratio, summed.

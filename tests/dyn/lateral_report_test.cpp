@@ -124,9 +124,11 @@ TEST(LateralReport, KnowsWhatCrossCouplingItBears) {
   EXPECT_TRUE(std::isnan(alone.anticipated));
   const double delta = 2.0 * pi * rotor.zeta / std::sqrt(1.0 - rotor.zeta * rotor.zeta);
   EXPECT_NEAR(alone.log_decrement, delta, 2.0 * stiff * delta);
-  EXPECT_TRUE(std::none_of(alone.checks.begin(), alone.checks.end(), [](const LateralCheck& c) {
-    return c.rule == LateralRule::coupling_ratio;
-  }));
+  const LateralCheck& unchecked = check_of(alone, LateralRule::coupling_ratio);
+  EXPECT_EQ(unchecked.verdict, Verdict::unknown);
+  EXPECT_EQ(unchecked.missing, "--cross-coupling");
+  EXPECT_EQ(unchecked.limit, 2.0);
+  EXPECT_TRUE(check_of(alone, LateralRule::log_decrement).missing.empty());
 
   how.anticipated = 0.6 * limit;
   how.has_anticipated = true;
@@ -136,6 +138,117 @@ TEST(LateralReport, KnowsWhatCrossCouplingItBears) {
   EXPECT_EQ(ratio.verdict, Verdict::failed);
   EXPECT_FALSE(r.is_passed());
   EXPECT_NEAR(r.log_decrement, 0.4 * delta, 0.01 * delta);  // lambda is linear in Q but for Q^2
+}
+
+/// The same disk on a shaft that bends: on rigid supports it is critical at (48 E I / (L^3 m))^(1/2).
+struct BendingRotor : StiffRotor {
+  Model model() const {
+    Model model = StiffRotor::model();
+    model.structure.shaft = {test::massless_cylinder(0.6, 0.16, 4)};
+    return model;
+  }
+  double critical() const {
+    return std::sqrt(48.0 * test::EI(test::massless_cylinder(0.6, 0.16, 4)) / (0.216 * m));
+  }
+};
+
+// Q_0 / Q_A of 2 in region A, of 10 in B: where the speed ratio is above 2.69 - 0.0115 rho, or the gas
+// denser than 60 kg/m^3. Without a density it is told that it is missing.
+TEST(LateralReport, AsksForMoreInRegionB) {
+  const BendingRotor rotor;
+  const double maximum = 2.2 * rotor.critical() / rpm;
+  LateralOptions how = options(0.5 * maximum, maximum);
+  const LateralReport untold = lateral_report(rotor.model(), how).report;
+  constexpr double exact = 1e-9;  // relative, of a massless shaft
+  EXPECT_NEAR(untold.rigid_critical_speed, rotor.critical(), exact * rotor.critical());
+  EXPECT_NEAR(untold.critical_speed_ratio(), 2.2, 2.2 * exact);
+  EXPECT_EQ(check_of(untold, LateralRule::stability_region).missing, "--gas-density");
+  EXPECT_EQ(check_of(untold, LateralRule::stability_region).verdict, Verdict::unknown);
+  how.anticipated = untold.limit / 5.0;
+  how.has_anticipated = true;
+  const auto in_gas = [&](double density) {
+    how.gas_density = density;
+    return check_of(lateral_report(rotor.model(), how).report, LateralRule::stability_region);
+  };
+  const LateralCheck light = in_gas(42.0);  // 2.207
+  EXPECT_EQ(light.limit, 2.0);
+  EXPECT_NEAR(light.found, 5.0, 1e-6);
+  EXPECT_EQ(light.verdict, Verdict::passed);
+  const LateralCheck dense = in_gas(43.0);  // 2.1955
+  EXPECT_EQ(dense.limit, 10.0);
+  EXPECT_EQ(dense.verdict, Verdict::failed);
+  EXPECT_TRUE(dense.missing.empty());
+  EXPECT_EQ(in_gas(61.0).limit, 10.0);
+}
+
+// With zeta = 0.4 the response to unbalance is highest at w = 1.213 and stays above 0.707 of that
+// beyond, where it goes to 1; below, at w_1 with 1 / w_1^2 = 1 - 2 zeta^2 + 2 zeta (1 - zeta^2)^(1/2).
+// The width is twice that side's, and the peak no critical speed.
+TEST(LateralReport, TellsAPeakOfOneSideAndOneThatIsCriticallyDamped) {
+  StiffRotor rotor;
+  const double zeta = 0.4;
+  rotor.c *= zeta / rotor.zeta;
+  const LateralReport r = lateral_report(rotor.model(), options(8000.0, 9000.0)).report;
+  ASSERT_EQ(r.peaks.size(), 1u);
+  const LateralPeak& peak = r.peaks[0];
+  EXPECT_EQ(peak.sides, PeakSides::below);
+  EXPECT_TRUE(peak.is_one_sided());
+  EXPECT_EQ(peak.kind(), PeakKind::critically_damped);
+  const double middle = 1.0 - 2.0 * zeta * zeta, top = 1.0 / std::sqrt(middle);
+  const double below = 1.0 / std::sqrt(middle + 2.0 * zeta * std::sqrt(1.0 - zeta * zeta));
+  const double AF = top / (2.0 * (top - below));
+  EXPECT_NEAR(peak.amplification(), AF, 10.0 * stiff * AF);
+  EXPECT_EQ(peak.margin.required, 0.0);
+  // lightly damped both sides are there
+  const LateralReport light = lateral_report(StiffRotor{}.model(), options(8000.0, 9000.0)).report;
+  EXPECT_EQ(light.peaks.at(0).sides, PeakSides::both);
+  EXPECT_EQ(light.peaks.at(0).kind(), PeakKind::critical_speed);
+}
+
+// A seal and a bearing with a clearance are checked as a contact there is.
+TEST(LateralReport, ChecksTheClearancesOfSealsAndBearings) {
+  const StiffRotor rotor;
+  Model model = rotor.model();
+  model.structure.seals = {test::bearing(node(3), test::isotropic(0.0))};
+  model.structure.seals[0].name = "eye";
+  model.structure.seals[0].clearance = rotor.clearance;
+  const LateralReport r = lateral_report(model, options(8000.0, 9000.0)).report;
+  ASSERT_EQ(r.clearances.size(), 2u);
+  EXPECT_EQ(r.clearances[0].name, "contact seal");
+  EXPECT_EQ(r.clearances[1].name, "seal eye");
+  EXPECT_EQ(r.clearances[1].left, r.clearances[0].left);
+  EXPECT_EQ(r.clearances[1].largest, r.clearances[0].largest);
+  EXPECT_EQ(
+      std::count_if(r.checks.begin(), r.checks.end(),
+                    [](const LateralCheck& c) { return c.rule == LateralRule::running_clearance; }),
+      2);
+  model.contacts.clear();
+  model.structure.bearings[0].clearance = 2.0 * rotor.clearance;
+  const LateralReport alone = lateral_report(model, options(8000.0, 9000.0)).report;
+  ASSERT_EQ(alone.clearances.size(), 2u);
+  EXPECT_EQ(alone.clearances[0].name, "bearing left");
+  EXPECT_NEAR(alone.clearances[0].left - alone.clearances[1].left, rotor.clearance,
+              stiff * rotor.clearance);
+}
+
+// Speeds that the model tells; a maximum that is asked for wins over all of them.
+TEST(LateralReport, GoesByTheSpeedsOfTheModel) {
+  Model model;
+  EXPECT_EQ(operating_range(model).maximum, 0.0);
+  model.speed = 100.0;
+  const OperatingRange alone = operating_range(model);
+  EXPECT_EQ(alone.minimum, 100.0);
+  EXPECT_EQ(alone.maximum, 100.0);
+  EXPECT_EQ(alone.trip, 105.0);
+  model.machine = {.minimum = 80.0, .maximum = 120.0, .trip = 140.0};
+  const OperatingRange told = operating_range(model);
+  EXPECT_EQ(told.minimum, 80.0);
+  EXPECT_EQ(told.maximum, 120.0);
+  EXPECT_EQ(told.trip, 140.0);
+  const OperatingRange faster = operating_range(model, 200.0);
+  EXPECT_EQ(faster.minimum, 80.0);
+  EXPECT_EQ(faster.trip, 210.0);
+  EXPECT_EQ(operating_range(model, 60.0).minimum, 60.0);
 }
 
 // A critical speed among the operating speeds has no margin, however far from either end.

@@ -61,6 +61,19 @@ TEST(LateralRules, ForbidSharpPeaksAmongOperatingSpeeds) {
   }
 }
 
+// 2.5 in light gas, 2.69 - 0.0115 * 34.05 = 2.298425, 2.0 at 60 kg/m^3; denser gas is always in region B.
+TEST(LateralRules, ScreenASpeedRatioByTheDensityOfTheGas) {
+  EXPECT_EQ(largest_speed_ratio(1.2), 2.5);
+  EXPECT_EQ(largest_speed_ratio(16.5), 2.5);
+  EXPECT_LT(largest_speed_ratio(16.6), 2.5);
+  EXPECT_NEAR(largest_speed_ratio(34.05), 2.298425, rounding);
+  EXPECT_NEAR(largest_speed_ratio(60.0), 2.0, rounding);
+  EXPECT_EQ(stability_region(2.29, 34.05), StabilityRegion::a);
+  EXPECT_EQ(stability_region(2.30, 34.05), StabilityRegion::b);
+  EXPECT_EQ(stability_region(2.6, 1.2), StabilityRegion::b);
+  EXPECT_EQ(stability_region(0.5, 60.1), StabilityRegion::b);
+}
+
 // 1 MW at 10 000 rpm are 954.930 N.m; 3 * 954.930 / (0.4 * 0.01) * 1.2 = 859 436.7 N/m.
 TEST(LateralRules, ExpectOfAnImpellerTheCrossCouplingOfItsTorque) {
   const Stage stage{.power = 1e6, .diameter = 0.4, .width = 0.01, .density_ratio = 1.2};

@@ -85,6 +85,33 @@ TEST(ModelFile, Speeds) {
   EXPECT_DOUBLE_EQ(speed("\"100\""), 100.0);
 }
 
+// None of them is above the next one; those that are left out are not told.
+TEST(ModelFile, SpeedsOfTheMachine) {
+  const MachineSpeeds none = rotor("[operation]\nspeed = 100\n").machine;
+  EXPECT_EQ(none.minimum, 0.0);
+  EXPECT_EQ(none.trip, 0.0);
+  const std::string text =
+      "[operation]\nminimum_speed = \"3650 rpm\"\nmaximum_speed = 500\ntrip_speed = 600\n";
+  const Model model = rotor(text);
+  EXPECT_DOUBLE_EQ(model.machine.minimum, 3650.0 * rpm);
+  EXPECT_EQ(model.machine.maximum, 500.0);
+  EXPECT_EQ(model.machine.trip, 600.0);
+  EXPECT_FALSE(model.has_speed);
+  const auto problem = [&](const std::string& set) -> std::string {
+    try {
+      parse_model(model.source, "model", {set});
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_NE(problem("operation.maximum_speed=700").find("is above trip_speed"), std::string::npos);
+  EXPECT_NE(problem("operation.minimum_speed=550").find("is above maximum_speed"),
+            std::string::npos);
+  EXPECT_NE(problem("operation.trip_speed=0"), "none");
+  EXPECT_EQ(problem("operation.trip_speed=500"), "none");
+}
+
 // ---- materials ----
 
 TEST(ModelFile, MaterialByShearModulus) {
