@@ -211,6 +211,11 @@ function drawMarker(ctx, shape, x, y, size) {
   ctx.fill();
 }
 
+/** Whether a line of a panel is named at its end; names of horizontal rules are among these then. */
+function hasEndNames(p) {
+  return p.curves.some((c) => c.end_name);
+}
+
 /** Places as near as possible to those wanted (ascending), some distance apart. */
 function spread(wanted, distance, low, high) {
   const groups = [];
@@ -285,7 +290,12 @@ class Drawing {
     ctx.font = `bold 13px ${FONT}`;
     for (const c of p.curves) if (c.end_name) room = Math.max(room, page.style.name + 12 + ctx.measureText(c.end_name).width);
     ctx.font = `12px ${FONT}`;
-    for (const r of p.rules) if (r.kind !== "vertical" && r.name) room = Math.max(room, 12 + ctx.measureText(r.name).width);
+    for (const r of p.rules) {
+      if (r.kind === "vertical" || !r.name) continue;
+      const isAmong = r.kind === "horizontal" && hasEndNames(p);
+      ctx.font = `${isAmong ? 13 : 12}px ${FONT}`;
+      room = Math.max(room, 12 + (isAmong ? page.style.name : 0) + ctx.measureText(r.name).width);
+    }
     if (p.cells && !p.cells.categories) room = Math.max(room, page.style.bar_room);
     return room;
   }
@@ -543,7 +553,7 @@ class Drawing {
         const at = this.py(p, r.at);
         ctx.moveTo(x, at);
         ctx.lineTo(x + w, at);
-        if (at >= y - 1 && at <= y + h + 1) end = [x + w + 5, at + 4];
+        if (at >= y - 1 && at <= y + h + 1 && !hasEndNames(p)) end = [x + w + 5, at + 4];
       } else {
         ctx.moveTo(this.px(p, p.ax.first), this.py(p, r.at * p.ax.first));
         ctx.lineTo(this.px(p, p.ax.last), this.py(p, r.at * p.ax.last));
@@ -662,13 +672,17 @@ class Drawing {
         this.halo(ctx, c.end_name, end[0] - 7, end[1] + (end[1] < y + h / 2 ? 16 : -8), this.color(c.paint, true));
         continue;
       }
-      ends.push({ c, end });
+      ends.push({ name: c.end_name, paint: c.paint, font: `bold 13px ${FONT}`, end });
+    }
+    for (const r of hasEndNames(p) ? p.rules : []) {
+      const at = this.py(p, r.at), isSeen = at >= y - 1 && at <= y + h + 1;
+      if (r.kind === "horizontal" && r.name && isSeen) ends.push({ name: r.name, paint: r.paint, font: `13px ${FONT}`, end: [x + w, at] });
     }
     ends.sort((a, b) => a.end[1] - b.end[1]);
     const places = spread(ends.map((e) => e.end[1]), 17, y, y + h);
-    ends.forEach(({ c, end }, i) => {
+    ends.forEach(({ name, paint, font, end }, i) => {
       const X = x + w + page.style.name, Y = places[i];
-      ctx.strokeStyle = this.color(c.paint);
+      ctx.strokeStyle = this.color(paint);
       ctx.lineWidth = 0.8;
       ctx.setLineDash([1, 3]);
       ctx.beginPath();
@@ -676,9 +690,9 @@ class Drawing {
       ctx.lineTo(X - page.style.leader, Y);
       ctx.lineTo(X - 5, Y);
       ctx.stroke();
-      ctx.font = `bold 13px ${FONT}`;
+      ctx.font = font;
       ctx.textAlign = "left";
-      this.halo(ctx, c.end_name, X, Y + 0.35 * 13, this.color(c.paint, true));
+      this.halo(ctx, name, X, Y + 0.35 * 13, this.color(paint, true));
     });
   }
 

@@ -32,7 +32,10 @@ double room_right(const Panel& p, const Rooms& rooms) {
   for (const Rule& r : p.rules) {
     if (r.kind == Rule::Kind::vertical || r.name.empty()) continue;
     if (is_tight) continue;  // named inside
-    longest = std::max(longest, 12.0 + 0.9 * text_width(r.name, small_letters));
+    const bool is_among = r.kind == Rule::Kind::horizontal && has_end_names(p);
+    const double room = is_among ? rooms.name + 12.0 : 12.0;
+    const double width = text_width(r.name, is_among ? letters : small_letters);
+    longest = std::max(longest, room + 0.9 * width);
   }
   if (!p.cells.empty() && p.cells.categories.empty()) longest = std::max(longest, rooms.bar_room);
   return std::max(is_tight ? 14.0 : 22.0, longest);
@@ -130,6 +133,11 @@ std::vector<Tick> ticks_every(const Axis& axis, double step, double most) {
 }
 
 }  // namespace
+
+bool has_end_names(const Panel& panel) {
+  return std::any_of(panel.curves.begin(), panel.curves.end(),
+                     [](const Curve& c) { return !c.end_name.empty(); });
+}
 
 bool is_tight(const PanelFrame& f) {
   return f.rooms->is_tight;

@@ -68,6 +68,8 @@ std::string fitting_title(const std::string& title, double width);
 
 /// Whether a panel is one of a picture of a given size, where room is scarce.
 bool is_tight(const PanelFrame& frame);
+/// Whether a line of a panel is named at its end; names of horizontal rules are among these then.
+bool has_end_names(const Panel& panel);
 
 /// Ticks of x and of y, as many as have room.
 std::vector<Tick> ticks_along(const PanelFrame& frame);

@@ -165,7 +165,7 @@ void draw_rules(Svg& svg, const PanelFrame& f, PanelTexts& texts) {
       if (is_tight(f)) {
         style.anchor = Anchor::end;
         texts.add({f.right() - 3.0, y - 4.0}, r.name, style);
-      } else {
+      } else if (!has_end_names(*f.panel)) {
         svg.text({f.right() + 5.0, y + 4.0}, r.name, style);
       }
     } else {  // through the panel to its right or upper edge
@@ -274,15 +274,18 @@ bool leaves(const PanelFrame& f, const Curve& c, Pixel last) {
   return false;
 }
 
-/// Names at the ends of lines, kept apart, each with a line to its end.
+/// Names at the ends of lines, and of horizontal rules beside them, kept apart, each with a line to its
+/// end.
 void draw_end_names(Svg& svg, const PanelFrame& f) {
   struct End {
-    const Curve* curve;
+    std::string name;
+    Paint paint;
     Pixel place;
+    bool is_rule = false;
   };
   std::vector<End> ends;
   for (const Curve& c : f.panel->curves) {
-    End end{&c, {-1.0, 0.0}};
+    End end{c.end_name, c.paint, {-1.0, 0.0}};
     for (std::size_t i = 0; i < c.x.size() && !c.end_name.empty(); ++i) {
       if (!has_place(*f.panel, c.x[i], c.y[i])) continue;
       const Pixel p = f.at(c.x[i], c.y[i]);
@@ -299,18 +302,28 @@ void draw_end_names(Svg& svg, const PanelFrame& f) {
     }
     ends.push_back(end);
   }
+  for (const Rule& r : f.panel->rules) {
+    if (r.kind != Rule::Kind::horizontal || r.name.empty()) continue;
+    if (is_tight(f) || !has_end_names(*f.panel)) continue;
+    const double y = f.at(f.x.first, r.at).y;
+    const bool is_seen = y >= f.corner.y - 1.0 && y <= f.floor() + 1.0;
+    if (is_seen) ends.push_back({r.name, r.paint, {f.right(), y}, true});
+  }
   std::stable_sort(ends.begin(), ends.end(),
                    [](const End& a, const End& b) { return a.place.y < b.place.y; });
   std::vector<double> wanted;
   for (const End& e : ends) wanted.push_back(e.place.y);
   const auto places = spread(wanted, label_distance, f.corner.y, f.floor());
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    const Curve& c = *ends[i].curve;
+    const End& e = ends[i];
     const double x = f.right() + f.rooms->name, y = places[i];
-    svg.polyline({ends[i].place, {x - f.rooms->leader, y}, {x - 5.0, y}},
-                 {color_of(c.paint), 0.8, "1 3"});
-    svg.text({x, y + 0.35 * letters}, c.end_name,
-             {.size = letters, .color = text_color_of(c.paint), .is_bold = true, .has_halo = true});
+    svg.polyline({e.place, {x - f.rooms->leader, y}, {x - 5.0, y}},
+                 {color_of(e.paint), 0.8, "1 3"});
+    svg.text({x, y + 0.35 * letters}, e.name,
+             {.size = letters,
+              .color = text_color_of(e.paint),
+              .is_bold = !e.is_rule,
+              .has_halo = true});
   }
 }
 

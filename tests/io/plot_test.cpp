@@ -188,6 +188,27 @@ TEST(FigureSvg, DrawsEveryCurveWithItsName) {
   expect_texts_inside(svg, figure);
 }
 
+// A horizontal rule that ends where a line does has its name a line's height from that of the line.
+TEST(FigureSvg, KeepsNamesOfRulesFromThoseOfLines) {
+  Panel p;
+  p.x = {.title = "x", .first = 0.0, .last = 1.0};
+  p.y = {.title = "y", .first = 0.0, .last = 1.0};
+  Curve line{.end_name = "1F"};
+  line.x = {0.0, 1.0};
+  line.y = {0.5, 0.5};
+  p.curves = {line};
+  p.rules = {{Rule::Kind::horizontal, 0.505, "operating"}};
+  const Figure figure{.panels = {p}};
+  const std::string svg = svg_of(figure);
+  const auto height_of = [&](const std::string& name) {
+    std::smatch found;
+    const std::regex text("<text x=\"[-0-9.]+\" y=\"([-0-9.]+)\"[^>]*>" + name + "</text>");
+    return std::regex_search(svg, found, text) ? std::stod(found[1]) : NAN;
+  };
+  EXPECT_GE(std::abs(height_of("1F") - height_of("operating")), 13.0) << svg;
+  expect_texts_inside(svg, figure);
+}
+
 TEST(FigureSvg, OfNothingIsAnEmptyFrame) {
   const std::string svg = svg_of({.title = "empty", .panels = {Panel{}}});
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
