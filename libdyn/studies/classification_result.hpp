@@ -31,6 +31,10 @@ struct ClassificationResult {
     };
     constexpr auto period = [known](const Result& r) { return known(r, r.of.period); };
     constexpr auto settles = [known](const Result& r) { return known(r, r.of.settles_after); };
+    constexpr auto period_time = [](const Result& r) {
+      return r.is_known() && r.of.period_time > 0.0 ? std::optional(r.of.period_time)
+                                                    : std::nullopt;
+    };
     constexpr auto residual = [](const Result& r) {
       return r.of.is_proven ? std::optional(r.of.residual) : std::nullopt;
     };
@@ -42,6 +46,10 @@ struct ClassificationResult {
         column(
             "period_revolutions", [](const Result& r) { return r.of.period; }, "", "period")
             .only(in_file),
+        column("period_time", period_time, "s",
+               "after which a motion repeats that nothing turns with")
+            .as("period_s")
+            .maybe(),
         column("motion", motion, "", "kind of motion").only(in_json),
         column("period_revs", period, "", "period [revolutions]").only(in_json),
         column(

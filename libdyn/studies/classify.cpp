@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "libbase/constants.hpp"
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libbase/fractal_dimension.hpp"
@@ -26,8 +27,38 @@ constexpr double later_search = 1.5;  ///< times those of the search before
 constexpr Eigen::Index most_dimension = 400;  ///< sections that their dimension is taken from
 /// Change of averages over sections that a motion may have which has settled.
 constexpr double settled = 0.02;
+constexpr long most_load_periods = 8;    ///< of loads, that a motion may take to repeat
+constexpr double most_repeating = 4000;  ///< revolutions, likewise
 constexpr long most_flight =
     1'000'000'000;  ///< revolutions that a motion is followed in closed form
+
+/// Time after which a motion repeats under loads that nothing turns with, a few of their periods; 0: it
+/// does not, or something turns [s].
+double repeating_time(const ContactSystem& system, const MotionState& from, double tolerance) {
+  const auto together = load_period(system);
+  if (!together) return 0.0;
+  const double each = *together * system.phase_rate();  // of the phase
+  const auto most =
+      std::min<long>(most_load_periods, static_cast<long>(most_repeating * turn / each));
+  if (most == 0) return 0.0;
+  Trajectory t{.system = &system, .state = from};
+  t.revolutions = static_cast<long>(std::ceil(static_cast<double>(most) * each / turn)) + 1;
+  Vec y(system.size());
+  long number = 1, found = 0;
+  integrate_single(t, {.tolerance = tolerance}, [&](const Step& step) {
+    const double begin =
+        static_cast<double>(step.revolution - from.revolution) * turn + step.phase - from.phase;
+    for (; number <= most && static_cast<double>(number) * each <= begin + step.turn; ++number) {
+      step.at(std::clamp((static_cast<double>(number) * each - begin) / step.turn, 0.0, 1.0),
+              y.data());
+      if (!(distance(system, y, from.y) < repeats[sure_repeats - 1])) continue;
+      found = number;
+      return false;
+    }
+    return number <= most;
+  });
+  return static_cast<double>(found) * *together;
+}
 
 /// Motions that are classified together.
 class BatchClassifier {
@@ -81,6 +112,7 @@ class BatchClassifier {
     open_ = std::move(undecided);  // they have come nearer to their orbits by now
     fly();
     if (!open_.empty()) search(go(2L * options_.longest_period, {.sections = true}), true);
+    search_with_forces();
     for (ClassifyCandidate* s : open_) tell_what_settles(*s);
   }
 
@@ -257,6 +289,28 @@ class BatchClassifier {
     close(candidates);
   }
 
+  /// Tells motions that repeat with forces which take longer to do so than is searched, or that do not
+  /// repeat with the revolutions. Their exponents stay the means that they are.
+  void search_with_forces() {
+    long revolutions = 0;
+    for (const ClassifyCandidate* s : open_) {
+      revolutions = std::max(revolutions, s->system->repeats_after());
+    }
+    if (revolutions > options_.longest_period) {
+      const std::vector<Trajectory> sections = go(2 * revolutions, {.sections = true});
+      for (std::size_t i = 0; i < open_.size(); ++i) {
+        Classification& found = open_[i]->found;
+        found.period = repeating_period(*open_[i]->system, sections[i].sections,
+                                        repeats[sure_repeats - 1], static_cast<int>(revolutions));
+        if (found.period > 0) found.kind = MotionKind::periodic;
+      }
+    }
+    for (ClassifyCandidate* s : open_) {
+      s->found.period_time = repeating_time(*s->system, s->found.end, options_.tolerance);
+      if (s->found.period_time > 0.0) s->found.kind = MotionKind::periodic;
+    }
+  }
+
   /// Puts motions on the orbits that were found, and measures these.
   void close(const std::vector<OrbitCandidate>& candidates) {
     std::vector<Trajectory> orbits;
@@ -324,6 +378,10 @@ Classification classify(const ContactSystem& system, MotionState start,
     rest.watch = [&](long done) { return options.watch(options.discard + done); };
   }
   average({&motion, 1}, rest);
+  Classification& found = motion.found;
+  if (found.is_good() && found.is_proven && found.kind == MotionKind::periodic) {
+    found.period_time = repeating_time(system, found.end, options.tolerance);
+  }
   return motion.found;
 }
 

@@ -34,8 +34,9 @@ struct ClassifyOptions {
   long revolutions = 1000;   ///< beyond it, over which contacts are measured
   long exponents = 1000;     ///< of these, over which exponents are averaged, at most
   double tolerance = 1e-10;  ///< of a step, displacements by the length scale
-  int longest_period = 32;   ///< that is looked for [revolutions]
-  long sections = 0;         ///< how many of the last ones are kept
+  /// That is looked for [revolutions]; that after which forces repeat, if it is longer, too.
+  int longest_period = 32;
+  long sections = 0;  ///< how many of the last ones are kept
   /// Called now and then with the revolutions done by all motions together; false: stop.
   std::function<bool(long)> watch;
 };
@@ -45,6 +46,9 @@ struct Classification {
   MotionKind kind = MotionKind::periodic;
   int period =
       0;  ///< of a periodic motion [revolutions]; 0: not periodic, or longer than looked for
+  /// Of a periodic motion under loads of which none turns with the rotor: time after which it repeats,
+  /// in no whole number of revolutions in most cases [s]; 0: not looked for, or not found.
+  double period_time = 0.0;
   /// All Lyapunov exponents per revolution, descending. Of a proven periodic motion they are those
   /// of its Floquet multipliers, else means.
   Vec exponents;

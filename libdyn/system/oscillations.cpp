@@ -68,16 +68,52 @@ long ContactSystem::repeats_after() const {
   return together <= most_repeats ? together : 0;
 }
 
-bool loads_repeat(const ContactSystem& system) {
-  if (system.repeats_after() > 0) return true;
-  std::vector<double> ratios;
-  for (const Oscillation& o : system.oscillations()) ratios.push_back(o.ratio);
+bool follows_the_speed(const ContactSystem& system) {
   const bool turns = std::any_of(system.contacts().begin(), system.contacts().end(),
                                  [](const ReducedContact& c) { return c.turns(); });
-  if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0) ||
-      (turns && system.Omega() != 0.0)) {
-    ratios.push_back(1.0);
+  return !system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0) ||
+         (turns && system.Omega() != 0.0);
+}
+
+namespace {
+
+/// How often the first of some loads repeats until all of them do, by their frequencies over another
+/// one; 0: they never do.
+long repeats_of_first(const std::vector<double>& ratios) {
+  long together = 1;
+  for (const double ratio : ratios) {
+    const long q = denominator_of(ratio / ratios[0], most_chance);
+    if (q == 0) return 0;
+    together = std::lcm(together, q);
   }
+  return together <= most_repeats ? together : 0;
+}
+
+std::vector<double> ratios_of(const ContactSystem& system) {
+  std::vector<double> ratios;
+  for (const Oscillation& o : system.oscillations()) ratios.push_back(o.ratio);
+  return ratios;
+}
+
+}  // namespace
+
+std::optional<double> load_period(const ContactSystem& system) {
+  const std::vector<double> ratios = ratios_of(system);
+  const bool has_order = std::any_of(system.oscillations().begin(), system.oscillations().end(),
+                                     [](const Oscillation& o) { return o.order > 0.0; });
+  if (ratios.empty() || has_order || follows_the_speed(system)) return std::nullopt;
+  if (const long often = repeats_of_first(ratios); often > 0) {
+    return static_cast<double>(often) / ratios[0] * system.period();
+  }
+  const long revolutions = system.repeats_after();
+  if (revolutions == 0) return std::nullopt;
+  return static_cast<double>(revolutions) * system.period();
+}
+
+bool loads_repeat(const ContactSystem& system) {
+  if (system.repeats_after() > 0) return true;
+  std::vector<double> ratios = ratios_of(system);
+  if (follows_the_speed(system)) ratios.push_back(1.0);
   return std::all_of(ratios.begin(), ratios.end(), [&](double ratio) {
     return denominator_of(ratio / ratios[0], most_chance) > 0;
   });

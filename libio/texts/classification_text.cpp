@@ -64,6 +64,9 @@ std::string kind_text(const Classification& c) {
   if (c.period > 0 && c.kind != MotionKind::equilibrium) {
     text += fmt::format(", repeats after {}", plural(c.period, "revolution"));
   }
+  if (c.period_time > 0.0) {
+    text += fmt::format("{} after {:.6g} s", c.period > 0 ? ", and" : ", repeats", c.period_time);
+  }
   if (!c.contacts.empty()) {
     text += fmt::format("; {} in {}", plural(static_cast<long>(c.impacts()), "impact"),
                         plural(c.revolutions, "revolution"));

@@ -210,6 +210,40 @@ angle = "60 deg"
   EXPECT_TRUE(has(told, "The same along the probes")) << told;
 }
 
+// A force of order 1/40 repeats after 40 revolutions, more than are searched; forces of 12 and 18 Hz
+// after 1/6 s, whatever the speed: in no whole number of revolutions at 730 rpm, in 10 at 600 rpm,
+// where one of 12 Hz alone takes 1/12 s.
+TEST_F(ForceVerbs, MotionsSayAfterWhatTheyRepeat) {
+  const std::string damped =
+      "[damping]\nrayleigh = {mass = 20}\n[operation]\nspeed = \"730 rpm\"\n";
+  const auto classified = [&](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {"classify", "rotor.toml", "--discard", "200", "--revolutions", "200"});
+    return more;
+  };
+  write_rotor("[[force]]\nbody = \"rotor\"\nforce = \"3 N\"\norder = 0.025\n" + damped);
+  const json long_one = result(classified({}));
+  EXPECT_EQ(long_one["motion"], "periodic");
+  EXPECT_EQ(long_one["period_revs"], 40);
+  EXPECT_FALSE(long_one.contains("period_s"));
+  EXPECT_TRUE(has(whirl(classified({})).out, "periodic, repeats after 40 revolutions"));
+
+  const std::string other = "[[force]]\nbody = \"rotor\"\nforce = \"4 N\"\nfrequency = \"18 Hz\"\n";
+  write_rotor(shaker + other + damped);
+  EXPECT_FALSE(result(classified({})).contains("period_s"));  // not with the unbalance
+  const std::vector<std::string> balanced = classified({"--set", "unbalance.1.offset=0"});
+  const json both = result(balanced);
+  EXPECT_EQ(both["motion"], "periodic");
+  EXPECT_TRUE(both["period_revs"].is_null());
+  EXPECT_NEAR(both["period_s"].get<double>(), 1.0 / 6.0, 1e-9);
+  EXPECT_TRUE(has(whirl(balanced).out, "periodic, repeats after 0.166667 s"));
+
+  write_rotor(shaker + damped);
+  const json one = result(classified({"--set", "unbalance.1.offset=0", "--speed", "800rpm"}));
+  EXPECT_EQ(one["period_revs"], 10);
+  EXPECT_NEAR(one["period_s"].get<double>(), 1.0 / 12.0, 1e-9);
+}
+
 // What leaves them out says so.
 TEST_F(ForceVerbs, WhatLeavesOthersOutSaysSo) {
   write_rotor(twice);
