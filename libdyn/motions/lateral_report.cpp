@@ -94,6 +94,14 @@ struct Lateral {
     return all;
   }
 
+  /// The unit that all probes of the model have; empty: they have several, or none but um.
+  std::string probe_unit() const {
+    const std::vector<Probe>& all = structure.probes;
+    const bool is_one = std::all_of(all.begin(), all.end(),
+                                    [&](const Probe& p) { return p.unit == all.front().unit; });
+    return all.empty() || !is_one || all.front().unit == Probe{}.unit ? "" : all.front().unit;
+  }
+
   std::vector<Point> points() const {
     std::vector<Point> all;
     for (const NamedPoint& p : probes) all.push_back(p.point);
@@ -343,6 +351,7 @@ LateralStudy lateral_report(const Model& model, const LateralOptions& options) {
   report.maximum_speed = range.maximum;
   report.trip_speed = range.trip;
   report.vibration_limit = vibration_limit(range.maximum);
+  report.vibration_unit = lateral.probe_unit();
   study.criticals.criticals =
       critical_speeds(lateral.assembler, {.count = options.criticals, .start = range.maximum});
   study.campbell = campbell(lateral.assembler, campbell_range(lateral), options.modes);

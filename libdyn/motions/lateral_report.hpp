@@ -243,6 +243,7 @@ struct LateralCheck {
 struct LateralReport {
   double minimum_speed = 0.0, maximum_speed = 0.0, trip_speed = 0.0;  ///< [rad/s]
   double vibration_limit = 0.0;                                       ///< peak to peak [m]
+  std::string vibration_unit{};       ///< in which people are told it; empty: um
   std::string coupled_station;        ///< where the cross-coupled stiffness acts
   double anticipated = nan;           ///< Q_A [N/m]; NaN: not told
   double limit = nan;                 ///< Q_0 [N/m]; NaN: the rotor bears all that was tried
@@ -276,6 +277,9 @@ struct LateralReport {
         column("maximum_speed", &R::maximum_speed, "rad/s", "largest continuous speed"),
         column("trip_speed", &R::trip_speed, "rad/s", "at which it is stopped"),
         column("vibration_limit", &R::vibration_limit, "m", "at probes, peak to peak"),
+        column("vibration_unit", &R::vibration_unit, "", "in which people are told vibration")
+            .only(in_file)
+            .maybe(),
         column("coupled_station", &R::coupled_station, "", "where cross-coupled stiffness acts"),
         column("anticipated", &R::anticipated, "N/m", "cross-coupled stiffness to be expected"),
         column("limit", &R::limit, "N/m", "cross-coupled stiffness that the rotor bears"),

@@ -65,7 +65,7 @@ FigureTable check_table(const LateralReport& r) {
   FigureTable table{.header = check_header()};
   table.header.push_back("API 617");
   for (const LateralCheck& c : r.checks) {
-    table.rows.push_back(check_cells(c));
+    table.rows.push_back(check_cells(c, vibration_unit(r)));
     table.rows.back().push_back(short_rule_text(c.rule));
   }
   return table;
@@ -120,30 +120,32 @@ std::string planes_text(const LateralReport& r, int number) {
 
 std::vector<Figure> response_figures(const ResultView& result) {
   const auto& r = result_of<LateralReport>(result);
+  const VibrationUnit unit = vibration_unit(r);
   std::vector<Figure> figures;
   for (int number = 0; number < static_cast<int>(r.cases.size()); ++number) {
     Figure f{.variant = case_name(number), .height = 400.0};
     f.subtitle = "Response to " + planes_text(r, number);
     Panel p;
     p.x = {.title = "speed [rpm]", .first = r.speeds.front() / rpm, .last = r.speeds.back() / rpm};
-    p.y = {.title = "peak to peak [um]", .first = 0.0};
+    p.y = {.title = fmt::format("peak to peak [{}]", unit.name), .first = 0.0};
     p.cursor = "speed";
     for (const LateralResponse& response : r.responses) {
       if (response.of_case != number) continue;
       const auto probe = static_cast<std::size_t>(response.probe);
       Curve c{.name = r.probes[probe].station, .paint = series_paint(probe)};
       c.x = scaled(r.speeds, 1.0 / rpm);
-      c.y = scaled(numbers(response.peak_to_peak), 1e6);
+      c.y = scaled(numbers(response.peak_to_peak), unit.factor);
       p.curves.push_back(std::move(c));
     }
     Curve limit{.name = "limit", .paint = Paint::alarm};
     limit.dash = Dash::dashed;
     limit.x = {r.minimum_speed / rpm, r.maximum_speed / rpm};
-    limit.y = {1e6 * r.vibration_limit, 1e6 * r.vibration_limit};
+    limit.y = {unit.factor * r.vibration_limit, unit.factor * r.vibration_limit};
     if (r.minimum_speed < r.maximum_speed) p.curves.push_back(std::move(limit));
     add_speeds(r, f, p);
-    f.notes.push_back(fmt::format("Allowed from minimum to maximum speed: {:.1f} um peak to peak.",
-                                  1e6 * r.vibration_limit));
+    f.notes.push_back(fmt::format("Allowed from minimum to maximum speed: {:.{}f} {} peak to peak.",
+                                  unit.factor * r.vibration_limit, unit.factor < 1e6 ? 3 : 1,
+                                  unit.name));
     f.panels.push_back(std::move(p));
     figures.push_back(std::move(f));
   }

@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
+#include "libbase/error.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
+#include "libio/text/units.hpp"
 #include "libio/texts/modes_text.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -17,14 +19,15 @@ namespace whirl::inline io {
 namespace {
 
 /// A number of a check in the unit that people use for its rule.
-std::string amount_text(LateralRule rule, double value) {
+/// @param unit  of vibration
+std::string amount_text(LateralRule rule, double value, const VibrationUnit& unit = {}) {
   if (!std::isfinite(value)) return "-";
   switch (rule) {
     case LateralRule::separation_margin:
     case LateralRule::running_clearance:
       return fmt::format("{:.1f} %", 100.0 * value);
     case LateralRule::vibration:
-      return fmt::format("{:.1f} um", 1e6 * value);
+      return fmt::format("{:.{}f} {}", unit.factor * value, unit.factor < 1e6 ? 3 : 1, unit.name);
     case LateralRule::log_decrement:
       return fmt::format("{:.3f}", value);
     case LateralRule::coupling_ratio:
@@ -41,10 +44,10 @@ const char* sense_of(LateralRule rule) {
 }
 
 /// "≥ 8.9 %"; of a peak that needs no margin, "none".
-std::string limit_text(const LateralCheck& c) {
+std::string limit_text(const LateralCheck& c, const VibrationUnit& unit) {
   if (!std::isfinite(c.limit)) return "-";
   if (c.rule == LateralRule::separation_margin && c.limit == 0.0) return "none";
-  return fmt::format("{} {}", sense_of(c.rule), amount_text(c.rule, c.limit));
+  return fmt::format("{} {}", sense_of(c.rule), amount_text(c.rule, c.limit, unit));
 }
 
 /// Where the rotor and its gas are in the screening of level I.
@@ -99,14 +102,17 @@ std::string cases_text(const LateralReport& r) {
 
 std::string peaks_text(const LateralReport& r) {
   if (r.peaks.empty()) return "  The responses have no peaks.\n";
+  const VibrationUnit unit = vibration_unit(r);
   return table_of(
       r.peaks,
       {{"case", [](const LateralPeak& p) { return std::to_string(p.of_case + 1); }},
        {"peak [rpm]", [](const LateralPeak& p) { return fmt::format("{:.1f}", p.speed / rpm); }},
        {"probe",
         [&](const LateralPeak& p) { return r.probes[static_cast<std::size_t>(p.row)].station; }},
-       {"peak to peak [um]",
-        [](const LateralPeak& p) { return fmt::format("{:.2f}", 2e6 * p.amplitude); }},
+       {"peak to peak [" + unit.name + "]",
+        [=](const LateralPeak& p) {
+          return fmt::format("{:.{}f}", 2.0 * unit.factor * p.amplitude, unit.factor < 1e6 ? 4 : 2);
+        }},
        {"amplification",
         [](const LateralPeak& p) { return texts::number_text(p.amplification(), ".2f"); }},
        {"from", [](const LateralPeak& p) { return sides_text(p); }},
@@ -126,13 +132,20 @@ std::vector<std::string> check_header() {
   return {"rule", "case", "where", "at [rpm]", "found", "asked for", "verdict"};
 }
 
-std::vector<std::string> check_cells(const LateralCheck& c) {
+VibrationUnit vibration_unit(const LateralReport& report) {
+  if (report.vibration_unit.empty()) return {};
+  const auto one = parse_as("1 " + report.vibration_unit, "m");
+  if (!one) throw FileError("the unit of vibration: " + one.problem);
+  return {report.vibration_unit, 1.0 / *one};
+}
+
+std::vector<std::string> check_cells(const LateralCheck& c, const VibrationUnit& unit) {
   return {std::string(name_of(c.rule)),
           c.of_case < 0 ? "-" : std::to_string(c.of_case + 1),
           c.missing.empty() ? c.place : fmt::format("not checked: {} not given", c.missing),
           texts::number_text(c.speed / rpm, ".0f"),
-          amount_text(c.rule, c.found),
-          limit_text(c),
+          amount_text(c.rule, c.found, unit),
+          limit_text(c, unit),
           c.verdict == Verdict::failed ? "FAILED" : std::string(name_of(c.verdict))};
 }
 
@@ -241,7 +254,7 @@ std::string text_of(const LateralStudy& study) {
   }
   text += coupling_text(r) + region_text(r);
   Table checks(check_header());
-  for (const LateralCheck& c : r.checks) checks.row(check_cells(c));
+  for (const LateralCheck& c : r.checks) checks.row(check_cells(c, vibration_unit(r)));
   text += fmt::format("\nChecks: {}\n\n{}\n", verdict_text(r), checks.text());
   for (const std::string& remark : remarks_on(r)) text += fmt::format("  {}\n", remark);
   for (const LateralRule rule : rules_of(r)) {

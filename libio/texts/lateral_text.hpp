@@ -8,9 +8,17 @@
 
 namespace whirl::inline io {
 
+/// The unit that people are told vibration in: that of the model's probes.
+struct VibrationUnit {
+  std::string name = "um";
+  double factor = 1e6;  ///< of a length in SI
+};
+/// @throws FileError  for a report of a file, if it is no length
+VibrationUnit vibration_unit(const LateralReport& report);
+
 /// Cells of the table of passes and failures, with its header.
 std::vector<std::string> check_header();
-std::vector<std::string> check_cells(const LateralCheck& check);
+std::vector<std::string> check_cells(const LateralCheck& check, const VibrationUnit& unit);
 
 /// What a rule says, and where it stands: "17 (1 - 1 / (AF - 1.5)) % ... [API 617]".
 std::string rule_text(LateralRule rule);

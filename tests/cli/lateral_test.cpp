@@ -260,5 +260,35 @@ TEST_F(Lateral, NeedsAShaftThatIsHeld) {
                   "a lateral analysis needs a shaft"));
 }
 
+// 25.4 sqrt(12 000 / 9000) um are sqrt(4 / 3) mil.
+TEST_F(Lateral, VibrationIsToldInTheUnitOfTheProbes) {
+  const auto with_probes = [&](const char* other) {
+    write("machine.toml", std::string(machine) + R"([[probe]]
+name = "1X"
+node = 3
+angle = 0
+unit = "mil"
+[[probe]]
+name = "1Y"
+node = 3
+angle = "90 deg"
+unit = ")" + other + "\"\n");
+  };
+  with_probes("mil");
+  const std::string text = whirl({"lateral", "machine.toml", "--out", "l.h5"}).out;
+  EXPECT_TRUE(has(text, "1.155 mil") && has(text, "peak to peak [mil]")) << text;
+  EXPECT_NEAR(result({"lateral", "machine.toml"})["vibration_limit_m"].get<double>(),
+              std::sqrt(4.0 / 3.0) * 25.4e-6, 1e-12);
+  const ResultView view(folder / "l.h5");
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.name != "lateral_response") continue;
+    const Figure f = figures_of(kind, view).at(0);
+    EXPECT_EQ(f.panels.at(0).y.title, "peak to peak [mil]");
+    EXPECT_TRUE(has(f.notes.back(), "1.155 mil")) << f.notes.back();
+  }
+  with_probes("um");  // of two units neither is that of the report
+  EXPECT_TRUE(has(whirl({"lateral", "machine.toml"}).out, "29.3 um"));
+}
+
 }  // namespace lateral_test
 }  // namespace whirl::test
