@@ -20,7 +20,8 @@ struct PlotVerbOptions {
   Option<std::string> out{"out", "FILE",
                           "picture, .svg, .png or .pdf; left out: .svg beside the result"};
   Option<std::string> which{
-      "which", "NAME", "of several of a kind: the station, contact or plane; left out: the first"};
+      "which", "NAME",
+      "of several of a kind: the station, probe, contact or plane; left out: the first"};
   Option<std::string> with{
       "with", "OTHER.h5",
       "branches over bifurcation, bifurcation curves over map, where both are of the same values"};
@@ -73,6 +74,7 @@ Report run_plot(const Invocation& call, const PlotVerbOptions& options) {
   if (call.words.size() > 1) throw ModelError({call.words[1]}, "", "one kind of figure at a time");
   if (call.words.empty()) return list_of(call, options, result);
   result.window = window_of(options.window);
+  result.probe = probe_named(result, options.which.value_or(""));
   const Figure figure =
       chosen_figure(result, {call.words[0], options.which.value_or(""), options.with.value_or("")});
   const PrintedSides sides = options.size.value_or({});

@@ -28,6 +28,11 @@ StaticStudy static_study(const Model& model, const Assembler& assembler) {
     }
     study.stations.push_back(std::move(at));
   }
+  for (const Probe& probe : assembler.structure().probes) {
+    const Point point = assembler.point(probe.at);
+    study.probes.push_back({probe, probe.along(displacement(dofs.full_index(point, X)),
+                                               displacement(dofs.full_index(point, Y)))});
+  }
   return study;
 }
 

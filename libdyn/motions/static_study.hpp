@@ -8,6 +8,7 @@
 
 #include "libbase/column.hpp"
 #include "libdyn/system/model.hpp"
+#include "libdyn/system/probes.hpp"
 #include "libdyn/system/running_film.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/bending.hpp"
@@ -30,6 +31,16 @@ struct RestingStation {
   }
 };
 
+/// What a probe reads of the rotor at rest.
+struct RestingProbe : ProbeLabel {
+  double mean = 0.0;  ///< [m]
+
+  static constexpr auto columns() {
+    return std::tuple_cat(ProbeLabel::columns(), std::tuple{column("mean", &RestingProbe::mean, "m",
+                                                                   "what it reads at rest")});
+  }
+};
+
 /// Its parts are groups of a file by themselves.
 struct StaticStudy {
   std::vector<RestingStation> stations;  ///< all named places
@@ -39,6 +50,7 @@ struct StaticStudy {
   double speed = 0.0;  ///< [rad/s]
   bool has_gravity = true;
   bool has_forces = false;  ///< constant ones
+  std::vector<RestingProbe> probes{};
 
   static constexpr auto columns() {
     using S = StaticStudy;
@@ -49,7 +61,8 @@ struct StaticStudy {
                           [](const S& s) -> const auto& { return s.on_films.films; }, "films")
                           .maybe()
                           .only(Written::in_json),
-                      column("shaft", &S::line, "", "how the shaft bends")};
+                      column("shaft", &S::line, "", "how the shaft bends"),
+                      rows(&S::probes, "probes").maybe().only(Written::in_json)};
   }
 };
 

@@ -44,11 +44,65 @@ Mat contact_angles(const ContactSystem& system, const Recording& recording) {
   return shares;
 }
 
+const std::vector<Probe>& probes_of(const Scene& scene) {
+  return scene.assembler.structure().probes;
+}
+
+/// What the probes of a model read of reduced coordinates, probes x coordinates.
+Mat probe_rows(const Scene& scene) {
+  const std::vector<Probe>& probes = probes_of(scene);
+  const Mat map = scene.displacement_map();
+  Mat rows(std::ssize(probes), map.cols());
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const Point point = scene.assembler.point(probes[i].at);
+    const auto row = [&](Component c) -> Vec {
+      return map.row(scene.reduced.dofs.full_index(point, c)).transpose();
+    };
+    rows.row(static_cast<Eigen::Index>(i)) = probes[i].along(row(X), row(Y)).transpose();
+  }
+  return rows;
+}
+
+/// Adds what the probes read at phase 0.
+void add_probe_sections(const Scene& scene, const Classification& found, long sections,
+                        Portrait& to) {
+  if (probes_of(scene).empty()) return;
+  const auto n = scene.contacts.coordinates();
+  const Eigen::Map<const Mat> states(found.sections.data(), 2 * n,
+                                     std::ssize(found.sections) / (2 * n));
+  const Mat readings = probe_rows(scene) * states.topRows(n);
+  to.probe_sections =
+      Mat::Constant(readings.rows(), sections, std::numeric_limits<double>::quiet_NaN());
+  to.probe_sections.leftCols(readings.cols()) = readings;
+}
+
+/// Adds what they read of a recording.
+void add_probe_readings(const Scene& scene, const Mat& eta, const ResponseSpectra& spectra,
+                        long lines, Portrait& to) {
+  const std::vector<Probe>& probes = probes_of(scene);
+  if (probes.empty()) return;
+  const Mat readings = probe_rows(scene) * eta;
+  to.probe_mean = readings.rowwise().mean();
+  to.probe_peak_to_peak = readings.rowwise().maxCoeff() - readings.rowwise().minCoeff();
+  to.probe_spectrum.resize(readings.rows(), lines + 1);
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const Spectrum s = spectra.at(scene.assembler.point(probes[i].at));
+    for (long k = 0; k <= lines; ++k) {  // what stands still is one line, not two
+      to.probe_spectrum(static_cast<Eigen::Index>(i), k) =
+          (k == 0 ? 0.5 : 1.0) * peak_to_peak(probes[i].angle, s.at(k), s.at(-k));
+    }
+  }
+}
+
 }  // namespace
 
 Vec portrait_orders(long spectrum_revolutions) {
   const long lines = spectrum_revolutions * highest_order;
   return Vec::LinSpaced(2 * lines + 1, -highest_order, highest_order);
+}
+
+Vec probe_orders(long spectrum_revolutions) {
+  return Vec::LinSpaced(spectrum_revolutions * highest_order + 1, 0.0, highest_order);
 }
 
 Vec portrait_sectors() {
@@ -69,6 +123,7 @@ Portrait portrait_of(const Scene& scene, const Classification& found, long secti
       (c == X ? portrait.poincare_x : portrait.poincare_y).row(i).head(line.size()) = line;
     }
   }
+  add_probe_sections(scene, found, sections, portrait);
   if (options.spectrum_revolutions == 0) return portrait;
 
   SimulationOptions how{
@@ -90,6 +145,7 @@ Portrait portrait_of(const Scene& scene, const Classification& found, long secti
     const Spectrum s = spectra.at(point);
     for (long k = -lines; k <= lines; ++k) portrait.spectrum(i, k + lines) = std::abs(s.at(k));
   }
+  add_probe_readings(scene, seen.recording.eta, spectra, lines, portrait);
   portrait.contact_angle = contact_angles(scene.contacts, seen.recording);
   return portrait;
 }

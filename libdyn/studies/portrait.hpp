@@ -8,6 +8,7 @@
 #include "libbase/column.hpp"
 #include "libbase/linalg.hpp"
 #include "libdyn/studies/classify.hpp"
+#include "libdyn/system/probes.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/system/stations.hpp"
 
@@ -25,10 +26,17 @@ struct Portrait {
   /// Radius of the circle that turns with an order of the speed: stations x portrait_orders [m].
   Mat spectrum;
   Mat contact_angle;  ///< share of the time in touch: contacts x portrait_sectors
+  /// What the probes of the model read at phase 0, the last sections: probes x sections [m].
+  Mat probe_sections;
+  Vec probe_mean, probe_peak_to_peak;  ///< of what they read, likewise [m]
+  /// Peak to peak of what turns with an order of the speed: probes x probe_orders [m].
+  Mat probe_spectrum;
 };
 
 /// Orders of a portrait's spectra: signed frequency over speed, forward > 0.
 Vec portrait_orders(long spectrum_revolutions);
+/// Orders of the spectra of its probes, from 0.
+Vec probe_orders(long spectrum_revolutions);
 /// Middles of the sectors around a stator, from x to y [rad].
 Vec portrait_sectors();
 

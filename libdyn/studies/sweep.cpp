@@ -124,7 +124,14 @@ ColumnSizes SweepResult::sizes() const {
   return {{"exponents", system.states}, {"full", system.dofs}, {"sections", sections}};
 }
 
+Vec SweepResult::probe_orders() const {
+  const bool has_spectra = spectrum_revolutions > 0 && probes.size() > 0;
+  return has_spectra ? dyn::probe_orders(spectrum_revolutions) : Vec();
+}
+
 bool SweepResult::leaves_out(std::string_view column) const {
+  if (column == "probe_poincare") return probes.size() == 0;
+  if (column.starts_with("probe_")) return probes.size() == 0 || spectrum_revolutions == 0;
   if (column == "end_revolution") {
     return std::none_of(points.begin(), points.end(),
                         [](const auto& p) { return p && p->end.revolution != 0; });
@@ -139,6 +146,9 @@ std::vector<SweepEntry> SweepWay::entries() const {
     const std::optional<SweepPoint>& p = point(k);
     if (!p) continue;
     SweepEntry entry{summary_of(p->motion), values[index(k)], {}, p->motion.impacts_per_rev()};
+    const Portrait& seen = p->portrait;
+    entry.probe_mean.assign(seen.probe_mean.begin(), seen.probe_mean.end());
+    entry.probe_peak_to_peak.assign(seen.probe_peak_to_peak.begin(), seen.probe_peak_to_peak.end());
     if (const Mat& x = p->portrait.poincare_x; x.rows() > 0) {
       std::copy_if(x.row(0).begin(), x.row(0).end(), std::back_inserter(entry.poincare),
                    [](double section) { return std::isfinite(section); });
@@ -154,7 +164,9 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
   SweepOptions options = wanted;
   options.classify = stopped_by(monitor.is_stopped, wanted.classify);
   SweepResult result = std::move(earlier);
-  result.system = study_system(*models.member({options.values.data(), 1}).scene);
+  const StudyMember first = models.member({options.values.data(), 1});
+  result.system = study_system(*first.scene);
+  result.probes = ProbeLabels(first.scene->assembler.structure().probes);
   result.start = options.start;
   result.sections = options.classify.sections;
   result.spectrum_revolutions = options.portrait.spectrum_revolutions;

@@ -69,6 +69,26 @@ struct SweepPoint {
             "contact_angle", [](auto& p) -> auto& { return p.portrait.contact_angle; }, "",
             "share of the time in touch within a sector around the stator")
             .along("contacts sectors")
+            .maybe(),
+        column(
+            "probe_poincare", [](auto& p) -> auto& { return p.portrait.probe_sections; }, "m",
+            "what a probe reads at phase 0, last sections")
+            .along("probes sections")
+            .maybe(),
+        column(
+            "probe_mean", [](auto& p) -> auto& { return p.portrait.probe_mean; }, "m",
+            "mean of what a probe reads")
+            .along("probes")
+            .maybe(),
+        column(
+            "probe_peak_to_peak", [](auto& p) -> auto& { return p.portrait.probe_peak_to_peak; },
+            "m", "largest less smallest sample of what a probe reads")
+            .along("probes")
+            .maybe(),
+        column(
+            "probe_spectrum", [](auto& p) -> auto& { return p.portrait.probe_spectrum; }, "m",
+            "peak to peak of what a probe reads at an order of the speed")
+            .along("probes probe_orders")
             .maybe()};
   }
 };
@@ -80,30 +100,51 @@ struct SweepResult {
   StudySystem system{};
   SweepStart start = SweepStart::carried;
   std::vector<std::string> stations{};  ///< of the portraits
+  ProbeLabels probes{};                 ///< those of the model
   long sections = 0, spectrum_revolutions = 0;
   /// Way after way, each in the order of the values.
   PointRows<SweepPoint> points{};
 
   /// Names of the ways.
   std::vector<std::string> ways() const;
-  Vec orders() const;   ///< of the spectra
-  Vec sectors() const;  ///< of the contact angles
+  Vec orders() const;        ///< of the spectra
+  Vec sectors() const;       ///< of the contact angles
+  Vec probe_orders() const;  ///< of the spectra of probes
   ColumnSizes sizes() const;
   /// Whether a column was not asked for, or has nothing to say.
   bool leaves_out(std::string_view column) const;
   static constexpr auto columns() {
     using C = SweepResult;
-    return std::tuple{column("direction", &C::ways, "", "direction").axis("ways+"),
-                      contact_names<C>(),
-                      column("station", &C::stations, "", "station").axis("stations+"),
-                      column("order", &C::orders, "", "signed frequency over speed, forward > 0")
-                          .axis("orders+")
-                          .within(valid::finite)
-                          .maybe(),
-                      column("sector", &C::sectors, "rad", "middle of a sector, from x to y")
-                          .axis("sectors")
-                          .maybe(),
-                      rows(&C::points, "point")};
+    return std::tuple{
+        column("direction", &C::ways, "", "direction").axis("ways+"),
+        contact_names<C>(),
+        column("station", &C::stations, "", "station").axis("stations+"),
+        column("order", &C::orders, "", "signed frequency over speed, forward > 0")
+            .axis("orders+")
+            .within(valid::finite)
+            .maybe(),
+        column("sector", &C::sectors, "rad", "middle of a sector, from x to y")
+            .axis("sectors")
+            .maybe(),
+        column(
+            "probe_name", [](auto& r) -> auto& { return r.probes.names; }, "", "probe")
+            .axis("probes")
+            .maybe(),
+        column(
+            "probe_angle", [](auto& r) -> auto& { return r.probes.angles; }, "rad",
+            "direction of a probe, from +x towards +y")
+            .along("probes")
+            .maybe(),
+        column(
+            "probe_unit", [](auto& r) -> auto& { return r.probes.units; }, "",
+            "in which people are told what it reads")
+            .along("probes")
+            .maybe(),
+        column("probe_order", &C::probe_orders, "", "frequency over speed")
+            .axis("probe_orders+")
+            .within(valid::finite)
+            .maybe(),
+        rows(&C::points, "point")};
   }
 };
 
@@ -112,15 +153,23 @@ struct SweepEntry : MotionSummary {
   double value = 0.0;            ///< of the parameter [SI]
   std::vector<double> poincare;  ///< x at phase 0 of the first station [m]
   double impacts_per_rev = 0.0;
+  /// Of what the probes read [m]; none without a spectrum.
+  std::vector<double> probe_mean{}, probe_peak_to_peak{};
 
   static constexpr auto columns() {
+    using enum Written;
     using E = SweepEntry;
-    return std::tuple{column("value", &E::value, "", "of the parameter"),
-                      column("motion", &E::motion, "", "kind of motion"),
-                      column("period_revs", &E::period, "", "period [revolutions]"),
-                      column("poincare", &E::poincare, "m", "x at phase 0"),
-                      column("lyapunov_max", &E::largest_exponent, "", "largest exponent"),
-                      column("impacts_per_rev", &E::impacts_per_rev, "", "impacts per revolution")};
+    return std::tuple{
+        column("value", &E::value, "", "of the parameter"),
+        column("motion", &E::motion, "", "kind of motion"),
+        column("period_revs", &E::period, "", "period [revolutions]"),
+        column("poincare", &E::poincare, "m", "x at phase 0"),
+        column("lyapunov_max", &E::largest_exponent, "", "largest exponent"),
+        column("impacts_per_rev", &E::impacts_per_rev, "", "impacts per revolution"),
+        column("probe_mean", &E::probe_mean, "m", "of what the probes read").only(in_json).maybe(),
+        column("probe_peak_to_peak", &E::probe_peak_to_peak, "m", "likewise")
+            .only(in_json)
+            .maybe()};
   }
 };
 

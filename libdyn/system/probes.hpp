@@ -1,11 +1,14 @@
 #pragma once
 /// What displacement probes read, as rows of results.
 
+#include <cmath>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "libbase/column.hpp"
 #include "libbase/constants.hpp"
+#include "libbase/linalg.hpp"
 #include "libfe/structure.hpp"
 
 namespace whirl::inline dyn {
@@ -31,5 +34,27 @@ struct ProbeLabel {
         column("unit", &ProbeLabel::unit, "", "in which people are told what it reads")};
   }
 };
+
+/// Labels of probes as columns of their own, for results whose rows are something else.
+struct ProbeLabels {
+  std::vector<std::string> names, units;
+  std::vector<double> angles;  ///< [rad]
+
+  ProbeLabels() = default;
+  explicit ProbeLabels(const std::vector<Probe>& probes);
+
+  std::size_t size() const { return names.size(); }
+  ProbeLabel operator[](std::size_t i) const;
+  std::vector<ProbeLabel> list() const;
+};
+
+/// Peak to peak of what a probe reads of a motion x + i y = f e^(i w t) + b e^(-i w t) [m]:
+///
+///   x cos a + y sin a = Re((f e^(-i a) + conj(b) e^(i a)) e^(i w t))
+///
+/// @param angle     a of the probe [rad]
+/// @param forward   f [m]
+/// @param backward  b [m]
+double peak_to_peak(double angle, const Complex& forward, const Complex& backward);
 
 }  // namespace whirl::inline dyn

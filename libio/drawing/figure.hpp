@@ -159,9 +159,10 @@ struct FigureTable {
 };
 
 struct Figure {
-  std::string kind{};     ///< name in figures.hpp
-  std::string heading{};  ///< title of its kind
-  std::string variant{};  ///< of several of one kind: the station, the mode
+  std::string kind{};                 ///< name in figures.hpp
+  std::string heading{};              ///< title of its kind
+  std::string variant{};              ///< of several of one kind: the station, the mode
+  std::vector<std::string> probes{};  ///< names of those whose readings it shows
   std::string title{}, subtitle{};
   std::vector<Panel> panels{};
   int columns = 1;  ///< panels beside each other; those below each other share x if it is the same

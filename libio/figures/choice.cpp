@@ -8,6 +8,7 @@
 #include <map>
 
 #include "libbase/error.hpp"
+#include "libio/figures/probes.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/option_values.hpp"
 
@@ -49,21 +50,49 @@ void require_window(const FigureKind& kind) {
   throw wrong_window(fmt::format("are of motions in time: {}", fmt::join(names, ", ")));
 }
 
-Figure& variant_of(std::vector<Figure>& figures, const std::string& name) {
+/// The figure of a probe: the first that shows what it reads, else that of the station where it is.
+Figure* figure_with(std::vector<Figure>& figures, const Probe& probe, const ResultView& result) {
+  for (Figure& f : figures) {
+    if (std::find(f.probes.begin(), f.probes.end(), probe.name) != f.probes.end()) return &f;
+  }
+  for (Figure& f : figures) {
+    const std::string station = f.variant.substr(0, f.variant.find(" ("));  // "7 ring (up)"
+    if (f.probes.empty() && figures::is_at(result, probe.at, station)) return &f;
+  }
+  return nullptr;
+}
+
+Figure& variant_of(std::vector<Figure>& figures, const std::string& name,
+                   const ResultView& result) {
   if (name.empty()) return figures.front();
-  std::vector<std::string> names;
+  std::vector<std::string> names, probes;
   for (Figure& f : figures) {
     if (f.variant == name) return f;
     names.push_back(f.variant);
   }
+  if (const Probe* probe = figures::probe_of(result, name)) {
+    if (Figure* f = figure_with(figures, *probe, result)) return *f;
+  }
   for (Figure& f : figures) {  // "ring" of "7 ring"
     if (f.variant.find(name) != std::string::npos) return f;
   }
-  throw wrong_option("which", name,
-                     fmt::format("there is no such figure; there are {}", fmt::join(names, ", ")));
+  if (result.model) {
+    for (const Probe& probe : result.model->structure.probes) {
+      if (figure_with(figures, probe, result)) probes.push_back(probe.name);
+    }
+  }
+  throw wrong_option(
+      "which", name,
+      fmt::format("there is no such figure; there are {}{}{}", fmt::join(names, ", "),
+                  probes.empty() ? "" : "; of probes ", fmt::join(probes, ", ")));
 }
 
 }  // namespace
+
+std::string probe_named(const ResultView& result, const std::string& name) {
+  const Probe* probe = figures::probe_of(result, name);
+  return probe ? probe->name : "";
+}
 
 DrawableKinds drawable_kinds(const ResultView& result) {
   DrawableKinds all;
@@ -95,7 +124,7 @@ Figure chosen_figure(const ResultView& result, const FigureChoice& choice) {
                                          std::filesystem::path(choice.with).filename());
     if (!problem.empty()) throw wrong_option("with", choice.with, problem);
   }
-  return std::move(variant_of(figures, choice.variant));
+  return std::move(variant_of(figures, choice.variant, result));
 }
 
 std::string verb_for(std::string_view kind) {

@@ -34,9 +34,13 @@ DrawableKinds drawable_kinds(const ResultView& result);
 /// A figure of a result that was asked for.
 struct FigureChoice {
   std::string kind;
-  std::string variant{};  ///< or a part of its name; empty: the first
-  std::string with{};     ///< a result to be laid over it; empty: none
+  /// Or a part of its name, or a probe that it shows, or that is at its station; empty: the first.
+  std::string variant{};
+  std::string with{};  ///< a result to be laid over it; empty: none
 };
+
+/// The name, if a probe has it: ResultView::probe then draws its readings alone; else empty.
+std::string probe_named(const ResultView& result, const std::string& name);
 
 /// The chosen figure, the stretch of a motion being that of the result.
 /// @throws ModelError  naming what there is, if it cannot be drawn so

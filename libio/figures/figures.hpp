@@ -34,6 +34,7 @@ struct ResultView {
   std::string problem;  ///< why there is no model, such as a bearing table that is gone
   DisplayUnit frequency{"Hz", 1.0 / hertz};  ///< of frequency axes; speeds are in rpm
   MotionWindow window;  ///< of motions that are drawn in time; left open: their end
+  std::string probe{};  ///< name of the only one whose readings are drawn; empty: all of them
   /// Results that were read of the file, by their types: see result_of.hpp.
   mutable std::unordered_map<std::type_index, std::shared_ptr<const void>> known{};
 };

@@ -12,6 +12,7 @@
 #include "libio/figures/bifurcation_curve_lines.hpp"
 #include "libio/figures/branch_lines.hpp"
 #include "libio/figures/comparison.hpp"
+#include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/results/study_columns.hpp"
 #include "libio/text/units.hpp"
@@ -39,7 +40,8 @@ double largest_of_contacts(const std::vector<double>& numbers) {
 
 /// Lays branches over the panels of a bifurcation diagram that show numbers which branches have.
 /// @param station  number of the figure's station among those of the branches
-void add_branches(Figure& f, const BranchPoints& b, std::size_t station) {
+/// @param probe    whose readings the figure shows; null: it shows the station itself
+void add_branches(Figure& f, const BranchPoints& b, std::size_t station, const Probe* probe) {
   const auto row = static_cast<Eigen::Index>(station);
   const Eigen::Index sections = b.size() > 0 ? b.of.points[0].sections_x.cols() : 0;
   const bool has_sections = sections > 0, has_contacts = !b.of.contacts.empty();
@@ -49,11 +51,15 @@ void add_branches(Figure& f, const BranchPoints& b, std::size_t station) {
     const auto add = [&](std::vector<double> values, double factor) {
       add_branch_lines(p, b, scaled(std::move(values), factor), style);
     };
-    if (is_of("x once a revolution") && has_sections) {
+    if (is_of(probe ? "reading once a revolution" : "x once a revolution") && has_sections) {
       const double factor = shown_in_one(p.y.title);
+      const auto seen = [&](const BranchOrbit& point, Eigen::Index k) {
+        const double x = point.sections_x(row, k);
+        return probe ? probe->along(x, point.sections_y(row, k)) : x;
+      };
       for (Eigen::Index k = 0; k < sections; ++k) {
         const std::vector<double> x =
-            b.numbers([&](const BranchOrbit& point) { return factor * point.sections_x(row, k); });
+            b.numbers([&](const BranchOrbit& point) { return factor * seen(point, k); });
         add_branch_lines(p, b, x, style);
         add_branch_marks(p, b, x);
       }
@@ -93,9 +99,12 @@ std::string branches_over(std::vector<Figure>& figures, const ResultView& study,
   const std::vector<std::string>& stations = b.of.stations;
   bool fits = false;
   for (Figure& f : figures) {
-    const auto station = std::find(stations.begin(), stations.end(), f.variant);
+    const Probe* probe = f.probes.empty() ? nullptr : probe_of(study, f.probes.front());
+    const auto station = std::find_if(stations.begin(), stations.end(), [&](const auto& name) {
+      return probe ? is_at(study, probe->at, name) : name == f.variant;
+    });
     if (station == stations.end()) continue;
-    add_branches(f, b, static_cast<std::size_t>(station - stations.begin()));
+    add_branches(f, b, static_cast<std::size_t>(station - stations.begin()), probe);
     fits = true;
   }
   if (fits) return "";

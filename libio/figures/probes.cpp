@@ -63,15 +63,27 @@ std::string probe_name(const ProbeLabel& probe) {
   return fmt::format("{}, {:g}°", probe.name, probe.angle_deg());
 }
 
+bool is_drawn(const ResultView& result, const ProbeLabel& probe) {
+  return result.probe.empty() || result.probe == probe.name;
+}
+
+const Probe* probe_of(const ResultView& result, const std::string& name) {
+  if (!result.model) return nullptr;
+  const std::vector<Probe>& all = result.model->structure.probes;
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Probe& p) { return p.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 std::vector<Figure> probe_histories(const ResultView& result) {
   const Motion m(result);
-  if (m.record.probes.empty()) return {};
   const MotionSamples drawn = m.drawn(seen_of_probes), shown = m.shown(seen_of_probes);
   Figure f{.variant = "probes"};
-  f.height = 90.0 + 170.0 * static_cast<double>(m.record.probes.size());
   f.subtitle = fmt::format("Along the probes: time history{}{}",
                            speed_text(result).empty() ? "" : " at ", speed_text(result));
   for (const ProbeSignal& probe : m.record.probes) {
+    if (!is_drawn(result, probe)) continue;
+    f.probes.push_back(probe.name);
     const DisplayUnit unit = unit_of(probe);
     Panel p;
     p.x = {.title = "time [s]", .first = m.time(shown.first), .last = m.time(shown.last)};
@@ -83,8 +95,80 @@ std::vector<Figure> probe_histories(const ResultView& result) {
     p.curves.push_back(std::move(c));
     f.panels.push_back(std::move(p));
   }
+  if (f.panels.empty()) return {};
+  f.height = 90.0 + 170.0 * static_cast<double>(f.panels.size());
+  if (f.panels.size() == 1) f.height = 320.0;
   f.notes = m.notes(seen_of_probes);
   return {f};
+}
+
+namespace {
+
+/// Axes around numbers that may all be the same, but for rounding: then the size of the motion is
+/// their scale.
+/// @param room  to both sides then
+void keep_room(FigureAxis& axis, const std::vector<double>& values, double room) {
+  if (values.empty()) return;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (*high - *low <= room) axis.first = *low - room, axis.last = *high + room;
+}
+
+/// What a probe reads once a revolution: in time, and each over the one before.
+Figure section_of(const ResultView& result, const Motion& m, const ProbeSignal& probe) {
+  const DisplayUnit unit = unit_of(probe);
+  Figure f{.variant = probe_name(probe), .probes = {probe.name}};
+  f.width = 900.0;
+  f.columns = 2;
+  f.subtitle = fmt::format("{}: once a revolution at {}", f.variant, speed_text(result));
+  Panel in_time, next;
+  in_time.title = "once a revolution";
+  next.title = "from one revolution to the next";
+  in_time.x.title = "time [s]";
+  in_time.cursor = "time";
+  in_time.y.title = next.x.title = with_unit("reading", unit);
+  next.y.title = with_unit("reading a revolution later", unit);
+  Curve c{.paint = Paint::forward, .has_line = false};
+  c.has_marker = true;
+  c.size = 4.0;
+  Curve after = c;
+  constexpr double all_revolutions = 1e9;
+  const MotionSamples drawn = m.drawn(all_revolutions);
+  for (Eigen::Index j = drawn.first; j <= drawn.last; ++j) {
+    if (!m.ends_revolution(j)) continue;
+    c.x.push_back(m.time(j));
+    c.y.push_back(unit.factor * probe.displacement(j));
+  }
+  for (std::size_t j = 0; j + 1 < c.y.size(); ++j) {
+    after.x.push_back(c.y[j]);
+    after.y.push_back(c.y[j + 1]);
+  }
+  const double far = unit.factor * probe.displacement.cwiseAbs().maxCoeff();
+  keep_room(in_time.y, c.y, 1e-3 * far);
+  keep_room(next.x, after.x, 1e-3 * far);
+  keep_room(next.y, after.y, 1e-3 * far);
+  Curve diagonal{.paint = Paint::gray, .x = {-2.0 * far, 2.0 * far}, .y = {-2.0 * far, 2.0 * far}};
+  diagonal.width = 1.0;
+  diagonal.dash = Dash::dashed;
+  diagonal.is_key = false;
+  f.notes = {fmt::format("{} revolutions.", c.y.size())};
+  if (result.window.is_given()) f.notes = m.notes(all_revolutions);
+  in_time.curves = {std::move(c)};
+  next.curves = {std::move(diagonal), std::move(after)};
+  f.panels = {std::move(in_time), std::move(next)};
+  return f;
+}
+
+}  // namespace
+
+std::vector<Figure> probe_sections(const ResultView& result) {
+  const Motion m(result);
+  std::vector<Figure> figures;
+  for (const ProbeSignal& probe : m.record.probes) {
+    if (!m.spins || !is_drawn(result, probe)) continue;
+    Figure f = section_of(result, m, probe);
+    if (!f.panels.front().curves.front().x.empty()) figures.push_back(std::move(f));
+  }
+  return figures;
 }
 
 std::vector<Figure> probe_spectra(const ResultView& result) {
@@ -94,6 +178,7 @@ std::vector<Figure> probe_spectra(const ResultView& result) {
   std::vector<Figure> figures;
   std::vector<std::string> units;
   for (const ProbeSignal& probe : m.record.probes) {
+    if (!is_drawn(result, probe)) continue;
     const ProbeLines lines = lines_of(m, probe.displacement);
     if (!(largest_of(lines.peak_to_peak) > 0.0)) continue;
     const DisplayUnit unit = unit_of(probe);
@@ -115,7 +200,9 @@ std::vector<Figure> probe_spectra(const ResultView& result) {
       f.panels.push_back(std::move(p));
       figures.push_back(std::move(f));
     }
-    Panel& p = figures[static_cast<std::size_t>(known - units.begin())].panels.front();
+    Figure& shown = figures[static_cast<std::size_t>(known - units.begin())];
+    shown.probes.push_back(probe.name);
+    Panel& p = shown.panels.front();
     Curve c{.name = probe_name(probe), .paint = series_paint(p.curves.size())};
     c.x = scaled(lines.frequency, in.factor);
     c.y = scaled(lines.peak_to_peak, unit.factor);

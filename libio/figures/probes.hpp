@@ -5,11 +5,20 @@
 
 namespace whirl::inline io::figures {
 
+/// Whether readings of a probe are drawn: see ResultView::probe.
+bool is_drawn(const ResultView& result, const ProbeLabel& probe);
+
+/// The probe of a name in the model of a result; null if there is none.
+const Probe* probe_of(const ResultView& result, const std::string& name);
+
 /// What the probes of a result read in time; none without probes.
 std::vector<Figure> probe_histories(const ResultView& result);
 
 /// Spectra of what they read, peak to peak, a figure for each of their units.
 std::vector<Figure> probe_spectra(const ResultView& result);
+
+/// What they read once a revolution, in time and from one to the next, a figure each.
+std::vector<Figure> probe_sections(const ResultView& result);
 
 /// Probes at a recorded station of the trajectory ("7 left bearing").
 std::vector<Probe> probes_at(const ResultView& result, const std::string& station);

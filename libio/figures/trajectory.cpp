@@ -188,7 +188,7 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
 std::vector<Figure> poincare_figures(const ResultView& result) {
   const Motion m(result);
   if (!m.spins) return {};
-  std::vector<Figure> figures;
+  std::vector<Figure> figures = probe_sections(result);
   for (const std::size_t i : stations_by_interest(result, m.stations)) {
     const StationMotion& s = m.record.stations[i];
     Figure f{.variant = m.stations[i], .width = 900.0, .height = 480.0};

@@ -7,7 +7,8 @@
 #include "libbase/constants.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libfe/amplification.hpp"
-#include "libio/figures/common.hpp"
+#include "libio/figures/bode_curves.hpp"
+#include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
@@ -45,54 +46,8 @@ struct Response {
   CMat x, y;
   Mat major;  ///< semi-axes
 
-  /// Stations with a name (disks, bearings, contacts), or all if none has.
-  std::vector<Eigen::Index> named() const {
-    std::vector<Eigen::Index> list;
-    for (std::size_t i = 0; i < stations.size(); ++i) {
-      if (stations[i].find_first_not_of("0123456789") != std::string::npos) {
-        list.push_back(static_cast<Eigen::Index>(i));
-      }
-    }
-    for (std::size_t i = 0; list.empty() && i < stations.size(); ++i) {
-      list.push_back(static_cast<Eigen::Index>(i));
-    }
-    return list;
-  }
+  std::vector<Eigen::Index> named() const { return named_rows(stations); }
 };
-
-/// Phases that go on across +-180 degrees [deg].
-std::vector<double> continuous_phase(const CMat& a, Eigen::Index i) {
-  std::vector<double> phase;
-  double turns = 0.0, before = std::nan("");
-  for (Eigen::Index k = 0; k < a.cols(); ++k) {
-    double now = std::abs(a(i, k)) > 0.0 ? std::arg(a(i, k)) / degree : std::nan("");
-    if (std::isfinite(now)) {
-      now += turns;
-      while (now - before > 180.0) now -= 360.0, turns -= 360.0;
-      while (now - before < -180.0) now += 360.0, turns += 360.0;
-      before = now;
-    }
-    phase.push_back(now);
-  }
-  // at the start as near to zero as may be
-  double first = 0.0;
-  for (const double p : phase) {
-    if (std::isfinite(p)) {
-      first = p;
-      break;
-    }
-  }
-  const double shift = 360.0 * std::round(first / 360.0);
-  for (double& p : phase) p -= shift;
-  return phase;
-}
-
-void mark_operation(const ResultView& result, const Response& r, Panel& panel) {
-  const double speed = speed_of(result) / rpm;
-  if (!std::isfinite(speed) || speed < r.speed.front() || speed > r.speed.back()) return;
-  panel.rules.push_back(
-      {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
-}
 
 /// Whether a result holds its peaks; earlier versions did not write them.
 bool has_peaks(const ResultView& result) {
@@ -147,61 +102,15 @@ void add_notes(const Response& r, std::vector<Figure>& figures) {
   }
 }
 
-/// Complex amplitudes over speed that one figure shows.
-struct BodeCurves {
-  std::vector<std::string> names;
-  CMat a;  ///< curves x speeds [m]
-  DisplayUnit unit;
-};
-
-/// Amplitude over phase; its table is still to be made.
-Figure bode(const ResultView& result, const Response& r, const BodeCurves& shown) {
-  Figure f{.height = 560.0};
-  Panel amplitude, phase;
-  for (Panel* p : {&amplitude, &phase}) {
-    p->x = {.title = "speed [rpm]", .first = r.speed.front(), .last = r.speed.back()};
-    p->cursor = "speed";
-    mark_operation(result, r, *p);
-  }
-  phase.rules.clear();
-  amplitude.share = 1.5;
-  amplitude.y = {.title = with_unit("amplitude p-p", shown.unit), .first = 0.0};
-  phase.y = {.title = "phase [deg]", .step = 90.0};
-  for (std::size_t number = 0; number < shown.names.size(); ++number) {
-    const auto i = static_cast<Eigen::Index>(number);
-    Curve c{.name = shown.names[number], .paint = series_paint(number), .x = r.speed};
-    c.width = 1.8;
-    constexpr Dash dashes[] = {Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
-    c.dash = dashes[number % 4];
-    Curve lag = c;
-    for (Eigen::Index k = 0; k < shown.a.cols(); ++k) {
-      c.y.push_back(2.0 * shown.unit.factor * std::abs(shown.a(i, k)));
-    }
-    lag.y = continuous_phase(shown.a, i);
-    amplitude.curves.push_back(std::move(c));
-    phase.curves.push_back(std::move(lag));
-  }
-  double low = 0.0, high = 0.0;
-  for (const Curve& c : phase.curves) {
-    for (const double v : c.y) {
-      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
-    }
-  }
-  phase.y.first = 90.0 * std::floor(low / 90.0 - 1e-6);
-  phase.y.last = 90.0 * std::ceil(high / 90.0 + 1e-6);
-  f.panels = {amplitude, phase};
-  return f;
-}
-
 /// Along x or y at the stations with a name.
 Figure bode_along(const ResultView& result, const Response& r, const CMat& a,
                   const char* direction) {
   const std::vector<Eigen::Index> named = r.named();
-  BodeCurves shown{{}, a(named, Eigen::all), unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m")};
+  BodeCurves shown{{}, a(named, Eigen::all), unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m"), {}};
   for (const Eigen::Index i : named) {
     shown.names.push_back(r.stations[static_cast<std::size_t>(i)]);
   }
-  Figure f = bode(result, r, shown);
+  Figure f = bode_figure(result, r.speed, shown);
   f.variant = direction;
   f.subtitle = fmt::format("Unbalance response along {}, amplitude peak to peak", direction);
   f.table = table_of_peaks(result, peaks_in(result, r, a), "largest at", r.stations, shown.unit);
@@ -213,20 +122,15 @@ Figure bode_along(const ResultView& result, const Response& r, const CMat& a,
 }
 
 /// Probes of one unit with their readings.
-std::vector<BodeCurves> probe_curves(const Response& r) {
+std::vector<BodeCurves> probe_curves(const ResultView& result, const Response& r) {
   std::vector<BodeCurves> all;
   for (const ProbeResponse& probe : r.study.probes) {
+    if (!is_drawn(result, probe)) continue;
     const CVec& reading = r.study.curve_speeds.empty() ? probe.amplitude : probe.curve_amplitude;
     if (reading.size() != std::ssize(r.speed)) {
       throw FileError("the readings of probes are not of the speeds");
     }
-    auto group = std::find_if(all.begin(), all.end(),
-                              [&](const BodeCurves& b) { return b.unit.name == probe.unit; });
-    if (group == all.end()) group = all.insert(all.end(), {{}, {}, unit_of(probe)});
-    const auto count = std::ssize(group->names);
-    group->names.push_back(probe_name(probe));
-    group->a.conservativeResize(count + 1, reading.size());
-    group->a.row(count) = reading.transpose();
+    add_reading(probe, reading, all);
   }
   return all;
 }
@@ -234,10 +138,11 @@ std::vector<BodeCurves> probe_curves(const Response& r) {
 /// Along the probes, a figure for each of their units.
 std::vector<Figure> bode_of_probes(const ResultView& result, const Response& r) {
   std::vector<Figure> figures;
-  const std::vector<BodeCurves> groups = probe_curves(r);
+  const std::vector<BodeCurves> groups = probe_curves(result, r);
   for (const BodeCurves& shown : groups) {
-    Figure f = bode(result, r, shown);
+    Figure f = bode_figure(result, r.speed, shown);
     f.variant = groups.size() == 1 ? "probes" : "probes in " + shown.unit.name;
+    f.probes = shown.probes;
     f.subtitle = "Unbalance response along the probes, amplitude peak to peak";
     std::vector<ResponsePeak> peaks;
     for (const ProbePeak& p : r.study.probe_peaks) {
@@ -313,10 +218,11 @@ Figure polar(const Response& r, const std::string& name, const CVec& a, const Di
 std::vector<Figure> polar_figures(const ResultView& result) {
   const Response r(result);
   std::vector<Figure> figures;
-  for (const BodeCurves& shown : probe_curves(r)) {
+  for (const BodeCurves& shown : probe_curves(result, r)) {
     for (std::size_t i = 0; i < shown.names.size(); ++i) {
       const CVec a = shown.a.row(static_cast<Eigen::Index>(i)).transpose();
       figures.push_back(polar(r, shown.names[i], a, shown.unit));
+      figures.back().probes = {shown.probes[i]};
       figures.back().subtitle =
           shown.names[i] + ": complex amplitude, peak to peak, speeds along the loop";
     }

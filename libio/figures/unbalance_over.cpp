@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "libfe/forces.hpp"
-#include "libio/figures/common.hpp"
+#include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
@@ -93,6 +93,8 @@ std::vector<Figure> unbalance_over_figures(const ResultView& result) {
   }
   std::vector<SizePanel> probes;
   for (const UnbalanceOverProbe& probe : found.probes) {
+    if (!is_drawn(result, probe)) continue;
+    f.probes.push_back(probe.name);
     auto panel = std::find_if(probes.begin(), probes.end(),
                               [&](const SizePanel& p) { return p.unit().name == probe.unit; });
     if (panel == probes.end()) {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "libbase/spectrum.hpp"
-#include "libio/figures/common.hpp"
+#include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
@@ -68,64 +69,104 @@ double reach_of(const ShortTimeSpectra& s) {
   return reach;
 }
 
+/// What spectra are drawn of.
+struct WaterfallPlace {
+  std::string name;
+  std::vector<std::string> probes{};  ///< the one that it is of
+  double factor = 1.0;                ///< of the circles at both signs of a frequency
+  std::optional<DisplayUnit> unit{};  ///< nothing: by the largest number
+
+  bool is_probe() const { return !probes.empty(); }
+};
+
+/// Curves of the spectra, one above the other.
+void add_spectra(const ShortTimeSpectra& s, const DisplayUnit& in, const DisplayUnit& unit,
+                 const WaterfallPlace& place, double reach, Panel& p) {
+  const double largest = s.amplitude.maxCoeff();
+  const double range = s.time.back() - s.time.front();
+  const double height = (range > 0.0 ? range : 1.0) * 0.09;
+  for (std::size_t i = 0; i < s.time.size(); ++i) {
+    Curve c{.paint = i % 2 == 0 ? Paint::forward : Paint::ink};
+    c.width = 0.9;
+    for (Eigen::Index k = place.is_probe() ? s.count / 2 : 0; k < s.count; ++k) {
+      if (std::abs(s.frequency(k)) > 1.02 * reach) continue;
+      const double a = s.amplitude(static_cast<Eigen::Index>(i), k);
+      c.x.push_back(in.factor * s.frequency(k));
+      c.y.push_back(s.time[i] +
+                    height *
+                        (a > 0.0 ? std::max(0.0, 1.0 + std::log10(a / largest) / powers) : 0.0));
+      c.hover.push_back(fmt::format("{:.3g} {}", place.factor * unit.factor * a, unit.name));
+    }
+    if (s.time.size() * c.x.size() > most_told) c.hover.clear();
+    p.curves.push_back(std::move(c));
+  }
+}
+
+/// One place's spectra; nothing if there is nothing to be seen.
+std::optional<Figure> waterfall(const ResultView& result, const Motion& m,
+                                const WaterfallPlace& place, const Vec& x, const Vec& y) {
+  const DisplayUnit in = result.frequency;
+  const ShortTimeSpectra s = short_time_spectra(m, x, y);
+  const double largest = s.time.empty() ? 0.0 : s.amplitude.maxCoeff();
+  if (!(largest > 0.0)) return std::nullopt;
+  Figure f{.variant = place.name, .probes = place.probes};
+  f.width = 760.0;
+  f.height = 680.0;
+  f.subtitle = fmt::format("{}: waterfall of {}{}{}{}", place.name,
+                           place.is_probe() ? "spectra" : "full spectra",
+                           speed_text(result).empty() ? "" : " at ", speed_text(result),
+                           place.is_probe() ? ", peak to peak" : ", backward left, forward right");
+  const double speed = speed_of(result);
+  double reach = 1.15 * reach_of(s);
+  if (m.spins) reach = std::max(reach, 2.2 * speed);
+  reach = std::min(reach, s.bin * static_cast<double>(s.count) / 2.0);
+  Panel p;
+  p.cursor = "frequency";
+  p.x = {.title = with_unit(place.is_probe() ? "frequency" : "whirl frequency", in),
+         .first = place.is_probe() ? 0.0 : -reach * in.factor,
+         .last = reach * in.factor};
+  if (m.spins) p.x.also_unit = "X", p.x.also_factor = 1.0 / (in.factor * speed);
+  p.y.title = "time [s]";
+  const DisplayUnit unit = place.unit.value_or(unit_for(largest, "m"));
+  add_spectra(s, in, unit, place, reach, p);
+  p.rules.push_back({Rule::Kind::vertical, 0.0, "", Paint::ink, Dash::dotted});
+  for (const double order : {-1.0, 1.0}) {
+    if (!m.spins || (place.is_probe() && order < 0.0)) continue;
+    const char* name = place.is_probe() ? "1X" : order > 0.0 ? "+1X" : "−1X";
+    p.rules.push_back(
+        {Rule::Kind::vertical, order * speed * in.factor, name, Paint::gray, Dash::dotted});
+  }
+  f.panels.push_back(std::move(p));
+  f.notes = {
+      fmt::format("Each spectrum is of {:.3g} s, around its time. Heights are "
+                  "logarithmic: from {:.3g} {}, the largest {}, down to a thousandth "
+                  "of it.",
+                  2.0 * std::numbers::pi / s.bin, place.factor * unit.factor * largest, unit.name,
+                  place.is_probe() ? "reading, peak to peak" : "radius")};
+  return f;
+}
+
 std::vector<Figure> waterfall_figures(const ResultView& result) {
   const Motion m(result);
-  const DisplayUnit in = result.frequency;
+  constexpr std::size_t most_figures = 4;  // of each kind
   std::vector<Figure> figures;
+  for (const ProbeSignal& probe : m.record.probes) {
+    if (!is_drawn(result, probe)) continue;
+    constexpr double circles = 4.0;  // a cosine is two of half its amplitude
+    const WaterfallPlace place{probe_name(probe), {probe.name}, circles, unit_of(probe)};
+    const Vec none = Vec::Zero(probe.displacement.size());
+    if (auto f = waterfall(result, m, place, probe.displacement, none)) {
+      figures.push_back(std::move(*f));
+    }
+    if (figures.size() == most_figures) break;
+  }
+  const std::size_t of_probes = figures.size();
   for (const std::size_t station : stations_by_interest(result, m.stations)) {
     const StationMotion& motion = m.record.stations[station];
-    const ShortTimeSpectra s = short_time_spectra(m, motion.x, motion.y);
-    const double largest = s.time.empty() ? 0.0 : s.amplitude.maxCoeff();
-    if (!(largest > 0.0)) continue;
-    Figure f{.variant = m.stations[station], .width = 760.0, .height = 680.0};
-    f.subtitle = fmt::format("{}: waterfall of full spectra{}{}, backward left, forward right",
-                             m.stations[station], speed_text(result).empty() ? "" : " at ",
-                             speed_text(result));
-    const double speed = speed_of(result);
-    double reach = 1.15 * reach_of(s);
-    if (m.spins) reach = std::max(reach, 2.2 * speed);
-    reach = std::min(reach, s.bin * static_cast<double>(s.count) / 2.0);
-    Panel p;
-    p.cursor = "frequency";
-    p.x = {.title = with_unit("whirl frequency", in),
-           .first = -reach * in.factor,
-           .last = reach * in.factor};
-    if (m.spins) p.x.also_unit = "X", p.x.also_factor = 1.0 / (in.factor * speed);
-    p.y.title = "time [s]";
-    const DisplayUnit unit = unit_for(largest, "m");
-    const double range = s.time.back() - s.time.front();
-    const double height = (range > 0.0 ? range : 1.0) * 0.09;
-    for (std::size_t i = 0; i < s.time.size(); ++i) {
-      Curve c{.paint = i % 2 == 0 ? Paint::forward : Paint::ink};
-      c.width = 0.9;
-      for (Eigen::Index k = 0; k < s.count; ++k) {
-        if (std::abs(s.frequency(k)) > 1.02 * reach) continue;
-        const double a = s.amplitude(static_cast<Eigen::Index>(i), k);
-        c.x.push_back(in.factor * s.frequency(k));
-        c.y.push_back(s.time[i] +
-                      height *
-                          (a > 0.0 ? std::max(0.0, 1.0 + std::log10(a / largest) / powers) : 0.0));
-        c.hover.push_back(fmt::format("{:.3g} {}", unit.factor * a, unit.name));
-      }
-      if (s.time.size() * c.x.size() > most_told) c.hover.clear();
-      p.curves.push_back(std::move(c));
+    if (auto f = waterfall(result, m, {m.stations[station]}, motion.x, motion.y)) {
+      figures.push_back(std::move(*f));
     }
-    p.rules.push_back({Rule::Kind::vertical, 0.0, "", Paint::ink, Dash::dotted});
-    if (m.spins) {
-      for (const double order : {-1.0, 1.0}) {
-        p.rules.push_back({Rule::Kind::vertical, order * speed * in.factor,
-                           order > 0.0 ? "+1X" : "−1X", Paint::gray, Dash::dotted});
-      }
-    }
-    f.panels.push_back(std::move(p));
-    f.notes = {
-        fmt::format("Each spectrum is of {:.3g} s, around its time. Heights are "
-                    "logarithmic: from {:.3g} {}, the largest radius, down to a thousandth "
-                    "of it.",
-                    2.0 * std::numbers::pi / s.bin, unit.factor * largest, unit.name)};
-    figures.push_back(std::move(f));
-    constexpr std::size_t most_stations = 4;
-    if (figures.size() == most_stations) break;
+    if (figures.size() == of_probes + most_figures) break;
   }
   return figures;
 }

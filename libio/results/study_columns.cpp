@@ -36,6 +36,11 @@ void StudyWriter::add_axis(const std::string& dimension, const std::string& path
   axes_[dimension] = {path, size};
 }
 
+std::string StudyWriter::axis(const std::string& dimension) const {
+  const auto found = axes_.find(dimension);
+  return found == axes_.end() ? "" : found->second.path;
+}
+
 void StudyWriter::write_parameters(const std::vector<ParameterAxis>& parameters,
                                    const std::string& leads) {
   if (const auto leading = axes_.find(leads); leading != axes_.end()) {

@@ -188,6 +188,8 @@ class StudyWriter {
   std::string path(std::string_view key) const { return group_ + '/' + std::string(key); }
   /// Enters a dataset along a dimension; it has been written.
   void add_axis(const std::string& dimension, const std::string& path, Eigen::Index size);
+  /// The dataset along a dimension; empty: none is known.
+  std::string axis(const std::string& dimension) const;
   /// Writes the parameters of the points, behind the dimension that leads, if there is one.
   void write_parameters(const std::vector<ParameterAxis>& parameters, const std::string& leads);
   /// Numbers that a column has of a point.
@@ -206,6 +208,12 @@ class StudyWriter {
   std::map<std::string, Axis, std::less<>> axes_;
   std::vector<Axis> points_;  ///< along the points
 };
+
+/// Whether a column of a whole study is along a dimension of its own, not a number of every point.
+template <class Member>
+constexpr bool is_aside(const Column<Member>& c) {
+  return c.is_axis || !(c.dimensions.empty() || c.dimensions == "point");
+}
 
 /// Whether columns may be missing that are not optional, as in files of earlier versions.
 enum class Missing { refused, allowed };
@@ -248,10 +256,13 @@ void write_study(ResultWriter& file, const std::vector<ParameterAxis>& parameter
   for_each_column<Result>([&](const auto& c) {
     if constexpr (!is_rows_column<std::remove_cvref_t<decltype(c)>>) {
       const auto& values = std::invoke(c.member, result);
-      if (!c.is_axis || (c.is_optional && values.size() == 0)) return;
-      file.dataset(to.path(c.key), values, {std::string(c.unit), std::string(c.meaning), {""}});
-      to.add_axis(dimension_names(c.dimensions)[0], to.path(c.key),
-                  static_cast<Eigen::Index>(values.size()));
+      if (!is_aside(c) || (c.is_optional && values.size() == 0)) return;
+      const std::string dimension = dimension_names(c.dimensions)[0];
+      file.dataset(
+          to.path(c.key), values,
+          {std::string(c.unit), std::string(c.meaning), {c.is_axis ? "" : to.axis(dimension)}});
+      if (!c.is_axis) return;
+      to.add_axis(dimension, to.path(c.key), static_cast<Eigen::Index>(values.size()));
     }
   });
   std::string leads;
@@ -276,7 +287,7 @@ void write_study(ResultWriter& file, const std::vector<ParameterAxis>& parameter
       const auto& values = std::invoke(c.member, result);
       using Element = typename std::remove_cvref_t<decltype(values)>::value_type;
       if constexpr (std::is_arithmetic_v<Element>) {
-        if (c.is_axis || values.size() == 0) return;
+        if (is_aside(c) || values.size() == 0) return;
         to.write_points(facts_of<Element>(c), {values.begin(), values.end()});
       }
     }
@@ -371,7 +382,7 @@ ResultSet study_schema(const std::vector<ResultEntry>& parameters) {
       using Element = typename ColumnValue<Result, decltype(c.member)>::value_type;
       ResultEntry entry = entry_of(group, facts_of<Element>(c));
       if constexpr (std::is_convertible_v<Element, std::string>) entry.kind = ObjectKind::text;
-      if (c.is_axis) entry.sizes = c.dimensions;
+      if (is_aside(c)) entry.sizes = c.dimensions;
       entries.push_back(entry);
     }
   });

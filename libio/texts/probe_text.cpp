@@ -91,6 +91,14 @@ std::string text_of(const std::vector<ForcedReading>& readings, const std::vecto
                     [=](const ForcedReading& f) { return text_at(f, f.amplitude.size() - 1); }}});
 }
 
+std::string text_of(const std::vector<RestingProbe>& probes) {
+  if (probes.empty()) return "";
+  return "\n" + table_of(probes, {shown("name").as("probe"),
+                                  {"angle [deg]", angle_text},
+                                  {"reads",
+                                   [](const RestingProbe& p) { return reading_text(p.mean, p); }}});
+}
+
 std::string text_of(const std::vector<ProbeSummary>& probes) {
   if (probes.empty()) return "";
   return "\n" + table_of(probes,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "libdyn/motions/run_result.hpp"
+#include "libdyn/motions/static_study.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 
 namespace whirl::inline io {
@@ -23,6 +24,9 @@ std::string text_of(const std::vector<ProbeResponse>& probes);
 /// Readings of forces of other frequencies; a dash where they are not bounded; empty without probes.
 /// @param speeds  of the readings [rad/s]
 std::string text_of(const std::vector<ForcedReading>& readings, const std::vector<double>& speeds);
+
+/// What every probe reads of a rotor at rest; empty without probes.
+std::string text_of(const std::vector<RestingProbe>& probes);
 
 /// Mean and peak to peak along every probe; empty without probes.
 std::string text_of(const std::vector<ProbeSummary>& probes);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libbase/constants.hpp"
+#include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -63,6 +64,7 @@ std::string text_of(const StaticStudy& study) {
                                         }},
                                        shown("x", "um", ".3f"),
                                        shown("y", "um", ".3f")});
+  text += text_of(study.probes);
   if (!study.at_rest.bearings.empty() || study.on_films.films.empty()) {
     text += "\n" + table_of(study.at_rest.bearings,
                             {shown("bearing"), shown("fx", "N", ".4f").as("load x"),

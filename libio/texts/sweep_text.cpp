@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "libbase/constants.hpp"
+#include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -76,14 +79,64 @@ std::string way_text(const SweepWay& way, const ParameterAxis& axis) {
                    {"largest exponent per revolution", exponent_text}});
 }
 
+/// Where along a sweep a probe reads most, peak to peak; of one way or both.
+struct LargestReading {
+  ProbeLabel probe{};
+  double peak_to_peak = nan;  ///< [m]; NaN: nothing is known of it
+  std::size_t index = 0;      ///< of the value
+  std::string way{};
+};
+
+std::vector<LargestReading> largest_readings(const SweepResult& sweep) {
+  std::vector<LargestReading> all;
+  const std::vector<std::string> ways = sweep.ways();
+  const std::size_t values = sweep.points.size() / ways.size();
+  for (std::size_t i = 0; i < sweep.probes.size(); ++i) {
+    LargestReading most{sweep.probes[i]};
+    for (std::size_t k = 0; k < sweep.points.size(); ++k) {
+      const Vec& size = sweep.points[k] ? sweep.points[k]->portrait.probe_peak_to_peak : Vec();
+      const auto row = static_cast<Eigen::Index>(i);
+      if (row >= size.size() || !std::isfinite(size(row)) || size(row) <= most.peak_to_peak) {
+        continue;
+      }
+      most.peak_to_peak = size(row);
+      most.index = k % values;
+      most.way = ways[k / values];
+    }
+    all.push_back(std::move(most));
+  }
+  return all;
+}
+
+std::string probes_text(const SweepResult& sweep, const ParameterAxis& axis) {
+  if (sweep.probes.size() == 0 || sweep.spectrum_revolutions == 0) return "";
+  const auto is_known = [](const LargestReading& r) { return std::isfinite(r.peak_to_peak); };
+  return "\n  Along the probes, peak to peak\n" +
+         table_of(
+             largest_readings(sweep),
+             {{"probe", [](const LargestReading& r) { return r.probe.name; }},
+              {"angle [deg]",
+               [](const LargestReading& r) { return fmt::format("{:g}", r.probe.angle_deg()); }},
+              {"largest",
+               [=](const LargestReading& r) {
+                 return is_known(r) ? reading_text(r.peak_to_peak, r.probe) : "-";
+               }},
+              {"at " + axis.title(),
+               [=, &axis](const LargestReading& r) {
+                 return is_known(r) ? fmt::format("{:.7g}", axis.shown(r.index)) : "-";
+               }},
+              {"on the way", [](const LargestReading& r) { return r.way; }}});
+}
+
 }  // namespace
 
 std::string text_of(const SweepResult& sweep, const ParameterAxis& axis) {
   if (sweep.start == SweepStart::fresh) {
-    return "\n  every value from the start of the model\n" + way_text({sweep, axis.values}, axis);
+    return "\n  every value from the start of the model\n" + way_text({sweep, axis.values}, axis) +
+           probes_text(sweep, axis);
   }
   return "\n  up\n" + way_text({sweep, axis.values}, axis) + "\n  down\n" +
-         way_text({sweep, axis.values, 1}, axis);
+         way_text({sweep, axis.values, 1}, axis) + probes_text(sweep, axis);
 }
 
 }  // namespace whirl::inline io

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
@@ -31,14 +33,33 @@ unit = "um"
 )"));
   }
 
+  static std::vector<Figure> figures(const char* kind, const ResultView& view) {
+    for (const FigureKind& k : figure_kinds()) {
+      if (k.name == kind) return figures_of(k, view);
+    }
+    return {};
+  }
   std::vector<std::string> variants(const char* kind, const std::string& file) const {
     const ResultView view(folder / file);
     std::vector<std::string> names;
-    for (const FigureKind& k : figure_kinds()) {
-      if (k.name != kind) continue;
-      for (const Figure& f : figures_of(k, view)) names.push_back(f.variant);
-    }
+    for (const Figure& f : figures(kind, view)) names.push_back(f.variant);
     return names;
+  }
+
+  /// A motion of the rotor at 60 rad/s, whose transient is over.
+  void simulate(const char* revolutions) const {
+    result({"simulate", "rotor.toml", "--speed", "60rad/s", "--discard", "1000", "--revolutions",
+            revolutions, "--out", "run.h5"});
+  }
+  /// r = Omega / omega; x + i y = e r^2 / (1 - r^2 + 2 i zeta r) e^(i Omega t).
+  static std::complex<double> circle(double Omega) {
+    const double r = Omega / omega;
+    return e * r * r / std::complex<double>(1.0 - r * r, 2.0 * zeta * r);
+  }
+  /// What a probe reads at phase 0, beside the sag.
+  static double reading(double angle, double Omega) {
+    return (circle(Omega) * std::polar(1.0, -angle)).real() -
+           9.81 / (omega * omega) * std::sin(angle);
   }
 };
 
@@ -121,6 +142,19 @@ TEST_F(Probes, SpectraAreOfWholeRevolutions) {
   }
 }
 
+// The sag -g / omega^2 along y, seen from 45 and 135 degrees.
+TEST_F(Probes, TellTheSag) {
+  const json r = result({"static", "rotor.toml"});
+  ASSERT_EQ(r["probes"].size(), 2u);
+  const double sag = 9.81 / (omega * omega);
+  for (const json& probe : r["probes"]) {
+    EXPECT_NEAR(probe["mean_m"].get<double>(), -sag * std::sqrt(0.5), 1e-12);
+  }
+  EXPECT_TRUE(has(whirl({"static", "rotor.toml"}).out, "-27.31 mil"));
+  write("plain.toml", jeffcott);
+  EXPECT_FALSE(result({"static", "plain.toml"}).contains("probes"));
+}
+
 TEST_F(Probes, AreNotInAnswersOfModelsWithoutThem) {
   write("plain.toml", jeffcott);
   const json r = result({"unbalance", "plain.toml", "--speeds", "0:200:20rad/s", "--out", "r.h5"});
@@ -138,6 +172,149 @@ TEST_F(Probes, AreEndsOfFrequencyResponses) {
   EXPECT_EQ(r["pairs"][1]["to"], "1Y");
   const double k = 2e4;
   EXPECT_NEAR(r["pairs"][1]["receptance"][0][0], -std::sqrt(0.5) / k, 1e-12 / k);
+}
+
+constexpr double of_samples = 1.3e-3;  // the largest of 64 a revolution, of a circle
+constexpr double quarter = std::numbers::pi / 4.0;
+
+TEST_F(Probes, TellSweeps) {
+  const std::vector<std::string> call{
+      "sweep",     "rotor.toml", "--over",        "operation.speed=40:80:20rad/s",
+      "--discard", "2000",       "--revolutions", "10",
+      "--out",     "s.h5"};
+  const json r = result(call);
+  ASSERT_EQ(r["probes"].size(), 2u);
+  EXPECT_EQ(r["probes"][1]["name"], "1Y");
+  EXPECT_EQ(r["probes"][0]["unit"], "mil");
+  const ResultReader file(folder / "s.h5");
+  EXPECT_EQ(file.strings("/sweep/probe_name"), (std::vector<std::string>{"1X", "1Y"}));
+  EXPECT_EQ(file.strings("/sweep/probe_unit"), (std::vector<std::string>{"mil", "um"}));
+  EXPECT_EQ(file.shape("/sweep/probe_poincare"), (std::vector<Eigen::Index>{2, 3, 2, 64}));
+  const std::vector<double> sections = file.numbers("/sweep/probe_poincare"),
+                            spectrum = file.numbers("/sweep/probe_spectrum"),
+                            orders = file.numbers("/sweep/probe_order");
+  const std::size_t lines = orders.size(),
+                    first = static_cast<std::size_t>(std::find(orders.begin(), orders.end(), 1.0) -
+                                                     orders.begin());
+  ASSERT_LT(first, lines);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double Omega = 40.0 + 20.0 * static_cast<double>(i), size = 2.0 * std::abs(circle(Omega));
+    const json& up = r["up"][i];
+    for (std::size_t p = 0; p < 2; ++p) {
+      const double angle = p == 0 ? quarter : 3.0 * quarter;
+      EXPECT_NEAR(up["probe_peak_to_peak_m"][p].get<double>(), size, of_samples * size);
+      EXPECT_LE(up["probe_peak_to_peak_m"][p].get<double>(), size * (1.0 + 1e-9));
+      EXPECT_NEAR(up["probe_mean_m"][p].get<double>(), -9.81 / (omega * omega) * std::sin(angle),
+                  1e-12);
+      EXPECT_NEAR(sections[(i * 2 + p) * 64], reading(angle, Omega), 1e-12);
+      EXPECT_NEAR(spectrum[(i * 2 + p) * lines + first], size, 1e-9 * size);
+    }
+  }
+  EXPECT_TRUE(has(whirl(call).out, "Along the probes, peak to peak"));
+
+  EXPECT_EQ(variants("bifurcation", "s.h5"),
+            (std::vector<std::string>{"1X, 45°", "1Y, 135°", "rotor"}));
+  for (const char* kind : {"cascade", "spectral_map"}) {
+    EXPECT_EQ(variants(kind, "s.h5"),
+              (std::vector<std::string>{"1X, 45° (up)", "1X, 45° (down)", "1Y, 135° (up)",
+                                        "1Y, 135° (down)", "rotor (up)", "rotor (down)"}))
+        << kind;
+  }
+  const ResultView view(folder / "s.h5");
+  const Figure f = figures("bifurcation", view).at(0);
+  constexpr double mil = 25.4e-6;
+  EXPECT_EQ(f.panels.at(0).y.title, "reading once a revolution [mil]");
+  EXPECT_NEAR(f.panels.at(0).curves.at(0).y.at(0), reading(quarter, 40.0) / mil, 1e-7);
+  EXPECT_EQ(f.panels.at(1).y.title, "peak to peak [mil]");
+  EXPECT_NEAR(f.panels.at(1).curves.at(0).y.at(2), 2.0 * std::abs(circle(80.0)) / mil,
+              of_samples * 2.0 * std::abs(circle(80.0)) / mil);
+}
+
+// Branches over a sweep are along the probe of its figure: an orbit is where its sections are.
+TEST_F(Probes, HaveBranchesOverTheirSweeps) {
+  const auto call = [&](const char* verb, const char* range, const char* out) {
+    result({verb, "rotor.toml", "--speed", "60rad/s", "--over", range, "--discard", "20", "--out",
+            out, "--set", "bearing.1.damping=40"});
+  };
+  call("sweep", "unbalance.1.offset=0.1,0.2mm", "s.h5");
+  call("continue", "unbalance.1.offset=0.1:0.2:0.05mm", "b.h5");
+  const ResultView sweep(folder / "s.h5"), branches(folder / "b.h5");
+  std::vector<Figure> over = figures("bifurcation", sweep);
+  ASSERT_EQ(lay_over(over, sweep, branches, "b.h5"), "");
+  const Figure& f = over.at(0);
+  ASSERT_EQ(f.variant, "1X, 45°");
+  const Curve& found = f.panels.at(0).curves.at(0);
+  int compared = 0;
+  for (const Curve& c : f.panels.at(0).curves) {
+    if (c.name != "period 1, stable") continue;
+    for (std::size_t i = 0; i < c.x.size(); ++i) {
+      if (std::isnan(c.y[i]) || c.x[i] != found.x.front()) continue;
+      EXPECT_NEAR(c.y[i], found.y.front(), 1e-6);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 0);
+}
+
+TEST_F(Probes, HaveWaterfallsAndSections) {
+  simulate("64");
+  const std::vector<std::string> names{"1X, 45°", "1Y, 135°", "rotor"};
+  EXPECT_EQ(variants("waterfall", "run.h5"), names);
+  EXPECT_EQ(variants("poincare", "run.h5"), names);
+  const ResultView view(folder / "run.h5");
+  constexpr double of_rest = 1e-2;  // what is left of the transient
+  const Figure waterfall = figures("waterfall", view).at(1);
+  double largest = 0.0;
+  for (const Curve& c : waterfall.panels.at(0).curves) {
+    EXPECT_GE(c.x.front(), 0.0);
+    for (const std::string& text : c.hover) {
+      EXPECT_TRUE(has(text, " um")) << text;
+      largest = std::max(largest, std::stod(text));
+    }
+  }
+  const double size = 2e6 * std::abs(circle(60.0));
+  EXPECT_NEAR(largest, size, of_rest * size);
+  const Figure section = figures("poincare", view).at(1);
+  ASSERT_GE(section.panels.at(0).curves.at(0).y.size(), 63u);
+  for (const double y : section.panels[0].curves[0].y) {
+    EXPECT_NEAR(y, 1e6 * reading(3.0 * quarter, 60.0), of_rest * size);
+  }
+  EXPECT_EQ(section.panels[1].y.title, "reading a revolution later [um]");
+}
+
+TEST_F(Probes, ChooseFigures) {
+  simulate("32");
+  const auto plot = [&](const char* kind, const char* which) {
+    return whirl({"plot", "run.h5", kind, "--which", which, "--out", "p.svg", "--json", "-"});
+  };
+  EXPECT_EQ(plot("time_history", "1Y").tree()["variant"], "probes");
+  const std::string drawn = content(folder / "p.svg");
+  EXPECT_TRUE(has(drawn, "1Y, 135°"));
+  EXPECT_FALSE(has(drawn, "1X, 45°"));  // of all probes that one
+  EXPECT_EQ(plot("spectrum", "1X").tree()["variant"], "probes");
+  EXPECT_EQ(plot("orbit", "1X").tree()["variant"], "rotor");  // where it is
+  EXPECT_EQ(plot("poincare", "1X").tree()["variant"], "1X, 45°");
+  EXPECT_EQ(plot("time_history", "rotor").tree()["variant"], "rotor");
+  const Outcome refused = plot("time_history", "2X");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(has(refused.err,
+                  "--which 2X: there is no such figure; there are probes, rotor; of probes 1X, 1Y"))
+      << refused.err;
+  result({"unbalance", "rotor.toml", "--speeds", "0:200:20rad/s", "--out", "run.h5"});
+  EXPECT_EQ(plot("bode", "1Y").tree()["variant"], "probes");
+  EXPECT_EQ(plot("polar", "1Y").tree()["variant"], "1Y, 135°");
+}
+
+TEST_F(Probes, AreNotInStudiesOfModelsWithoutThem) {
+  write("plain.toml", jeffcott);
+  const json r = result({"sweep", "plain.toml", "--over", "operation.speed=40,80rad/s", "--discard",
+                         "2000", "--revolutions", "10", "--out", "s.h5"});
+  EXPECT_FALSE(r.contains("probes"));
+  for (const auto& [key, value] : r["up"][0].items()) EXPECT_FALSE(has(key, "probe")) << key;
+  for (const std::string& name : ResultReader(folder / "s.h5").list("/sweep")) {
+    EXPECT_FALSE(has(name, "probe")) << name;
+  }
+  EXPECT_EQ(variants("bifurcation", "s.h5"), std::vector<std::string>{"rotor"});
 }
 
 }  // namespace probes_test

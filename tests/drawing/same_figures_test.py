@@ -404,6 +404,27 @@ def compare(what, figure, svg, answer):
 # ---- figures of every kind
 
 
+PROBED = """
+[[force]]
+node = 5
+force = "200 N"
+order = 2
+[[force]]
+node = 9
+force = "100 N"
+frequency = "40 Hz"
+[[probe]]
+name = "1X"
+node = 3
+angle = "45 deg"
+unit = "mil"
+[[probe]]
+name = "1Y"
+node = 3
+angle = "135 deg"
+"""
+
+
 def results(whirl, repository, folder):
     """Result files with figures of every kind: those that fuzzing starts from, and of verbs that it has none of."""
     files = []
@@ -411,11 +432,17 @@ def results(whirl, repository, folder):
         shutil.copy(path, folder)
         files.append(folder / path.name)
     models = repository / "models"
+    probed = folder / "probed.toml"
+    probed.write_text((models / "two_disk_mac.toml").read_text() + PROBED)
     for name, *words in (
         ("bench", "bench", models / "jeffcott_stator.toml", "--methods", "dop853,rk4", "--tolerances", "1e-4,1e-6",
          "--discard", "2", "--revolutions", "2"),
         ("long", "simulate", models / "dropped_rotor.toml", "--discard", "0", "--revolutions", "128"),
         ("disks", "unbalance", models / "two_disk_mac.toml", "--speeds", "0:8000:400rpm"),
+        ("forces", "unbalance", probed, "--speeds", "0:8000:400rpm"),
+        ("probed", "simulate", probed, "--discard", "20", "--revolutions", "40"),
+        ("ups", "sweep", probed, "--over", "operation.speed=3000:4000:500rpm", "--discard", "20",
+         "--revolutions", "10", "--spectra", "8"),
         ("responses", "frf", models / "two_disk_mac.toml", "--from", "7:forward,7:x"),
         ("lateral", "lateral", models / "compressor.toml", "--minimum-speed", "4000rpm", "--cross-coupling", "5MN/m"),
         ("critical", "critical", models / "two_disk_mac.toml"),

@@ -1,0 +1,59 @@
+#include "libio/figures/sweep_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "libio/figures/probes.hpp"
+#include "libio/figures/result_of.hpp"
+
+namespace whirl::inline io::figures {
+
+SweepWayStyle way_style(const std::string& direction) {
+  if (direction == "down") return {"down", Paint::down};
+  if (direction == "fresh") return {"each from the model's start", Paint::up};
+  return {"up", Paint::up};
+}
+
+double number_of(const Mat& m, std::size_t row, std::size_t column) {
+  const auto i = static_cast<Eigen::Index>(row), j = static_cast<Eigen::Index>(column);
+  return i < m.rows() && j < m.cols() ? m(i, j) : std::nan("");
+}
+
+SweepView::SweepView(const ResultView& result)
+    : study(study_of<SweepResult>(result)),
+      axis(shown_axes(result, SweepResult::group).at(0)),
+      ways(result.file.strings(dataset_of<SweepResult>(&SweepResult::ways))),
+      stations(study.stations) {
+  for (const auto& p : study.points) {
+    if (p) sections = std::max(sections, static_cast<std::size_t>(p->portrait.poincare_x.cols()));
+  }
+}
+
+double SweepView::most(std::size_t i, double ContactDoing::*number) const {
+  double largest = std::nan("");
+  if (!point(i)) return largest;
+  for (const ContactDoing& c : point(i)->motion.contacts) {
+    if (std::isfinite(c.*number)) largest = std::fmax(largest, c.*number);
+  }
+  return largest;
+}
+
+DisplayUnit SweepView::unit(std::size_t station) const {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < study.points.size(); ++i) {
+    for (std::size_t j = 0; j < sections; ++j) {
+      if (std::isfinite(x(i, station, j))) largest = std::max(largest, std::abs(x(i, station, j)));
+    }
+  }
+  return unit_for(largest, "m");
+}
+
+std::vector<std::size_t> SweepView::drawn_probes(const ResultView& result) const {
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < study.probes.size(); ++i) {
+    if (is_drawn(result, study.probes[i])) drawn.push_back(i);
+  }
+  return drawn;
+}
+
+}  // namespace whirl::inline io::figures
