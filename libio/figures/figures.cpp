@@ -23,6 +23,7 @@
   critical_over_kind(),  \
   bode_kind(),           \
   polar_kind(),          \
+  forced_kind(),         \
   deflection_kind(),     \
   unbalance_over_kind(), \
   frf_kind(),            \

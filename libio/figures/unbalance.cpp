@@ -98,7 +98,9 @@ void add_notes(const Response& r, std::vector<Figure>& figures) {
   if (r.study.forced.empty()) return;
   for (Figure& f : figures) {
     f.notes.push_back(
-        "At the frequency of the speed; responses to forces of other frequencies are not drawn.");
+        "At the frequency of the speed; responses to forces of other frequencies are not drawn "
+        "here, "
+        "but as forced.");
   }
 }
 

@@ -210,6 +210,47 @@ angle = "60 deg"
   EXPECT_TRUE(has(told, "The same along the probes")) << told;
 }
 
+// Amplitude over phase of every force, along the probes and at the stations.
+TEST_F(ForceVerbs, ResponsesToTheOthersAreDrawn) {
+  write_rotor(twice + shaker + R"([[probe]]
+name = "1X"
+body = "rotor"
+angle = "60 deg"
+unit = "mil"
+)");
+  result({"unbalance", "rotor.toml", "--speeds", "300:900:300rpm", "--out", "u.h5"});
+  const ResultView view(folder / "u.h5");
+  std::vector<Figure> figures;
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.name == "forced") figures = figures_of(kind, view);
+  }
+  std::vector<std::string> variants;
+  for (const Figure& f : figures) variants.push_back(f.variant);
+  ASSERT_EQ(variants,
+            (std::vector<std::string>{"2x, probes", "2x, x", "12 Hz, probes", "12 Hz, x"}));
+  constexpr double mil = 25.4e-6, um = 1e-6, mm = 1e-3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double Omega = (300.0 + 300.0 * static_cast<double>(i)) * pi / 30.0, w = 24.0 * pi;
+    const double two = 2.0 * 3.0 * std::abs(receptance(2.0 * Omega)),
+                 own = 2.0 * 5.0 * std::abs(receptance(w));
+    const auto drawn = [&](std::size_t figure, std::size_t panel) {
+      return figures[figure].panels.at(panel).curves.at(0).y.at(i);
+    };
+    EXPECT_NEAR(drawn(0, 0) * mil, two * std::cos(pi / 3.0), rounding * two);
+    EXPECT_NEAR(drawn(1, 0) * um, two, rounding * two);
+    EXPECT_NEAR(drawn(2, 0) * mil, own, rounding * own);
+    EXPECT_NEAR(drawn(3, 0) * mm, own, rounding * own);
+    EXPECT_NEAR(drawn(3, 1), std::arg(receptance(w)) * 180.0 / pi, 1e-6);
+  }
+  EXPECT_EQ(figures[0].panels[0].y.title, "amplitude p-p [mil]");
+  EXPECT_EQ(figures[0].table.rows.at(0).at(0), "1X, 60°");
+  EXPECT_EQ(whirl({"plot", "u.h5", "forced", "--which", "12 Hz", "--out", "f.svg"}).status, 0);
+  EXPECT_TRUE(has(content(folder / "f.svg"), "Response to forces of 12 Hz along the probes"));
+  write("rotor.toml", jeffcott);
+  result({"unbalance", "rotor.toml", "--speeds", "300:900:300rpm", "--out", "u.h5"});
+  EXPECT_EQ(whirl({"plot", "u.h5", "forced"}).status, 2);
+}
+
 // A force of order 1/40 repeats after 40 revolutions, more than are searched; forces of 12 and 18 Hz
 // after 1/6 s, whatever the speed: in no whole number of revolutions at 730 rpm, in 10 at 600 rpm,
 // where one of 12 Hz alone takes 1/12 s.

@@ -105,6 +105,7 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"static", WHIRL_SOURCE_DIR "/models/two_disk_double_rub.toml"}, {"layout", "static"}},
       {{"unbalance", disks, "--speeds", "0:8000:100rpm"},
        {"layout", "bode", "polar", "deflection"}},
+      {{"unbalance", "shaken.toml", "--speeds", "300:900:300rpm"}, {"bode", "polar", "forced"}},
       {{"frf", disks}, {"layout", "frf"}},
       {{"lateral", disks, "--maximum-speed", "6000rpm"},
        {"layout", "lateral", "campbell", "log_decrement", "critical_map", "lateral_response",
@@ -120,6 +121,8 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"map", "rub.toml"}, {"layout", "map", "exponent_map", "regime_map"}},
       {{"basins", "rub.toml"}, {"layout", "basins"}},
       {{"bench", "rub.toml"}, {"layout", "work_precision"}}};
+  write("shaken.toml",
+        std::string(jeffcott) + "[[force]]\nbody = \"rotor\"\nforce = \"3 N\"\norder = 2\n");
   std::vector<std::string> drawn;
   for (const auto& [words, expected] : cases) {
     SCOPED_TRACE(words[0]);
