@@ -87,9 +87,33 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
   return figures;
 }
 
+/// The mean position, where it is farther from the axis than the motion goes from it, such as the sag
+/// of a heavy rotor; else the axis. Seen from the rotor it is a circle beside which nothing is seen.
+Complex leading_middle(const StationMotion& of, const MotionSamples& shown) {
+  const Vec x = of.x.segment(shown.first, shown.size()),
+            y = of.y.segment(shown.first, shown.size());
+  const Complex mean(x.mean(), y.mean());
+  const Vec away = ((x.array() - mean.real()).square() + (y.array() - mean.imag()).square()).sqrt();
+  return std::abs(mean) > away.maxCoeff() ? mean : Complex();
+}
+
+/// Says that a mean position is left out.
+std::string about_middle_note(const Complex& middle, const DisplayUnit& unit) {
+  constexpr double nothing = 1e-4;  // beside the other part
+  const auto shown = [&](double part) {
+    return std::abs(part) < nothing * std::abs(middle) ? 0.0 : unit.factor * part;
+  };
+  return with_minus(
+      fmt::format("Seen from the rotor without the mean position, {:.4g} and {:.4g} {} along x and "
+                  "y, which turns there once a revolution.",
+                  shown(middle.real()), shown(middle.imag()), unit.name));
+}
+
 /// A path, in the frame that stands or in the one that turns with the rotor, and how it ends.
+/// @param middle  that is left out of it [m]
 std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown,
-                                const StationMotion& of, double factor, bool is_rotating) {
+                                const StationMotion& of, double factor, bool is_rotating,
+                                const Complex& middle) {
   Curve c{.name = "orbit", .paint = is_rotating ? series_paint(2) : Paint::forward};
   c.width = 1.0;
   c.along_title = "time";
@@ -98,8 +122,8 @@ std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown,
   dots.size = 4.5;
   dots.along_title = "time";
   for (Eigen::Index j = shown.first; j <= shown.last; ++j) {
-    const Complex q =
-        Complex(of.x(j), of.y(j)) * (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
+    const Complex q = (Complex(of.x(j), of.y(j)) - middle) *
+                      (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
     c.x.push_back(factor * q.real());
     c.y.push_back(factor * q.imag());
     c.along.push_back(m.time(j));
@@ -159,27 +183,33 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
     const std::vector<Probe> probes = probes_at(result, m.stations[i]);
     const DisplayUnit unit = probes.empty() ? unit_for(size, "m") : unit_of(probes.front());
     const int contact = contact_at(result, m.stations[i]);
+    f.notes = m.notes(drawn_orbits);
     for (const bool is_rotating : {false, true}) {
       if (is_rotating && !m.spins) break;
+      const Complex middle = is_rotating ? leading_middle(s, shown) : Complex();
+      const bool is_about_middle = std::abs(middle) > 0.0;
       Panel p;
       p.title = is_rotating ? "seen from the rotor" : "seen from the ground";
       p.has_equal_scales = true;
       p.x.title = with_unit(is_rotating ? "ξ" : "x", unit);
       p.y.title = with_unit(is_rotating ? "η" : "y", unit);
-      if (contact >= 0) {
+      if (is_about_middle) {
+        p.title += ", about the mean position";
+        f.notes.push_back(about_middle_note(middle, unit));
+      }
+      if (contact >= 0 && !is_about_middle) {
         const Contact& at = result.model->contacts[static_cast<std::size_t>(contact)];
         if (auto around = clearance_curve(at, size, unit.factor, is_rotating)) {
           p.curves.push_back(std::move(*around));
         }
       }
-      for (Curve& c : orbit_curves(m, shown, s, unit.factor, is_rotating)) {
+      for (Curve& c : orbit_curves(m, shown, s, unit.factor, is_rotating, middle)) {
         p.curves.push_back(std::move(c));
       }
       if (!is_rotating) add_probes(probes, size, unit.factor, p);
       f.panels.push_back(std::move(p));
     }
     if (f.panels.size() == 1) f.width = 540.0, f.columns = 1;
-    f.notes = m.notes(drawn_orbits);
     figures.push_back(std::move(f));
   }
   return figures;

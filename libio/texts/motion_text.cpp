@@ -23,6 +23,20 @@ std::string peaks_text(const std::vector<FrequencyPeak>& peaks) {
   return text.empty() ? "-" : text;
 }
 
+/// Those seen from the rotor, without what stands still beside it, such as the sag, which turns
+/// backward there as fast as the rotor: said behind.
+/// @param Omega  speed of the rotor [rad/s]
+std::string rotating_text(const StationSummary& station, double Omega) {
+  std::vector<FrequencyPeak> moving = station.peaks_rotating;
+  const auto rest = std::find_if(moving.begin(), moving.end(),
+                                 [&](const FrequencyPeak& p) { return p.frequency == -Omega; });
+  if (rest == moving.end() || Omega == 0.0) return peaks_text(moving);
+  const std::string mean = fmt::format("; mean position {:+.1f} ({})", rest->frequency / rpm,
+                                       format_length(rest->amplitude));
+  moving.erase(rest);
+  return peaks_text(moving) + mean;
+}
+
 }  // namespace
 
 std::string contacts_table(const std::vector<ContactMeasure>& contacts, long revolutions) {
@@ -76,13 +90,14 @@ std::string text_of(const Run& run, const Model& model, const RunSummary& summar
   const std::vector<ContactMeasure>& contacts = run.simulation.recording.contacts;
   if (!contacts.empty()) text += "\n" + contacts_table(contacts, summary.revolutions);
   return text + "\n" +
-         table_of(stations,
-                  {{"station", [](const StationSummary& s) { return s.label; }},
-                   shown("max_radius").as("largest radius"),
-                   {"strongest frequencies [rpm] (radius)",
-                    [](const StationSummary& s) { return peaks_text(s.peaks); }},
-                   {"seen from the rotor [rpm]",
-                    [](const StationSummary& s) { return peaks_text(s.peaks_rotating); }}}) +
+         table_of(stations, {{"station", [](const StationSummary& s) { return s.label; }},
+                             shown("max_radius").as("largest radius"),
+                             {"strongest frequencies [rpm] (radius)",
+                              [](const StationSummary& s) { return peaks_text(s.peaks); }},
+                             {"seen from the rotor [rpm]",
+                              [&](const StationSummary& s) {
+                                return rotating_text(s, run.scene.system.Omega);
+                              }}}) +
          text_of(summary.probes);
 }
 

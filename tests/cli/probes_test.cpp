@@ -317,5 +317,35 @@ TEST_F(Probes, AreNotInStudiesOfModelsWithoutThem) {
   EXPECT_EQ(variants("bifurcation", "s.h5"), std::vector<std::string>{"rotor"});
 }
 
+// The sag of 0.98 mm is no motion; seen from the rotor it would be a circle beside which the orbit of
+// 0.06 mm, which stands still there, is not seen.
+TEST_F(Probes, SagIsLeftOutOfWhatTurnsWithTheRotor) {
+  simulate("32");
+  const json r = result(
+      {"simulate", "rotor.toml", "--speed", "60rad/s", "--discard", "1000", "--revolutions", "32"});
+  const json& strongest = r["stations"][0]["peaks_rotating"][0];
+  EXPECT_NEAR(strongest["frequency_rpm"].get<double>(), -60.0 / rpm, 1e-9);
+  EXPECT_NEAR(strongest["amplitude_m"].get<double>(), 9.81 / (omega * omega), 1e-9);
+  const std::string text = whirl({"simulate", "rotor.toml", "--speed", "60rad/s", "--discard",
+                                  "1000", "--revolutions", "32"})
+                               .out;
+  EXPECT_TRUE(has(text, "mean position -573.0 (981")) << text;
+  const Figure f = figures("orbit", ResultView(folder / "run.h5")).at(0);
+  const Panel& panel = f.panels.at(1);
+  EXPECT_EQ(panel.title, "seen from the rotor, about the mean position");
+  EXPECT_TRUE(has(f.notes.back(), "without the mean position")) << f.notes.back();
+  // it stands still there: a point at |x + i y|, lagging
+  constexpr double of_rest = 1e-2;
+  const double scale = 1.0 / 25.4e-6;
+  const std::complex<double> place = scale * circle(60.0);
+  for (const Curve& c : panel.curves) {
+    if (c.name != "orbit") continue;
+    for (std::size_t i = 0; i < c.x.size(); ++i) {
+      EXPECT_NEAR(c.x[i], place.real(), of_rest * std::abs(place));
+      EXPECT_NEAR(c.y[i], place.imag(), of_rest * std::abs(place));
+    }
+  }
+}
+
 }  // namespace probes_test
 }  // namespace whirl::test
