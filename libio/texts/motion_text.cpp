@@ -23,18 +23,26 @@ std::string peaks_text(const std::vector<FrequencyPeak>& peaks) {
   return text.empty() ? "-" : text;
 }
 
-/// Those seen from the rotor, without what stands still beside it, such as the sag, which turns
-/// backward there as fast as the rotor: said behind.
+/// What stands still beside the rotor, such as the sag: seen from the rotor it turns backward as fast
+/// as that.
 /// @param Omega  speed of the rotor [rad/s]
+bool stands_still(const FrequencyPeak& peak, double Omega) {
+  return Omega != 0.0 && peak.frequency == -Omega;
+}
+
+/// The strongest peaks seen from the rotor, without the mean position.
 std::string rotating_text(const StationSummary& station, double Omega) {
   std::vector<FrequencyPeak> moving = station.peaks_rotating;
-  const auto rest = std::find_if(moving.begin(), moving.end(),
-                                 [&](const FrequencyPeak& p) { return p.frequency == -Omega; });
-  if (rest == moving.end() || Omega == 0.0) return peaks_text(moving);
-  const std::string mean = fmt::format("; mean position {:+.1f} ({})", rest->frequency / rpm,
-                                       format_length(rest->amplitude));
-  moving.erase(rest);
-  return peaks_text(moving) + mean;
+  std::erase_if(moving, [&](const FrequencyPeak& p) { return stands_still(p, Omega); });
+  return peaks_text(moving);
+}
+
+/// How far the mean position is from the axis.
+std::string mean_text(const StationSummary& station, double Omega) {
+  for (const FrequencyPeak& p : station.peaks_rotating) {
+    if (stands_still(p, Omega)) return format_length(p.amplitude);
+  }
+  return "-";
 }
 
 }  // namespace
@@ -89,15 +97,16 @@ std::string text_of(const Run& run, const Model& model, const RunSummary& summar
   if (!run.has_motion()) return text;
   const std::vector<ContactMeasure>& contacts = run.simulation.recording.contacts;
   if (!contacts.empty()) text += "\n" + contacts_table(contacts, summary.revolutions);
+  const double Omega = run.scene.system.Omega;
   return text + "\n" +
-         table_of(stations, {{"station", [](const StationSummary& s) { return s.label; }},
-                             shown("max_radius").as("largest radius"),
-                             {"strongest frequencies [rpm] (radius)",
-                              [](const StationSummary& s) { return peaks_text(s.peaks); }},
-                             {"seen from the rotor [rpm]",
-                              [&](const StationSummary& s) {
-                                return rotating_text(s, run.scene.system.Omega);
-                              }}}) +
+         table_of(stations,
+                  {{"station", [](const StationSummary& s) { return s.label; }},
+                   shown("max_radius").as("largest radius"),
+                   {"mean position", [=](const StationSummary& s) { return mean_text(s, Omega); }},
+                   {"strongest frequencies [rpm] (radius)",
+                    [](const StationSummary& s) { return peaks_text(s.peaks); }},
+                   {"seen from the rotor [rpm]",
+                    [=](const StationSummary& s) { return rotating_text(s, Omega); }}}) +
          text_of(summary.probes);
 }
 
