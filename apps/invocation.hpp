@@ -30,7 +30,7 @@ struct ModelOptions {
 struct OutputOptions {
   Option<std::string> out{"out", "FILE.h5", "result file (HDF5)"};
   Option<std::string> json{"json", "FILE", "write the result as JSON; - is standard output"};
-  Option<long> threads{"threads", "N", "processors to use at most; left out: all"};
+  Option<long> threads{"threads", "N", "processors to use at most; left out: all that it may use"};
   Flag force{"force", "replace files that whirl did not write, too"};
   Flag quiet{"quiet", "print nothing but errors"};
   auto fields() { return std::tie(out, json, threads, force, quiet); }

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <thread>
-
 #include "apps/program.hpp"
+#include "libbase/processors.hpp"
 #include "libio/texts/study_text.hpp"
 
 namespace whirl::inline cli {
@@ -27,8 +25,7 @@ ClassifyOptions study_classify(const StudyVerbOptions& options) {
 }
 
 int study_threads(const Invocation& call) {
-  const long processors = std::max(1u, std::thread::hardware_concurrency());
-  return static_cast<int>(call.output.threads.value_or(processors));
+  return static_cast<int>(call.output.threads.value_or(usable_processors()));
 }
 
 StudyKeeping study_keeping(const Invocation& call, const Model& model,

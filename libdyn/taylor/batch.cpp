@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "libbase/processors.hpp"
 #include "libdyn/taylor/instruction_sets.hpp"
 #include "libdyn/taylor/pack_engines.hpp"
 #undef HWY_TARGET_INCLUDE
@@ -35,9 +36,8 @@ int order_for(double tolerance) {
 
 void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& options) {
   const Pattern pattern = pattern_of(trajectories);
-  const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
-  const std::size_t wanted =
-      options.threads > 0 ? static_cast<std::size_t>(options.threads) : processors;
+  const auto wanted =
+      static_cast<std::size_t>(options.threads > 0 ? options.threads : usable_processors());
   const std::size_t chunks = std::clamp<std::size_t>(trajectories.size(), 1, wanted);
   const bool has_tangents = options.exponents || options.tangent;
   const auto run = has_tangents ? run_one_pack : run_two_packs;

@@ -39,7 +39,7 @@ struct BatchOptions {
   double tolerance = 1e-10;  ///< of a step, displacements by the length scale
   double fixed_step = 0.0;   ///< [s]; not 0: no error control, steps of this size between events
   int order = 0;    ///< of the series, 8 to 20, of integrate_quad to 30; 0: by the tolerance
-  int threads = 0;  ///< 0: one per processor
+  int threads = 0;  ///< 0: one per processor that this process may use
   bool sections = false;
   bool measures = false;
   /// All 2 n Lyapunov exponents; their tangents start as the unit vectors. Sticking takes a direction
