@@ -59,6 +59,15 @@ std::optional<Shape> shape_of(const Scene& scene, const Modes& modes, double fre
   return Shape{y.real(), y.imag()};
 }
 
+/// A flow that fails from when it is asked to stop.
+AutonomousFlow until(const std::function<bool()>& stops, AutonomousFlow flow) {
+  flow.go = [stops, go = std::move(flow.go)](const Vec& y, double time, WithTangent wanted) {
+    if (!stops()) return go(y, time, wanted);
+    return AutonomousFlow::Result{{}, {}, {}, "stopped"};
+  };
+  return flow;
+}
+
 }  // namespace
 
 std::array<int, 2> strongest_lines(const Scene& scene, const AutonomousFlow& flow,
@@ -101,11 +110,14 @@ std::optional<Bouncing> find_bouncing(
     const std::function<std::shared_ptr<const Scene>(double speed)>& scene_at,
     const Campbell& diagram, const InternalResonance& resonance, const BouncingOptions& options) {
   std::mt19937_64 random(options.seed);
+  const auto stops = [&options] { return options.is_stopped && options.is_stopped(); };
+  const auto watch = [&](long) { return !stops(); };
   for (double above = 0.0; above < options.most + 0.5 * options.step; above += options.step) {
+    if (stops()) return std::nullopt;
     const double speed = (1.0 + above) * resonance.speed;
     const std::shared_ptr<const Scene> scene = scene_at(speed);
     if (scene->contacts.contacts().empty()) return std::nullopt;
-    const AutonomousFlow flow = rotating_flow(scene);
+    const AutonomousFlow flow = until(stops, rotating_flow(scene));
     const Modes modes = complex_modes(scene->system, static_cast<int>(diagram.branches.size()) + 4);
     const auto branch = [&](int number) {
       return shape_of(*scene, modes, frequency_at(diagram, number, speed),
@@ -124,12 +136,13 @@ std::optional<Bouncing> find_bouncing(
       }
       motions.push_back(std::move(t));
     }
-    integrate_batch(motions, {.tolerance = 1e-8, .threads = 1});
+    integrate_batch(motions, {.tolerance = 1e-8, .threads = 1, .watch = watch});
+    if (stops()) return std::nullopt;
     std::erase_if(motions, [](const Trajectory& t) { return t.outcome != Outcome::reached_end; });
     for (Trajectory& t : motions) {
       t.revolutions = watched;
     }
-    integrate_batch(motions, {.tolerance = 1e-8, .threads = 1, .measures = true});
+    integrate_batch(motions, {.tolerance = 1e-8, .threads = 1, .measures = true, .watch = watch});
     std::optional<Bouncing> found;
     int tried = 0;
     for (const Trajectory& t : motions) {

@@ -19,6 +19,8 @@ struct BouncingOptions {
   double most = 0.08;      ///< of the resonance's speed, up to which speeds above it are tried
   double step = 0.005;     ///< likewise, between them
   std::uint64_t seed = 1;  ///< of amplitudes and phases
+  /// Asked often; true: nothing more is found. May be empty.
+  std::function<bool()> is_stopped{};
 };
 
 /// A motion that closes seen from the rotor, with two lines above all others.
@@ -47,7 +49,8 @@ std::array<int, 2> strongest_lines(const Scene& scene, const AutonomousFlow& flo
 ///
 /// @param scene_at  at a speed [rad/s]
 /// @param diagram   that the resonance is of
-/// @return  that of the lowest speed, the first stable one there; nothing if there is none
+/// @return  that of the lowest speed, the first stable one there; nothing if there is none, or if it
+///          was stopped before
 /// @throws NumericalError  as rotating_flow
 std::optional<Bouncing> find_bouncing(
     const std::function<std::shared_ptr<const Scene>(double speed)>& scene_at,

@@ -22,13 +22,24 @@ bool is_same(const PeriodicOrbit& a, const PeriodicOrbit& b, const Vec& scale) {
   });
 }
 
-/// The orbit near a random start; nothing: there is none.
-std::optional<PeriodicOrbit> orbit_near(const Scene& scene, const Flow& flow,
-                                        const MotionState& start,
-                                        const OrbitSearchOptions& options) {
-  Trajectory t{.system = &scene.contacts, .state = start, .revolutions = options.discard};
-  t.revolutions += until_forces_repeat(scene.contacts, start.revolution + options.discard);
-  if (t.revolutions > 0) integrate_single(t, {.tolerance = start_tolerance});
+/// A flow that fails from when it is asked to stop.
+Flow until(const std::function<bool()>& stops, Flow flow) {
+  flow.go = [stops, go = std::move(flow.go)](std::span<const Vec> starts, long revolutions,
+                                             WithTangent wanted) {
+    if (!stops()) return go(starts, revolutions, wanted);
+    return std::vector<FlowResult>(starts.size(), FlowResult{{}, {}, {}, "stopped"});
+  };
+  return flow;
+}
+
+/// The orbit near where a motion gets; nothing: there is none, or it was stopped.
+std::optional<PeriodicOrbit> orbit_near(const Flow& flow, Trajectory t,
+                                        const OrbitSearchOptions& options,
+                                        const std::function<bool()>& stops) {
+  t.revolutions += until_forces_repeat(*t.system, t.state.revolution + t.revolutions);
+  if (t.revolutions > 0) {
+    integrate_single(t, {.tolerance = start_tolerance, .watch = [&](long) { return !stops(); }});
+  }
   if (t.outcome != Outcome::reached_end) return std::nullopt;
   PeriodicOrbit orbit = find_orbit(flow, t.state.y, {.period = options.period});
   if (!orbit.is_good()) return std::nullopt;
@@ -49,14 +60,18 @@ std::vector<ContactShare> SearchedOrbit::contact_shares() const {
 
 OrbitSearch search_orbits(const Scene& scene, const MotionState& around,
                           const OrbitSearchOptions& options, const Monitor<OrbitSearch>& monitor) {
-  const Flow flow = flow_of(scene.contacts);
+  const auto stops = [&monitor] { return monitor.stops(); };
+  const Flow flow = until(stops, flow_of(scene.contacts));
   OrbitSearch search;
   std::vector<SearchedOrbit>& all = search.orbits;
-  for (; search.done < options.starts && !monitor.stops(); ++search.done) {
+  for (; search.done < options.starts && !stops(); ++search.done) {
     monitor.show(search.done, options.starts);
-    const MotionState start = random_start(scene.contacts, around, options.size, options.seed,
-                                           static_cast<std::uint64_t>(search.done));
-    auto orbit = orbit_near(scene, flow, start, options);
+    const Trajectory begun{.system = &scene.contacts,
+                           .state = random_start(scene.contacts, around, options.size, options.seed,
+                                                 static_cast<std::uint64_t>(search.done)),
+                           .revolutions = options.discard};
+    auto orbit = orbit_near(flow, begun, options, stops);
+    if (!orbit && stops()) break;
     if (!orbit) {
       ++search.failed;
       continue;

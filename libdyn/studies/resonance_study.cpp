@@ -61,7 +61,7 @@ ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
                        .is_confirmed = options.confirms};
   const ModeFinder finder(assembler);
   for (const InternalResonance& r : internal_resonances(study.diagram, options.largest)) {
-    ResonancePlace place{r, {}, {}, options.confirms};
+    ResonancePlace place{r, {}, {}};
     const Modes modes = finder.at(r.speed, options.modes + 2);
     const System system = finder.system(r.speed);
     const auto nearest = [&](int branch, double seen) {
@@ -77,13 +77,16 @@ ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
     study.places.push_back(std::move(place));
   }
   if (!options.confirms) return study;
+  BouncingOptions search = options.search;
+  search.is_stopped = monitor.is_stopped;
   long done = 0;
   for (ResonancePlace& place : study.places) {
     place.bouncing = find_bouncing([&](double speed) { return scene_at_speed(model, speed); },
-                                   study.diagram, place, options.search);
-    monitor.show(++done, std::ssize(study.places));
+                                   study.diagram, place, search);
     study.is_whole = !monitor.stops();
+    place.is_confirmed = study.is_whole || place.bouncing;
     if (!study.is_whole) break;
+    monitor.show(++done, std::ssize(study.places));
   }
   return study;
 }

@@ -38,7 +38,7 @@ struct ContactOrbits {
 struct ResonancePlace : InternalResonance {
   std::vector<ContactOrbits> contacts;
   std::optional<Bouncing> bouncing;
-  bool is_confirmed = false;  ///< it was looked for
+  bool is_confirmed = false;  ///< it was looked for, to the end
 
   double bouncing_speed() const;   ///< NaN: none was found, or looked for [rad/s]
   double bouncing_period() const;  ///< likewise [revolutions]

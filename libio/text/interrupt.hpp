@@ -1,11 +1,13 @@
 #pragma once
-/// Ctrl-C.
+/// Ctrl-C, and the signals by which schedulers end a job.
 
 namespace whirl::inline io {
 
-/// From now on the first Ctrl-C asks to stop, and the second one ends the program as usual.
+/// From now on the first Ctrl-C (SIGINT) asks to stop, and the second one ends the program as usual;
+/// SIGTERM and SIGUSR1 ask likewise, however often they come, as a scheduler may send them to every
+/// process and again by the program that started these.
 void install_interrupt_handler();
-/// Whether it did; long work looks at it and stops with what it has.
+/// Whether one of them did; long work looks at it and stops with what it has.
 bool is_interrupted();
 
 }  // namespace whirl::inline io

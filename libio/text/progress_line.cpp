@@ -22,11 +22,23 @@ std::string clock_text(double s) {
 
 }  // namespace
 
-ProgressLine::ProgressLine(std::string what, long total, bool shows)
+std::string progress_text(long done, long total, double elapsed) {
+  const double rate = elapsed > 0.0 ? static_cast<double>(done) / elapsed : 0.0;
+  std::string text = fmt::format("{} of {}, ", done, total) +
+                     (rate < 9.95 ? fmt::format("{:.2g}/s", rate) : fmt::format("{:.0f}/s", rate));
+  if (rate > 0.0)
+    text += fmt::format(", {} left", clock_text(static_cast<double>(total - done) / rate));
+  return text;
+}
+
+ProgressLine::ProgressLine(std::string what, long total, bool shows, double period)
     : what_(std::move(what)),
       total_(total),
-      shows_(shows && isatty(STDERR_FILENO) != 0),
-      begin_(seconds()) {}
+      shows_(shows),
+      is_terminal_(isatty(STDERR_FILENO) != 0),
+      period_(period),
+      begin_(seconds()),
+      last_(begin_) {}
 
 ProgressLine::~ProgressLine() {
   if (has_drawn_) std::fputs("\r\033[K", stderr);
@@ -34,19 +46,25 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::update(long done) {
   if (!shows_) return;
-  const double now = seconds();
-  if (now - last_ < 0.1 || now - begin_ < 0.5) return;
+  const double now = seconds(), elapsed = now - begin_;
+  if (is_terminal_ ? now - last_ < 0.1 || elapsed < 0.5 : now - last_ < period_) return;
   last_ = now;
+  if (is_terminal_) {
+    redraw(done, elapsed);
+  } else {
+    fmt::print(stderr, "{}: {}\n", what_, progress_text(done, total_, elapsed));
+  }
+  std::fflush(stderr);
+}
+
+void ProgressLine::redraw(long done, double elapsed) {
   has_drawn_ = true;
   constexpr int width = 30;
   const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 0.0;
   std::string bar;
   for (int i = 0; i < width; ++i) bar += i < share * width ? "━" : "╌";
-  const double elapsed = now - begin_;
-  const double left = done > 0 ? elapsed * (1.0 / share - 1.0) : 0.0;
-  fmt::print(stderr, "\r{} {} {:3.0f} %  {} of {}, {:.0f}/s, {} left\033[K", what_, bar,
-             100.0 * share, done, total_, static_cast<double>(done) / elapsed, clock_text(left));
-  std::fflush(stderr);
+  fmt::print(stderr, "\r{} {} {:3.0f} %  {}\033[K", what_, bar, 100.0 * share,
+             progress_text(done, total_, elapsed));
 }
 
 }  // namespace whirl::inline io

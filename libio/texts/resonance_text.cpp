@@ -21,6 +21,7 @@ std::string sizes_text(const ResonancePlace& place) {
 
 std::string bouncing_text(const ResonancePlace& place) {
   const std::optional<Bouncing>& b = place.bouncing;
+  if (!place.is_confirmed) return "not looked for";
   if (!b) return "none found";
   return fmt::format("{} at {:.1f} rpm, {:.4f} revolutions", b->is_stable() ? "stable" : "unstable",
                      b->speed / rpm, b->turns);

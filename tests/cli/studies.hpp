@@ -94,17 +94,40 @@ class Studies : public Program {
     for (const std::string& name : files()) EXPECT_FALSE(has(name, ".tmp.")) << name;
   }
 
-  /// A study that Ctrl-C meets as soon as it has saved something.
-  Outcome interrupted(const std::vector<std::string>& words) const {
+  /// A study that signals meet, one after the other, as soon as it has saved something.
+  Outcome interrupted(const std::vector<std::string>& words,
+                      const std::vector<int>& signals = {SIGINT}) const {
     const std::filesystem::path saved = folder / words.back();
+    const auto written = [&saved] {
+      std::error_code none;
+      const auto time = std::filesystem::last_write_time(saved, none);
+      return none ? std::filesystem::file_time_type::min() : time;
+    };
+    const auto before = written();
     const pid_t child = start(WHIRL_PROGRAM, words);
     siginfo_t ended{};
-    while (!std::filesystem::exists(saved) && ended.si_pid == 0) {
+    while (written() == before && ended.si_pid == 0) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
     }
-    ::kill(child, SIGINT);
+    for (const int signal : signals) {
+      ::kill(child, signal);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     return wait(child);
+  }
+
+  /// Waits until a program takes a signal itself, which Linux tells.
+  static void wait_for_handler(pid_t child, int signal) {
+    for (int i = 0; i < 6000; ++i) {
+      std::ifstream status("/proc/" + std::to_string(child) + "/status");
+      for (std::string line; std::getline(status, line);) {
+        if (!line.starts_with("SigCgt:")) continue;
+        if (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) return;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ADD_FAILURE() << "nothing takes signal " << signal;
   }
 };
 

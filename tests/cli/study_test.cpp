@@ -334,6 +334,63 @@ TEST_F(Study, AFewPointsAreKeptOnCtrlCToo) {
   expect_same("whole.h5", "map.h5", "/map");
 }
 
+// A scheduler warns by SIGUSR1 or SIGTERM, and may do so several times over: to the job's script, to
+// each of its processes, and by mpirun once more.
+TEST_F(Study, StopsOnTheSignalsOfSchedulersAndGoesOn) {
+  std::vector<std::string> words{"map",           stator,
+                                 "--over",        "operation.speed=130:160:0.5rad/s",
+                                 "--over",        "contact.ring.friction=0:0.3:0.02",
+                                 "--threads",     "1",
+                                 "--revolutions", "200",
+                                 "--exponents",   "200",
+                                 "--out",         "map.h5"};
+  constexpr double patience = 10.0;  // [s], on a busy machine; 5 are promised
+  for (const std::vector<int>& signals :
+       {std::vector{SIGTERM}, std::vector{SIGUSR1}, std::vector{SIGUSR1, SIGTERM, SIGTERM}}) {
+    const auto begin = std::chrono::steady_clock::now();
+    const Outcome stopped = interrupted(words, signals);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(stopped.status, 130) << signals[0] << ' ' << stopped.err;
+    EXPECT_EQ(stopped.err, "");
+    EXPECT_TRUE(has(stopped.out, "the same line goes on from there")) << stopped.out;
+    EXPECT_LT(taken.count(), patience);
+    EXPECT_EQ(ResultReader(folder / "map.h5").number_attribute("/map", "complete"), 0.0);
+    EXPECT_EQ(files(), (std::vector<std::string>{"map.h5", "rub.toml"}));
+  }
+  EXPECT_GT(result(words)["resumed"], 0);
+  words.back() = "whole.h5";
+  ASSERT_EQ(whirl(words).status, 0);
+  expect_same("whole.h5", "map.h5", "/map");
+}
+
+// Searches that would take hours: a single start, or the motions at a single speed.
+TEST_F(Study, SearchesStopOnTheSignalsOfSchedulers) {
+  constexpr double patience = 10.0;  // [s], on a busy machine; 5 are promised
+  const auto stopped = [&](const std::vector<std::string>& words) {
+    const pid_t child = start(WHIRL_PROGRAM, words);
+    wait_for_handler(child, SIGTERM);
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const auto begin = std::chrono::steady_clock::now();
+    ::kill(child, SIGTERM);
+    const Outcome outcome = wait(child);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(taken.count(), patience) << words[0];
+    EXPECT_EQ(outcome.status, 130) << words[0] << ' ' << outcome.err;
+    return json::parse(content(folder / "stopped.json"));
+  };
+  const json search = stopped(
+      {"orbit", stator, "--starts", "3", "--discard", "900000000", "--json", "stopped.json"});
+  EXPECT_EQ(search["starts"], 0);
+  EXPECT_EQ(search["without_orbit"], 0);
+  const json bouncing =
+      stopped({"resonances", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--speeds",
+               "4200:4350:10rpm", "--modes", "2", "--confirm", "--starts", "200000", "--json",
+               "stopped.json", "--out", "resonances.h5"});
+  ASSERT_EQ(bouncing["resonances"].size(), 1u);
+  EXPECT_FALSE(bouncing["resonances"][0].contains("bouncing"));  // it is not known
+  EXPECT_EQ(ResultReader(folder / "resonances.h5").vector("/resonances/speed").size(), 1);
+}
+
 // A study that goes on takes its motions from where they began at first, or not at all.
 TEST_F(Study, RefusesToGoOnFromAnotherStart) {
   const auto make_start = [&](const std::string& revolutions) {

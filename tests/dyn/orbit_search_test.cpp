@@ -35,10 +35,28 @@ TEST(OrbitSearch, FindsUnstableOrbitsOnce) {
     EXPECT_LE(all.orbits[i].starts, all.orbits[i - 1].starts);
   }
   // stopped it has what the first starts led to
-  long asked = 0;
-  const OrbitSearch part =
-      search_orbits(scene, around, options, {.is_stopped = [&] { return asked++ >= 5; }});
+  long begun = 0;
+  const OrbitSearch part = search_orbits(scene, around, options,
+                                         {.progress = [&](long done, long) { begun = done; },
+                                          .is_stopped = [&] { return begun == 5; }});
   EXPECT_EQ(part.done, 5);
+}
+
+// A start that would take days on its way, and Newton's method behind it, are left when they are asked
+// to stop; the start does not count, neither as one with an orbit nor as one without.
+TEST(OrbitSearch, StopsWithinAStart) {
+  const test::RotorStator rotor{.Omega = 138.4, .kC = 64e6, .mu = 0.11};
+  const Scene scene = rotor.scene();
+  const MotionState around = start_state(rotor.model(), scene, nullptr);
+  for (const long discard : {1'000'000'000L, 0L}) {
+    long asked = 0;
+    const OrbitSearch none =
+        search_orbits(scene, around, {.starts = 40, .discard = discard, .size = 1.0},
+                      {.is_stopped = [&] { return ++asked > 3; }});
+    EXPECT_EQ(none.done, 0) << discard;
+    EXPECT_EQ(none.failed, 0) << discard;
+    EXPECT_TRUE(none.orbits.empty()) << discard;
+  }
 }
 
 // In permanent contact the forces are smooth: both methods find one orbit, with its multipliers.
