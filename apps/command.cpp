@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <new>
 
+#include "apps/arithmetic.hpp"
 #include "apps/program.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/bare_speed.hpp"
@@ -76,6 +77,7 @@ int print(Report report, const Invocation& call, const std::vector<BareSpeed>& b
 int execute(const Verb& verb, CommandLine& line) {
   Invocation& call = line.call;
   call.output = read_options<OutputOptions>(call.given);
+  adopt_arithmetic(call.text("isa"));
   require_free_places(call.files());
   const std::vector<BareSpeed> bare = bare_speeds(speed_options(line));
   if (!call.output.quiet) {

@@ -21,9 +21,10 @@ struct BenchVerbOptions {
       "integrators, as of simulate --method; left out: all that suit the model"};
   Option<std::string> tolerances{"tolerances", "T,...", "of their steps",
                                  "1e-4,1e-6,1e-8,1e-10,1e-12"};
+  Option<std::string> isa = isa_option();
   Option<std::string> from = from_option();
   Option<std::string> svg{"svg", "FILE", "picture of time over error, both logarithmic"};
-  auto fields() { return std::tie(revolutions, discard, methods, tolerances, from, svg); }
+  auto fields() { return std::tie(revolutions, discard, methods, tolerances, isa, from, svg); }
 };
 
 WorkPrecisionOptions bench_options(const BenchVerbOptions& asked) {

@@ -13,8 +13,9 @@ struct ClassifyVerbOptions {
                            "revolutions over which Lyapunov exponents are averaged", 1000};
   Option<long> discard = discard_option();
   Option<double> tolerance = tolerance_option();
+  Option<std::string> isa = isa_option();
   Option<std::string> from = from_option();
-  auto fields() { return std::tie(revolutions, discard, tolerance, from); }
+  auto fields() { return std::tie(revolutions, discard, tolerance, isa, from); }
 };
 
 ClassifyOptions classify_options(const Invocation& call, const ClassifyVerbOptions& asked) {

@@ -21,6 +21,10 @@ inline Option<double> tolerance_option() {
 inline Option<std::string> from_option() {
   return {"from", "FILE.h5", "start where a result ended"};
 }
+inline Option<std::string> isa_option() {
+  return {"isa", "NAME",
+          "instruction set of the integrator, such as avx2 or baseline; left out: the best one"};
+}
 inline Option<std::uint64_t> seed_option() {
   return {"seed", "S", "of the random starts", 1};
 }

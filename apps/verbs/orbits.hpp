@@ -17,7 +17,8 @@ struct SettledVerbOptions {
   Option<long> discard{"discard", "N", "revolutions before it, for the transient; with --from none",
                        500, Whole{0}};
   Option<double> tolerance = tolerance_option();
-  auto fields() { return std::tie(discard, tolerance); }
+  Option<std::string> isa = isa_option();
+  auto fields() { return std::tie(discard, tolerance, isa); }
 };
 
 /// How orbits are found, of orbit and continue.

@@ -20,7 +20,8 @@ struct ResonancesVerbOptions {
   Flag confirm{"confirm", "look for bouncing motions near each of them"};
   Option<int> starts{"starts", "N", "of them at every speed that is tried", 16};
   Option<std::uint64_t> seed = seed_option();
-  auto fields() { return std::tie(modes, speeds, largest, confirm, starts, seed); }
+  Option<std::string> isa = isa_option();
+  auto fields() { return std::tie(modes, speeds, largest, confirm, starts, seed, isa); }
 };
 
 ResonanceOptions resonance_options(const ResonancesVerbOptions& asked, const Model& model) {

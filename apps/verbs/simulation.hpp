@@ -29,12 +29,13 @@ struct IntegrationVerbOptions {
         return name.empty() ? Parsed(name) : parse_method(name, method_names());
       }};
   Option<double> tolerance = tolerance_option();
+  Option<std::string> isa = isa_option();
   Option<std::string> from = from_option();
   Option<std::string> stations{
       "stations", "NAME,...",
       "what is recorded and shown: names, node numbers, all; left out: contacts, disks, bearings"};
   auto fields() {
-    return std::tie(revolutions, discard, samples, method, tolerance, from, stations);
+    return std::tie(revolutions, discard, samples, method, tolerance, isa, from, stations);
   }
 };
 

@@ -36,8 +36,9 @@ struct StudyVerbOptions {
                          "of these, over which Lyapunov exponents are averaged at most", 1000};
   Option<long> discard = discard_option();
   Option<double> tolerance = tolerance_option();
+  Option<std::string> isa = isa_option();
   KeptVerbOptions kept{};
-  auto fields() { return std::tie(revolutions, exponents, discard, tolerance, kept); }
+  auto fields() { return std::tie(revolutions, exponents, discard, tolerance, isa, kept); }
 };
 
 /// Points of a study.

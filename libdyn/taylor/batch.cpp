@@ -1,6 +1,9 @@
 #include "libdyn/taylor/batch.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <cstdint>
 #include <thread>
 
 #include "libbase/processors.hpp"
@@ -57,8 +60,64 @@ void integrate_single(Trajectory& trajectory, const BatchOptions& options,
   run_single(pattern, options, {&trajectory, 1}, observer ? &observer : nullptr);
 }
 
-const char* instruction_set() {
-  return HWY_DYNAMIC_DISPATCH(name_of_target)();
+namespace {
+
+struct Target {
+  std::string name;
+  std::int64_t bit = 0;
+};
+
+/// A target as people call it.
+std::string name_of(std::string_view target) {
+  if (target == "AVX3") return "avx512";
+  if (target == "SCALAR" || target == "EMU128") return std::string(baseline_set);
+  std::string name;
+  for (const char c : target) name += static_cast<char>(std::tolower(c));
+  return name;
+}
+
+/// Those of this program and processor, the best first.
+/// @note  Highway says so as long as none has been ruled out.
+const std::vector<Target>& targets() {
+  static const std::vector<Target> all = [] {
+    std::vector<Target> found;
+    for (std::int64_t rest = hwy::SupportedTargets() & HWY_TARGETS; rest != 0; rest &= rest - 1) {
+      const std::int64_t bit = rest & -rest;
+      found.push_back({name_of(hwy::TargetName(bit)), bit});
+    }
+    return found;
+  }();
+  return all;
+}
+
+bool fuses(std::string_view set) {
+  return set == "avx512" || set == "avx2";
+}
+
+}  // namespace
+
+std::string instruction_set() {
+  return name_of(HWY_DYNAMIC_DISPATCH(name_of_target)());
+}
+
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+  for (const Target& target : targets()) names.push_back(target.name);
+  return names;
+}
+
+void use_instruction_set(std::string_view name) {
+  std::int64_t left_out = 0;
+  for (const Target& target : targets()) {
+    if (target.name == name) left_out = ~target.bit;
+  }
+  assert(name.empty() || left_out != 0);
+  hwy::DisableTargets(left_out);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+bool rounds_alike(std::string_view set, std::string_view other) {
+  return set == other || (fuses(set) && fuses(other));
 }
 }  // namespace whirl::inline dyn
 #endif

@@ -4,6 +4,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "libbase/failure.hpp"
@@ -86,7 +87,21 @@ void integrate_quad(Trajectory& trajectory, const BatchOptions& options);
 /// so that all take as many steps in a revolution as the one that needs most.
 void integrate_batch_rk4(std::span<Trajectory> trajectories, const IntegrationOptions& options);
 
-/// Name of the instruction set that the engine runs on, such as "AVX3".
-const char* instruction_set();
+/// Name of the instruction set that lanes are computed with: "avx512", "avx2", "baseline", which every
+/// processor has, or on other processors Highway's name.
+std::string instruction_set();
+
+constexpr std::string_view baseline_set = "baseline";
+
+/// Those that lanes are compiled for and this processor has, the best first.
+std::vector<std::string> instruction_sets();
+
+/// From now on lanes are computed with one of them; empty: with the best. Nothing may be integrated
+/// meanwhile.
+void use_instruction_set(std::string_view name);
+
+/// Whether motions are the same with both, bit by bit: they are where products are fused with sums in
+/// both or in neither.
+bool rounds_alike(std::string_view set, std::string_view other);
 
 }  // namespace whirl::inline dyn

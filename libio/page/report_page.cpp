@@ -69,6 +69,9 @@ Record facts_of(const ResultView& result) {
   add("command", attribute("command"));
   add("made by", "whirl " + attribute("whirl_version"));
   add("made at", attribute("created"));
+  if (result.file.has_attribute("/", "instruction_set")) {
+    add("computed with", attribute("instruction_set") + ", " + attribute("mathematics"));
+  }
   if (result.file.has_attribute("/", "speed")) {
     add("speed", format_speed(result.file.number_attribute("/", "speed")));
   }

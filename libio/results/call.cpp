@@ -5,7 +5,9 @@
 #include <ctime>
 #include <map>
 
+#include "libbase/arithmetic.hpp"
 #include "libdyn/system/model.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/result_schema.hpp"
 
@@ -133,6 +135,8 @@ void write_origin(ResultWriter& file, const ResultOrigin& origin, const Model& m
   file.attribute("/", "whirl_version", std::string(origin.version));
   file.attribute("/", "format", result_format);
   file.attribute("/", "command", shell_line(origin.line));
+  file.attribute("/", "instruction_set", instruction_set());
+  file.attribute("/", "mathematics", mathematics());
   file.attribute("/", "created", utc_now());
   file.attribute("/", "title", model.title);
   file.dataset("/model", std::vector<std::string>{model.source}, {"", "model file", {""}});

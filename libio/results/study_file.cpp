@@ -7,8 +7,10 @@
 #include <charconv>
 #include <filesystem>
 
+#include "libbase/arithmetic.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/run_result.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/result_schema.hpp"
@@ -21,8 +23,8 @@ namespace {
 std::vector<std::string> essential(const Call& call) {
   std::vector<std::string> kept{call.verb, call.file};
   kept.insert(kept.end(), call.words.begin(), call.words.end());
-  const std::vector<std::string> options =
-      options_without(call.options, {"out", "json", "svg", "threads", "quiet", "restart", "force"});
+  const std::vector<std::string> options = options_without(
+      call.options, {"out", "json", "svg", "threads", "isa", "quiet", "restart", "force"});
   kept.insert(kept.end(), options.begin(), options.end());
   return kept;
 }
@@ -35,6 +37,19 @@ bool is_same_start(const ResultReader& file, const EarlierEnd& start) {
   return is_same(then.displacement, start.state.displacement) &&
          is_same(then.velocity, start.state.velocity) && then.phase == start.phase &&
          then.revolution.value_or(0.0) == static_cast<double>(start.revolution);
+}
+
+/// What is said of a file that was computed with arithmetic that rounds otherwise; empty: it does not,
+/// or the file is of an early version, which did not tell.
+std::string other_arithmetic(const ResultReader& file) {
+  if (!file.has_attribute("/", "instruction_set")) return "";
+  const std::string set = file.string_attribute("/", "instruction_set"), own = instruction_set();
+  if (!rounds_alike(set, own)) {
+    return fmt::format("was begun with the instruction set {}, this is {}: see --isa", set, own);
+  }
+  const std::string then = file.string_attribute("/", "mathematics"), now = mathematics();
+  if (then == now) return "";
+  return fmt::format("was begun with other mathematical functions ({}, these are {})", then, now);
 }
 
 /// Takes over what an earlier run of the same line has left in its file.
@@ -58,6 +73,7 @@ void resume(const StudyPlace& place, const std::function<void(const ResultReader
   if (earlier.string_attribute("/", "whirl_version") != place.version) {
     refuse("was begun by whirl " + earlier.string_attribute("/", "whirl_version"));
   }
+  if (const std::string why = other_arithmetic(earlier); !why.empty()) refuse(why);
   check_result(earlier);
   take(earlier);
 }

@@ -45,6 +45,13 @@ Parsed<std::string> parse_method(const std::string& name,
       fmt::format("unknown method, expected one of {}", fmt::join(methods, ", ")));
 }
 
+Parsed<std::string> parse_instruction_set(const std::string& name,
+                                          const std::vector<std::string>& sets) {
+  if (std::find(sets.begin(), sets.end(), name) != sets.end()) return name;
+  return Parsed<std::string>::failed(
+      fmt::format("this program on this processor has {} only", fmt::join(sets, ", ")));
+}
+
 namespace {
 
 /// Numbers of zero or more [rad/s].

@@ -35,6 +35,10 @@ Parsed<double> parse_tolerance(std::string_view text);
 Parsed<std::string> parse_method(const std::string& name,
                                  const std::vector<std::string_view>& methods);
 
+/// Name of one of these instruction sets, one at least.
+Parsed<std::string> parse_instruction_set(const std::string& name,
+                                          const std::vector<std::string>& sets);
+
 /// Speeds of linear analyses [rad/s]; a range without a step has 101.
 Parsed<std::vector<double>> parse_speeds(std::string_view text);
 /// Frequencies of responses [rad/s]; a range without a step has 401.

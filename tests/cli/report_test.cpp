@@ -59,7 +59,8 @@ TEST_F(Report, AReportIsOneFile) {
   std::vector<std::string> facts;
   for (const json& fact : motion["facts"]) facts.push_back(fact[0]);
   EXPECT_EQ(facts, (std::vector<std::string>{"result", "model", "command", "made by", "made at",
-                                             "speed", "recorded", "cost", "rotor"}));
+                                             "computed with", "speed", "recorded", "cost",
+                                             "rotor"}));
   EXPECT_TRUE(has(motion["model"], "clearance = \"0.5 mm\""));
   EXPECT_TRUE(motion["motion"].contains("motions"));
   EXPECT_FALSE(linear["motion"].contains("motions"));

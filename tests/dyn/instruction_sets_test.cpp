@@ -75,9 +75,9 @@ TEST(InstructionSets, GiveTheSameMotions) {
   EXPECT_TRUE(seen.contains(best));
   // a build for this machine alone leaves out AVX2 where there is AVX-512 (WHIRL_INSTRUCTION_SETS)
   const bool has_avx2 = (supported & HWY_AVX2) != 0, has_avx512 = (supported & HWY_AVX3) != 0;
-  const bool left_out = has_avx512 && !seen.contains("AVX2");
-  EXPECT_EQ(seen.contains("AVX2"), has_avx2 && !left_out);
-  EXPECT_EQ(seen.contains("AVX3"), has_avx512);
+  const bool left_out = has_avx512 && !seen.contains("avx2");
+  EXPECT_EQ(seen.contains("avx2"), has_avx2 && !left_out);
+  EXPECT_EQ(seen.contains("avx512"), has_avx512);
   EXPECT_EQ(seen.size(), 1u + has_avx512 + (has_avx2 && !left_out));  // and what every one has
   EXPECT_EQ(instruction_set(), best);
 }
@@ -96,6 +96,39 @@ TEST(InstructionSets, GiveTheSameExponents) {
           << instruction_set() << " " << i;
     }
   }
+}
+
+// Products are fused with sums on AVX2 and on AVX-512, every operation rounds as IEEE 754 says, and no
+// lane mixes with another: the bits of motions and exponents are the same, so that a study may be
+// computed on both.
+TEST(InstructionSets, AreTheSameBitByBitWhereBothFuse) {
+  const std::vector<std::string> sets = instruction_sets();
+  EXPECT_EQ(sets.back(), baseline_set);
+  EXPECT_EQ(sets.front(), instruction_set());
+  std::vector<std::vector<Trajectory>> found;
+  const Rotors rotors;
+  for (const std::string& set : sets) {
+    use_instruction_set(set);
+    EXPECT_EQ(instruction_set(), set);
+    found.push_back(run(rotors, {.tolerance = 1e-10, .measures = true, .exponents = true}));
+  }
+  use_instruction_set("");
+  EXPECT_EQ(instruction_set(), sets.front());
+  EXPECT_EQ(instruction_sets(), sets);
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    for (std::size_t i = 0; rounds_alike(sets[k], sets[0]) && i < found[k].size(); ++i) {
+      EXPECT_EQ(found[k][i].state.y, found[0][i].state.y) << sets[k] << ' ' << i;
+      EXPECT_EQ(found[k][i].exponents, found[0][i].exponents) << sets[k] << ' ' << i;
+      EXPECT_EQ(found[k][i].contacts[0].max_normal, found[0][i].contacts[0].max_normal);
+    }
+  }
+}
+
+TEST(InstructionSets, RoundAlikeWhereBothFuse) {
+  EXPECT_TRUE(rounds_alike("avx2", "avx512"));
+  EXPECT_TRUE(rounds_alike("baseline", "baseline"));
+  EXPECT_FALSE(rounds_alike("baseline", "avx2"));
+  EXPECT_FALSE(rounds_alike("avx512", "neon"));
 }
 
 }  // namespace whirl::instruction_sets_test

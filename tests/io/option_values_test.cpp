@@ -42,6 +42,14 @@ TEST(OptionValues, MethodsAreOfAList) {
             "unknown method, expected one of dop853, rk4");
 }
 
+TEST(OptionValues, InstructionSetsAreOfAList) {
+  EXPECT_EQ(*parse_instruction_set("avx2", {"avx2", "baseline"}), "avx2");
+  for (const char* other : {"avx512", "AVX2", ""}) {
+    EXPECT_EQ(parse_instruction_set(other, {"avx2", "baseline"}).problem,
+              "this program on this processor has avx2, baseline only");
+  }
+}
+
 TEST(OptionValues, ChoicesAreNamesOfEnumerators) {
   EXPECT_EQ(*parse_choice<OrbitFrame>("rotating"), OrbitFrame::rotating);
   EXPECT_EQ(parse_choice<OrbitFrame>("inertial").problem, "expected stationary or rotating");
