@@ -29,6 +29,7 @@
   report_verb(),     \
   plot_verb(),       \
   rerun_verb(),      \
+  status_verb(),     \
   completion_verb(), \
   schema_verb()
 // clang-format on

@@ -14,6 +14,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/result_schema.hpp"
+#include "libio/results/study_status.hpp"
 
 namespace whirl::inline io {
 
@@ -103,7 +104,11 @@ StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWri
   if (place_.file.empty()) return;
   remove_leftovers(place_.file);
   begin_();  // says at once what cannot be written
-  if (!place_.restarts && origin_of(place_.file) == Origin::result) resume(place_, take);
+  if (place_.restarts || origin_of(place_.file) != Origin::result) return;
+  resume(place_, [&](const ResultReader& earlier) {
+    if (const auto work = read_work(earlier)) seconds_before_ = work->seconds;
+    take(earlier);
+  });
 }
 
 void StudyFile::save() {
@@ -115,6 +120,8 @@ void StudyFile::save() {
     write_result(*file, from);
   }
   write_(*file);
+  const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begun_;
+  write_work(*file, this_work(seconds_before_ + now.count()));
   file->commit();
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The file of a study, which holds what is done at every moment, and from which the same line goes on.
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -41,6 +42,8 @@ class StudyFile {
 
  private:
   StudyPlace place_;
+  double seconds_before_ = 0.0;  ///< that earlier runs have computed
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   Begin begin_;
   std::function<void(ResultWriter&)> write_;
 };

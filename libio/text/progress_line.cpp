@@ -22,13 +22,16 @@ std::string clock_text(double s) {
 
 }  // namespace
 
-std::string progress_text(long done, long total, double elapsed) {
+std::string rate_text(long done, long total, double elapsed) {
   const double rate = elapsed > 0.0 ? static_cast<double>(done) / elapsed : 0.0;
-  std::string text = fmt::format("{} of {}, ", done, total) +
-                     (rate < 9.95 ? fmt::format("{:.2g}/s", rate) : fmt::format("{:.0f}/s", rate));
-  if (rate > 0.0)
-    text += fmt::format(", {} left", clock_text(static_cast<double>(total - done) / rate));
-  return text;
+  const std::string text =
+      rate < 9.95 ? fmt::format("{:.2g}/s", rate) : fmt::format("{:.0f}/s", rate);
+  if (!(rate > 0.0)) return text;
+  return text + fmt::format(", {} left", clock_text(static_cast<double>(total - done) / rate));
+}
+
+std::string progress_text(long done, long total, double elapsed) {
+  return fmt::format("{} of {}, {}", done, total, rate_text(done, total, elapsed));
 }
 
 ProgressLine::ProgressLine(std::string what, long total, bool shows, double period)

@@ -5,8 +5,10 @@
 
 namespace whirl::inline io {
 
-/// "120 of 600, 2.5/s, 3:12 left".
+/// "2.5/s, 3:12 left".
 /// @param elapsed  [s]
+std::string rate_text(long done, long total, double elapsed);
+/// "120 of 600, 2.5/s, 3:12 left".
 std::string progress_text(long done, long total, double elapsed);
 
 /// A line on standard error: on a terminal one that is rewritten, elsewhere, as in the log of a job,
