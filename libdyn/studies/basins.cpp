@@ -180,13 +180,9 @@ BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
   result.is_random = options.is_random();
   result.sections = options.classify.sections;
   result.points.resize(options.points());
-  run_points<BasinsPoint>({.most_together = most_starts,
-                           .threads = options.threads,
-                           .prepare =
-                               [&](const auto& piece) {
-                                 return [&, piece] { return compute(piece, models, options); };
-                               }},
-                          result, monitor);
+  PointWork<BasinsPoint> work{.most_together = most_starts, .threads = options.threads};
+  work.compute = [&](const auto& piece, NothingGiven&) { return compute(piece, models, options); };
+  run_points(work, result, monitor);
   find_basins(first->contacts, result);
   if (monitor.save) monitor.save(result);
   return result;

@@ -16,7 +16,8 @@ MapResult map(const StudyModels& models, const MapOptions& options,
   result.system = study_system(*models.member(options.grid.values_at(0)).scene);
   result.points.resize(options.grid.points());
   const ClassifyOptions classify = stopped_by(monitor.is_stopped, options.classify);
-  const auto compute = [&](const std::vector<std::size_t>& piece) {
+  PointWork<ClassifiedMotion> work{.most_together = most_points, .threads = options.threads};
+  work.compute = [&](const auto& piece, NothingGiven&) {
     std::vector<StudyMotion> motions;
     for (const std::size_t point : piece) {
       motions.push_back(begin_motion(models, options.grid.values_at(point)));
@@ -26,11 +27,7 @@ MapResult map(const StudyModels& models, const MapOptions& options,
     for (const StudyMotion& motion : motions) rows.push_back(classified(motion));
     return rows;
   };
-  run_points<ClassifiedMotion>(
-      {.most_together = most_points,
-       .threads = options.threads,
-       .prepare = [&](const auto& piece) { return [&compute, piece] { return compute(piece); }; }},
-      result, monitor);
+  run_points(work, result, monitor);
   return result;
 }
 

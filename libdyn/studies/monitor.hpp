@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <functional>
+#include <span>
 
 namespace whirl::inline dyn {
 
@@ -17,6 +19,9 @@ struct Monitor {
   /// Called in the caller's thread with the result so far: now and then, at the end, and before an
   /// exception leaves.
   std::function<void(const Result&)> save{};
+  /// Of a study of many points, in place of saving now and then: called in the caller's thread with the
+  /// result so far and the points that are new since the last call; before the last saving, too.
+  std::function<void(const Result&, std::span<const std::size_t> points)> add{};
 
   bool stops() const { return is_stopped && is_stopped(); }
   void show(long done, long total) const {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,31 +26,44 @@ std::size_t done_points(const PointRows<Row>& points) {
       std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_value(); }));
 }
 
+/// What a piece of a study is given beside the numbers of its points, where that is nothing.
+struct NothingGiven {};
+
 /// How a study becomes pieces of work.
-template <class Row>
+template <class Row, class Given = NothingGiven>
 struct PointWork {
   using Piece = std::vector<std::size_t>;
   /// Points that are computed together, one piece after the other; none: any points may be, in
   /// their order, and pieces are cut as time and threads ask for.
   std::vector<Piece> pieces{};
   std::size_t most_together = 0;  ///< points of such a piece at most
-  int threads = 1;                ///< that do the work; 0: the calling one
-  /// Makes the work of a piece, in order and in the calling thread; none for pieces that are done.
-  std::function<std::function<std::vector<Row>()>(const Piece&)> prepare{};
+  /// That do the work; 0: the calling one. Where pieces are prepared, one of them does that.
+  int threads = 1;
+  /// Makes what a piece is given, in order and in the calling thread; none for pieces that are done.
+  /// May be empty.
+  std::function<Given(const Piece&)> prepare{};
+  /// The rows of a piece, in any thread: the same for the same points and what they are given, bit by
+  /// bit.
+  std::function<std::vector<Row>(const Piece&, Given&)> compute{};
+
+  /// Threads beside the one that prepares.
+  int computing_threads() const { return prepare ? threads - 1 : threads; }
+  Given given(const Piece& piece) const { return prepare ? prepare(piece) : Given{}; }
 };
 
 /// The pieces of a study that are not done, one after the other.
 template <class Row>
 class PiecesLeft {
  public:
-  PiecesLeft(const PointWork<Row>& work, const PointRows<Row>& points)
-      : work_(work), points_(points), left_(points.size() - done_points(points)) {}
+  /// @param pieces  as of PointWork
+  PiecesLeft(const std::vector<std::vector<std::size_t>>& pieces, const PointRows<Row>& points)
+      : pieces_(pieces), points_(points), left_(points.size() - done_points(points)) {}
 
   /// Points that are computed together; none: all have been given out.
   std::vector<std::size_t> next(PieceSizes& sizes) {
-    if (work_.pieces.empty()) return next_points(sizes.next(left_));
-    while (at_ < work_.pieces.size()) {
-      const auto& piece = work_.pieces[at_++];
+    if (pieces_.empty()) return next_points(sizes.next(left_));
+    while (at_ < pieces_.size()) {
+      const auto& piece = pieces_[at_++];
       if (!std::all_of(piece.begin(), piece.end(),
                        [&](auto p) { return points_[p].has_value(); })) {
         return piece;
@@ -68,33 +82,80 @@ class PiecesLeft {
     return piece;
   }
 
-  const PointWork<Row>& work_;
+  const std::vector<std::vector<std::size_t>>& pieces_;
   const PointRows<Row>& points_;
   std::size_t at_ = 0;  ///< the next piece, or point
   std::size_t left_;    ///< points that are neither done nor given out
 };
 
+/// A piece that was computed.
+template <class Row>
+struct FinishedPiece {
+  std::vector<std::size_t> piece;
+  std::vector<Row> rows;
+  bool is_whole = true;  ///< false: it was stopped, and its rows are worth nothing
+  double seconds = 0.0;  ///< of one thread
+};
+
+/// Computes a piece in the calling thread.
+/// @param stops  whether it was stopped meanwhile
+template <class Row, class Given>
+FinishedPiece<Row> finish_piece(const PointWork<Row, Given>& work,
+                                const std::vector<std::size_t>& piece, Given& given,
+                                const std::function<bool()>& stops) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<Row> rows = work.compute(piece, given);
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  return {piece, std::move(rows), !stops(), taken.count()};
+}
+
+/// Hands on what is done of a study: what is new now and then, all of it at the end.
+template <class Result>
+class Savings {
+ public:
+  Savings(const Result& result, const Monitor<Result>& monitor)
+      : result_(result), monitor_(monitor) {}
+
+  /// Takes note of points that are done now.
+  void note(const std::vector<std::size_t>& points) {
+    if (monitor_.add) news_.insert(news_.end(), points.begin(), points.end());
+    is_saved_ = false;
+    if (timer_.is_due()) timer_.save([&] { monitor_.add ? add() : save(); });
+  }
+
+  /// All that is done so far, once.
+  void save() {
+    if (is_saved_) return;
+    if (monitor_.add) add();
+    if (monitor_.save) monitor_.save(result_);
+    is_saved_ = true;
+  }
+
+ private:
+  void add() {
+    monitor_.add(result_, news_);
+    news_.clear();
+  }
+
+  const Result& result_;
+  const Monitor<Result>& monitor_;
+  SaveTimer timer_;
+  std::vector<std::size_t> news_;  ///< points done since the last time that some were added
+  bool is_saved_ = false;
+};
+
 /// Computes the points of a result that are not done. Pieces that are stopped leave theirs so.
 /// @param result  its `points` are PointRows<Row>
-template <class Row, class Result>
-void run_points(const PointWork<Row>& work, Result& result, const Monitor<Result>& monitor) {
-  struct Finished {
-    std::vector<std::size_t> piece;
-    std::vector<Row> rows;
-    bool is_whole;
-    double seconds;
-  };
-  using clock = std::chrono::steady_clock;
+template <class Row, class Given, class Result>
+void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor<Result>& monitor) {
   PointRows<Row>& points = result.points;
   const std::size_t before = done_points(points);
   std::size_t done = before;
-  SaveTimer timer;
-  const auto save = [&] {
-    if (monitor.save) monitor.save(result);
-  };
-  PieceSizes sizes(work.most_together, work.threads);
+  const std::function<bool()> stops = [&monitor] { return monitor.stops(); };
+  Savings<Result> savings(result, monitor);
+  PieceSizes sizes(work.most_together, work.computing_threads());
   try {
-    WorkQueue<Finished> queue(work.threads);
+    WorkQueue<FinishedPiece<Row>> queue(work.computing_threads());
     const auto take = [&] {
       auto finished = queue.take(std::chrono::milliseconds(100));
       if (!finished || !finished->is_whole) return;
@@ -104,27 +165,23 @@ void run_points(const PointWork<Row>& work, Result& result, const Monitor<Result
         point = std::move(finished->rows[i]);
       }
       sizes.learn(finished->piece.size(), finished->seconds);
-      if (timer.is_due()) timer.save(save);
+      savings.note(finished->piece);
       monitor.show(static_cast<long>(done - before), static_cast<long>(points.size() - before));
     };
-    PiecesLeft<Row> pieces(work, points);
+    PiecesLeft<Row> pieces(work.pieces, points);
     while (!monitor.stops()) {
       const std::vector<std::size_t> piece = pieces.next(sizes);
       if (piece.empty()) break;
-      queue.add([&monitor, piece, compute = work.prepare(piece)] {
-        const auto begin = clock::now();
-        std::vector<Row> rows = compute();
-        const std::chrono::duration<double> taken = clock::now() - begin;
-        return Finished{piece, std::move(rows), !monitor.stops(), taken.count()};
-      });
+      const auto given = std::make_shared<Given>(work.given(piece));
+      queue.add([&work, &stops, piece, given] { return finish_piece(work, piece, *given, stops); });
       while (queue.is_full()) take();
     }
     while (queue.has_open()) take();
   } catch (...) {  // a wrong model somewhere in the middle: what is done is kept
-    save();
+    savings.save();
     throw;
   }
-  save();
+  savings.save();
 }
 
 }  // namespace whirl::inline dyn

@@ -76,6 +76,18 @@ class Chain {
   SweepEnd end_;  ///< of the last motion
 };
 
+/// Motions that begin at the start of their models, settled.
+Settled settle_fresh(const StudyModels& models, const SweepOptions& options,
+                     const std::vector<std::size_t>& piece) {
+  Settled settled{.motions = {}, .ends = std::vector<SweepEnd>(piece.size())};
+  for (const std::size_t point : piece) {
+    settled.motions.push_back(begin_motion(models, {&options.values[point], 1}));
+  }
+  together(settled.motions,
+           [&](std::span<ClassifyCandidate> good) { settle(good, options.classify); });
+  return settled;
+}
+
 /// Tells settled motions apart and portrays them.
 std::vector<SweepPoint> finish(Settled& piece, const SweepOptions& options) {
   together(piece.motions,
@@ -160,7 +172,6 @@ std::vector<SweepEntry> SweepWay::entries() const {
 
 SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
                   const Monitor<SweepResult>& monitor, SweepResult earlier) {
-  using Work = PointWork<SweepPoint>;
   SweepOptions options = wanted;
   options.classify = stopped_by(monitor.is_stopped, wanted.classify);
   SweepResult result = std::move(earlier);
@@ -174,32 +185,24 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
   for (const NamedPoint& p : options.portrait.stations) result.stations.push_back(p.label());
   result.points.resize(result.ways().size() * options.values.size());
 
-  const auto fresh = [&](const Work::Piece& piece) {
-    Settled settled;
-    for (const std::size_t point : piece) {
-      settled.motions.push_back(begin_motion(models, {&options.values[point], 1}));
-    }
-    together(settled.motions,
-             [&](std::span<ClassifyCandidate> good) { settle(good, options.classify); });
-    settled.ends.resize(piece.size());
-    return finish(settled, options);
-  };
   if (options.start == SweepStart::fresh) {
-    run_points<SweepPoint>(
-        {.most_together = most_fresh,
-         .threads = options.threads,
-         .prepare = [&](const auto& piece) { return [&fresh, piece] { return fresh(piece); }; }},
-        result, monitor);
+    PointWork<SweepPoint> work{.most_together = most_fresh, .threads = options.threads};
+    work.compute = [&](const auto& piece, NothingGiven&) {
+      Settled settled = settle_fresh(models, options, piece);
+      return finish(settled, options);
+    };
+    run_points(work, result, monitor);
     return result;
   }
   Chain chain(models, options, result.points);
-  Work work{.pieces = carried_pieces(options.values.size()),
-            .threads = options.threads - 1};  // one goes ahead along the chain
-  work.prepare = [&](const Work::Piece& piece) -> std::function<std::vector<SweepPoint>()> {
-    const auto settled = std::make_shared<Settled>();
-    for (const std::size_t point : piece) chain.go(point, *settled);
-    return [&options, settled] { return finish(*settled, options); };
+  PointWork<SweepPoint, Settled> work{.pieces = carried_pieces(options.values.size()),
+                                      .threads = options.threads};
+  work.prepare = [&](const auto& piece) {
+    Settled settled;
+    for (const std::size_t point : piece) chain.go(point, settled);
+    return settled;
   };
+  work.compute = [&](const auto&, Settled& settled) { return finish(settled, options); };
   run_points(work, result, monitor);
   return result;
 }

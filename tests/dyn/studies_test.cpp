@@ -194,6 +194,28 @@ TEST(Map, KeepsWhatIsDoneBeforeAWrongModel) {
   EXPECT_EQ(saved, 8u);  // the first piece; the wrong models are in the second one
 }
 
+// Every point is handed on once, and all of them before the result is saved as a whole.
+TEST(Map, HandsOnWhatIsNew) {
+  std::vector<int> times(36, 0);
+  int savings = 0;
+  const Monitor<MapResult> monitor{
+      .save =
+          [&](const MapResult& result) {
+            ++savings;
+            EXPECT_EQ(done_points(result.points), result.points.size());
+            EXPECT_EQ(times, std::vector<int>(36, 1));
+          },
+      .add =
+          [&](const MapResult& result, std::span<const std::size_t> points) {
+            for (const std::size_t point : points) {
+              EXPECT_TRUE(result.points[point]);
+              ++times[point];
+            }
+          }};
+  map(rotor_stator(), plane(2), monitor);
+  EXPECT_EQ(savings, 1);
+}
+
 // What cannot be computed fails alone, and says why.
 TEST(Map, KeepsGoingWherePointsFail) {
   StudyModels models = rotor_stator();
