@@ -52,7 +52,7 @@ class WorkQueue {
   bool has_open() const { return open_ > 0; }
 
   /// A result, if one is there or comes within a time.
-  std::optional<Result> take(std::chrono::milliseconds patience) {
+  std::optional<Result> take(std::chrono::microseconds patience) {
     std::unique_lock lock(mutex_);
     if (!has_result_.wait_for(lock, patience, [&] { return !finished_.empty(); })) {
       return std::nullopt;

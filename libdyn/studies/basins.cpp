@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libbase/random.hpp"
+#include "libdyn/studies/travel.hpp"
 
 namespace whirl::inline dyn {
 
@@ -172,7 +173,7 @@ BasinShares basin_shares(const BasinsResult& result) {
 BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
                     const Monitor<BasinsResult>& monitor, BasinsResult earlier) {
   BasinsOptions options = wanted;
-  options.classify = stopped_by(monitor.is_stopped, wanted.classify);
+  options.classify = stopped_by(monitor.stop_asked(), wanted.classify);
   options.classify.sections = options.classify.longest_period;
   BasinsResult result = std::move(earlier);
   const auto first = models.member(options.grid.values_at(0)).scene;

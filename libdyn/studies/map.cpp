@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "libdyn/studies/travel.hpp"
+
 namespace whirl::inline dyn {
 
 namespace {
@@ -15,7 +17,7 @@ MapResult map(const StudyModels& models, const MapOptions& options,
   MapResult result = std::move(earlier);
   result.system = study_system(*models.member(options.grid.values_at(0)).scene);
   result.points.resize(options.grid.points());
-  const ClassifyOptions classify = stopped_by(monitor.is_stopped, options.classify);
+  const ClassifyOptions classify = stopped_by(monitor.stop_asked(), options.classify);
   PointWork<ClassifiedMotion> work{.most_together = most_points, .threads = options.threads};
   work.compute = [&](const auto& piece, NothingGiven&) {
     std::vector<StudyMotion> motions;

@@ -7,6 +7,8 @@
 #include <functional>
 #include <span>
 
+#include "libbase/ranks.hpp"
+
 namespace whirl::inline dyn {
 
 /// How a caller follows long work; any member may be empty.
@@ -23,7 +25,18 @@ struct Monitor {
   /// result so far and the points that are new since the last call; before the last saving, too.
   std::function<void(const Result&, std::span<const std::size_t> points)> add{};
 
-  bool stops() const { return is_stopped && is_stopped(); }
+  /// Processes that share the work, this one among them; null: it is alone. They must be called with
+  /// the same work; studies of many points share it, see run_points.
+  const Ranks* ranks = nullptr;
+
+  bool stops() const { return (is_stopped && is_stopped()) || (ranks && ranks->is_told_to_stop()); }
+  /// The same for work that must not know the monitor; empty: it never stops.
+  std::function<bool()> stop_asked() const {
+    if (!ranks) return is_stopped;
+    return [is_stopped = is_stopped, told = ranks->told_to_stop] {
+      return *told || (is_stopped && is_stopped());
+    };
+  }
   void show(long done, long total) const {
     if (progress) progress(done, total);
   }

@@ -1,18 +1,18 @@
 #pragma once
-/// Points of a study, computed in threads piece by piece.
+/// Points of a study, computed piece by piece in threads, and in processes that share it.
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "libbase/piece_sizes.hpp"
-#include "libbase/work_queue.hpp"
 #include "libdyn/studies/monitor.hpp"
+#include "libdyn/studies/piece_hands.hpp"
+#include "libdyn/studies/point_work.hpp"
 
 namespace whirl::inline dyn {
 
@@ -25,31 +25,6 @@ std::size_t done_points(const PointRows<Row>& points) {
   return static_cast<std::size_t>(
       std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_value(); }));
 }
-
-/// What a piece of a study is given beside the numbers of its points, where that is nothing.
-struct NothingGiven {};
-
-/// How a study becomes pieces of work.
-template <class Row, class Given = NothingGiven>
-struct PointWork {
-  using Piece = std::vector<std::size_t>;
-  /// Points that are computed together, one piece after the other; none: any points may be, in
-  /// their order, and pieces are cut as time and threads ask for.
-  std::vector<Piece> pieces{};
-  std::size_t most_together = 0;  ///< points of such a piece at most
-  /// That do the work; 0: the calling one. Where pieces are prepared, one of them does that.
-  int threads = 1;
-  /// Makes what a piece is given, in order and in the calling thread; none for pieces that are done.
-  /// May be empty.
-  std::function<Given(const Piece&)> prepare{};
-  /// The rows of a piece, in any thread: the same for the same points and what they are given, bit by
-  /// bit.
-  std::function<std::vector<Row>(const Piece&, Given&)> compute{};
-
-  /// Threads beside the one that prepares.
-  int computing_threads() const { return prepare ? threads - 1 : threads; }
-  Given given(const Piece& piece) const { return prepare ? prepare(piece) : Given{}; }
-};
 
 /// The pieces of a study that are not done, one after the other.
 template <class Row>
@@ -88,27 +63,6 @@ class PiecesLeft {
   std::size_t left_;    ///< points that are neither done nor given out
 };
 
-/// A piece that was computed.
-template <class Row>
-struct FinishedPiece {
-  std::vector<std::size_t> piece;
-  std::vector<Row> rows;
-  bool is_whole = true;  ///< false: it was stopped, and its rows are worth nothing
-  double seconds = 0.0;  ///< of one thread
-};
-
-/// Computes a piece in the calling thread.
-/// @param stops  whether it was stopped meanwhile
-template <class Row, class Given>
-FinishedPiece<Row> finish_piece(const PointWork<Row, Given>& work,
-                                const std::vector<std::size_t>& piece, Given& given,
-                                const std::function<bool()>& stops) {
-  const auto begin = std::chrono::steady_clock::now();
-  std::vector<Row> rows = work.compute(piece, given);
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  return {piece, std::move(rows), !stops(), taken.count()};
-}
-
 /// Hands on what is done of a study: what is new now and then, all of it at the end.
 template <class Result>
 class Savings {
@@ -145,38 +99,52 @@ class Savings {
 };
 
 /// Computes the points of a result that are not done. Pieces that are stopped leave theirs so.
+///
+/// Where the monitor has ranks, that is processes that all come here with the same work, the leader
+/// shares out pieces and alone returns; the others serve it to its end.
+///
 /// @param result  its `points` are PointRows<Row>
+/// @throws WorkIsDone  in ranks that do not lead
+/// @throws LostRank    where one does not answer any more; what is done is saved
 template <class Row, class Given, class Result>
 void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor<Result>& monitor) {
+  const std::function<bool()> stops = [&monitor] { return monitor.stops(); };
+  if (monitor.ranks && !monitor.ranks->leads()) serve(work, *monitor.ranks, stops);
   PointRows<Row>& points = result.points;
   const std::size_t before = done_points(points);
   std::size_t done = before;
-  const std::function<bool()> stops = [&monitor] { return monitor.stops(); };
   Savings<Result> savings(result, monitor);
   PieceSizes sizes(work.most_together, work.computing_threads());
+  const auto keep = [&](std::optional<FinishedPiece<Row>> finished) {
+    if (!finished || !finished->is_whole) return;
+    for (std::size_t i = 0; i < finished->piece.size(); ++i) {
+      std::optional<Row>& point = points[finished->piece[i]];
+      done += point ? 0 : 1;
+      point = std::move(finished->rows[i]);
+    }
+    sizes.learn(finished->piece.size(), finished->seconds);
+    savings.note(finished->piece);
+    monitor.show(static_cast<long>(done - before), static_cast<long>(points.size() - before));
+  };
   try {
-    WorkQueue<FinishedPiece<Row>> queue(work.computing_threads());
-    const auto take = [&] {
-      auto finished = queue.take(std::chrono::milliseconds(100));
-      if (!finished || !finished->is_whole) return;
-      for (std::size_t i = 0; i < finished->piece.size(); ++i) {
-        std::optional<Row>& point = points[finished->piece[i]];
-        done += point ? 0 : 1;
-        point = std::move(finished->rows[i]);
-      }
-      sizes.learn(finished->piece.size(), finished->seconds);
-      savings.note(finished->piece);
-      monitor.show(static_cast<long>(done - before), static_cast<long>(points.size() - before));
-    };
+    PieceHands<Row, Given> hands(work, monitor.ranks, stops);
     PiecesLeft<Row> pieces(work.pieces, points);
     while (!monitor.stops()) {
+      sizes.work_with(hands.threads());
       const std::vector<std::size_t> piece = pieces.next(sizes);
       if (piece.empty()) break;
-      const auto given = std::make_shared<Given>(work.given(piece));
-      queue.add([&work, &stops, piece, given] { return finish_piece(work, piece, *given, stops); });
-      while (queue.is_full()) take();
+      hands.add(piece, work.given(piece));
+      while (auto finished = hands.take()) keep(std::move(finished));
+      while (hands.is_full() && !monitor.stops()) keep(hands.wait());
     }
-    while (queue.has_open()) take();
+    while (hands.has_open() && !monitor.stops()) keep(hands.wait());
+    if (hands.has_away()) savings.save();  // who stops all ranks may not wait for long
+    hands.stop();
+    const auto enough = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    while (hands.has_open()) {
+      if (hands.has_away() && std::chrono::steady_clock::now() > enough) break;
+      keep(hands.wait());
+    }
   } catch (...) {  // a wrong model somewhere in the middle: what is done is kept
     savings.save();
     throw;

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "libdyn/studies/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -19,6 +20,28 @@ struct Settled {
   std::vector<SweepEnd> ends;
 };
 
+template <class Bytes>
+void travel(Bytes& bytes, Is<Settled> auto& piece) {
+  auto& [motions, ends] = piece;
+  bytes(motions, ends);
+}
+
+/// Number of the value of a point: up, then down.
+std::size_t value_of(std::size_t point, const SweepOptions& options) {
+  return point < options.values.size() ? point : point - options.values.size();
+}
+
+/// Makes the scenes of motions that another process has settled.
+void restore_scenes(Settled& piece, const std::vector<std::size_t>& points,
+                    const StudyModels& models, const SweepOptions& options) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    StudyMotion& motion = piece.motions[i];
+    if (motion.scene || motion.failure) continue;
+    motion.scene = models.member({&options.values[value_of(points[i], options)], 1}).scene;
+    motion.subject.system = &motion.scene->contacts;
+  }
+}
+
 /// One way along the values and back, each motion going on from the one before.
 class Chain {
  public:
@@ -30,7 +53,7 @@ class Chain {
     const auto from = before(point);
     if (from && last_ != from) end_ = points_[*from] ? points_[*from]->end : SweepEnd{};
     const bool goes_on = from && end_.displacement.size() > 0 && end_.displacement.allFinite();
-    StudyMotion motion = begin_motion(models_, {&options_.values[value_of(point)], 1},
+    StudyMotion motion = begin_motion(models_, {&options_.values[value_of(point, options_)], 1},
                                       goes_on ? &end_ : nullptr, end_.revolution);
     last_ = point;
     end_ = end_of(motion);
@@ -39,11 +62,6 @@ class Chain {
   }
 
  private:
-  /// Value of a point: up, then down.
-  std::size_t value_of(std::size_t point) const {
-    return point < values_ ? point : point - values_;
-  }
-
   /// The point whose end a point starts from; none for the first.
   std::optional<std::size_t> before(std::size_t point) const {
     if (point == 0) return std::nullopt;
@@ -173,7 +191,7 @@ std::vector<SweepEntry> SweepWay::entries() const {
 SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
                   const Monitor<SweepResult>& monitor, SweepResult earlier) {
   SweepOptions options = wanted;
-  options.classify = stopped_by(monitor.is_stopped, wanted.classify);
+  options.classify = stopped_by(monitor.stop_asked(), wanted.classify);
   SweepResult result = std::move(earlier);
   const StudyMember first = models.member({options.values.data(), 1});
   result.system = study_system(*first.scene);
@@ -202,7 +220,10 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
     for (const std::size_t point : piece) chain.go(point, settled);
     return settled;
   };
-  work.compute = [&](const auto&, Settled& settled) { return finish(settled, options); };
+  work.compute = [&](const auto& piece, Settled& settled) {
+    restore_scenes(settled, piece, models, options);
+    return finish(settled, options);
+  };
   run_points(work, result, monitor);
   return result;
 }
