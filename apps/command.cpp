@@ -7,6 +7,7 @@
 
 #include "apps/arithmetic.hpp"
 #include "apps/program.hpp"
+#include "libbase/travel.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/bare_speed.hpp"
 #include "libio/text/terminal.hpp"
@@ -88,12 +89,14 @@ int execute(const Verb& verb, CommandLine& line) {
 
 }  // namespace
 
-int run_command(const Verb& verb, const std::vector<std::string>& words,
-                const StoredModel& stored) {
+int run_command(const Verb& verb, const std::vector<std::string>& words, const StoredModel& stored,
+                const Ranks* ranks) {
   auto read = read_command_line(verb, words, stored);
   if (const int* status = std::get_if<int>(&read)) return *status;
   CommandLine& line = std::get<CommandLine>(read);
   const std::string& file = line.call.file;
+  if (ranks) ranks->share([&] { return packed(words); });
+  line.call.ranks = ranks;
   try {
     return execute(verb, line);
   } catch (const ModelError& error) {
@@ -108,6 +111,25 @@ int run_command(const Verb& verb, const std::vector<std::string>& words,
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "{}: not enough memory for this\n", file);
     return exit_status::failed;
+  }
+}
+
+void serve_command(const Verb& verb, const std::vector<std::string>& words, const Ranks& ranks) {
+  auto read = read_command_line(verb, words, {});
+  CommandLine* const line = std::get_if<CommandLine>(&read);
+  if (!line) return;
+  Invocation& call = line->call;
+  call.ranks = &ranks;
+  call.sets.clear();  // the leader's model has them in it
+  for (const char* leaders : {"out", "json", "force", "restart"}) call.given.erase(leaders);
+  call.given["quiet"] = {""};
+  call.output = read_options<OutputOptions>(call.given);
+  try {
+    verb.run.with(call);
+  } catch (const LostRank&) {
+    throw;
+  } catch (const std::exception&) {
+    ranks.send({0, LetterKind::error, packed_error(std::current_exception())});
   }
 }
 

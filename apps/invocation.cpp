@@ -20,8 +20,12 @@ std::string Invocation::text(std::string_view option) const {
 }
 
 Model Invocation::model() const {
-  if (model_text.empty()) return read_model(file, sets);
-  return parse_model(model_text, file, sets, std::filesystem::path(file).parent_path());
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (ranks && !ranks->leads()) return parse_model(ranks->share({}), file, {}, folder);
+  Model model =
+      model_text.empty() ? read_model(file, sets) : parse_model(model_text, file, sets, folder);
+  if (ranks) ranks->share([&] { return model.source; });
+  return model;
 }
 
 Call Invocation::parts() const {

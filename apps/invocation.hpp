@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libbase/failure.hpp"
+#include "libbase/ranks.hpp"
 #include "libdyn/system/model.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/command_files.hpp"
@@ -48,12 +49,14 @@ class Invocation {
   OutputOptions output;
   std::vector<std::string> line;  ///< the command line, to be stored in results
   std::string model_text;         ///< of a result that is run again; else empty
+  const Ranks* ranks = nullptr;   ///< processes that share its work; null: there are none
 
   /// What is given of an option that several verbs have, for what all verbs do alike.
   std::vector<std::string> values(std::string_view option) const;
   /// The same of one that is given once; empty: it is not.
   std::string text(std::string_view option) const;
 
+  /// The model; where processes share the work, that of their leader. Asked once.
   Model model() const;
 
   /// Its parts, to be stored in results.

@@ -39,6 +39,7 @@ struct Verb {
   std::string_view takes_more_help = "";  ///< what they are
   std::string_view example;               ///< a command line
   VerbRun run{};
+  bool shares_work = false;  ///< run hands pieces to other processes, see Ranks
   /// Instead of run, of a verb that reads the words after it itself and prints: its exit status.
   int (*run_words)(const std::vector<std::string>&) = nullptr;
   std::string_view usage = "";                 ///< what --help prints then

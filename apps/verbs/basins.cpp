@@ -72,6 +72,7 @@ Verb basins_verb() {
       .example =
           "whirl basins models/jeffcott_stator.toml --set contact.ring.stiffness=50e6 --starts 500",
       .run = run_basins,
+      .shares_work = true,
   };
 }
 

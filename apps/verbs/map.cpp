@@ -54,6 +54,7 @@ Verb map_verb() {
           "whirl map models/jeffcott_stator.toml --over operation.speed=130:160:2rad/s --over "
           "contact.ring.stiffness=10:150:10MN/m --out map.h5",
       .run = run_map,
+      .shares_work = true,
   };
 }
 

@@ -1,6 +1,7 @@
 #include "apps/verbs/simulation.hpp"
 
 #include "apps/verbs/common.hpp"
+#include "libdyn/studies/travel.hpp"
 #include "libio/text/interrupt.hpp"
 
 namespace whirl::inline cli {
@@ -14,8 +15,14 @@ Start start_of(const Option<std::string>& from, const Model& model) {
   return start;
 }
 
-std::optional<EarlierEnd> earlier_start(const Option<std::string>& from, const Model& model) {
-  return earlier_end(start_of(from, model));
+std::optional<EarlierEnd> earlier_start(const Option<std::string>& from, const Model& model,
+                                        const Ranks* ranks) {
+  const auto read = [&] { return earlier_end(start_of(from, model)); };
+  if (!ranks) return read();
+  const std::string bytes = ranks->share([&] { return packed(read()); });
+  std::optional<EarlierEnd> end;
+  unpack(bytes, end);
+  return end;
 }
 
 MotionState starting_state(const Option<std::string>& from, Model model, const Scene& scene) {

@@ -43,7 +43,9 @@ struct IntegrationVerbOptions {
 /// @param from  the result where they go on, if there is one
 Start start_of(const Option<std::string>& from, const Model& model);
 /// Where that, or the model's [start], is the end of another result; nothing: it is not.
-std::optional<EarlierEnd> earlier_start(const Option<std::string>& from, const Model& model);
+/// @param ranks  that share the work: their leader reads it; null: there are none
+std::optional<EarlierEnd> earlier_start(const Option<std::string>& from, const Model& model,
+                                        const Ranks* ranks);
 /// Where a motion begins.
 MotionState starting_state(const Option<std::string>& from, Model model, const Scene& scene);
 

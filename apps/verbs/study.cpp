@@ -12,7 +12,7 @@ StudyPoints study_points(const Invocation& call, const AxesVerbOptions& axes,
                          const KeptVerbOptions& kept, std::size_t least, std::size_t most) {
   Model model = call.model();
   auto values = parse_axes(axes.over.values, axes.points.value_or(0), least, most);
-  auto earlier = earlier_start(kept.from, model);
+  auto earlier = earlier_start(kept.from, model, call.ranks);
   if (kept.from) model.start.whirl.clear();  // it goes on as it was
   return {std::move(model), std::move(values), std::move(earlier)};
 }
@@ -38,7 +38,7 @@ StudyKeeping study_keeping(const Invocation& call, const Model& model,
                     .model = model.source,
                     .version = version,
                     .start_file = start_of(options.from, model).file,
-                    .start = earlier_start(options.from, model)},
+                    .start = earlier_start(options.from, model, call.ranks)},
           .begin =
               [&call, &model, report = Report{.notes = std::move(notes)}] {
                 auto file = call.result_file(model);
@@ -46,7 +46,8 @@ StudyKeeping study_keeping(const Invocation& call, const Model& model,
                 return file;
               },
           .progress = progress_of(call, std::move(what)),
-          .is_stopped = is_interrupted};
+          .is_stopped = is_interrupted,
+          .ranks = call.ranks};
 }
 
 Report study_report(const Invocation& call, const Model& model, const StudyOutcome& outcome,

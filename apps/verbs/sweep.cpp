@@ -70,6 +70,7 @@ Verb sweep_verb() {
           "whirl sweep models/jeffcott_stator.toml --over operation.speed=130:140:0.5rad/s --out "
           "sweep.h5",
       .run = run_sweep,
+      .shares_work = true,
   };
 }
 

@@ -236,6 +236,10 @@ template <class Row, class Given>
   Patience patience;
   Silence silence;
   bool has_stopped = false;
+  const auto send = [&](Letter letter) {
+    ranks.send(std::move(letter));
+    patience.begin_anew();  // a long letter leaves while others are looked for
+  };
   for (auto next_alive = clock::now() + alive_every;;) {
     const std::optional<Letter> letter = ranks.receive();
     if (letter) {
@@ -250,7 +254,7 @@ template <class Row, class Given>
             [&work, &stops, bytes = letter->bytes] { return answer_piece(work, bytes, stops); });
       }
     }
-    while (auto answer = queue.take({})) ranks.send(std::move(*answer));
+    while (auto answer = queue.take({})) send(std::move(*answer));
     if (stops() && !std::exchange(has_stopped, true)) ranks.send({0, LetterKind::stop});
     if (clock::now() >= next_alive) {
       ranks.send({0, LetterKind::alive});
@@ -261,10 +265,7 @@ template <class Row, class Given>
     if (const auto lasts = silence.look(); lasts > longer * ranks.patience)
       throw LostRank(0, lasts);
     if (letter) continue;
-    if (auto answer = queue.take(patience.next())) {
-      patience.begin_anew();
-      ranks.send(std::move(*answer));
-    }
+    if (auto answer = queue.take(patience.next())) send(std::move(*answer));
   }
 }
 

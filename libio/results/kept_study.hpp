@@ -19,6 +19,7 @@ struct StudyKeeping {
   StudyFile::Begin begin{};  ///< makes its file, with the facts of the call
   std::function<void(long done, long total)> progress{};  ///< as of Monitor
   std::function<bool()> is_stopped{};                     ///< likewise
+  const Ranks* ranks = nullptr;                           ///< likewise
 };
 
 /// A study, and how its file has it.
@@ -41,10 +42,12 @@ Study run_kept(const StudyKeeping& keeping, const KeptStudy<Study>& kept, Study 
       [&](const ResultReader& earlier) { begun = kept.read(earlier); });
   return kept.run(std::move(begun), {.progress = keeping.progress,
                                      .is_stopped = keeping.is_stopped,
-                                     .save = [&](const Study& study) {
-                                       so_far = &study;
-                                       file.save();
-                                     }});
+                                     .save =
+                                         [&](const Study& study) {
+                                           so_far = &study;
+                                           file.save();
+                                         },
+                                     .ranks = keeping.ranks});
 }
 
 /// A study of many points that has run, and what there is to say of all of them.

@@ -1,0 +1,90 @@
+#include "apps/run_program.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "apps/command.hpp"
+#include "apps/program.hpp"
+#include "apps/verb.hpp"
+#include "libbase/travel.hpp"
+#include "libio/text/nearest.hpp"
+
+namespace whirl::inline cli {
+
+namespace {
+
+/// Help of the whole program: verbs by group, an example each.
+std::string overview() {
+  std::string text =
+      "whirl: rotordynamics with contact\n\n"
+      "Usage: whirl VERB MODEL [options]\n\n";
+  std::string_view group;
+  for (const Verb& verb : verbs()) {
+    if (verb.group != group) text += fmt::format("{}{}\n", group.empty() ? "" : "\n", verb.group);
+    group = verb.group;
+    text += fmt::format("  {:<10} {}\n             {}\n", verb.name, verb.summary, verb.example);
+  }
+  return text +
+         "\nCommon options: --set PATH=VALUE, --speed S, --out FILE.h5, --json FILE, --threads N, "
+         "--force, --quiet\n"
+         "More: whirl VERB --help, docs/command-line.md, docs/model-file.md\n";
+}
+
+/// A verb that does not exist, with the nearest one.
+int unknown_verb(const std::string& word) {
+  std::vector<std::string> known;
+  for (const Verb& verb : verbs()) known.emplace_back(verb.name);
+  for (const char* option : {"--help", "--version"}) known.emplace_back(option);
+  const auto near = nearest(word, known);
+  fmt::print(stderr, "whirl: there is no {} \"{}\"; {}\n",
+             word.starts_with('-') ? "option" : "verb", word,
+             near ? fmt::format("did you mean \"{}\"?", *near)
+                  : fmt::format("known are {}", fmt::join(known, ", ")));
+  return exit_status::wrong_input;
+}
+
+/// Runs the verb that is the second word.
+int run_verb(const std::vector<std::string>& words, const Ranks* ranks) {
+  const Verb* const verb = verb_named(words[1]);
+  if (!verb) return unknown_verb(words[1]);
+  if (!verb->run_words) return run_command(*verb, words, {}, verb->shares_work ? ranks : nullptr);
+  if (words.size() > 2 && words[2] == "--help") {
+    fmt::print("{}", verb->usage);
+    return exit_status::done;
+  }
+  return verb->run_words({words.begin() + 2, words.end()});
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& words, const Ranks* ranks) {
+  const std::string word = words.size() > 1 ? words[1] : "--help";
+  if (word == "--help" || word == "-h" || (word == "help" && words.size() == 2)) {
+    fmt::print("{}", overview());
+    return exit_status::done;
+  }
+  if (word == "--version") {
+    fmt::print("whirl {}\n", version);
+    return exit_status::done;
+  }
+  try {
+    return run_verb(word == "help" ? std::vector{words[0], words[2], std::string("--help")} : words,
+                    ranks);
+  } catch (const std::exception& error) {
+    std::fputs(fmt::format("whirl: {}\n", error.what()).c_str(), stderr);  // which may be full too
+    return exit_status::failed;
+  }
+}
+
+void serve_program(const Ranks& ranks) {
+  try {
+    std::vector<std::string> words;
+    unpack(ranks.share({}), words);
+    serve_command(*verb_named(words[1]), words, ranks);
+    while (true) ranks.share({});  // it shared no work, or failed as the leader does, too
+  } catch (const WorkIsDone&) {
+  }
+}
+
+}  // namespace whirl::inline cli

@@ -1,0 +1,228 @@
+// whirl-mpi: a study in several processes gives the file that whirl gives, whatever becomes of them.
+
+#include <array>
+#include <cstdlib>
+
+#include "tests/cli/studies.hpp"
+
+namespace whirl::test {
+namespace ranks_cli_test {
+
+const std::vector<std::string> map_words{"map",           stator,
+                                         "--over",        "operation.speed=130:140:0.1rad/s",
+                                         "--over",        "contact.ring.friction=0.1,0.2",
+                                         "--over",        "contact.ring.stiffness=64e6,150e6",
+                                         "--discard",     "60",
+                                         "--revolutions", "30"};
+/// A map of some seconds, of which something is saved soon.
+const std::vector<std::string> long_map{"map",           stator,
+                                        "--over",        "operation.speed=130:160:0.2rad/s",
+                                        "--over",        "contact.ring.friction=0:0.3:0.02",
+                                        "--discard",     "60",
+                                        "--revolutions", "30",
+                                        "--threads",     "1"};
+
+/// Runs of the program in several processes.
+class Mpi : public Studies {
+ protected:
+  void SetUp() override {
+    Studies::SetUp();
+    if (!std::filesystem::exists(mpirun)) GTEST_SKIP() << "there is no mpirun";
+    // as root, with more ranks than processors, without what containers forbid
+    for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
+                             "OMPI_MCA_rmaps_base_oversubscribe"}) {
+      ::setenv(name, "1", 1);
+    }
+    ::setenv("OMPI_MCA_hwloc_base_binding_policy", "none", 1);
+    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);
+    ::setenv("OMPI_MCA_btl", "self,vader", 1);
+  }
+
+  /// The words after mpirun.
+  static std::vector<std::string> in_ranks(int count, const std::vector<std::string>& words) {
+    std::vector<std::string> all{"-n", std::to_string(count), WHIRL_MPI_PROGRAM};
+    all.insert(all.end(), words.begin(), words.end());
+    return all;
+  }
+  Outcome whirl_mpi(int count, const std::vector<std::string>& words) const {
+    return wait(start(mpirun, in_ranks(count, words)));
+  }
+
+  /// Whether a study of any number of ranks and threads writes what whirl writes.
+  void expect_same_file(const std::vector<std::string>& words, const std::string& group) const {
+    const auto with = [&](int threads, const std::string& file) {
+      std::vector<std::string> all = words;
+      all.insert(all.end(), {"--threads", std::to_string(threads), "--out", file});
+      return all;
+    };
+    ASSERT_EQ(whirl(with(2, "alone.h5")).status, 0);
+    for (const int ranks : {1, 2, 4}) {
+      for (const int threads : {1, 2}) {
+        const Outcome outcome = whirl_mpi(ranks, with(threads, "shared.h5"));
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        expect_same("alone.h5", "shared.h5", group);
+        const ResultReader one(folder / "alone.h5"), other(folder / "shared.h5");
+        EXPECT_EQ(one.strings("/model"), other.strings("/model"));
+        EXPECT_EQ(one.list("/"), other.list("/"));
+        std::filesystem::remove(folder / "shared.h5");
+      }
+    }
+  }
+
+  /// Processes of the program that a process has started, in the order of their ranks.
+  static std::vector<pid_t> ranks_of(pid_t parent, std::size_t count) {
+    std::vector<pid_t> found;
+    while (found.size() < count && ::kill(parent, 0) == 0) {
+      found.clear();
+      for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        const std::string name = entry.path().filename();
+        if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+        std::string text = content(entry.path() / "stat");
+        if (!has(text, "(whirl-mpi)")) continue;
+        std::istringstream rest(text.substr(text.rfind(')') + 1));
+        char state = ' ';
+        pid_t its_parent = 0;
+        rest >> state >> its_parent;
+        if (its_parent == parent) found.push_back(std::stoi(name));
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+  void wait_for_file(const std::string& name, pid_t child) const {
+    siginfo_t ended{};
+    while (!std::filesystem::exists(folder / name) && ended.si_pid == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT);
+    }
+  }
+
+  /// A study of three ranks, one of which gets a signal once something is saved; then the file is whole, and
+  /// the same line goes on to the same end.
+  Outcome signal_a_rank(std::size_t rank, int signal) const {
+    std::vector<std::string> words = long_map;
+    words.insert(words.end(), {"--out", "alone.h5"});
+    EXPECT_EQ(whirl(words).status, 0);
+    words.back() = "shared.h5";
+    const pid_t child = start(mpirun, in_ranks(3, words));
+    const std::vector<pid_t> ranks = ranks_of(child, 3);
+    wait_for_file("shared.h5", child);
+    if (ranks.size() == 3) ::kill(ranks[rank], signal);
+    Outcome outcome = wait(child);
+    {
+      const ResultReader file(folder / "shared.h5");
+      EXPECT_EQ(file.number_attribute("/map", "complete"), 0.0);
+      const std::vector<double> done = file.numbers("/map/done");
+      EXPECT_GT(std::count(done.begin(), done.end(), 1.0), 0);
+    }
+    EXPECT_EQ(whirl_mpi(2, words).status, 0);
+    expect_same("alone.h5", "shared.h5", "/map");
+    return outcome;
+  }
+
+  static constexpr const char* mpirun = WHIRL_MPIRUN;
+};
+
+TEST_F(Mpi, MapWritesTheSameFile) {
+  expect_same_file(map_words, "/map");
+}
+
+TEST_F(Mpi, FreshSweepWritesTheSameFile) {
+  expect_same_file({"sweep", stator, "--over", "operation.speed=130:142:0.1rad/s", "--fresh",
+                    "--discard", "40", "--revolutions", "20", "--spectra", "4"},
+                   "/sweep");
+}
+
+TEST_F(Mpi, CarriedSweepWritesTheSameFile) {
+  expect_same_file({"sweep", stator, "--over", "operation.speed=130:142:0.2rad/s", "--discard",
+                    "40", "--revolutions", "20", "--spectra", "4"},
+                   "/sweep");
+}
+
+TEST_F(Mpi, BasinsWriteTheSameFile) {
+  expect_same_file({"basins", stator, "--set", "contact.ring.stiffness=64e6", "--speed",
+                    "138.4rad/s", "--starts", "200", "--discard", "40", "--revolutions", "20"},
+                   "/basins");
+}
+
+// Only the leader reads: the model, what was set, and the end that all motions go on from.
+TEST_F(Mpi, OthersNeedNoFiles) {
+  ASSERT_EQ(whirl({"simulate", "rub.toml", "--revolutions", "7", "--out", "run.h5"}).status, 0);
+  const std::vector<std::string> words{"basins",        "rub.toml",
+                                       "--from",        "run.h5",
+                                       "--starts",      "60",
+                                       "--discard",     "20",
+                                       "--threads",     "1",
+                                       "--revolutions", "10",
+                                       "--set",         "contact.ring.stiffness=3e4"};
+  auto alone = words, shared = words;
+  alone.insert(alone.end(), {"--out", "alone.h5"});
+  shared.insert(shared.end(), {"--out", "shared.h5"});
+  ASSERT_EQ(whirl(alone).status, 0);
+  std::filesystem::create_directories(folder / "empty");
+  std::vector<std::string> line{"-n", "1", WHIRL_MPI_PROGRAM};
+  line.insert(line.end(), shared.begin(), shared.end());
+  line.insert(line.end(), {":", "-n", "2", "-wdir", (folder / "empty").string(), WHIRL_MPI_PROGRAM,
+                           "no", "words", "count"});
+  const Outcome outcome = wait(start(mpirun, line));
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  expect_same("alone.h5", "shared.h5", "/basins");
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "empty"));
+}
+
+// What is wrong is told once, and what is found is printed once, also by verbs that share nothing.
+TEST_F(Mpi, SpeaksOnce) {
+  const Outcome modes = whirl_mpi(2, {"modes", "rub.toml"});
+  EXPECT_EQ(modes.status, 0) << modes.err;
+  EXPECT_EQ(modes.out, whirl({"modes", "rub.toml"}).out);
+  const std::vector<std::string> wrong{"map",    stator,
+                                       "--over", "operation.speed=130:140:0.1rad/s",
+                                       "--over", "contact.ring.friktion=0.1,0.2"};
+  const Outcome refused = whirl_mpi(2, wrong);
+  EXPECT_EQ(refused.status, 2);
+  const std::string told = whirl(wrong).err;
+  EXPECT_EQ(refused.err.substr(0, told.size()), told);
+  EXPECT_EQ(refused.err.find("friktion", told.size()), std::string::npos) << refused.err;
+  std::vector<std::string> words = map_words;
+  words.insert(words.end(), {"--json", "-"});
+  const Outcome json = whirl_mpi(2, words);
+  EXPECT_EQ(json.status, 0) << json.err;
+  EXPECT_EQ(json.out, whirl(words).out);
+}
+
+TEST_F(Mpi, ALostRankLosesNothingSaved) {
+  const Outcome outcome = signal_a_rank(2, SIGKILL);
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_NE(outcome.err, "");
+}
+
+TEST_F(Mpi, ALostLeaderLosesNothingSaved) {
+  EXPECT_NE(signal_a_rank(0, SIGKILL).status, 0);
+}
+
+TEST_F(Mpi, WhoeverIsInterruptedStopsAll) {
+  for (const std::size_t rank : {0u, 1u}) {
+    const Outcome outcome = signal_a_rank(rank, SIGINT);
+    EXPECT_EQ(outcome.status, 130) << outcome.err;
+    EXPECT_TRUE(has(outcome.out, "the same line goes on from there")) << outcome.out;
+    std::filesystem::remove(folder / "shared.h5");
+  }
+}
+
+/// Names of the libraries that a program needs.
+class Linked : public Program {};
+
+TEST_F(Linked, WhirlKnowsNoMpi) {
+  const Outcome linked = wait(start("ldd", {WHIRL_PROGRAM}));
+  ASSERT_EQ(linked.status, 0) << linked.err;
+  EXPECT_TRUE(has(linked.out, "libhdf5")) << linked.out;
+  for (const char* library : {"libmpi", "libmpich", "libopen-rte", "libpmi"}) {
+    EXPECT_FALSE(has(linked.out, library)) << linked.out;
+  }
+}
+
+}  // namespace ranks_cli_test
+}  // namespace whirl::test
