@@ -54,19 +54,24 @@ std::optional<std::uint64_t> end_of(std::ifstream& stream) {
 
 std::uint32_t checksum(std::ifstream& stream, std::uint64_t bytes) {
   std::vector<char> buffer(piece);
-  uLong sum = ::crc32(0, nullptr, 0);
+  std::uint32_t sum = 0;
   stream.clear();
   stream.seekg(0);
   while (bytes > 0 && stream) {
     stream.read(buffer.data(), static_cast<std::streamsize>(std::min<std::uint64_t>(piece, bytes)));
     const auto got = static_cast<std::uint64_t>(stream.gcount());
-    sum = ::crc32(sum, reinterpret_cast<const Bytef*>(buffer.data()), static_cast<uInt>(got));
+    sum = crc32_of({buffer.data(), static_cast<std::size_t>(got)}, sum);
     bytes -= got;
   }
-  return static_cast<std::uint32_t>(sum);
+  return sum;
 }
 
 }  // namespace
+
+std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before) {
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
 
 void seal(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

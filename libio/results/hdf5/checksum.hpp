@@ -1,9 +1,14 @@
 #pragma once
 /// A checksum behind the end of a result file: whether it is as whirl wrote it.
 
+#include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 namespace whirl::inline io::hdf5 {
+
+/// CRC-32 of bytes, or of these behind others of which it is known.
+std::uint32_t crc32_of(std::string_view bytes, std::uint32_t before = 0);
 
 /// What the end of a file says about its content.
 enum class Seal {

@@ -1,0 +1,69 @@
+#pragma once
+/// Rows of a large study beside its result file: what a saving costs is what is new.
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace whirl::inline io {
+
+/// Numbered rows of bytes, appended and never changed, each with its checksum.
+///
+/// Killed at any moment, the process leaves all rows of earlier appends; of the last one those that
+/// reached the disk. What is behind a row that is not whole is dropped when the journal is opened to
+/// go on. A process that has it open keeps others out.
+///
+///     "whirlrow" format key crc32    then for each row:    number size crc32 bytes
+///
+/// Numbers are those of the machine, of 32 bits, and 64 bits where they are a row's number or the key.
+class RowJournal {
+ public:
+  struct Row {
+    std::uint64_t number = 0;
+    std::string bytes{};
+  };
+
+  /// Opens the journal at a place, or begins one.
+  ///
+  /// @param key  which study the rows are of; those of another one are dropped
+  /// @throws FileError   if the file cannot be read or written, or another process has it open
+  /// @throws TakenPlace  if there is a file that is no journal
+  RowJournal(const std::filesystem::path& place, std::string_view key);
+  ~RowJournal();
+  RowJournal(const RowJournal&) = delete;
+  RowJournal& operator=(const RowJournal&) = delete;
+
+  const std::filesystem::path& place() const { return place_; }
+
+  /// Calls f with each row, in the order in which they were appended.
+  /// @throws FileError
+  void read(const std::function<void(std::uint64_t number, std::string_view bytes)>& f) const;
+
+  /// Appends rows and brings them to the disk.
+  /// @throws FileError  the journal then is as it was
+  void append(std::span<const Row> rows);
+
+  /// Drops all rows.
+  /// @throws FileError
+  void clear();
+
+  /// Takes the file away; no other function may be called afterwards.
+  void remove();
+
+ private:
+  std::filesystem::path place_;
+  int file_ = -1;
+  std::uint64_t end_ = 0;  ///< of the rows that are whole
+};
+
+/// Where the journal of a result file is: beside it, "atlas.h5.rows".
+std::filesystem::path journal_of(const std::filesystem::path& file);
+
+/// How many rows a journal has, which another process may be writing; 0 if there is none.
+std::uint64_t rows_in_journal(const std::filesystem::path& place);
+
+}  // namespace whirl::inline io
