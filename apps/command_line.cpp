@@ -90,6 +90,7 @@ std::variant<CommandLine, int> read_command_line(const Verb& verb,
   call.line = words;
   call.model_text = stored.text;
   call.sets_before = stored.sets;
+  call.joins = stored.joins;
   declare(verb, app, call);
   try {
     std::vector<std::string> arguments(words.rbegin(), words.rend() - 2);

@@ -15,6 +15,8 @@ namespace whirl::inline cli {
 struct StoredModel {
   std::string text;  ///< empty: there is none
   std::vector<std::string> sets{};
+  /// Files that a study takes its points from, instead of computing any.
+  std::optional<std::vector<std::string>> joins{};
 };
 
 /// What a command line asks for.

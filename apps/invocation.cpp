@@ -45,6 +45,14 @@ Call Invocation::parts() const {
   return parts;
 }
 
+Stripe Invocation::stripe() const {
+  return stripe_named(text("part"));
+}
+
+std::string Invocation::out_file() const {
+  return output.out ? part_place(*output.out, stripe()).string() : "";
+}
+
 Replaces Invocation::result_replaces() const {
   return output.force ? Replaces::anything : Replaces::own_results;
 }
@@ -59,7 +67,7 @@ CommandFiles Invocation::files() const {
   return {.input = model_text.empty() ? file : "",  // a stored model needs no file
           .others = words,
           .from = text("from"),
-          .out = output.out.value_or(""),
+          .out = out_file(),
           .out_kind = kind == "FILE.h5" ? OutKind::result
                       : kind == "NAME"  ? OutKind::stem
                                         : OutKind::picture,
@@ -70,7 +78,7 @@ CommandFiles Invocation::files() const {
 
 std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const {
   if (!output.out) return nullptr;
-  auto writer = std::make_unique<ResultWriter>(*output.out, result_replaces());
+  auto writer = std::make_unique<ResultWriter>(out_file(), result_replaces());
   write_origin(*writer, {parts(), line, version}, model);
   return writer;
 }

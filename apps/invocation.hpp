@@ -2,6 +2,7 @@
 /// One call of a verb, and what comes of it.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "libdyn/system/model.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/command_files.hpp"
+#include "libio/results/study_part.hpp"
 #include "libio/text/option.hpp"
 #include "libio/text/record.hpp"
 
@@ -50,6 +52,8 @@ class Invocation {
   std::vector<std::string> line;  ///< the command line, to be stored in results
   std::string model_text;         ///< of a result that is run again; else empty
   const Ranks* ranks = nullptr;   ///< processes that share its work; null: there are none
+  /// Files that a study takes its points from, instead of computing any.
+  std::optional<std::vector<std::string>> joins;
 
   /// What is given of an option that several verbs have, for what all verbs do alike.
   std::vector<std::string> values(std::string_view option) const;
@@ -65,6 +69,12 @@ class Invocation {
   /// What results may take the place of, and what pictures, pages and other files may.
   Replaces result_replaces() const;
   Replaces picture_replaces() const;
+
+  /// The part of a study that it computes.
+  /// @throws ModelError  as stripe_named
+  Stripe stripe() const;
+  /// The file of --out, or of this part of it; empty: none.
+  std::string out_file() const;
 
   /// The files that it reads and writes.
   CommandFiles files() const;

@@ -30,6 +30,7 @@
   plot_verb(),       \
   rerun_verb(),      \
   status_verb(),     \
+  merge_verb(),      \
   completion_verb(), \
   schema_verb()
 // clang-format on

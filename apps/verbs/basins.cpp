@@ -32,7 +32,8 @@ BasinsOptions basins_options(const Invocation& call, const BasinsVerbOptions& as
                         .size = *asked.size,
                         .seed = *asked.seed,
                         .classify = study_classify(asked.study),
-                        .threads = study_threads(call)};
+                        .threads = study_threads(call),
+                        .stripe = call.stripe()};
   if (options.is_random()) {
     options.starts = static_cast<std::size_t>(*asked.starts);
   } else if (asked.starts.is_given) {

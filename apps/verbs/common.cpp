@@ -36,7 +36,7 @@ void write_notes(ResultWriter& file, const Report& report) {
 }
 
 void tell_result(const Invocation& call, Report& report) {
-  if (call.output.out) report.text += fmt::format("\n  result: {}\n", *call.output.out);
+  if (call.output.out) report.text += fmt::format("\n  result: {}\n", call.out_file());
 }
 
 void commit(const Invocation& call, ResultWriter* file, Report& report) {

@@ -22,7 +22,8 @@ Report run_map(const Invocation& call, const MapVerbOptions& asked) {
   points.first();
   const MapOptions options{.grid = points.grid(),
                            .classify = study_classify(asked.study),
-                           .threads = study_threads(call)};
+                           .threads = study_threads(call),
+                           .stripe = call.stripe()};
   const auto [result, outcome] = run_study<MapResult>(
       study_keeping(call, points.model(), asked.study.kept, "mapping"), points,
       options.grid.points(),

@@ -32,7 +32,13 @@ StudyKeeping study_keeping(const Invocation& call, const Model& model,
                            const KeptVerbOptions& options, std::string what,
                            std::vector<std::string> notes) {
   install_interrupt_handler();
-  return {.place = {.file = call.output.out.value_or(""),
+  const Stripe stripe = call.stripe();
+  const bool leads = !call.ranks || call.ranks->leads();  // others have no file
+  if (leads && !stripe.is_all() && !call.output.out) {
+    throw wrong_option("part", call.text("part"), "needs --out, where the parts are joined");
+  }
+  return {.place = {.file = call.out_file(),
+                    .joins = call.joins.value_or(std::vector<std::string>{}),
                     .restarts = options.restart,
                     .call = call.parts(),
                     .model = model.source,
@@ -46,8 +52,9 @@ StudyKeeping study_keeping(const Invocation& call, const Model& model,
                 return file;
               },
           .progress = progress_of(call, std::move(what)),
-          .is_stopped = is_interrupted,
-          .ranks = call.ranks};
+          .is_stopped = [computes = !call.joins] { return !computes || is_interrupted(); },
+          .ranks = call.ranks,
+          .stripe = stripe};
 }
 
 Report study_report(const Invocation& call, const Model& model, const StudyOutcome& outcome,

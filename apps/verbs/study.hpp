@@ -38,7 +38,15 @@ struct StudyVerbOptions {
   Option<double> tolerance = tolerance_option();
   Option<std::string> isa = isa_option();
   KeptVerbOptions kept{};
-  auto fields() { return std::tie(revolutions, exponents, discard, tolerance, isa, kept); }
+  Option<std::string> part{"part", "I/N",
+                           "compute every N-th point only, from the I-th, into a file of its own; "
+                           "`whirl merge` joins them",
+                           [](const std::string& text) -> Parsed<std::string> {
+                             const auto stripe = parse_stripe(text);
+                             if (!stripe) return Parsed<std::string>::failed(stripe.problem);
+                             return text;
+                           }};
+  auto fields() { return std::tie(revolutions, exponents, discard, tolerance, isa, kept, part); }
 };
 
 /// Points of a study.

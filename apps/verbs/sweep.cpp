@@ -24,7 +24,11 @@ SweepOptions sweep_options(const Invocation& call, const SweepVerbOptions& asked
   SweepOptions options{.values = points.axes()[0].values,
                        .start = asked.fresh ? SweepStart::fresh : SweepStart::carried,
                        .classify = study_classify(asked.study),
-                       .threads = study_threads(call)};
+                       .threads = study_threads(call),
+                       .stripe = call.stripe()};
+  if (!options.stripe.is_all() && !asked.fresh) {
+    throw asked.study.part.wrong("a sweep that goes from value to value has no parts; --fresh has");
+  }
   options.classify.sections = *asked.sections;
   const StudyMember first = points.first();
   options.portrait = {

@@ -181,7 +181,8 @@ BasinsResult basins(const StudyModels& models, const BasinsOptions& wanted,
   result.is_random = options.is_random();
   result.sections = options.classify.sections;
   result.points.resize(options.points());
-  PointWork<BasinsPoint> work{.most_together = most_starts, .threads = options.threads};
+  PointWork<BasinsPoint> work{
+      .most_together = most_starts, .stripe = options.stripe, .threads = options.threads};
   work.compute = [&](const auto& piece, NothingGiven&) { return compute(piece, models, options); };
   run_points(work, result, monitor);
   find_basins(first->contacts, result);

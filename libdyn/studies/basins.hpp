@@ -42,6 +42,7 @@ struct BasinsOptions {
   std::uint64_t seed = 1;
   ClassifyOptions classify{};  ///< all sections of an orbit are kept, whatever its `sections`
   int threads = 1;
+  Stripe stripe{};  ///< the points that are computed
 
   bool is_random() const { return grid.axes.empty(); }
   std::size_t points() const { return is_random() ? starts : grid.points(); }

@@ -18,7 +18,8 @@ MapResult map(const StudyModels& models, const MapOptions& options,
   result.system = study_system(*models.member(options.grid.values_at(0)).scene);
   result.points.resize(options.grid.points());
   const ClassifyOptions classify = stopped_by(monitor.stop_asked(), options.classify);
-  PointWork<ClassifiedMotion> work{.most_together = most_points, .threads = options.threads};
+  PointWork<ClassifiedMotion> work{
+      .most_together = most_points, .stripe = options.stripe, .threads = options.threads};
   work.compute = [&](const auto& piece, NothingGiven&) {
     std::vector<StudyMotion> motions;
     for (const std::size_t point : piece) {

@@ -13,6 +13,7 @@ struct MapOptions {
   ParameterGrid grid{};  ///< of any number of axes
   ClassifyOptions classify{};
   int threads = 1;
+  Stripe stripe{};  ///< the points that are computed
 };
 
 struct MapResult {

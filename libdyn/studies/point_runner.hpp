@@ -26,13 +26,22 @@ std::size_t done_points(const PointRows<Row>& points) {
       std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_value(); }));
 }
 
+/// How many points of a stripe are not done.
+template <class Row>
+std::size_t open_points(const PointRows<Row>& points, const Stripe& stripe) {
+  std::size_t open = 0;
+  for (std::size_t i = stripe.number - 1; i < points.size(); i += stripe.of) open += !points[i];
+  return open;
+}
+
 /// The pieces of a study that are not done, one after the other.
 template <class Row>
 class PiecesLeft {
  public:
   /// @param pieces  as of PointWork
-  PiecesLeft(const std::vector<std::vector<std::size_t>>& pieces, const PointRows<Row>& points)
-      : pieces_(pieces), points_(points), left_(points.size() - done_points(points)) {}
+  PiecesLeft(const std::vector<std::vector<std::size_t>>& pieces, const PointRows<Row>& points,
+             const Stripe& stripe)
+      : pieces_(pieces), points_(points), stripe_(stripe), left_(open_points(points, stripe)) {}
 
   /// Points that are computed together; none: all have been given out.
   std::vector<std::size_t> next(PieceSizes& sizes) {
@@ -51,7 +60,7 @@ class PiecesLeft {
   std::vector<std::size_t> next_points(std::size_t count) {
     std::vector<std::size_t> piece;
     for (; at_ < points_.size() && piece.size() < count; ++at_) {
-      if (!points_[at_]) piece.push_back(at_);
+      if (!points_[at_] && stripe_.has(at_)) piece.push_back(at_);
     }
     left_ -= piece.size();
     return piece;
@@ -59,6 +68,7 @@ class PiecesLeft {
 
   const std::vector<std::vector<std::size_t>>& pieces_;
   const PointRows<Row>& points_;
+  Stripe stripe_;
   std::size_t at_ = 0;  ///< the next piece, or point
   std::size_t left_;    ///< points that are neither done nor given out
 };
@@ -111,8 +121,8 @@ void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor
   const std::function<bool()> stops = [&monitor] { return monitor.stops(); };
   if (monitor.ranks && !monitor.ranks->leads()) serve(work, *monitor.ranks, stops);
   PointRows<Row>& points = result.points;
-  const std::size_t before = done_points(points);
-  std::size_t done = before;
+  const auto open = static_cast<long>(open_points(points, work.stripe));
+  long done = 0;
   Savings<Result> savings(result, monitor);
   PieceSizes sizes(work.most_together, work.computing_threads());
   const auto keep = [&](std::optional<FinishedPiece<Row>> finished) {
@@ -124,11 +134,11 @@ void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor
     }
     sizes.learn(finished->piece.size(), finished->seconds);
     savings.note(finished->piece);
-    monitor.show(static_cast<long>(done - before), static_cast<long>(points.size() - before));
+    monitor.show(done, open);
   };
   try {
     PieceHands<Row, Given> hands(work, monitor.ranks, stops);
-    PiecesLeft<Row> pieces(work.pieces, points);
+    PiecesLeft<Row> pieces(work.pieces, points, work.stripe);
     while (!monitor.stops()) {
       sizes.work_with(hands.threads());
       const std::vector<std::size_t> piece = pieces.next(sizes);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "libbase/travel.hpp"
+#include "libdyn/studies/stripe.hpp"
 
 namespace whirl::inline dyn {
 
@@ -24,6 +25,7 @@ struct PointWork {
   /// their order, and pieces are cut as time and threads ask for.
   std::vector<Piece> pieces{};
   std::size_t most_together = 0;  ///< points of such a piece at most
+  Stripe stripe{};                ///< the points that are computed, where pieces are cut
   /// That do the work; 0: the calling one. Where pieces are prepared, one of them does that.
   int threads = 1;
   /// Makes what a piece is given, in order and in the calling thread; none for pieces that are done.

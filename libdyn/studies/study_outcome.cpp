@@ -5,11 +5,12 @@
 namespace whirl::inline dyn {
 
 StudyOutcome study_outcome(const std::vector<const ClassifiedMotion*>& motions, std::size_t resumed,
-                           const std::function<std::string(std::size_t)>& describe) {
-  StudyOutcome outcome{.resumed = resumed, .points = motions.size()};
+                           const std::function<std::string(std::size_t)>& describe,
+                           const Stripe& stripe) {
+  StudyOutcome outcome{.resumed = resumed, .points = stripe.points(motions.size())};
   std::string example;
   for (std::size_t i = 0; i < motions.size(); ++i) {
-    if (!motions[i]) continue;
+    if (!motions[i] || !stripe.has(i)) continue;
     const ClassifiedMotion& motion = *motions[i];
     ++outcome.done;
     outcome.failed += motion.has_failed() ? 1 : 0;

@@ -10,6 +10,7 @@
 #include "libbase/failure.hpp"
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/stripe.hpp"
 
 namespace whirl::inline dyn {
 
@@ -49,8 +50,10 @@ struct StudyOutcome {
 
 /// @param motions   those of all points; null where none is known
 /// @param describe  names a point
+/// @param stripe    the points that count
 StudyOutcome study_outcome(const std::vector<const ClassifiedMotion*>& motions, std::size_t resumed,
-                           const std::function<std::string(std::size_t)>& describe);
+                           const std::function<std::string(std::size_t)>& describe,
+                           const Stripe& stripe = {});
 
 /// The motion at a point of a study: a part of its row, or all of it.
 template <class Row>

@@ -204,7 +204,8 @@ SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
   result.points.resize(result.ways().size() * options.values.size());
 
   if (options.start == SweepStart::fresh) {
-    PointWork<SweepPoint> work{.most_together = most_fresh, .threads = options.threads};
+    PointWork<SweepPoint> work{
+        .most_together = most_fresh, .stripe = options.stripe, .threads = options.threads};
     work.compute = [&](const auto& piece, NothingGiven&) {
       Settled settled = settle_fresh(models, options, piece);
       return finish(settled, options);

@@ -20,6 +20,7 @@ struct SweepOptions {
   ClassifyOptions classify{};  ///< its `sections` are those of the portraits
   PortraitOptions portrait{};
   int threads = 1;
+  Stripe stripe{};  ///< the points that are computed
 };
 
 /// Where a motion of a sweep ended; empty if the next one starts afresh.

@@ -16,12 +16,11 @@ KeptBranches keep_branches(const BranchSetup& asked, const StudyKeeping& keeping
             write_branches(to, found.tree, asked.result(found.tree));
             if (asked.has_curves()) write_curves(to, found.curves, asked.result(found.curves));
           },
-      .read =
-          [&](const ResultReader& from) {
-            BranchStudy found{.tree = read_branches(from, empty.tree)};
+      .take =
+          [&](BranchStudy& found, const ResultReader& from) {
+            found.tree = read_branches(from, empty.tree);
             found.curves = read_curves(from, found.tree.layout);
             kept.resumed = found.tree.points();
-            return found;
           },
       .run =
           [&](const BranchStudy& begun, const Monitor<BranchStudy>& monitor) {
@@ -43,11 +42,10 @@ KeptTorus keep_torus(const TorusSetup& asked, const StudyKeeping& keeping, const
             write_end(to, asked.at_first, *asked.scene, torus.circle.points.col(0));
             write_torus(to, torus, asked.result(torus));
           },
-      .read =
-          [&](const ResultReader& from) {
-            TorusBranch torus = read_torus(from, asked.scene->contacts.size());
+      .take =
+          [&](TorusBranch& torus, const ResultReader& from) {
+            torus = read_torus(from, asked.scene->contacts.size());
             kept.resumed = std::ssize(torus.points());
-            return torus;
           },
       .run =
           [&](TorusBranch begun, const Monitor<TorusBranch>& monitor) {

@@ -1,12 +1,17 @@
 #pragma once
 /// Studies whose file holds what is done at every moment: killed, they go on where they were.
 
+#include <fmt/format.h>
+
 #include <functional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/study_outcome.hpp"
+#include "libdyn/studies/travel.hpp"
 #include "libio/model/study_points.hpp"
 #include "libio/results/study_columns.hpp"
 #include "libio/results/study_file.hpp"
@@ -20,15 +25,20 @@ struct StudyKeeping {
   std::function<void(long done, long total)> progress{};  ///< as of Monitor
   std::function<bool()> is_stopped{};                     ///< likewise
   const Ranks* ranks = nullptr;                           ///< likewise
+  Stripe stripe{};  ///< of a study of points: what it computes
 };
 
 /// A study, and how its file has it.
 template <class Study>
 struct KeptStudy {
   std::function<void(ResultWriter&, const Study&)> write;
-  /// What an earlier run of the same study has left.
-  std::function<Study(const ResultReader&)> read;
+  /// Adds what an earlier run of the same study, or of a part of it, has left.
+  std::function<void(Study&, const ResultReader&)> take;
   std::function<Study(Study begun, const Monitor<Study>&)> run;
+  /// A point of it as bytes, and back: rows that are new are kept beside its file while saving all of
+  /// them would take long. Left out: all is saved each time.
+  std::function<std::string(const Study&, std::size_t point)> pack{};
+  std::function<void(Study&, std::size_t point, std::string_view bytes)> unpack{};
 };
 
 /// Runs it, from what its file has already.
@@ -39,15 +49,42 @@ Study run_kept(const StudyKeeping& keeping, const KeptStudy<Study>& kept, Study 
   const Study* so_far = nullptr;
   StudyFile file(
       keeping.place, keeping.begin, [&](ResultWriter& to) { kept.write(to, *so_far); },
-      [&](const ResultReader& earlier) { begun = kept.read(earlier); });
-  return kept.run(std::move(begun), {.progress = keeping.progress,
-                                     .is_stopped = keeping.is_stopped,
-                                     .save =
-                                         [&](const Study& study) {
-                                           so_far = &study;
-                                           file.save();
-                                         },
-                                     .ranks = keeping.ranks});
+      [&](const ResultReader& earlier) { kept.take(begun, earlier); }, keeping.is_stopped);
+  Monitor<Study> monitor{.progress = keeping.progress,
+                         .is_stopped = keeping.is_stopped,
+                         .save =
+                             [&](const Study& study) {
+                               so_far = &study;
+                               file.save();
+                             },
+                         .ranks = keeping.ranks};
+  if (kept.pack) {
+    file.take_rows(
+        [&](std::size_t point, std::string_view bytes) { kept.unpack(begun, point, bytes); });
+    monitor.add = [&](const Study& study, std::span<const std::size_t> points) {
+      so_far = &study;
+      file.add(points, [&](std::size_t point) { return kept.pack(study, point); });
+    };
+  }
+  Study study = kept.run(std::move(begun), monitor);
+  file.finish();
+  return study;
+}
+
+/// Adds points that a file has.
+/// @throws FileError  if it has other numbers of a point that is there already
+template <class Row>
+void unite(PointRows<Row>& points, PointRows<Row> more, const std::filesystem::path& from) {
+  points.resize(more.size());
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    if (!more[i]) continue;
+    if (!points[i]) {
+      points[i] = std::move(more[i]);
+    } else if (packed(*points[i]) != packed(*more[i])) {
+      throw FileError(fmt::format("{} has other numbers of point {} than the files before",
+                                  from.string(), i + 1));
+    }
+  }
 }
 
 /// A study of many points that has run, and what there is to say of all of them.
@@ -65,19 +102,31 @@ template <class Result>
 StudyRun<Result> run_study(const StudyKeeping& keeping, const StudyPoints& points, std::size_t size,
                            const std::function<Result(Result, const Monitor<Result>&)>& study,
                            const std::function<std::string(std::size_t)>& describe) {
+  using Row = study_columns::RowOf<Result>;
   std::size_t resumed = 0;
   const KeptStudy<Result> kept{
       .write = [&](ResultWriter& to,
                    const Result& found) { write_study(to, points.axes(), found); },
-      .read =
-          [&](const ResultReader& from) {
-            Result earlier = read_study<Result>(from, size);
-            resumed = done_points(earlier.points);
-            return earlier;
+      .take =
+          [&](Result& begun, const ResultReader& from) {
+            unite(begun.points, read_study<Result>(from, size).points, from.path());
+            resumed = done_points(begun.points);
           },
-      .run = study};
+      .run = study,
+      .pack = [](const Result& so_far,
+                 std::size_t point) { return packed(so_far.points[point].value()); },
+      .unpack =
+          [&](Result& begun, std::size_t point, std::string_view bytes) {
+            if (point >= size) return;
+            begun.points.resize(size);
+            std::optional<Row>& row = begun.points[point];
+            resumed += row ? 0 : 1;
+            Unpacked from(bytes);
+            from(row.emplace());
+          }};
   Result result = run_kept(keeping, kept);
-  StudyOutcome outcome = study_outcome(motions_of(result.points), resumed, describe);
+  StudyOutcome outcome =
+      study_outcome(motions_of(result.points), resumed, describe, keeping.stripe);
   return {std::move(result), std::move(outcome)};
 }
 

@@ -207,6 +207,10 @@ void RowJournal::append(std::span<const Row> rows) {
   end_ += bytes.size();
 }
 
+bool RowJournal::is_empty() const {
+  return end_ == sizeof(Head);
+}
+
 void RowJournal::clear() {
   cut(file_, place_, sizeof(Head));
   end_ = sizeof(Head);
@@ -224,18 +228,19 @@ fs::path journal_of(const fs::path& file) {
   return place += ".rows";
 }
 
-std::uint64_t rows_in_journal(const fs::path& place) {
+std::vector<std::uint64_t> rows_in_journal(const fs::path& place) {
   const int file = ::open(place.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return 0;
-  std::uint64_t count = 0;
+  std::vector<std::uint64_t> numbers;
+  if (file < 0) return numbers;
   if (is_ours(file)) {
     try {
-      for_each_row(file, place, [&](std::uint64_t, std::string_view) { ++count; });
+      for_each_row(file, place,
+                   [&](std::uint64_t number, std::string_view) { numbers.push_back(number); });
     } catch (const FileError&) {  // as far as it can be read
     }
   }
   ::close(file);
-  return count;
+  return numbers;
 }
 
 }  // namespace whirl::inline io

@@ -47,6 +47,8 @@ class RowJournal {
   /// @throws FileError  the journal then is as it was
   void append(std::span<const Row> rows);
 
+  bool is_empty() const;
+
   /// Drops all rows.
   /// @throws FileError
   void clear();
@@ -63,7 +65,7 @@ class RowJournal {
 /// Where the journal of a result file is: beside it, "atlas.h5.rows".
 std::filesystem::path journal_of(const std::filesystem::path& file);
 
-/// How many rows a journal has, which another process may be writing; 0 if there is none.
-std::uint64_t rows_in_journal(const std::filesystem::path& place);
+/// Numbers of the rows of a journal, which another process may be writing; none if there is no journal.
+std::vector<std::uint64_t> rows_in_journal(const std::filesystem::path& place);
 
 }  // namespace whirl::inline io

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <charconv>
 #include <filesystem>
+#include <utility>
 
 #include "libbase/arithmetic.hpp"
 #include "libbase/error.hpp"
@@ -14,6 +15,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/result_schema.hpp"
+#include "libio/results/study_part.hpp"
 #include "libio/results/study_status.hpp"
 
 namespace whirl::inline io {
@@ -53,15 +55,16 @@ std::string other_arithmetic(const ResultReader& file) {
   return fmt::format("was begun with other mathematical functions ({}, these are {})", then, now);
 }
 
-/// Takes over what an earlier run of the same line has left in its file.
-void resume(const StudyPlace& place, const std::function<void(const ResultReader&)>& take) {
-  const ResultReader earlier(place.file);
+/// Takes over what an earlier run of a call has left in a file.
+/// @param otherwise  what to do where the file is not that
+void resume(const StudyPlace& place, const std::filesystem::path& from, const Call& call,
+            std::string_view otherwise, const std::function<void(const ResultReader&)>& take) {
+  const ResultReader earlier(from);
   const auto refuse = [&](const std::string& why) {
-    throw FileError(
-        fmt::format("{} {}; take another name, or --restart to replace it", place.file, why));
+    throw FileError(fmt::format("{} {}; {}", from.string(), why, otherwise));
   };
   if (!earlier.has("/arguments") || !earlier.has("/model")) refuse("is no study of whirl");
-  if (essential(read_call(earlier)) != essential(place.call)) {
+  if (essential(without_part(read_call(earlier))) != essential(without_part(call))) {
     refuse("holds another study: " + earlier.string_attribute("/", "command"));
   }
   if (earlier.strings("/model").at(0) != place.model) {
@@ -99,20 +102,73 @@ void remove_leftovers(const std::filesystem::path& place) {
 }  // namespace
 
 StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWriter&)> write,
-                     const std::function<void(const ResultReader&)>& take)
-    : place_(std::move(place)), begin_(std::move(begin)), write_(std::move(write)) {
+                     const std::function<void(const ResultReader&)>& take,
+                     std::function<bool()> is_stopped)
+    : place_(std::move(place)),
+      begin_(std::move(begin)),
+      write_(std::move(write)),
+      is_stopped_(std::move(is_stopped)) {
   if (place_.file.empty()) return;
   remove_leftovers(place_.file);
   begin_();  // says at once what cannot be written
-  if (place_.restarts || origin_of(place_.file) != Origin::result) return;
-  resume(place_, [&](const ResultReader& earlier) {
-    if (const auto work = read_work(earlier)) seconds_before_ = work->seconds;
-    take(earlier);
-  });
+  const bool goes_on = !place_.restarts && origin_of(place_.file) == Origin::result;
+  if (goes_on) {
+    resume(place_, place_.file, place_.call, "take another name, or --restart to replace it",
+           [&](const ResultReader& earlier) {
+             if (const auto work = read_work(earlier)) seconds_before_ = work->seconds;
+             take(earlier);
+           });
+  } else if (std::filesystem::exists(journal_of(place_.file))) {
+    journal().clear();  // of a study that is begun anew
+  }
+  for (const std::string& part : place_.joins) {
+    resume(place_, part, place_.call, "it is no part of this study", take);
+    if (rows_in_journal(journal_of(part)).empty()) continue;
+    throw FileError(fmt::format(
+        "{0} has rows beside it that are not in it yet: `whirl merge {0}` puts them there", part));
+  }
+}
+
+std::string StudyFile::key() const {
+  std::string key = place_.version + '\n' + place_.model;
+  for (const std::string& word : essential(place_.call)) key += '\n' + word;
+  return key;
+}
+
+RowJournal& StudyFile::journal() {
+  if (!journal_) journal_.emplace(journal_of(place_.file), key());
+  return *journal_;
+}
+
+bool StudyFile::is_dear() const {
+  return cost_ > std::chrono::milliseconds(50);
+}
+
+void StudyFile::take_rows(const std::function<void(std::size_t point, std::string_view bytes)>& f) {
+  if (place_.file.empty() || !std::filesystem::exists(journal_of(place_.file))) return;
+  journal().read(f);
+}
+
+void StudyFile::add(std::span<const std::size_t> points,
+                    const std::function<std::string(std::size_t point)>& pack) {
+  if (place_.file.empty()) return;
+  is_current_ = false;
+  if (is_dear()) {
+    std::vector<RowJournal::Row> rows;
+    for (const std::size_t point : points) rows.push_back({point, pack(point)});
+    journal().append(rows);
+    if (clock::now() < next_whole_) return;
+  }
+  save();
+  is_current_ = true;
 }
 
 void StudyFile::save() {
-  if (place_.file.empty()) return;
+  constexpr int rarely = 100;  // times what it takes, until a whole file is written again
+  constexpr std::chrono::seconds soon(2);
+  if (place_.file.empty() || std::exchange(is_current_, false)) return;
+  if (journal_ && cost_ > soon && is_stopped_ && is_stopped_()) return;
+  const auto begin = clock::now();
   const auto file = begin_();
   if (const auto& start = place_.start) {
     StudyStart from{start->state.displacement, start->state.velocity, start->phase};
@@ -123,6 +179,13 @@ void StudyFile::save() {
   const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begun_;
   write_work(*file, this_work(seconds_before_ + now.count()));
   file->commit();
+  cost_ = clock::now() - begin;
+  next_whole_ = clock::now() + rarely * cost_;
+  if (journal_) journal_->clear();
+}
+
+void StudyFile::finish() {
+  if (journal_ && journal_->is_empty()) journal_->remove();
 }
 
 }  // namespace whirl::inline io

@@ -5,10 +5,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "libdyn/motions/start.hpp"
 #include "libio/results/call.hpp"
+#include "libio/results/row_journal.hpp"
 
 namespace whirl::inline io {
 
@@ -17,7 +21,9 @@ class ResultWriter;
 
 /// Which study it is, and where its file is.
 struct StudyPlace {
-  std::string file{};     ///< empty: there is none
+  std::string file{};  ///< empty: there is none
+  /// Files of parts of the study, whose points it has from the beginning.
+  std::vector<std::string> joins{};
   bool restarts = false;  ///< whatever the file holds is replaced
   Call call{};
   std::string model{};                ///< text of the model
@@ -34,18 +40,44 @@ class StudyFile {
   using Begin = std::function<std::unique_ptr<ResultWriter>()>;
   /// @param write  adds what is computed so far
   /// @param take   takes over what an earlier run has left; not called if it restarts
+  /// @param is_stopped  whether the study ends at once: what takes long is not begun then
   /// @throws FileError  if the file cannot be written or is of another study
   StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWriter&)> write,
-            const std::function<void(const ResultReader&)>& take);
+            const std::function<void(const ResultReader&)>& take,
+            std::function<bool()> is_stopped = {});
 
+  /// Calls f with the rows that an earlier run has left beside the file.
+  /// @throws FileError
+  void take_rows(const std::function<void(std::size_t point, std::string_view bytes)>& f);
+
+  /// Keeps points that are new: beside the file while writing all of it takes long, and in it now and
+  /// then.
+  /// @param pack  gives the bytes of a point
+  void add(std::span<const std::size_t> points,
+           const std::function<std::string(std::size_t point)>& pack);
+
+  /// Writes the whole file.
   void save();
 
+  /// Nothing more comes: what is beside the file and in it, too, is taken away.
+  void finish();
+
  private:
+  using clock = std::chrono::steady_clock;
+  std::string key() const;
+  RowJournal& journal();
+  bool is_dear() const;
+
   StudyPlace place_;
   double seconds_before_ = 0.0;  ///< that earlier runs have computed
   std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   Begin begin_;
   std::function<void(ResultWriter&)> write_;
+  std::function<bool()> is_stopped_;
+  std::optional<RowJournal> journal_{};
+  bool is_current_ = false;         ///< the file has all that was added
+  clock::duration cost_{};          ///< of writing the whole file, the last time
+  clock::time_point next_whole_{};  ///< when to do so again, with a journal
 };
 
 }  // namespace whirl::inline io

@@ -16,7 +16,9 @@
 #include "libdyn/studies/sweep.hpp"
 #include "libdyn/studies/torus_result.hpp"
 #include "libio/results/call.hpp"
+#include "libio/results/row_journal.hpp"
 #include "libio/results/study_columns.hpp"
+#include "libio/results/study_part.hpp"
 
 namespace whirl::inline io {
 
@@ -56,14 +58,19 @@ bool count_grid(const ResultReader& file, StudyStatus& status) {
     const std::string group(name);
     const std::size_t points = study_columns::stored_points(file, group);
     if (points == 0) continue;
-    const std::vector<bool> done = study_columns::read_done(file, group, points);
+    std::vector<bool> done = study_columns::read_done(file, group, points);
     const std::vector<double> motion = file.numbers(group + "/motion");
-    status.points = static_cast<long>(points);
+    status.points = static_cast<long>(stripe_of(read_call(file)).points(points));
     status.failed = 0;
     for (std::size_t i = 0; i < points; ++i) {
       if (!done[i]) continue;
       ++status.done;
       if (motion[i] < 0.0) ++*status.failed;
+    }
+    for (const std::uint64_t row : rows_in_journal(journal_of(file.path()))) {
+      if (row >= points || done[row]) continue;
+      done[row] = true;
+      ++status.done;
     }
     return true;
   }

@@ -1,0 +1,107 @@
+// Studies in parts: joined, they are the study that was computed at once, bit by bit.
+
+#include "tests/cli/studies.hpp"
+
+namespace whirl::test {
+namespace parts_test {
+
+class Parts : public Studies {
+ protected:
+  std::vector<std::string> map{"map",
+                               stator,
+                               "--over",
+                               "operation.speed=130:140:0.1rad/s",
+                               "--over",
+                               "contact.ring.friction=0.1,0.2",
+                               "--discard",
+                               "60",
+                               "--revolutions",
+                               "20"};
+
+  /// The words with more behind them.
+  static std::vector<std::string> with(std::vector<std::string> words,
+                                       const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  /// Computes the whole of a study and its parts, and joins these.
+  void expect_joined(const std::vector<std::string>& study, const std::string& group, int status) {
+    ASSERT_EQ(whirl(with(study, {"--out", "whole.h5"})).status, status);
+    std::vector<std::string> merge{"merge", "joined.h5"};
+    for (const char* part : {"2", "3", "1"}) {
+      const Outcome outcome =
+          whirl(with(study, {"--out", "joined.h5", "--part", part + std::string("/3")}));
+      EXPECT_EQ(outcome.status, status) << outcome.err;
+      merge.push_back("joined.part" + std::string(part) + "of3.h5");
+    }
+    const Outcome merged = whirl(merge);
+    ASSERT_EQ(merged.status, status) << merged.err;
+    expect_same("whole.h5", "joined.h5", group);
+    for (const std::string& option : ResultReader(folder / "joined.h5").strings("/call/option")) {
+      EXPECT_FALSE(option.starts_with("--part")) << option;
+    }
+  }
+};
+
+TEST_F(Parts, OfAMapAreTheMap) {
+  expect_joined(map, "/map", 0);
+}
+
+TEST_F(Parts, OfBasinsAreTheBasins) {
+  expect_joined({"basins", stator, "--set", "contact.ring.stiffness=50e6", "--starts", "50",
+                 "--discard", "200", "--revolutions", "50"},
+                "/basins", 0);
+}
+
+TEST_F(Parts, OfAFreshSweepAreTheSweep) {
+  expect_joined({"sweep", stator, "--fresh", "--over", "operation.speed=130:140:1rad/s",
+                 "--discard", "60", "--revolutions", "20"},
+                "/sweep", 0);
+}
+
+TEST_F(Parts, ThatAreMissingAreNamed) {
+  ASSERT_EQ(whirl(with(map, {"--out", "atlas.h5", "--part", "1/3"})).status, 0);
+  const Outcome merged = whirl({"merge", "atlas.h5", "atlas.part1of3.h5"});
+  EXPECT_EQ(merged.status, 3);
+  EXPECT_EQ(merged.err, "whirl: missing: part 2/3 (all)\nwhirl: missing: part 3/3 (all)\n");
+  // what is there goes on, as a whole
+  ASSERT_EQ(whirl(with(map, {"--out", "whole.h5"})).status, 0);
+  const Outcome rest = whirl(with(map, {"--out", "atlas.h5"}));
+  EXPECT_EQ(rest.status, 0) << rest.err;
+  EXPECT_NE(rest.out.find("68 of 202 points were there"), std::string::npos) << rest.out;
+  expect_same("whole.h5", "atlas.h5", "/map");
+}
+
+TEST_F(Parts, OfOtherStudiesAreRefused) {
+  ASSERT_EQ(whirl(with(map, {"--out", "atlas.h5", "--part", "1/3"})).status, 0);
+  auto other = map;
+  other.back() = "21";
+  ASSERT_EQ(whirl(with(other, {"--out", "other.h5", "--part", "2/3"})).status, 0);
+  const Outcome merged = whirl({"merge", "atlas.h5", "atlas.part1of3.h5", "other.part2of3.h5"});
+  EXPECT_EQ(merged.status, 2);
+  EXPECT_NE(merged.err.find("other.part2of3.h5 holds another study"), std::string::npos);
+  EXPECT_NE(merged.err.find("it is no part of this study"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "atlas.h5"));
+}
+
+TEST_F(Parts, AreAskedForRightly) {
+  for (const auto& [part, problem] : std::vector<std::pair<std::string, std::string>>{
+           {"4/3", "such as 3/40"}, {"0/3", "such as 3/40"}, {"3", "such as 3/40"}}) {
+    const Outcome outcome = whirl(with(map, {"--out", "atlas.h5", "--part", part}));
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(problem), std::string::npos) << outcome.err;
+  }
+  EXPECT_NE(whirl(with(map, {"--part", "1/3"})).err.find("needs --out"), std::string::npos);
+  const Outcome carried = whirl({"sweep", stator, "--over", "operation.speed=130:140:1rad/s",
+                                 "--out", "sweep.h5", "--part", "1/3"});
+  EXPECT_EQ(carried.status, 2);
+  EXPECT_NE(carried.err.find("--fresh has"), std::string::npos) << carried.err;
+  EXPECT_EQ(whirl({"merge", "nothing.h5"}).status, 2);
+  ASSERT_EQ(whirl({"modes", stator, "--out", "modes.h5"}).status, 0);
+  EXPECT_NE(whirl({"merge", "all.h5", "modes.h5"}).err.find("is no study that has parts"),
+            std::string::npos);
+}
+
+}  // namespace parts_test
+}  // namespace whirl::test
