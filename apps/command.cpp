@@ -78,7 +78,7 @@ int print(Report report, const Invocation& call, const std::vector<BareSpeed>& b
 int execute(const Verb& verb, CommandLine& line) {
   Invocation& call = line.call;
   call.output = read_options<OutputOptions>(call.given);
-  adopt_arithmetic(call.text("isa"));
+  if (!call.ranks) adopt_arithmetic(call.text("isa"));  // ranks have agreed on one
   require_free_places(call.files());
   const std::vector<BareSpeed> bare = bare_speeds(speed_options(line));
   if (!call.output.quiet) {

@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
 
+#include "apps/arithmetic.hpp"
 #include "apps/mpi/mpi_process.hpp"
 #include "apps/program.hpp"
 #include "apps/run_program.hpp"
+#include "libbase/arithmetic.hpp"
 #include "libbase/travel.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/text/terminal.hpp"
 
 namespace {
@@ -22,42 +26,84 @@ struct Identity {
   std::string host;
   std::string program_version;
   std::uint64_t program = 0;  ///< FNV-1a of the bytes of this program
+  std::string mathematics;
+  std::vector<std::string> sets;  ///< instruction sets that it may compute with, the best first
 };
 
 template <class Bytes>
 void travel(Bytes& bytes, Is<Identity> auto& identity) {
-  auto& [host, program_version, program] = identity;
-  bytes(host, program_version, program);
+  auto& [host, program_version, program, mathematics, sets] = identity;
+  bytes(host, program_version, program, mathematics, sets);
 }
 
-Identity own_identity() {
-  char host[256] = "";
-  gethostname(host, sizeof host - 1);
-  Identity identity{host, version, 14695981039346656037u};
+/// The last value of --isa in the words of a process; empty: there is none.
+std::string asked_set(const std::vector<std::string>& words) {
+  std::string asked;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    constexpr std::string_view option = "--isa";
+    if (words[i] == option && i + 1 < words.size()) asked = words[i + 1];
+    if (words[i].starts_with("--isa=")) asked = words[i].substr(option.size() + 1);
+  }
+  return asked;
+}
+
+/// The bytes of this program in short: FNV-1a.
+std::uint64_t program_digest() {
+  std::uint64_t digest = 14695981039346656037u;
   std::ifstream program("/proc/self/exe", std::ios::binary);
   std::string block(1 << 16, '\0');
   while (program.read(block.data(), static_cast<std::streamsize>(block.size())),
          program.gcount() > 0) {
     for (std::streamsize i = 0; i < program.gcount(); ++i) {
-      identity.program ^= static_cast<unsigned char>(block[static_cast<std::size_t>(i)]);
-      identity.program *= 1099511628211u;
+      digest = (digest ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) *
+               1099511628211u;
     }
   }
-  return identity;
+  return digest;
+}
+
+/// @param asked  instruction set that it is to compute with at best; empty: the best that it has
+Identity own_identity(const std::string& asked) {
+  char host[256] = "";
+  gethostname(host, sizeof host - 1);
+  std::vector<std::string> sets = instruction_sets();
+  sets.erase(sets.begin(),
+             asked.empty() ? sets.begin() : std::find(sets.begin(), sets.end(), asked));
+  return {host, version, program_digest(), mathematics(), sets};
+}
+
+/// The best instruction set that all ranks have; empty: there is none.
+std::string common_set(const std::vector<Identity>& all) {
+  for (const std::string& set : all[0].sets) {
+    const auto has_it = [&](const Identity& rank) {
+      return std::find(rank.sets.begin(), rank.sets.end(), set) != rank.sets.end();
+    };
+    if (std::all_of(all.begin(), all.end(), has_it)) return set;
+  }
+  return "";
 }
 
 /// Why ranks cannot work together; empty: they can.
-std::string mismatch(const std::vector<std::string>& identities) {
-  std::vector<Identity> all(identities.size());
-  for (std::size_t i = 0; i < all.size(); ++i) unpack(identities[i], all[i]);
+std::string mismatch(const std::vector<Identity>& all) {
+  const Identity& first = all[0];
   for (std::size_t i = 1; i < all.size(); ++i) {
-    if (all[i].program == all[0].program && all[i].program_version == all[0].program_version)
-      continue;
-    return fmt::format(
-        "rank {} on {} runs another program (whirl-mpi {}) than rank 0 on {} (whirl-mpi {}); all "
-        "must be copies of one file",
-        i, all[i].host, all[i].program_version, all[0].host, all[0].program_version);
+    const Identity& other = all[i];
+    if (other.program != first.program || other.program_version != first.program_version) {
+      return fmt::format(
+          "rank {} on {} runs another program (whirl-mpi {}) than rank 0 on {} (whirl-mpi {}); all "
+          "must be copies of one file",
+          i, other.host, other.program_version, first.host, first.program_version);
+    }
+    if (other.mathematics != first.mathematics) {
+      return fmt::format(
+          "rank {} on {} has other mathematical functions ({}) than rank 0 on {} ({}), whose last "
+          "digits differ; --isa baseline takes those that all processors have, and one image of "
+          "the "
+          "system for all ranks the same library",
+          i, other.host, other.mathematics, first.host, first.mathematics);
+    }
   }
+  if (common_set(all).empty()) return "--isa: the ranks have no such instruction set in common";
   return "";
 }
 
@@ -72,10 +118,15 @@ std::vector<std::string> whirl_words(int argc, char** argv) {
 /// What this process does among the others; its exit status.
 int work(MpiProcess& process, const std::vector<std::string>& words) {
   const Ranks& ranks = process.ranks();
-  if (const std::string why = mismatch(process.gather(packed(own_identity()))); !why.empty()) {
+  std::vector<Identity> all;
+  for (const std::string& bytes : process.gather(packed(own_identity(asked_set(words))))) {
+    unpack(bytes, all.emplace_back());
+  }
+  if (const std::string why = mismatch(all); !why.empty()) {
     if (ranks.leads()) fmt::print(stderr, "whirl-mpi: {}\n", why);
     return exit_status::wrong_input;
   }
+  use_instruction_set(common_set(all));
   if (!ranks.leads()) {
     serve_program(ranks);
     process.end();
@@ -93,6 +144,8 @@ int work(MpiProcess& process, const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
   fill_standard_streams();
   try {
+    // for which the program may start again: not once MPI has begun
+    if (asked_set({argv, argv + argc}) == baseline_set) adopt_arithmetic(std::string(baseline_set));
     MpiProcess process(argc, argv);
     try {
       return work(process, whirl_words(argc, argv));

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstdlib>
+#include <optional>
 
+#include "libdyn/taylor/batch.hpp"
 #include "tests/cli/studies.hpp"
 
 namespace whirl::test {
@@ -100,17 +102,20 @@ class Mpi : public Studies {
     }
   }
 
-  /// A study of three ranks, one of which gets a signal once something is saved; then the file is whole, and
-  /// the same line goes on to the same end.
-  Outcome signal_a_rank(std::size_t rank, int signal) const {
+  /// A study of three ranks, one of which gets a signal once something is saved; then the file is
+  /// whole, and the same line goes on to the same end.
+  /// @param rank  nothing: mpirun gets it
+  Outcome signal_a_rank(std::optional<std::size_t> rank, int signal) const {
     std::vector<std::string> words = long_map;
     words.insert(words.end(), {"--out", "alone.h5"});
-    EXPECT_EQ(whirl(words).status, 0);
+    if (!std::filesystem::exists(folder / "alone.h5")) {
+      EXPECT_EQ(whirl(words).status, 0);
+    }
     words.back() = "shared.h5";
     const pid_t child = start(mpirun, in_ranks(3, words));
     const std::vector<pid_t> ranks = ranks_of(child, 3);
     wait_for_file("shared.h5", child);
-    if (ranks.size() == 3) ::kill(ranks[rank], signal);
+    if (ranks.size() == 3) ::kill(rank ? ranks[*rank] : child, signal);
     Outcome outcome = wait(child);
     {
       const ResultReader file(folder / "shared.h5");
@@ -120,6 +125,7 @@ class Mpi : public Studies {
     }
     EXPECT_EQ(whirl_mpi(2, words).status, 0);
     expect_same("alone.h5", "shared.h5", "/map");
+    std::filesystem::remove(folder / "shared.h5");
     return outcome;
   }
 
@@ -204,12 +210,55 @@ TEST_F(Mpi, ALostLeaderLosesNothingSaved) {
 }
 
 TEST_F(Mpi, WhoeverIsInterruptedStopsAll) {
-  for (const std::size_t rank : {0u, 1u}) {
-    const Outcome outcome = signal_a_rank(rank, SIGINT);
+  for (const auto& [rank, signal] : {std::pair{0u, SIGINT}, {1u, SIGTERM}, {2u, SIGUSR1}}) {
+    const Outcome outcome = signal_a_rank(rank, signal);
     EXPECT_EQ(outcome.status, 130) << outcome.err;
     EXPECT_TRUE(has(outcome.out, "the same line goes on from there")) << outcome.out;
+  }
+}
+
+// As a scheduler does it, and a terminal.
+TEST_F(Mpi, MpirunHandsOnThatItIsToEnd) {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    const Outcome outcome = signal_a_rank(std::nullopt, signal);
+    EXPECT_NE(outcome.status, 0);
+    EXPECT_TRUE(has(outcome.out, "the same line goes on from there")) << outcome.out << outcome.err;
+  }
+}
+
+// The best that all have, and never what differs: each rank may have its own --isa.
+TEST_F(Mpi, RanksAgreeOnTheirArithmetic) {
+  const auto asks = [](std::vector<std::string> words, const std::string& set) {
+    words.insert(words.end(), {"--threads", "1", "--out", "shared.h5", "--isa", set});
+    return words;
+  };
+  const auto set_of = [this](const char* file) {
+    return ResultReader(folder / file).string_attribute("/", "instruction_set");
+  };
+  const std::vector<std::string> sets = instruction_sets();
+  std::vector<std::string> alone = asks(map_words, sets.front());
+  alone[alone.size() - 3] = "alone.h5";
+  ASSERT_EQ(whirl(alone).status, 0);
+  if (sets.size() > 2) {  // the first two round alike
+    std::vector<std::string> line = in_ranks(1, asks(map_words, sets[0]));
+    line.push_back(":");
+    const std::vector<std::string> other = in_ranks(1, asks(map_words, sets[1]));
+    line.insert(line.end(), other.begin(), other.end());
+    const Outcome outcome = wait(start(mpirun, line));
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(set_of("shared.h5"), sets[1]);
+    expect_same("alone.h5", "shared.h5", "/map");
     std::filesystem::remove(folder / "shared.h5");
   }
+  alone.back() = "baseline";
+  alone.emplace_back("--restart");
+  ASSERT_EQ(whirl(alone).status, 0);
+  ASSERT_EQ(whirl_mpi(2, asks(map_words, "baseline")).status, 0);
+  EXPECT_EQ(set_of("shared.h5"), "baseline");
+  expect_same("alone.h5", "shared.h5", "/map");
+  const Outcome unknown = whirl_mpi(2, asks(map_words, "abacus"));
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_TRUE(has(unknown.err, "--isa")) << unknown.err;
 }
 
 /// Names of the libraries that a program needs.
