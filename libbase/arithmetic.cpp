@@ -18,18 +18,21 @@
 #include <gnu/libc-version.h>
 #endif
 
+#include "libbase/digest.hpp"
+
 namespace whirl::inline base {
 
 namespace {
 
-/// Fowler, Noll and Vo's hash, variant 1a, of 64 bits.
+/// Of the bits of numbers, the least byte first.
 struct Digest {
-  std::uint64_t value = 0xcbf29ce484222325;
+  std::uint64_t value = digest_of("");
 
   void add(double number) {
     auto bits = std::bit_cast<std::uint64_t>(number);
     for (int i = 0; i < 8; ++i, bits >>= 8) {
-      value = (value ^ (bits & 0xff)) * 0x100000001b3;
+      const char byte = static_cast<char>(bits & 0xff);
+      value = digest_of({&byte, 1}, value);
     }
   }
   std::uint32_t folded() const { return static_cast<std::uint32_t>(value ^ (value >> 32)); }

@@ -13,6 +13,7 @@
 #include "apps/program.hpp"
 #include "apps/run_program.hpp"
 #include "libbase/arithmetic.hpp"
+#include "libbase/digest.hpp"
 #include "libbase/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/text/terminal.hpp"
@@ -47,17 +48,14 @@ std::string asked_set(const std::vector<std::string>& words) {
   return asked;
 }
 
-/// The bytes of this program in short: FNV-1a.
+/// The bytes of this program in short.
 std::uint64_t program_digest() {
-  std::uint64_t digest = 14695981039346656037u;
+  std::uint64_t digest = digest_of("");
   std::ifstream program("/proc/self/exe", std::ios::binary);
   std::string block(1 << 16, '\0');
   while (program.read(block.data(), static_cast<std::streamsize>(block.size())),
          program.gcount() > 0) {
-    for (std::streamsize i = 0; i < program.gcount(); ++i) {
-      digest = (digest ^ static_cast<unsigned char>(block[static_cast<std::size_t>(i)])) *
-               1099511628211u;
-    }
+    digest = digest_of({block.data(), static_cast<std::size_t>(program.gcount())}, digest);
   }
   return digest;
 }

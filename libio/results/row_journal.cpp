@@ -11,6 +11,7 @@
 #include <cstring>
 #include <optional>
 
+#include "libbase/digest.hpp"
 #include "libio/results/hdf5/checksum.hpp"
 #include "libio/results/replace_file.hpp"
 
@@ -47,15 +48,8 @@ std::string_view bytes_of(const T& value) {
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
 
-/// FNV-1a of a text.
-std::uint64_t digest(std::string_view text) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return hash;
-}
-
 Head head_of(std::string_view key) {
-  Head head{.format = format_number, .key = digest(key)};
+  Head head{.format = format_number, .key = digest_of(key)};
   std::copy(magic.begin(), magic.end(), head.magic.begin());
   head.checksum = hdf5::crc32_of(bytes_of(head.key));
   return head;

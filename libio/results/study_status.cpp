@@ -120,7 +120,9 @@ StudyStatus study_status(const std::filesystem::path& path) {
                                 status.verb.empty() ? "otherwise" : status.verb));
   }
   if (file.has_attribute("/", "created")) status.saved = file.string_attribute("/", "created");
-  status.is_complete = says_complete(file) && (!status.points || status.done == *status.points);
+  const bool is_part = !stripe_of(read_call(file)).is_all();  // which never says so
+  status.is_complete =
+      (is_part || says_complete(file)) && (!status.points || status.done == *status.points);
   status.work = read_work(file);
   if (status.is_complete) {
     status.is_running = false;

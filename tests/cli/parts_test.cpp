@@ -7,16 +7,11 @@ namespace parts_test {
 
 class Parts : public Studies {
  protected:
-  std::vector<std::string> map{"map",
-                               stator,
-                               "--over",
-                               "operation.speed=130:140:0.1rad/s",
-                               "--over",
-                               "contact.ring.friction=0.1,0.2",
-                               "--discard",
-                               "60",
-                               "--revolutions",
-                               "20"};
+  std::vector<std::string> map{"map",           stator,
+                               "--over",        "operation.speed=130:140:0.1rad/s",
+                               "--over",        "contact.ring.friction=0.1,0.2",
+                               "--discard",     "60",
+                               "--revolutions", "20"};
 
   /// The words with more behind them.
   static std::vector<std::string> with(std::vector<std::string> words,
@@ -62,6 +57,9 @@ TEST_F(Parts, OfAFreshSweepAreTheSweep) {
 
 TEST_F(Parts, ThatAreMissingAreNamed) {
   ASSERT_EQ(whirl(with(map, {"--out", "atlas.h5", "--part", "1/3"})).status, 0);
+  const json part = result({"status", "atlas.part1of3.h5"})["studies"][0];
+  EXPECT_EQ(part["points"], 68);
+  EXPECT_TRUE(part["complete"].get<bool>());
   const Outcome merged = whirl({"merge", "atlas.h5", "atlas.part1of3.h5"});
   EXPECT_EQ(merged.status, 3);
   EXPECT_EQ(merged.err, "whirl: missing: part 2/3 (all)\nwhirl: missing: part 3/3 (all)\n");
