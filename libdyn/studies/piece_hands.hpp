@@ -64,7 +64,7 @@ class PieceHands {
   void add(const Piece& piece, Given given) {
     if (const int rank = freest(); rank > 0) {
       Other& other = others_[static_cast<std::size_t>(rank) - 1];
-      away_[++last_] = {rank, piece};
+      away_[++last_] = piece;
       ++other.open;
       ranks_->send({rank, LetterKind::piece, packed(last_, piece, given)});
       return;
@@ -184,7 +184,7 @@ class PieceHands {
     FinishedPiece<Row> finished;
     unpack(bytes, number, finished.is_whole, finished.seconds, finished.rows);
     const auto away = away_.find(number);
-    finished.piece = std::move(away->second.second);
+    finished.piece = std::move(away->second);
     away_.erase(away);
     --other.open;
     arrived_.push_back(std::move(finished));
@@ -195,9 +195,9 @@ class PieceHands {
   const std::function<bool()>& stops_;
   int threads_;  ///< of this process
   std::size_t own_open_ = 0;
-  std::vector<Other> others_;                            ///< from rank 1
-  std::map<std::uint64_t, std::pair<int, Piece>> away_;  ///< pieces by number, with their ranks
-  std::uint64_t last_ = 0;                               ///< number of a piece
+  std::vector<Other> others_;            ///< from rank 1
+  std::map<std::uint64_t, Piece> away_;  ///< in other processes, by number
+  std::uint64_t last_ = 0;               ///< number of a piece
   std::deque<FinishedPiece<Row>> arrived_;
   Patience patience_;
   clock::time_point next_alive_ = clock::now() + alive_every;

@@ -121,8 +121,7 @@ StudyRun<Result> run_study(const StudyKeeping& keeping, const StudyPoints& point
             begun.points.resize(size);
             std::optional<Row>& row = begun.points[point];
             resumed += row ? 0 : 1;
-            Unpacked from(bytes);
-            from(row.emplace());
+            unpack(bytes, row.emplace());
           }};
   Result result = run_kept(keeping, kept);
   StudyOutcome outcome =

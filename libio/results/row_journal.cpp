@@ -148,7 +148,8 @@ bool is_ours(int file) {
 
 }  // namespace
 
-RowJournal::RowJournal(const fs::path& place, std::string_view key) : place_(place) {
+RowJournal::RowJournal(const fs::path& place, std::string_view key, const ReadRow& f)
+    : place_(place) {
   file_ = ::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) fail(place, "write");
   try {
@@ -162,7 +163,9 @@ RowJournal::RowJournal(const fs::path& place, std::string_view key) : place_(pla
     const Head wanted = head_of(key);
     const std::optional<Head> found = head_in(file_);
     if (found && bytes_of(*found) == bytes_of(wanted)) {
-      end_ = for_each_row(file_, place_, [](std::uint64_t, std::string_view) {});
+      end_ = for_each_row(file_, place_, [&](std::uint64_t number, std::string_view bytes) {
+        if (f) f(number, bytes);
+      });
       cut(file_, place_, end_);
     } else {
       cut(file_, place_, 0);
@@ -179,7 +182,7 @@ RowJournal::~RowJournal() {
   if (file_ >= 0) ::close(file_);
 }
 
-void RowJournal::read(const std::function<void(std::uint64_t, std::string_view)>& f) const {
+void RowJournal::read(const ReadRow& f) const {
   for_each_row(file_, place_, f);
 }
 

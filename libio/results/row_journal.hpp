@@ -27,12 +27,15 @@ class RowJournal {
     std::string bytes{};
   };
 
+  using ReadRow = std::function<void(std::uint64_t number, std::string_view bytes)>;
+
   /// Opens the journal at a place, or begins one.
   ///
   /// @param key  which study the rows are of; those of another one are dropped
+  /// @param f    called with each row that is there; may be empty
   /// @throws FileError   if the file cannot be read or written, or another process has it open
   /// @throws TakenPlace  if there is a file that is no journal
-  RowJournal(const std::filesystem::path& place, std::string_view key);
+  RowJournal(const std::filesystem::path& place, std::string_view key, const ReadRow& f = {});
   ~RowJournal();
   RowJournal(const RowJournal&) = delete;
   RowJournal& operator=(const RowJournal&) = delete;
@@ -41,7 +44,7 @@ class RowJournal {
 
   /// Calls f with each row, in the order in which they were appended.
   /// @throws FileError
-  void read(const std::function<void(std::uint64_t number, std::string_view bytes)>& f) const;
+  void read(const ReadRow& f) const;
 
   /// Appends rows and brings them to the disk.
   /// @throws FileError  the journal then is as it was

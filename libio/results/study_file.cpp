@@ -144,9 +144,10 @@ bool StudyFile::is_dear() const {
   return cost_ > std::chrono::milliseconds(50);
 }
 
-void StudyFile::take_rows(const std::function<void(std::size_t point, std::string_view bytes)>& f) {
-  if (place_.file.empty() || !std::filesystem::exists(journal_of(place_.file))) return;
-  journal().read(f);
+void StudyFile::take_rows(const RowJournal::ReadRow& f) {
+  const std::filesystem::path place = journal_of(place_.file);
+  if (place_.file.empty() || journal_ || !std::filesystem::exists(place)) return;
+  journal_.emplace(place, key(), f);
 }
 
 void StudyFile::add(std::span<const std::size_t> points,

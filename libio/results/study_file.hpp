@@ -48,7 +48,7 @@ class StudyFile {
 
   /// Calls f with the rows that an earlier run has left beside the file.
   /// @throws FileError
-  void take_rows(const std::function<void(std::size_t point, std::string_view bytes)>& f);
+  void take_rows(const RowJournal::ReadRow& f);
 
   /// Keeps points that are new: beside the file while writing all of it takes long, and in it now and
   /// then.

@@ -52,15 +52,16 @@ bool says_complete(const ResultReader& file) {
 }
 
 /// Counts the points of a grid.
+/// @param stripe  those that count
 /// @return  false: the file has none
-bool count_grid(const ResultReader& file, StudyStatus& status) {
+bool count_grid(const ResultReader& file, const Stripe& stripe, StudyStatus& status) {
   for (const std::string_view name : {MapResult::group, SweepResult::group, BasinsResult::group}) {
     const std::string group(name);
     const std::size_t points = study_columns::stored_points(file, group);
     if (points == 0) continue;
     std::vector<bool> done = study_columns::read_done(file, group, points);
     const std::vector<double> motion = file.numbers(group + "/motion");
-    status.points = static_cast<long>(stripe_of(read_call(file)).points(points));
+    status.points = static_cast<long>(stripe.points(points));
     status.failed = 0;
     for (std::size_t i = 0; i < points; ++i) {
       if (!done[i]) continue;
@@ -114,15 +115,17 @@ std::optional<StudyWork> read_work(const ResultReader& file) {
 
 StudyStatus study_status(const std::filesystem::path& path) {
   const ResultReader file(path);
-  StudyStatus status{.file = path.string(), .verb = read_call(file).verb};
-  if (!count_grid(file, status) && !count_walk(file, status)) {
+  const Call call = read_call(file);
+  const Stripe stripe = stripe_of(call);
+  StudyStatus status{.file = path.string(), .verb = call.verb};
+  if (!count_grid(file, stripe, status) && !count_walk(file, status)) {
     throw FileError(fmt::format("{} holds no study, but what whirl {} found", status.file,
                                 status.verb.empty() ? "otherwise" : status.verb));
   }
   if (file.has_attribute("/", "created")) status.saved = file.string_attribute("/", "created");
-  const bool is_part = !stripe_of(read_call(file)).is_all();  // which never says so
-  status.is_complete =
-      (is_part || says_complete(file)) && (!status.points || status.done == *status.points);
+  // a part never says so
+  status.is_complete = (!stripe.is_all() || says_complete(file)) &&
+                       (!status.points || status.done == *status.points);
   status.work = read_work(file);
   if (status.is_complete) {
     status.is_running = false;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "libbase/linalg.hpp"
+#include "tests/support/travel.hpp"
 
 namespace whirl::travel_test {
 
@@ -26,16 +27,7 @@ void travel(Bytes& bytes, Is<Sample> auto& sample) {
   bytes(number, color, some, texts);
 }
 
-template <class T>
-T there_and_back(const T& value) {
-  const std::string bytes = packed(value);
-  Unpacked from(bytes);
-  T back{};
-  from(back);
-  EXPECT_TRUE(from.is_at_end());
-  EXPECT_EQ(packed(back), bytes);
-  return back;
-}
+using test::there_and_back;
 
 // A NaN keeps its payload, a zero its sign, and the smallest number is not flushed.
 TEST(Travel, KeepsEveryBitOfANumber) {

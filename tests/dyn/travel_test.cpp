@@ -4,18 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/travel.hpp"
+
 namespace whirl::dyn_travel_test {
 
-template <class T>
-T there_and_back(const T& value) {
-  const std::string bytes = packed(value);
-  Unpacked from(bytes);
-  T back{};
-  from(back);
-  EXPECT_TRUE(from.is_at_end());
-  EXPECT_EQ(packed(back), bytes);
-  return back;
-}
+using test::there_and_back;
 
 const ContactDoing doing{Regime::intermittent, 0.25, 3.0, 0.125, 10.0, 20.0};
 const ClassifiedMotion motion{.kind = MotionKind::chaotic,

@@ -59,11 +59,8 @@ class KeptStudies : public test::InResultFolder {
                 },
             .pack = [](const Numbers& so_far,
                        std::size_t point) { return packed(so_far.points[point]); },
-            .unpack =
-                [](Numbers& begun, std::size_t point, std::string_view bytes) {
-                  Unpacked from(bytes);
-                  from(begun.points[point]);
-                }};
+            .unpack = [](Numbers& begun, std::size_t point,
+                         std::string_view bytes) { unpack(bytes, begun.points[point]); }};
   }
 
   /// Computes points one by one until the process is killed, or all are there.
