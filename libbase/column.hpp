@@ -142,10 +142,14 @@ constexpr bool is_rows_column = false;
 template <class Member>
 constexpr bool is_rows_column<RowsColumn<Member>> = true;
 
+/// The columns of a struct, made by the compiler.
+template <HasColumns T>
+inline constexpr auto columns_of = T::columns();
+
 /// Calls f with every column of a struct.
 template <HasColumns T, class F>
 constexpr void for_each_column(const F& f) {
-  std::apply([&](const auto&... c) { (f(c), ...); }, T::columns());
+  std::apply([&](const auto&... c) { (f(c), ...); }, columns_of<T>);
 }
 
 /// Type of what a column gives of a struct.
