@@ -64,9 +64,10 @@ Curve forbidden_area(const LateralReport& r, double highest) {
 FigureTable check_table(const LateralReport& r) {
   FigureTable table{.header = check_header()};
   table.header.push_back("API 617");
+  const VibrationUnit unit = vibration_unit(r);
   for (const LateralCheck& c : r.checks) {
-    table.rows.push_back(check_cells(c, vibration_unit(r)));
-    table.rows.back().push_back(short_rule_text(c.rule));
+    table.rows.push_back(check_cells(c, unit));
+    table.rows.back().push_back(short_rule_text(c.rule, unit));
   }
   return table;
 }

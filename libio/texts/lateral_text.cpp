@@ -153,13 +153,11 @@ std::string rule_text(LateralRule rule) {
   switch (rule) {
     case LateralRule::separation_margin:
       return "17 (1 - 1 / (AF - 1.5)) %, at most 16 %, of the minimum speed below it; 10 % more, "
-             "at "
-             "most 26 %, of the maximum speed above it; none if the amplification factor is below "
-             "2.5 "
-             "[API 617]";
+             "at most 26 %, of the maximum speed above it; none if the amplification factor is "
+             "below 2.5 [API 617]";
     case LateralRule::vibration:
-      return "25.4 sqrt(12 000 / N) um peak to peak at probes from minimum to maximum speed, N the "
-             "maximum [rpm] [API 617]";
+      return "25.4 sqrt(12 000 / N) um, sqrt(12 000 / N) mil, peak to peak at probes from minimum "
+             "to maximum speed, N the maximum [rpm] [API 617]";
     case LateralRule::running_clearance:
       return "75 % of the running clearance up to the trip speed, with unbalance that brings the "
              "probes to the vibration limit, at most six times as much [API 617]";
@@ -168,24 +166,21 @@ std::string rule_text(LateralRule rule) {
              "[API 617]";
     case LateralRule::coupling_ratio:
       return "cross-coupled stiffness that the rotor bears over that to be expected, Q0 / QA, "
-             "level I "
-             "[API 617]";
+             "level I [API 617]";
     case LateralRule::stability_region:
       break;
   }
   return "Q0 / QA of 2 in region A and of 10 in region B, else an analysis of level II; B is where "
-         "the "
-         "critical speed ratio is above 2.5 or 2.69 - 0.0115 rho, or the gas denser than 60 "
-         "kg/m^3, rho "
-         "the average density [API 617]";
+         "the critical speed ratio is above 2.5 or 2.69 - 0.0115 rho, or the gas denser than 60 "
+         "kg/m^3, rho the average density [API 617]";
 }
 
-std::string short_rule_text(LateralRule rule) {
+std::string short_rule_text(LateralRule rule, const VibrationUnit& unit) {
   switch (rule) {
     case LateralRule::separation_margin:
       return "17 (1 - 1 / (AF - 1.5)) %";
     case LateralRule::vibration:
-      return "25.4 sqrt(12 000 / N) um";
+      return unit.name == "mil" ? "sqrt(12 000 / N) mil" : "25.4 sqrt(12 000 / N) um";
     case LateralRule::running_clearance:
       return "75 %, scaled";
     case LateralRule::log_decrement:

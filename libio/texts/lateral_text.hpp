@@ -23,7 +23,7 @@ std::vector<std::string> check_cells(const LateralCheck& check, const VibrationU
 /// What a rule says, and where it stands: "17 (1 - 1 / (AF - 1.5)) % ... [API 617]".
 std::string rule_text(LateralRule rule);
 /// The same in a cell of a table: "17 (1 - 1 / (AF - 1.5)) %".
-std::string short_rule_text(LateralRule rule);
+std::string short_rule_text(LateralRule rule, const VibrationUnit& unit);
 /// What a reader has to know of amplification factors: which are estimated, which peaks are none.
 std::vector<std::string> remarks_on(const LateralReport& report);
 /// The rules that a report was checked by, each once.
