@@ -5,6 +5,7 @@
 
 #include "libbase/constants.hpp"
 #include "libbase/quadrature.hpp"
+#include "libdyn/system/probes.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -19,7 +20,10 @@ struct Instants {
       : cosine(scene.reduced.M * scene.contacts.cosine_load()),
         sine(scene.reduced.M * scene.contacts.sine_load()),
         oscillations(scene.contacts.oscillations()),
-        rows(2 * std::ssize(stations), scene.contacts.coordinates()) {
+        rows(2 * std::ssize(stations), scene.contacts.coordinates()),
+        probes(probe_rows(scene)),
+        least(Vec::Constant(probes.rows(), nan)),
+        most(least) {
     const Mat map = scene.displacement_map();
     Eigen::Index k = 0;
     for (const Point& p : stations) {
@@ -31,6 +35,13 @@ struct Instants {
       o.cosine = scene.reduced.M * o.cosine;
       o.sine = scene.reduced.M * o.sine;
     }
+  }
+
+  /// What was found, with the work of one revolution.
+  OrbitMeasure result(double revolutions) {
+    found.work /= revolutions;
+    found.probe_peak_to_peak = most - least;
+    return std::move(found);
   }
 
   /// @param weight  of the instant in the integral of the power [s]
@@ -47,11 +58,18 @@ struct Instants {
       const auto k = static_cast<Eigen::Index>(2 * i);
       found.radii[i] = std::max(found.radii[i], std::hypot(places(k), places(k + 1)));
     }
+    if (probes.rows() == 0) return;
+    const Vec readings = probes * eta;
+    for (Eigen::Index i = 0; i < readings.size(); ++i) {
+      least(i) = std::fmin(least(i), readings(i));
+      most(i) = std::fmax(most(i), readings(i));
+    }
   }
 
   Vec cosine, sine;                       ///< of the unbalance, generalized forces
   std::vector<Oscillation> oscillations;  ///< likewise
-  Mat rows;
+  Mat rows, probes;                       ///< what stations and probes read of the coordinates
+  Vec least, most;                        ///< readings of the probes so far
   OrbitMeasure found;
 };
 
@@ -76,7 +94,6 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
     }
     return true;
   });
-  instants.found.work /= revolutions;
   const auto whole = static_cast<Eigen::Index>(std::floor(revolutions));
   if (t.outcome == Outcome::reached_end) {
     instants.found.sections.resize(instants.rows.rows(), whole);
@@ -85,7 +102,7 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
           instants.rows * Eigen::Map<const Vec>(t.sections.data() + k * 2 * n, n);
     }
   }
-  return instants.found;
+  return instants.result(revolutions);
 }
 
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
@@ -98,12 +115,11 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
     const Periodic::Instant at = motion.at(theta);
     instants.add(motion.phase(theta), at.x, at.rate, weight);
   }
-  instants.found.work /= motion.period;
   instants.found.sections.resize(instants.rows.rows(), motion.period);
   for (int k = 0; k < motion.period; ++k) {
     instants.found.sections.col(k) = instants.rows * motion.at(turn * k / motion.period).x;
   }
-  return instants.found;
+  return instants.result(motion.period);
 }
 
 }  // namespace whirl::inline dyn

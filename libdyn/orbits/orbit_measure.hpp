@@ -14,6 +14,9 @@ struct OrbitMeasure {
   /// Work that unbalance and forces do in a revolution: what damping, contacts and films take, less what
   /// friction at the rim brings in from the spin [J].
   double work = 0.0;
+  /// Largest reading of each probe of the model less its smallest, over the period [m]. As the radii, of
+  /// ten instants a step of the integrator, or eight a harmonic.
+  Vec probe_peak_to_peak;
   Mat sections;  ///< x and y of the stations in turn (rows) after every whole revolution (columns) [m]
 };
 

@@ -30,7 +30,12 @@ BranchOrbit orbit_of(const BranchLayout& layout, const TracedBranch& traced, std
                     .residual = point.residual,
                     .state = traced.starts[i],
                     .multipliers = CVec::Constant(layout.states, Complex(nan, nan)),
-                    .radii = traced.measures[i].radii};
+                    .radii = traced.measures[i].radii,
+                    .probe_peak_to_peak = traced.measures[i].probe_peak_to_peak};
+  const auto probes = static_cast<Eigen::Index>(layout.probes.size());
+  if (orbit.probe_peak_to_peak.size() != probes) {
+    orbit.probe_peak_to_peak = Vec::Constant(probes, nan);
+  }
   if (point.multipliers.size() > 0) orbit.stability = point.is_stable() ? 1 : 0;
   const Eigen::Index known = std::min(layout.states, point.multipliers.size());
   orbit.multipliers.head(known) = point.multipliers.head(known);
@@ -85,7 +90,8 @@ BranchResult branch_result(const BranchTree& tree, const ParameterName& paramete
   BranchResult result{.parameter = parameter,
                       .is_complete = tree.is_complete() ? 1 : 0,
                       .stations = stations,
-                      .contacts = tree.layout.contacts};
+                      .contacts = tree.layout.contacts,
+                      .probes = tree.layout.probes};
   if (tree.layout.harmonics > 0) {
     result.method = OrbitMethod::harmonic_balance;
     result.harmonics = tree.layout.harmonics;

@@ -50,6 +50,7 @@ struct BranchOrbit {
   CVec multipliers{};              ///< as many as states; NaN behind the last one
   std::vector<double> radii{};     ///< per station: largest distance from the axis [m]
   Mat sections_x{}, sections_y{};  ///< stations x revolutions, NaN beyond the period [m]
+  Vec probe_peak_to_peak{};        ///< per probe, see OrbitMeasure; NaN in files of before [m]
   std::vector<double> duty{}, impacts{}, max_normal{}, max_tangential{};  ///< per contact
 
   std::optional<bool> is_stable() const;
@@ -93,6 +94,10 @@ struct BranchOrbit {
         column("poincare_y", &B::sections_y, "m", "y at phase 0")
             .along("stations sections")
             .only(in_file)
+            .maybe(),
+        column("probe_peak_to_peak", &B::probe_peak_to_peak, "m",
+               "largest less smallest reading of a probe")
+            .along("probes")
             .maybe(),
         column("duty", &B::duty, "", "share of time in touch").along("contacts").maybe(),
         column("impacts_per_rev", &B::impacts, "", "impacts per revolution")
@@ -155,6 +160,7 @@ struct BranchResult {
   std::vector<BranchRow> branches{};
   std::vector<std::string> stations{};  ///< whose amplitudes are told
   std::vector<std::string> contacts{};
+  ProbeLabels probes{};               ///< those of the model
   std::vector<BranchOrbit> points{};  ///< of all branches, one after the other
   std::vector<BranchBifurcation> bifurcations{};
   std::vector<double> walk{};  ///< what the study goes on from, packed
@@ -164,24 +170,31 @@ struct BranchResult {
   static constexpr auto columns() {
     using B = BranchResult;
     using enum Written;
-    return std::tuple{
-        column(
-            "parameter", [](const B& b) { return b.parameter.path; }, "", "path of the parameter")
-            .maybe(),
-        column(
-            "unit", [](const B& b) { return b.parameter.unit; }, "", "SI unit of the parameter")
-            .only(in_json),
-        column("method", &B::method, "", "how the orbits are found").only(in_json),
-        column("harmonics", &B::harmonics, "", "of harmonic balance").maybe(),
-        column("fixed", &B::fixed, "", "value of a second parameter").only(in_file).maybe(),
-        column("complete", &B::is_complete, "", "0: the study was stopped").only(in_file).maybe(),
-        rows(&B::branches, "branches"),
-        column("station", &B::stations, "", "station").axis("stations+").only(in_file).maybe(),
-        column("contact", &B::contacts, "", "contact").axis("contacts+").only(in_file).maybe(),
-        rows(&B::points, "points"),
-        rows(&B::bifurcations, "bifurcations").only(in_json),
-        rows(&B::bifurcations, "bifurcations").only(in_file).maybe(),
-        column("walk", &B::walk, "", "what the walk goes on from").along("packed").only(in_file)};
+    return std::tuple_cat(
+        std::tuple{
+            column(
+                "parameter", [](const B& b) { return b.parameter.path; }, "",
+                "path of the parameter")
+                .maybe(),
+            column(
+                "unit", [](const B& b) { return b.parameter.unit; }, "", "SI unit of the parameter")
+                .only(in_json),
+            column("method", &B::method, "", "how the orbits are found").only(in_json),
+            column("harmonics", &B::harmonics, "", "of harmonic balance").maybe(),
+            column("fixed", &B::fixed, "", "value of a second parameter").only(in_file).maybe(),
+            column("complete", &B::is_complete, "", "0: the study was stopped")
+                .only(in_file)
+                .maybe(),
+            rows(&B::branches, "branches"),
+            column("station", &B::stations, "", "station").axis("stations+").only(in_file).maybe(),
+            column("contact", &B::contacts, "", "contact").axis("contacts+").only(in_file).maybe(),
+            rows([](const B& b) { return b.probes.list(); }, "probes").only(in_json).maybe()},
+        probe_label_columns(),
+        std::tuple{rows(&B::points, "points"), rows(&B::bifurcations, "bifurcations").only(in_json),
+                   rows(&B::bifurcations, "bifurcations").only(in_file).maybe(),
+                   column("walk", &B::walk, "", "what the walk goes on from")
+                       .along("packed")
+                       .only(in_file)});
   }
 };
 

@@ -165,7 +165,8 @@ long BranchTree::points() const {
 BranchTree empty_tree(const Scene& first, const BranchTreeOptions& options) {
   BranchTree tree{.layout = {.states = first.contacts.size(),
                              .scale = first.contacts.state_scale(),
-                             .is_rotating = options.frame == OrbitFrame::rotating}};
+                             .is_rotating = options.frame == OrbitFrame::rotating,
+                             .probes = ProbeLabels(probes_of(first))}};
   tree.layout.contacts.resize(static_cast<std::size_t>(first.contacts.owners()));
   for (const ReducedContact& c : first.contacts.contacts()) {
     tree.layout.contacts[static_cast<std::size_t>(c.owner)] = c.name;

@@ -8,6 +8,7 @@
 #include "libdyn/studies/found_orbit.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/parameter_range.hpp"
+#include "libdyn/system/probes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -39,6 +40,7 @@ struct BranchLayout {
   int harmonics = 0;                    ///< of harmonic balance; 0: shooting
   bool is_rotating = false;             ///< closed as seen from the rotor, after any period
   std::vector<std::string> contacts{};  ///< names
+  ProbeLabels probes{};                 ///< those of the model
 
   /// Of a point of a branch [revolutions].
   double period(const Branch& branch, const BranchPoint& point) const {

@@ -44,25 +44,6 @@ Mat contact_angles(const ContactSystem& system, const Recording& recording) {
   return shares;
 }
 
-const std::vector<Probe>& probes_of(const Scene& scene) {
-  return scene.assembler.structure().probes;
-}
-
-/// What the probes of a model read of reduced coordinates, probes x coordinates.
-Mat probe_rows(const Scene& scene) {
-  const std::vector<Probe>& probes = probes_of(scene);
-  const Mat map = scene.displacement_map();
-  Mat rows(std::ssize(probes), map.cols());
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    const Point point = scene.assembler.point(probes[i].at);
-    const auto row = [&](Component c) -> Vec {
-      return map.row(scene.reduced.dofs.full_index(point, c)).transpose();
-    };
-    rows.row(static_cast<Eigen::Index>(i)) = probes[i].along(row(X), row(Y)).transpose();
-  }
-  return rows;
-}
-
 /// Adds what the probes read at phase 0.
 void add_probe_sections(const Scene& scene, const Classification& found, long sections,
                         Portrait& to) {

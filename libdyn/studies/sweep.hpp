@@ -116,36 +116,22 @@ struct SweepResult {
   bool leaves_out(std::string_view column) const;
   static constexpr auto columns() {
     using C = SweepResult;
-    return std::tuple{
-        column("direction", &C::ways, "", "direction").axis("ways+"),
-        contact_names<C>(),
-        column("station", &C::stations, "", "station").axis("stations+"),
-        column("order", &C::orders, "", "signed frequency over speed, forward > 0")
-            .axis("orders+")
-            .within(valid::finite)
-            .maybe(),
-        column("sector", &C::sectors, "rad", "middle of a sector, from x to y")
-            .axis("sectors")
-            .maybe(),
-        column(
-            "probe_name", [](auto& r) -> auto& { return r.probes.names; }, "", "probe")
-            .axis("probes")
-            .maybe(),
-        column(
-            "probe_angle", [](auto& r) -> auto& { return r.probes.angles; }, "rad",
-            "direction of a probe, from +x towards +y")
-            .along("probes")
-            .maybe(),
-        column(
-            "probe_unit", [](auto& r) -> auto& { return r.probes.units; }, "",
-            "in which people are told what it reads")
-            .along("probes")
-            .maybe(),
-        column("probe_order", &C::probe_orders, "", "frequency over speed")
-            .axis("probe_orders+")
-            .within(valid::finite)
-            .maybe(),
-        rows(&C::points, "point")};
+    return std::tuple_cat(
+        std::tuple{column("direction", &C::ways, "", "direction").axis("ways+"), contact_names<C>(),
+                   column("station", &C::stations, "", "station").axis("stations+"),
+                   column("order", &C::orders, "", "signed frequency over speed, forward > 0")
+                       .axis("orders+")
+                       .within(valid::finite)
+                       .maybe(),
+                   column("sector", &C::sectors, "rad", "middle of a sector, from x to y")
+                       .axis("sectors")
+                       .maybe()},
+        probe_label_columns(),
+        std::tuple{column("probe_order", &C::probe_orders, "", "frequency over speed")
+                       .axis("probe_orders+")
+                       .within(valid::finite)
+                       .maybe(),
+                   rows(&C::points, "point")});
   }
 };
 

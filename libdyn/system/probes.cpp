@@ -1,5 +1,7 @@
 #include "libdyn/system/probes.hpp"
 
+#include "libdyn/system/scene.hpp"
+
 namespace whirl::inline dyn {
 
 ProbeLabels::ProbeLabels(const std::vector<Probe>& probes) {
@@ -22,6 +24,24 @@ std::vector<ProbeLabel> ProbeLabels::list() const {
   std::vector<ProbeLabel> all;
   for (std::size_t i = 0; i < size(); ++i) all.push_back((*this)[i]);
   return all;
+}
+
+const std::vector<Probe>& probes_of(const Scene& scene) {
+  return scene.assembler.structure().probes;
+}
+
+Mat probe_rows(const Scene& scene) {
+  const std::vector<Probe>& probes = probes_of(scene);
+  const Mat map = scene.displacement_map();
+  Mat rows(std::ssize(probes), map.cols());
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const Point point = scene.assembler.point(probes[i].at);
+    const auto row = [&](Component c) -> Vec {
+      return map.row(scene.reduced.dofs.full_index(point, c)).transpose();
+    };
+    rows.row(static_cast<Eigen::Index>(i)) = probes[i].along(row(X), row(Y)).transpose();
+  }
+  return rows;
 }
 
 double peak_to_peak(double angle, const Complex& forward, const Complex& backward) {

@@ -13,6 +13,8 @@
 
 namespace whirl::inline dyn {
 
+struct Scene;
+
 /// A probe as results name it; rows of results begin with its columns.
 struct ProbeLabel {
   std::string name;
@@ -47,6 +49,34 @@ struct ProbeLabels {
   ProbeLabel operator[](std::size_t i) const;
   std::vector<ProbeLabel> list() const;
 };
+
+/// Columns of the labels of a result that has them as its member `probes`.
+constexpr auto probe_label_columns() {
+  using enum Written;
+  return std::tuple{column(
+                        "probe_name", [](auto& r) -> auto& { return r.probes.names; }, "", "probe")
+                        .axis("probes")
+                        .only(in_file)
+                        .maybe(),
+                    column(
+                        "probe_angle", [](auto& r) -> auto& { return r.probes.angles; }, "rad",
+                        "direction of a probe, from +x towards +y")
+                        .along("probes")
+                        .only(in_file)
+                        .maybe(),
+                    column(
+                        "probe_unit", [](auto& r) -> auto& { return r.probes.units; }, "",
+                        "in which people are told what it reads")
+                        .along("probes")
+                        .only(in_file)
+                        .maybe()};
+}
+
+/// Those of a scene's model.
+const std::vector<Probe>& probes_of(const Scene& scene);
+
+/// What they read of reduced coordinates, probes x coordinates.
+Mat probe_rows(const Scene& scene);
 
 /// Peak to peak of what a probe reads of a motion x + i y = f e^(i w t) + b e^(-i w t) [m]:
 ///

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "libio/figures/branch_lines.hpp"
+#include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/results/call.hpp"
 #include "libio/text/format.hpp"
@@ -72,44 +73,59 @@ void add_points(Panel& p, const ResultView& result, const BranchPoints& b,
   }
 }
 
-std::vector<Figure> branch_figures(const ResultView& result) {
-  const BranchPoints b(result);
-  if (b.size() < 2) return {};
-  const std::vector<std::string>&stations = b.of.stations, &contacts = b.of.contacts;
-  const auto panel = [&](const std::string& title) {
+/// A figure of the branches along what its first panel shows.
+/// @param sizes  a number per point, as shown
+Figure figure_of(const ResultView& result, const BranchPoints& b, const std::string& variant,
+                 const std::string& title, const std::vector<double>& sizes) {
+  const std::vector<std::string>& contacts = b.of.contacts;
+  const auto panel = [&](const std::string& name) {
     Panel p;
     p.x.title = b.axis.title;
-    p.y.title = title;
+    p.y.title = name;
     p.cursor = "parameter";
     return p;
   };
+  Figure f{.variant = variant, .height = contacts.empty() ? 560.0 : 780.0};
+  f.subtitle = fmt::format("{}: periodic orbits along {}", variant, b.axis.path);
+  Panel p = panel(title);
+  p.share = 2.4;
+  add_branch_lines(p, b, sizes, {.is_named = true});
+  add_points(p, result, b, sizes);
+  add_branch_marks(p, b, sizes);
+  f.panels.push_back(std::move(p));
+  Panel m = panel("largest multiplier");
+  m.y.first = 0.0;
+  m.rules.push_back({Rule::Kind::horizontal, 1.0, "", Paint::ink, Dash::solid});
+  add_branch_lines(m, b, b.numbers(largest_multiplier), {});
+  f.panels.push_back(std::move(m));
+  if (!contacts.empty()) {
+    Panel d = panel(contacts.size() > 1 ? contacts[0] + ": share in touch" : "share in touch");
+    d.y.first = 0.0;
+    add_branch_lines(d, b, b.numbers(&BranchOrbit::duty, 0), {});
+    f.panels.push_back(std::move(d));
+  }
+  f.notes.push_back("Solid: stable, dashed: unstable. Dots are the points that were computed.");
+  return f;
+}
 
+std::vector<Figure> branch_figures(const ResultView& result) {
+  const BranchPoints b(result);
+  if (b.size() < 2) return {};
   std::vector<Figure> figures;
-  for (const std::size_t s : stations_by_interest(result, stations)) {
-    Figure f{.variant = stations[s], .height = contacts.empty() ? 560.0 : 780.0};
-    f.subtitle = fmt::format("{}: periodic orbits along {}", stations[s], b.axis.path);
-    std::vector<double> radius = b.numbers(&BranchOrbit::radii, s);
-    const DisplayUnit unit = unit_for(largest_of(radius), "m");
-    radius = scaled(std::move(radius), unit.factor);
-    Panel p = panel(with_unit("largest distance from the axis", unit));
-    p.share = 2.4;
-    add_branch_lines(p, b, radius, {.is_named = true});
-    add_points(p, result, b, radius);
-    add_branch_marks(p, b, radius);
-    f.panels.push_back(std::move(p));
-    Panel m = panel("largest multiplier");
-    m.y.first = 0.0;
-    m.rules.push_back({Rule::Kind::horizontal, 1.0, "", Paint::ink, Dash::solid});
-    add_branch_lines(m, b, b.numbers(largest_multiplier), {});
-    f.panels.push_back(std::move(m));
-    if (!contacts.empty()) {
-      Panel d = panel(contacts.size() > 1 ? contacts[0] + ": share in touch" : "share in touch");
-      d.y.first = 0.0;
-      add_branch_lines(d, b, b.numbers(&BranchOrbit::duty, 0), {});
-      f.panels.push_back(std::move(d));
-    }
-    f.notes.push_back("Solid: stable, dashed: unstable. Dots are the points that were computed.");
+  for (const std::size_t i : drawn_probes(result, b.of.probes)) {
+    const ProbeLabel probe = b.of.probes[i];
+    const DisplayUnit unit = unit_of(probe);
+    Figure f = figure_of(result, b, probe_name(probe), with_unit("peak to peak", unit),
+                         scaled(b.peaks_to_peaks(i), unit.factor));
+    f.probes = {probe.name};
     figures.push_back(std::move(f));
+  }
+  for (const std::size_t s : stations_by_interest(result, b.of.stations)) {
+    std::vector<double> radii = b.numbers(&BranchOrbit::radii, s);
+    const DisplayUnit unit = unit_for(largest_of(radii), "m");
+    figures.push_back(figure_of(result, b, b.of.stations[s],
+                                with_unit("largest distance from the axis", unit),
+                                scaled(std::move(radii), unit.factor)));
   }
   return figures;
 }

@@ -74,6 +74,11 @@ void add_branches(Figure& f, const BranchPoints& b, std::size_t station, const P
     } else if (is_of("largest force") && has_contacts) {
       add(b.numbers([](const BranchOrbit& o) { return largest_of_contacts(o.max_normal); }),
           shown_in_one(p.y.title));
+    } else if (probe && is_of("peak to peak")) {
+      const std::vector<std::string>& names = b.of.probes.names;
+      const auto named = std::find(names.begin(), names.end(), probe->name);
+      add(b.peaks_to_peaks(static_cast<std::size_t>(named - names.begin())),
+          shown_in_one(p.y.title));
     } else if (is_of("largest radius")) {
       add(b.numbers(&BranchOrbit::radii, station), shown_in_one(p.y.title));
     }

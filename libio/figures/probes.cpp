@@ -67,6 +67,14 @@ bool is_drawn(const ResultView& result, const ProbeLabel& probe) {
   return result.probe.empty() || result.probe == probe.name;
 }
 
+std::vector<std::size_t> drawn_probes(const ResultView& result, const ProbeLabels& probes) {
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    if (is_drawn(result, probes[i])) drawn.push_back(i);
+  }
+  return drawn;
+}
+
 const Probe* probe_of(const ResultView& result, const std::string& name) {
   if (!result.model) return nullptr;
   const std::vector<Probe>& all = result.model->structure.probes;

@@ -8,6 +8,9 @@ namespace whirl::inline io::figures {
 /// Whether readings of a probe are drawn: see ResultView::probe.
 bool is_drawn(const ResultView& result, const ProbeLabel& probe);
 
+/// Numbers of the probes of a result whose readings are drawn.
+std::vector<std::size_t> drawn_probes(const ResultView& result, const ProbeLabels& probes);
+
 /// The probe of a name in the model of a result; null if there is none.
 const Probe* probe_of(const ResultView& result, const std::string& name);
 

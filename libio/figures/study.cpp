@@ -153,7 +153,7 @@ std::vector<Figure> bifurcation_figures(const ResultView& result) {
   const SweepView v(result);
   const bool has_contacts = !v.study.system.contacts.empty();
   std::vector<Figure> figures;
-  for (const std::size_t probe : v.drawn_probes(result)) {
+  for (const std::size_t probe : drawn_probes(result, v.study.probes)) {
     figures.push_back(along_probe(result, v, probe));
   }
   for (const std::size_t s : stations_by_interest(result, v.stations)) {

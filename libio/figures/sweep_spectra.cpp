@@ -78,7 +78,7 @@ std::vector<PlaceSpectra> probe_places(const ResultView& result) {
   std::vector<PlaceSpectra> places;
   if (!result.file.has(point_dataset<SweepResult>("probe_spectrum"))) return places;
   const SweepView v(result);
-  for (const std::size_t i : v.drawn_probes(result)) {
+  for (const std::size_t i : drawn_probes(result, v.study.probes)) {
     const ProbeLabel label = v.study.probes[i];
     places.push_back({.name = probe_name(label),
                       .subject = "spectra",

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io::figures {
@@ -46,14 +45,6 @@ DisplayUnit SweepView::unit(std::size_t station) const {
     }
   }
   return unit_for(largest, "m");
-}
-
-std::vector<std::size_t> SweepView::drawn_probes(const ResultView& result) const {
-  std::vector<std::size_t> drawn;
-  for (std::size_t i = 0; i < study.probes.size(); ++i) {
-    if (is_drawn(result, study.probes[i])) drawn.push_back(i);
-  }
-  return drawn;
 }
 
 }  // namespace whirl::inline io::figures

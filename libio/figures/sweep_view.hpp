@@ -41,8 +41,6 @@ struct SweepView {
   double most(std::size_t i, double ContactDoing::*number) const;
   /// Unit of the displacements of a station.
   DisplayUnit unit(std::size_t station) const;
-  /// Numbers of the probes that are drawn.
-  std::vector<std::size_t> drawn_probes(const ResultView& result) const;
 };
 
 }  // namespace whirl::inline io::figures

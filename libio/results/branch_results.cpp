@@ -110,6 +110,7 @@ BranchTree read_branches(const ResultReader& file, BranchTree empty) {
   Unpacker walk = read_walk(file, BranchResult::group, stored.walk);
   const PointCheck points(walk, layout);
   auto grazing = stored.bifurcations.begin();
+  auto orbit = stored.points.begin();
   for (const BranchRow& row : stored.branches) {
     TracedBranch& b = empty.branches.emplace_back();
     b.branch.end = row.branch_end();
@@ -119,6 +120,11 @@ BranchTree read_branches(const ResultReader& file, BranchTree empty) {
                                                 : layout.states * b.branch.period + 1);
     points.check(b.starts);
     points.check(b.measures);
+    for (OrbitMeasure& measure : b.measures) {
+      if (orbit != stored.points.end()) {
+        measure.probe_peak_to_peak = (orbit++)->probe_peak_to_peak;
+      }
+    }
     for (Bifurcation& x : b.branch.bifurcations) {
       if (grazing != stored.bifurcations.end()) x.contact = (grazing++)->contact;
     }

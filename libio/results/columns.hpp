@@ -100,8 +100,10 @@ std::optional<Cells> read_cells(const ResultReader& file, const std::string& pat
 /// What a dataset of a parameter says of itself; nothing where a file is without it.
 ParameterName read_parameter(const ResultReader& file, const std::string& path);
 
-template <class Member>
-constexpr bool is_read = std::is_member_object_pointer_v<Member>;
+/// Whether a column is a member of a result, or of a part of one, and no function of it.
+template <class T, class Member>
+constexpr bool is_read =
+    std::is_same_v<std::invoke_result_t<const Member&, T&>, ColumnValue<T, Member>&>;
 
 /// Calls f with every column of a row that a file can hold; rows of rows are for JSON only.
 template <class Row, class F>
@@ -176,7 +178,7 @@ void write_column(GroupWriter& group, const T& result, const RowsColumn<Member>&
 template <class Row, class Member>
 void read_column(const ResultReader& file, const std::string& group, std::vector<Row>& rows,
                  const Column<Member>& c, std::string_view prefix) {
-  if constexpr (is_read<Member>) {
+  if constexpr (is_read<Row, Member>) {
     if (c.written == Written::in_json) return;
     const auto cells = read_cells(file, group + "/" + facts_of(c, "", prefix).name,
                                   kind_of<ColumnValue<Row, Member>>());
@@ -184,34 +186,38 @@ void read_column(const ResultReader& file, const std::string& group, std::vector
     rows.resize(static_cast<std::size_t>(cells->shape.at(0)));
     Taking taking(*cells);
     const std::span<const Eigen::Index> shape(cells->shape);
-    for (Row& row : rows) taking.take(row.*c.member, shape.subspan(1), c.is_from_one ? 1 : 0);
+    for (Row& row : rows)
+      taking.take(std::invoke(c.member, row), shape.subspan(1), c.is_from_one ? 1 : 0);
   }
 }
 
 template <class T, class Member>
 void read_column(const ResultReader& file, const std::string& group, T& result,
                  const Column<Member>& c) {
-  if constexpr (is_read<Member> && fits_files<ColumnValue<T, Member>>) {
+  if constexpr (is_read<T, Member> && fits_files<ColumnValue<T, Member>>) {
     using Value = ColumnValue<T, Member>;
     if (c.written == Written::in_json) return;
     const char* below = rank_of<Value>() == 0 ? "@" : "/";
     const auto cells = read_cells(file, group + below + std::string(c.key), kind_of<Value>());
-    if (cells) Taking(*cells).take(result.*c.member, cells->shape, c.is_from_one ? 1 : 0);
-  } else if constexpr (is_read<Member> && fits_attributes<ColumnValue<T, Member>>) {
+    if (cells)
+      Taking(*cells).take(std::invoke(c.member, result), cells->shape, c.is_from_one ? 1 : 0);
+  } else if constexpr (is_read<T, Member> && fits_attributes<ColumnValue<T, Member>>) {
     using Value = ColumnValue<T, Member>;
     if (c.written == Written::in_json || !c.is_optional) return;
     const auto cells = read_cells(file, group + "@" + std::string(c.key), kind_of<Value>());
-    if (cells) Taking(*cells).take((result.*c.member).emplace(), {}, c.is_from_one ? 1 : 0);
+    if (cells)
+      Taking(*cells).take(std::invoke(c.member, result).emplace(), {}, c.is_from_one ? 1 : 0);
   }
 }
 
 template <class T, class Member>
 void read_column(const ResultReader& file, const std::string& group, T& result,
                  const RowsColumn<Member>& c) {
-  if constexpr (is_read<Member>) {
+  if constexpr (is_read<T, Member>) {
     if (c.written == Written::in_json) return;
-    for_each_in_row<RowOf<T, Member>>(
-        [&](const auto& column) { read_column(file, group, result.*c.member, column, c.prefix); });
+    for_each_in_row<RowOf<T, Member>>([&](const auto& column) {
+      read_column(file, group, std::invoke(c.member, result), column, c.prefix);
+    });
   }
 }
 

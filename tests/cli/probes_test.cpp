@@ -142,6 +142,30 @@ TEST_F(Probes, SpectraAreOfWholeRevolutions) {
   }
 }
 
+// Orbits of the rotor along its speed: circles, peak to peak twice their radius.
+TEST_F(Probes, TellBranches) {
+  const json r = result({"continue", "rotor.toml", "--over", "operation.speed=50:70:5rad/s",
+                         "--out", "branch.h5"});
+  ASSERT_EQ(r["probes"].size(), 2u);
+  EXPECT_EQ(r["probes"][1]["name"], "1Y");
+  EXPECT_EQ(r["probes"][0]["unit"], "mil");
+  ASSERT_GE(r["points"].size(), 5u);
+  constexpr double of_instants = 5e-3;  // ten a step, which is a fraction of a revolution
+  for (const json& p : r["points"]) {
+    const double size = 2.0 * std::abs(circle(p["value"]));
+    for (const int i : {0, 1}) {
+      EXPECT_NEAR(p["probe_peak_to_peak_m"][i], size, of_instants * size);
+    }
+  }
+  EXPECT_EQ(variants("branches", "branch.h5"),
+            (std::vector<std::string>{"1X, 45°", "1Y, 135°", "rotor"}));
+  const ResultView view(folder / "branch.h5");
+  const Panel sizes = figures("branches", view).at(1).panels.at(0);
+  EXPECT_EQ(sizes.y.title, "peak to peak [um]");
+  const double first = r["points"][0]["probe_peak_to_peak_m"][1];
+  EXPECT_NEAR(sizes.curves.at(0).y.at(1), 1e6 * first, 1e-6 * 1e6 * first);
+}
+
 // The sag -g / omega^2 along y, seen from 45 and 135 degrees.
 TEST_F(Probes, TellTheSag) {
   const json r = result({"static", "rotor.toml"});

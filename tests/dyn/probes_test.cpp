@@ -7,6 +7,9 @@
 #include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/run_model.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/orbit_measure.hpp"
+#include "libdyn/orbits/shooting.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::probes_test {
@@ -107,6 +110,23 @@ TEST(Probes, ReadMotions) {
     EXPECT_DOUBLE_EQ(d.maxCoeff() - d.minCoeff(), probes[i].peak_to_peak);
     const double at_start = reading(a, 60.0).real() - m * g / ky * std::sin(a);  // phase 0
     EXPECT_NEAR(d(0), at_start, 1e-7 * exact);
+  }
+}
+
+// 2 |R| of the periodic orbit, but for where its instants lie: ten a step of about a radian.
+TEST(Probes, ReadOrbits) {
+  const Model model = orthotropic();
+  const Scene scene = make_scene(model);
+  const PeriodicOrbit orbit =
+      find_orbit(flow_of(scene.contacts), Vec::Zero(scene.contacts.size()), {});
+  ASSERT_TRUE(orbit.is_good()) << orbit.failure;
+  const Vec found = measure_orbit(scene, {}, orbit.states[0], 1.0).probe_peak_to_peak;
+  ASSERT_EQ(found.size(), 2);
+  for (const Eigen::Index i : {0, 1}) {
+    const double angle = model.structure.probes[static_cast<std::size_t>(i)].angle;
+    const double exact = 2.0 * std::abs(reading(angle, model.speed));
+    EXPECT_LE(found(i), exact * (1.0 + solves));
+    EXPECT_GE(found(i), exact * std::cos(0.1));
   }
 }
 

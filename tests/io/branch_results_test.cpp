@@ -2,6 +2,8 @@
 
 #include "libio/results/branch_results.hpp"
 
+#include <cmath>
+
 #include "libio/results/columns.hpp"
 #include "tests/io/result_folder.hpp"
 
@@ -23,7 +25,8 @@ BranchPoint point(double value, Eigen::Index unknowns) {
 /// Two branches, the second one of twice the period and not at its end.
 BranchTree example() {
   BranchTree tree{.layout = {.states = 2, .scale = Vec::Ones(2), .contacts = {"ring"}}};
-  OrbitMeasure measure{.radii = {1e-3}, .work = 2.0};
+  tree.layout.probes = ProbeLabels({{.name = "1X", .angle = 0.5}});
+  OrbitMeasure measure{.radii = {1e-3}, .work = 2.0, .probe_peak_to_peak = Vec{{3e-3}}};
   measure.sections = Mat{{0.1, 0.2}, {0.3, 0.4}};
   TracedBranch first{.branch = {.period = 1, .points = {point(0.1, 3), point(0.2, 3)}}};
   first.branch.bifurcations = {
@@ -68,6 +71,7 @@ TEST_F(BranchResults, AreTheSameAgain) {
       EXPECT_EQ(x.branch.points[i].multipliers, y.branch.points[i].multipliers);
       EXPECT_EQ(x.branch.points[i].contacts[0].name, "ring");
       EXPECT_EQ(x.measures[i].sections, y.measures[i].sections);
+      EXPECT_EQ(x.measures[i].probe_peak_to_peak, y.measures[i].probe_peak_to_peak);
       EXPECT_EQ(x.starts[i], y.starts[i]);
     }
   }
@@ -119,6 +123,27 @@ TEST_F(BranchResults, KnowTheirParameters) {
   EXPECT_EQ(again.points[0].impacts, std::vector<double>{7.0 * 0.1});
   EXPECT_EQ(record_of(again.branches[1]).json(),
             "{\"period_revs\": 2, \"parent\": 1, \"end\": \"\", \"end_kind\": null}\n");
+}
+
+// Files of before say nothing of probes; what is walked on from them says it of new points.
+TEST_F(BranchResults, GoOnWithoutReadingsOfProbes) {
+  BranchTree tree = example();
+  tree.layout.probes = {};
+  for (TracedBranch& traced : tree.branches) {
+    for (OrbitMeasure& m : traced.measures) m.probe_peak_to_peak = Vec();
+  }
+  write(path, tree);
+  EXPECT_FALSE(ResultReader(path).has("/branch/probe_peak_to_peak"));
+  BranchTree again = read_branches(ResultReader(path), {.layout = example().layout});
+  again.branches[1].branch.points.push_back(point(0.16, 5));
+  again.branches[1].measures.push_back(example().branches[0].measures[0]);
+  again.branches[1].starts.emplace_back(Vec::Ones(2));
+  write(path, again);
+  const auto result = read_result<BranchResult>(ResultReader(path));
+  EXPECT_EQ(result.probes.names, std::vector<std::string>{"1X"});
+  ASSERT_EQ(result.points.size(), 4u);
+  EXPECT_TRUE(std::isnan(result.points[2].probe_peak_to_peak(0)));
+  EXPECT_EQ(result.points[3].probe_peak_to_peak(0), 3e-3);
 }
 
 // Rows of bifurcations, of which there may be none, say it too.
