@@ -1,8 +1,11 @@
 #pragma once
 /// Result files: self-describing HDF5, always whole.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +19,33 @@ struct DatasetInfo {
   std::string units;              ///< SI unit; empty for plain numbers, names and counts
   std::string long_name;          ///< what it is, for a plot's axis: "whirl frequency"
   std::vector<std::string> axes;  ///< per dimension the path of the dataset along it, "" for none
+};
+
+/// What an object of a file holds.
+enum class ObjectKind { group, real, integer, complex, text, other };
+
+/// A dataset of numbers that is written block by block. Every member throws as ResultWriter.
+class DatasetBlocks {
+ public:
+  DatasetBlocks(DatasetBlocks&& other) noexcept;
+  DatasetBlocks& operator=(DatasetBlocks&&) = delete;
+  ~DatasetBlocks();
+
+  /// Writes the next numbers, as many as there are; the last index runs fastest.
+  void add(std::span<const double> values);
+  /// Nothing more comes: all numbers have been written.
+  void finish();
+
+ private:
+  friend class ResultWriter;
+  DatasetBlocks(std::filesystem::path place, std::string path, std::int64_t id, std::size_t count)
+      : place_(std::move(place)), path_(std::move(path)), id_(id), count_(count) {}
+
+  std::filesystem::path place_;  ///< of the file
+  std::string path_;
+  std::int64_t id_;        ///< HDF5's handle
+  std::size_t count_ = 0;  ///< of all numbers
+  std::size_t next_ = 0;
 };
 
 /// Writes a result file beside its place; commit() puts it there whole.
@@ -54,6 +84,9 @@ class ResultWriter {
                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   void dataset(const std::string& path, const std::vector<int>& values,
                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
+  /// Begins one whose numbers come block by block, real or integer ones: several may be open at a time.
+  DatasetBlocks dataset_blocks(const std::string& path, ObjectKind kind,
+                               const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
 
   /// Brings the file to the disk and to its place, with a checksum behind what HDF5 reads; nothing
   /// can be written after it.
@@ -61,6 +94,10 @@ class ResultWriter {
   void commit();
 
  private:
+  /// Makes a dataset that holds nothing yet.
+  /// @return  HDF5's handle
+  std::int64_t create(const std::string& path, std::int64_t type,
+                      const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   void write(const std::string& path, std::int64_t type, const void* values,
              const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   void write_attribute(const std::string& object, const std::string& name, std::int64_t type,
@@ -70,8 +107,10 @@ class ResultWriter {
   std::int64_t id_ = -1;  ///< HDF5's handle; -1 once closed
 };
 
-/// What an object of a file holds.
-enum class ObjectKind { group, real, integer, complex, text, other };
+/// Some of the numbers along a dimension.
+struct Stretch {
+  Eigen::Index first = 0, count = 0;
+};
 
 /// What is believed of a file that is opened.
 enum class Trust {
@@ -108,6 +147,13 @@ class ResultReader {
   Vec vector(const std::string& path) const;
   /// All numbers of any shape, the last index running fastest.
   std::vector<double> numbers(const std::string& path) const;
+  /// Some of these, a stretch along each dimension.
+  std::vector<double> numbers(const std::string& path, const std::vector<Stretch>& along) const;
+  /// Some of these, from number `first` on.
+  std::vector<double> numbers(const std::string& path, std::size_t first, std::size_t count) const;
+  /// Calls f with all of these, block by block.
+  void each_block(const std::string& path,
+                  const std::function<void(std::span<const double>)>& f) const;
   Mat matrix(const std::string& path) const;
   CVec complex_vector(const std::string& path) const;
   CMat complex_matrix(const std::string& path) const;

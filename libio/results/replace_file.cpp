@@ -89,13 +89,19 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
          fs::equivalent(a, b, ignored);
 }
 
-void replace_file(const fs::path& place, std::string_view text, Replaces what) {
+void replace_file(const fs::path& place, const std::function<void(std::ostream&)>& f,
+                  Replaces what) {
   FileReplacement file(place, what);
   std::ofstream stream(file.temporary(), std::ios::binary);
-  stream << text;
+  f(stream);
   stream.close();
   if (!stream) fail(place, std::strerror(errno));
   file.commit();
+}
+
+void replace_file(const fs::path& place, std::string_view text, Replaces what) {
+  replace_file(
+      place, [&](std::ostream& out) { out << text; }, what);
 }
 
 }  // namespace whirl::inline io

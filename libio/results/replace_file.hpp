@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <stdexcept>
 #include <string_view>
 
@@ -62,6 +64,11 @@ Replaces replaces_own(const std::filesystem::path& place, std::string_view head,
 
 /// Whether two names are those of one file, there or not.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// Replaces a file by what f writes.
+/// @throws FileError
+void replace_file(const std::filesystem::path& place, const std::function<void(std::ostream&)>& f,
+                  Replaces what = Replaces::own_pictures);
 
 /// Replaces a file by a text.
 /// @throws FileError

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <span>
 #include <string>
 
 #include "libio/results/result_schema.hpp"
@@ -79,7 +80,8 @@ class ResultCheck {
     if (entry.kind == text) {
       file_.string_attribute(object, name);
     } else {
-      check_values(entry, {file_.number_attribute(object, name)});
+      const double value = file_.number_attribute(object, name);
+      check_values(entry, {&value, 1});
     }
   }
 
@@ -98,7 +100,8 @@ class ResultCheck {
     const ValidValues& v = entry.values;
     const bool is_free =
         v.has_gaps && std::isinf(v.least) && std::isinf(v.most) && v.counts.empty();
-    if (!is_free) check_values(entry, file_.numbers(path));
+    if (is_free) return;
+    file_.each_block(path, [&](std::span<const double> values) { check_values(entry, values); });
   }
 
   /// Dimensions of an entry, those of the study's points one by one.
@@ -160,7 +163,7 @@ class ResultCheck {
     return known == sizes_.end() ? 0 : known->second.size;
   }
 
-  void check_values(const ResultEntry& entry, const std::vector<double>& values) const {
+  void check_values(const ResultEntry& entry, std::span<const double> values) const {
     const ValidValues& v = entry.values;
     const double most = v.counts.empty() ? v.most : static_cast<double>(count_of(entry));
     for (const double x : values) {

@@ -60,6 +60,59 @@ TEST_F(ResultFile, TellsAxesAndKinds) {
   EXPECT_THROW(in.axes("/a"), FileError);
 }
 
+// Numbers that come in pieces of any length, of a dataset that is compressed in chunks, and a stretch
+// or a box of them.
+TEST_F(ResultFile, IsWrittenAndReadInBlocks) {
+  const std::vector<Eigen::Index> shape{7, 50, 9};
+  std::vector<double> all(7 * 50 * 9), columns(400'000);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = 0.1 * static_cast<double>(i);
+  for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = static_cast<double>(i % 1000) - 1.0;
+  {
+    ResultWriter out(path);
+    auto x = out.dataset_blocks("/a/x", ObjectKind::real, shape, {"m", "x", {}});
+    auto n = out.dataset_blocks("/a/n", ObjectKind::integer, {400'000}, {"", "n", {}});
+    for (std::size_t at = 0, i = 0; at < all.size(); ++i) {  // both are open
+      const std::size_t count = std::min<std::size_t>(all.size() - at, 1 + 211 * i % 997);
+      x.add({all.data() + at, count});
+      at += count;
+    }
+    for (std::size_t at = 0; at < columns.size(); at += 80'000)
+      n.add({columns.data() + at, 80'000});
+    x.finish();
+    n.finish();
+    out.dataset("/a/whole", columns, {"", "n", {}});
+    out.commit();
+  }
+  const ResultReader in(path);
+  EXPECT_EQ(in.numbers("/a/x"), all);
+  EXPECT_EQ(in.kind("/a/n"), ObjectKind::integer);
+  EXPECT_EQ(in.numbers("/a/n"), in.numbers("/a/whole"));
+  for (const std::size_t first : {0ul, 8ul, 9ul, 449ul, 450ul, 3149ul}) {
+    for (const std::size_t count : {1ul, 9ul, 10ul, 455ul, 1300ul}) {
+      if (first + count > all.size()) continue;
+      const auto from = all.begin() + static_cast<std::ptrdiff_t>(first);
+      EXPECT_EQ(in.numbers("/a/x", first, count),
+                std::vector<double>(from, from + static_cast<std::ptrdiff_t>(count)));
+    }
+  }
+  const std::vector<double> box = in.numbers("/a/x", {{5, 2}, {48, 2}, {3, 4}});
+  ASSERT_EQ(box.size(), 16u);
+  EXPECT_EQ(box[0], all[(5 * 50 + 48) * 9 + 3]);
+  EXPECT_EQ(box[15], all[(6 * 50 + 49) * 9 + 6]);
+  std::vector<double> blocks;
+  in.each_block("/a/n", [&](auto some) { blocks.insert(blocks.end(), some.begin(), some.end()); });
+  EXPECT_EQ(blocks, columns);
+  EXPECT_THROW(in.numbers("/a/x", 3000, 151), FileError);
+  EXPECT_THROW(in.numbers("/a/x", {{5, 3}, {0, 1}, {0, 1}}), FileError);
+  EXPECT_THROW(in.numbers("/a/x", {{5, 1}, {0, 1}}), FileError);
+
+  ResultWriter other(folder / "other.h5");
+  auto some = other.dataset_blocks("/a/x", ObjectKind::real, {3}, {"m", "x", {}});
+  some.add(std::vector{1.0, 2.0});
+  EXPECT_THROW(some.finish(), FileError);
+  EXPECT_THROW(some.add(std::vector{3.0, 4.0}), FileError);
+}
+
 TEST_F(ResultFile, TellsWhatIsInIt) {
   write_example(path);
   const ResultReader in(path);

@@ -27,6 +27,8 @@ class Handle {
     if (id_ >= 0) H5Idec_ref(id_);
   }
   operator hid_t() const { return id_; }
+  /// Hands it over.
+  hid_t release() { return std::exchange(id_, -1); }
 
  private:
   hid_t id_;
@@ -120,6 +122,30 @@ inline bool exists(hid_t file, const std::string& object) {
     end = object.find_first_not_of('/', end);
   }
   return !object.empty();
+}
+
+/// Calls f with the boxes, as few as there are, that numbers of a dataset from `first` on fill, in
+/// their order: f(first indices, sizes, how many numbers).
+template <class F>
+void for_each_box(const std::vector<hsize_t>& sizes, hsize_t first, hsize_t count, const F& f) {
+  while (count > 0) {
+    std::vector<hsize_t> at(sizes.size()), box(sizes.size(), 1);
+    for (hsize_t i = sizes.size(), rest = first; i-- > 0; rest /= sizes[i]) at[i] = rest % sizes[i];
+    // the outermost dimension of which whole slices are asked for, from the beginning of one on
+    std::size_t d = sizes.size() - 1;
+    hsize_t slice = 1;
+    for (; d > 0 && at[d] == 0 && slice * sizes[d] <= count; --d) slice *= box[d] = sizes[d];
+    box[d] = std::min(sizes[d] - at[d], count / slice);
+    f(at, box, slice * box[d]);
+    first += slice * box[d];
+    count -= slice * box[d];
+  }
+}
+
+/// The space of a box in memory: of one shape with it in the file, HDF5 takes it whole; else number by
+/// number.
+inline hid_t memory_of(const std::vector<hsize_t>& box) {
+  return H5Screate_simple(static_cast<int>(box.size()), box.data(), nullptr);
 }
 
 inline std::vector<hsize_t> sizes_of(hid_t space) {

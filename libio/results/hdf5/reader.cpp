@@ -163,6 +163,38 @@ void read(const Attempt& attempt, const Source& source, hid_t memory_type, void*
                        : H5Dread(source.id, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, result));
 }
 
+/// Real numbers of a dataset that are in a box.
+std::vector<double> read_box(const Attempt& attempt, const Source& source,
+                             const std::vector<hsize_t>& at, const std::vector<hsize_t>& box) {
+  if (!source.is_number()) attempt.fail("it does not hold real numbers");
+  bool fits = at.size() == source.sizes.size();
+  for (std::size_t i = 0; fits && i < at.size(); ++i) {
+    fits = at[i] <= source.sizes[i] && box[i] <= source.sizes[i] - at[i];
+  }
+  if (!fits) attempt.fail("it has not all of the numbers that are asked for");
+  const auto bytes = product(box, sizeof(double));
+  const hsize_t count = bytes.value_or(0) / sizeof(double);
+  std::vector<double> values(count);
+  if (count == 0) return values;
+  const Handle space(attempt(H5Dget_space(source.id)));
+  const Handle memory(attempt(memory_of(box)));
+  attempt(H5Sselect_hyperslab(space, H5S_SELECT_SET, at.data(), nullptr, box.data(), nullptr));
+  attempt(H5Dread(source.id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()));
+  return values;
+}
+
+/// Calls f with numbers of a dataset, from `first` on, box by box.
+template <class F>
+void read_boxes(const Attempt& attempt, const Source& source, hsize_t first, hsize_t count,
+                const F& f) {
+  if (first > source.count || count > source.count - first) {
+    attempt.fail("it has not all of the numbers that are asked for");
+  }
+  for_each_box(source.sizes, first, count, [&](const auto& at, const auto& box, hsize_t) {
+    f(read_box(attempt, source, at, box));
+  });
+}
+
 /// Texts of any kind: of variable or of fixed length, ASCII or UTF-8.
 std::vector<std::string> read_texts(const Attempt& attempt, const Source& source) {
   if (!source.is_text()) attempt.fail("it is not text");
@@ -301,6 +333,41 @@ std::vector<double> ResultReader::numbers(const std::string& path) const {
   std::vector<double> values(source.count);
   read(attempt, source, H5T_NATIVE_DOUBLE, values.data());
   return values;
+}
+
+std::vector<double> ResultReader::numbers(const std::string& path,
+                                          const std::vector<Stretch>& along) const {
+  const Attempt attempt(path_, "read dataset", path);
+  std::vector<hsize_t> at, box;
+  for (const Stretch& s : along) {
+    at.push_back(static_cast<hsize_t>(s.first));
+    box.push_back(static_cast<hsize_t>(s.count));
+  }
+  return read_box(attempt, open_dataset(attempt, id_), at, box);
+}
+
+std::vector<double> ResultReader::numbers(const std::string& path, std::size_t first,
+                                          std::size_t count) const {
+  const Attempt attempt(path_, "read dataset", path);
+  std::vector<double> values;
+  read_boxes(attempt, open_dataset(attempt, id_), first, count, [&](std::vector<double> box) {
+    if (values.empty()) {
+      values = std::move(box);
+    } else {
+      values.insert(values.end(), box.begin(), box.end());
+    }
+  });
+  return values;
+}
+
+void ResultReader::each_block(const std::string& path,
+                              const std::function<void(std::span<const double>)>& f) const {
+  constexpr hsize_t at_once = 1u << 17;
+  const Attempt attempt(path_, "read dataset", path);
+  const Source source = open_dataset(attempt, id_);
+  for (hsize_t first = 0; first < source.count; first += at_once) {
+    read_boxes(attempt, source, first, std::min(at_once, source.count - first), f);
+  }
 }
 
 Mat ResultReader::matrix(const std::string& path) const {

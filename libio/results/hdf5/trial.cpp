@@ -31,7 +31,7 @@ void read_all(const ResultReader& file, const std::string& group) {
           break;
         case ObjectKind::real:
         case ObjectKind::integer:
-          file.numbers(path);
+          file.each_block(path, [](auto) {});
           break;
         case ObjectKind::complex:
           file.shape(path).size() == 1 ? void(file.complex_vector(path))

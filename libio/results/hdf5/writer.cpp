@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t uncompressed_bytes = 64 * 1024;  ///< up to here datasets stay as they are
 constexpr std::size_t chunk_bytes = 1024 * 1024;       ///< what is compressed and read at a time
+constexpr std::size_t kept_bytes = 4 * chunk_bytes;    ///< of a dataset that is written in blocks
 constexpr unsigned deflate_level = 1;  ///< of 9; higher ones take longer and gain next to nothing
 
 /// Properties of a new object: no times, which would make equal files differ.
@@ -47,6 +48,12 @@ std::vector<hsize_t> chunks(const std::vector<hsize_t>& sizes, std::size_t item_
     room = std::max<hsize_t>(1, room / chunk[i]);
   }
   return chunk;
+}
+
+/// Has compressed pieces go to the file, or a full disk is not seen before it is closed.
+void flush_chunks(const Attempt& attempt, hid_t dataset) {
+  const Handle how(attempt(H5Dget_create_plist(dataset)));
+  if (H5Pget_layout(how) == H5D_CHUNKED) attempt(H5Dflush(dataset));
 }
 
 template <class Matrix>
@@ -102,8 +109,8 @@ void ResultWriter::attribute(const std::string& object, const std::string& name,
   write_attribute(object, name, H5T_NATIVE_INT, &value);
 }
 
-void ResultWriter::write(const std::string& path, std::int64_t type, const void* values,
-                         const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
+std::int64_t ResultWriter::create(const std::string& path, std::int64_t type,
+                                  const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
   const Attempt attempt(file_.place(), "write dataset", path);
   const std::vector<hsize_t> sizes(shape.begin(), shape.end());
   hsize_t count = 1;
@@ -122,10 +129,13 @@ void ResultWriter::write(const std::string& path, std::int64_t type, const void*
     attempt(H5Pset_shuffle(properties));
     attempt(H5Pset_deflate(properties, deflate_level));
   }
-  const Handle dataset(
-      attempt(H5Dcreate2(id_, path.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT)));
-  if (count > 0) attempt(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
-  if (is_compressed) attempt(H5Dflush(dataset));  // or a full disk is not seen here
+  const Handle access(H5Pcreate(H5P_DATASET_ACCESS));
+  if (is_compressed) {  // what a block leaves of a chunk is there when the next one comes
+    attempt(H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, kept_bytes,
+                               H5D_CHUNK_CACHE_W0_DEFAULT));
+  }
+  Handle dataset(
+      attempt(H5Dcreate2(id_, path.c_str(), type, space, H5P_DEFAULT, properties, access)));
   attribute(path, "units", info.units);
   attribute(path, "long_name", info.long_name);
 
@@ -144,6 +154,60 @@ void ResultWriter::write(const std::string& path, std::int64_t type, const void*
     attempt(H5DSattach_scale(dataset, axis, static_cast<unsigned>(i)));
     attempt(H5DSset_label(dataset, static_cast<unsigned>(i), label.c_str()));
   }
+  return dataset.release();
+}
+
+void ResultWriter::write(const std::string& path, std::int64_t type, const void* values,
+                         const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
+  const Handle dataset(create(path, type, shape, info));
+  const Attempt attempt(file_.place(), "write dataset", path);
+  if (std::count(shape.begin(), shape.end(), 0) == 0) {
+    attempt(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+  }
+  flush_chunks(attempt, dataset);
+}
+
+DatasetBlocks ResultWriter::dataset_blocks(const std::string& path, ObjectKind kind,
+                                           const std::vector<Eigen::Index>& shape,
+                                           const DatasetInfo& info) {
+  std::size_t count = 1;
+  for (const Eigen::Index size : shape) count *= static_cast<std::size_t>(size);
+  const hid_t type = kind == ObjectKind::integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
+  return {file_.place(), path, create(path, type, shape, info), count};
+}
+
+DatasetBlocks::DatasetBlocks(DatasetBlocks&& other) noexcept
+    : place_(std::move(other.place_)),
+      path_(std::move(other.path_)),
+      id_(std::exchange(other.id_, -1)),
+      count_(other.count_),
+      next_(other.next_) {}
+
+DatasetBlocks::~DatasetBlocks() {
+  if (id_ >= 0) H5Dclose(id_);
+}
+
+void DatasetBlocks::add(std::span<const double> values) {
+  const Attempt attempt(place_, "write dataset", path_);
+  if (next_ + values.size() > count_) attempt.fail("more numbers than it has room for");
+  const Handle space(attempt(H5Dget_space(id_)));
+  const double* from = values.data();
+  for_each_box(
+      sizes_of(space), next_, values.size(), [&](const auto& at, const auto& box, hsize_t numbers) {
+        attempt(
+            H5Sselect_hyperslab(space, H5S_SELECT_SET, at.data(), nullptr, box.data(), nullptr));
+        const Handle memory(attempt(memory_of(box)));
+        attempt(H5Dwrite(id_, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, from));
+        from += numbers;
+      });
+  next_ += values.size();
+}
+
+void DatasetBlocks::finish() {
+  const Attempt attempt(place_, "write dataset", path_);
+  if (next_ != count_) attempt.fail("not all of its numbers were given");
+  flush_chunks(attempt, id_);
+  attempt(H5Dclose(std::exchange(id_, -1)));
 }
 
 void ResultWriter::dataset(const std::string& path, const Vec& values, const DatasetInfo& info) {
