@@ -32,11 +32,13 @@ Report run_map(const Invocation& call, const MapVerbOptions& asked) {
       },
       [&](std::size_t i) { return points.describe(i); });
 
-  std::vector<MotionSummary> motions;
-  for (const auto& p : result.points) motions.push_back(p ? summary_of(*p) : MotionSummary{});
   Record record;
-  record.set("axes", columns::record_value(points.axes(), 1.0));
-  record.merge(grid_record(motions, points.grid()));
+  if (call.output.json) {
+    std::vector<MotionSummary> motions;
+    for (const auto& p : result.points) motions.push_back(p ? summary_of(*p) : MotionSummary{});
+    record.set("axes", columns::record_value(points.axes(), 1.0));
+    record.merge(grid_record(motions, points.grid()));
+  }
   const Model& model = points.model();
   const std::string title = "Map" + (model.title.empty() ? "" : ": " + model.title);
   return study_report(call, model, outcome, record,

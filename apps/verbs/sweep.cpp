@@ -52,13 +52,15 @@ Report run_sweep(const Invocation& call, const SweepVerbOptions& asked) {
       [&](std::size_t i) { return points.describe(i % values); });
 
   Record record = record_of(axis);
-  const auto entries = [&](std::size_t way) {
-    return columns::record_value(SweepWay{result, axis.values, way}.entries(), 1.0);
-  };
-  if (result.probes.size() > 0) {
-    record.set("probes", columns::record_value(result.probes.list(), 1.0));
+  if (call.output.json) {
+    const auto entries = [&result = result, &axis](std::size_t way) {
+      return columns::record_value(SweepWay{result, axis.values, way}.entries(), 1.0);
+    };
+    if (result.probes.size() > 0) {
+      record.set("probes", columns::record_value(result.probes.list(), 1.0));
+    }
+    record.set("up", entries(0)).set("down", asked.fresh ? Record::array() : entries(1));
   }
-  record.set("up", entries(0)).set("down", asked.fresh ? Record::array() : entries(1));
   return study_report(call, points.model(), outcome, record,
                       headline("Sweep", points.model()) + text_of(result, axis));
 }

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "libbase/random.hpp"
-#include "libdyn/studies/travel.hpp"
+#include "libdyn/studies/point_runner.hpp"
 
 namespace whirl::inline dyn {
 
@@ -64,59 +64,49 @@ std::vector<BasinsPoint> compute(const std::vector<std::size_t>& piece, const St
   return points;
 }
 
-Ending ending_of(const BasinsPoint& point) {
+Ending ending_of(BasinsPoint point) {
   Ending ending{.kind = *point.motion.kind,
                 .period = point.motion.period,
                 .is_proven = point.motion.is_proven,
-                .sections = point.sections};
+                .regimes = {},
+                .sections = std::move(point.sections)};
   for (const ContactDoing& c : point.motion.contacts) ending.regimes.push_back(c.regime);
   return ending;
 }
 
 /// Numbers the motions that the starts ended in.
 void find_basins(const ContactSystem& system, BasinsResult& result) {
-  std::vector<std::size_t> settled;
-  std::vector<Ending> endings;
+  AttractorNumbers numbers(system);
   result.attractor.assign(result.points.size(), failed_start);
+  result.basins.clear();
   for (std::size_t i = 0; i < result.points.size(); ++i) {
-    if (!result.points[i] || result.points[i]->motion.has_failed()) continue;
-    if (result.points[i]->motion.kind == MotionKind::not_settled) {
+    std::optional<BasinsPoint> point = result.points[i];
+    if (!point || point->motion.has_failed()) continue;
+    if (point->motion.kind == MotionKind::not_settled) {
       result.attractor[i] = unsettled_start;
       continue;
     }
-    settled.push_back(i);
-    endings.push_back(ending_of(*result.points[i]));
-  }
-  const std::vector<int> numbers = attractors(system, endings);
-  result.basins.clear();
-  for (std::size_t i = 0; i < settled.size(); ++i) {
-    const auto number = static_cast<std::size_t>(numbers[i]);
-    if (number == result.basins.size()) result.basins.push_back({.first = settled[i]});
+    result.attractor[i] = numbers.number_of(ending_of(std::move(*point)));
+    const auto number = static_cast<std::size_t>(result.attractor[i]);
+    if (number == result.basins.size()) result.basins.push_back({.first = i});
     ++result.basins[number].count;
-    result.attractor[settled[i]] = numbers[i];
   }
-  const auto is_known = [](const auto& p) { return p.has_value(); };
   const bool has_failed = std::all_of(result.attractor.begin(), result.attractor.end(),
                                       [](int number) { return number == failed_start; });
-  if (has_failed || !std::all_of(result.points.begin(), result.points.end(), is_known)) {
-    result.attractor.clear();
-  }
+  if (has_failed || done_points(result.points) < result.points.size()) result.attractor.clear();
 }
 
 constexpr std::size_t most_starts = 64;  ///< in the lanes of one batch
 
 }  // namespace
 
-std::vector<int> attractors(const ContactSystem& system, std::span<const Ending> endings) {
-  std::vector<int> numbers;
-  std::vector<const Ending*> found;
-  for (const Ending& ending : endings) {
-    std::size_t i = 0;
-    while (i < found.size() && !is_same(system, ending, *found[i])) ++i;
-    if (i == found.size()) found.push_back(&ending);
-    numbers.push_back(static_cast<int>(i));
-  }
-  return numbers;
+int AttractorNumbers::number_of(const Ending& ending) {
+  const auto same = std::find_if(found_.begin(), found_.end(), [&](const Ending& known) {
+    return is_same(system_, ending, known);
+  });
+  const auto number = static_cast<int>(same - found_.begin());
+  if (same == found_.end()) found_.push_back(ending);
+  return number;
 }
 
 MotionState random_start(const ContactSystem& system, const MotionState& around, double size,
@@ -149,12 +139,11 @@ ColumnSizes BasinsResult::sizes() const {
 
 BasinShares basin_shares(const BasinsResult& result) {
   BasinShares shares{.starts = std::ssize(result.points)};
-  const auto ended = static_cast<double>(
-      std::count_if(result.points.begin(), result.points.end(),
-                    [](const auto& p) { return p && !p->motion.has_failed(); }));
+  double ended = 0.0;
+  for (const auto& p : result.points) ended += p && !p->motion.has_failed() ? 1.0 : 0.0;
   std::size_t settled = 0;
   for (const Basin& basin : result.basins) {
-    const BasinsPoint& first = *result.points[basin.first];
+    const BasinsPoint first = result.points[basin.first].value();
     Attractor a{summary_of(first.motion)};
     a.number = std::ssize(shares.attractors);
     a.share = static_cast<double>(basin.count) / ended;

@@ -2,13 +2,13 @@
 /// Coexisting motions: which starts end in the same one.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/parameter_grid.hpp"
-#include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/point_rows.hpp"
+#include "libdyn/studies/row_travel.hpp"
 #include "libdyn/studies/study_models.hpp"
 
 namespace whirl::inline dyn {
@@ -18,16 +18,25 @@ struct Ending {
   MotionKind kind = MotionKind::periodic;
   int period = 0;
   bool is_proven = false;
-  std::vector<Regime> regimes;       ///< of the contacts
-  std::span<const double> sections;  ///< states at phase 0, the last ones; NaN beyond them
+  std::vector<Regime> regimes;   ///< of the contacts
+  std::vector<double> sections;  ///< states at phase 0, the last ones; NaN beyond them
 };
 
-/// Numbers motions that are the same, from 0 in the order of their first appearance.
+/// Motions that are the same have one number, from 0 in the order of their first appearance.
 ///
 /// Proven orbits are the same where their sections are, to 1e-5 length scales; others are told
 /// apart by their kind, their period and the regimes of the contacts only: two chaotic attractors
 /// with the same regimes count as one.
-std::vector<int> attractors(const ContactSystem& system, std::span<const Ending> endings);
+class AttractorNumbers {
+ public:
+  /// @param system  outlives it
+  explicit AttractorNumbers(const ContactSystem& system) : system_(system) {}
+  int number_of(const Ending& ending);
+
+ private:
+  const ContactSystem& system_;
+  std::vector<Ending> found_{};
+};
 
 /// A start near another one: every coordinate moved by -size to size length scales, every velocity
 /// by as much times the rate of the phase; drawn again where a journal would be outside its oil film.
@@ -70,6 +79,12 @@ struct BasinsPoint {
             .along("sections states")};
   }
 };
+
+template <class Bytes>
+void travel(Bytes& bytes, Is<BasinsPoint> auto& point) {
+  auto& [motion, start, sections] = point;
+  bytes(motion, start, sections);
+}
 
 /// Starts that ended in the same motion.
 struct Basin {

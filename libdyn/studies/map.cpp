@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "libdyn/studies/travel.hpp"
+#include "libdyn/studies/point_runner.hpp"
 
 namespace whirl::inline dyn {
 

@@ -4,7 +4,8 @@
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/parameter_grid.hpp"
-#include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/point_rows.hpp"
+#include "libdyn/studies/row_travel.hpp"
 #include "libdyn/studies/study_models.hpp"
 
 namespace whirl::inline dyn {

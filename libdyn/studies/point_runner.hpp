@@ -12,27 +12,10 @@
 #include "libbase/piece_sizes.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/piece_hands.hpp"
+#include "libdyn/studies/point_rows.hpp"
 #include "libdyn/studies/point_work.hpp"
 
 namespace whirl::inline dyn {
-
-/// Rows of a study, one per point; empty where a point is not computed.
-template <class Row>
-using PointRows = std::vector<std::optional<Row>>;
-
-template <class Row>
-std::size_t done_points(const PointRows<Row>& points) {
-  return static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [](const auto& p) { return p.has_value(); }));
-}
-
-/// How many points of a stripe are not done.
-template <class Row>
-std::size_t open_points(const PointRows<Row>& points, const Stripe& stripe) {
-  std::size_t open = 0;
-  for (std::size_t i = stripe.number - 1; i < points.size(); i += stripe.of) open += !points[i];
-  return open;
-}
 
 /// The pieces of a study that are not done, one after the other.
 template <class Row>
@@ -48,8 +31,7 @@ class PiecesLeft {
     if (pieces_.empty()) return next_points(sizes.next(left_));
     while (at_ < pieces_.size()) {
       const auto& piece = pieces_[at_++];
-      if (!std::all_of(piece.begin(), piece.end(),
-                       [&](auto p) { return points_[p].has_value(); })) {
+      if (!std::all_of(piece.begin(), piece.end(), [&](auto p) { return points_.has(p); })) {
         return piece;
       }
     }
@@ -60,7 +42,7 @@ class PiecesLeft {
   std::vector<std::size_t> next_points(std::size_t count) {
     std::vector<std::size_t> piece;
     for (; at_ < points_.size() && piece.size() < count; ++at_) {
-      if (!points_[at_] && stripe_.has(at_)) piece.push_back(at_);
+      if (!points_.has(at_) && stripe_.has(at_)) piece.push_back(at_);
     }
     left_ -= piece.size();
     return piece;
@@ -128,9 +110,9 @@ void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor
   const auto keep = [&](std::optional<FinishedPiece<Row>> finished) {
     if (!finished || !finished->is_whole) return;
     for (std::size_t i = 0; i < finished->piece.size(); ++i) {
-      std::optional<Row>& point = points[finished->piece[i]];
-      done += point ? 0 : 1;
-      point = std::move(finished->rows[i]);
+      const std::size_t point = finished->piece[i];
+      done += points.has(point) ? 0 : 1;
+      points.set(point, finished->rows[i]);
     }
     sizes.learn(finished->piece.size(), finished->seconds);
     savings.note(finished->piece);

@@ -4,12 +4,11 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "libbase/column.hpp"
 #include "libbase/failure.hpp"
 #include "libdyn/studies/classified_motion.hpp"
-#include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/point_rows.hpp"
 #include "libdyn/studies/stripe.hpp"
 
 namespace whirl::inline dyn {
@@ -48,13 +47,6 @@ struct StudyOutcome {
   }
 };
 
-/// @param motions   those of all points; null where none is known
-/// @param describe  names a point
-/// @param stripe    the points that count
-StudyOutcome study_outcome(const std::vector<const ClassifiedMotion*>& motions, std::size_t resumed,
-                           const std::function<std::string(std::size_t)>& describe,
-                           const Stripe& stripe = {});
-
 /// The motion at a point of a study: a part of its row, or all of it.
 template <class Row>
 auto& motion_of(Row& row) {
@@ -65,12 +57,33 @@ auto& motion_of(Row& row) {
   }
 }
 
-/// The motions of a study's points; null where none is known.
+/// Takes one motion of a study after the other, and says at the end what there is to say of all.
+class OutcomeCount {
+ public:
+  /// @param describe  names a point; outlives it
+  explicit OutcomeCount(const std::function<std::string(std::size_t)>& describe)
+      : describe_(describe) {}
+  void add(std::size_t point, const ClassifiedMotion& motion);
+  /// @param points  how many there are
+  StudyOutcome outcome(std::size_t points, std::size_t resumed) const;
+
+ private:
+  const std::function<std::string(std::size_t)>& describe_;
+  StudyOutcome sum_{};
+  std::string example_{};  ///< one that failed
+};
+
+/// @param describe  names a point
+/// @param stripe    the points that count
 template <class Row>
-std::vector<const ClassifiedMotion*> motions_of(const PointRows<Row>& points) {
-  std::vector<const ClassifiedMotion*> motions;
-  for (const auto& p : points) motions.push_back(p ? &motion_of(*p) : nullptr);
-  return motions;
+StudyOutcome study_outcome(const PointRows<Row>& points, std::size_t resumed,
+                           const std::function<std::string(std::size_t)>& describe,
+                           const Stripe& stripe = {}) {
+  OutcomeCount count(describe);
+  for (std::size_t i = stripe.number - 1; i < points.size(); i += stripe.of) {
+    if (const auto row = points[i]) count.add(i, motion_of(*row));
+  }
+  return count.outcome(stripe.points(points.size()), resumed);
 }
 
 }  // namespace whirl::inline dyn

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "libdyn/studies/point_runner.hpp"
 #include "libdyn/studies/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
 
@@ -51,7 +52,7 @@ class Chain {
   /// Settles the motion at a point, and finds where the next one begins.
   void go(std::size_t point, Settled& piece) {
     const auto from = before(point);
-    if (from && last_ != from) end_ = points_[*from] ? points_[*from]->end : SweepEnd{};
+    if (from && last_ != from) end_ = points_[*from].value_or(SweepPoint{}).end;
     const bool goes_on = from && end_.displacement.size() > 0 && end_.displacement.allFinite();
     StudyMotion motion = begin_motion(models_, {&options_.values[value_of(point, options_)], 1},
                                       goes_on ? &end_ : nullptr, end_.revolution);
@@ -163,17 +164,23 @@ bool SweepResult::leaves_out(std::string_view column) const {
   if (column == "probe_poincare") return probes.size() == 0;
   if (column.starts_with("probe_")) return probes.size() == 0 || spectrum_revolutions == 0;
   if (column == "end_revolution") {
-    return std::none_of(points.begin(), points.end(),
-                        [](const auto& p) { return p && p->end.revolution != 0; });
+    for (const auto& p : points) {
+      if (p && p->end.revolution != 0) return false;
+    }
+    return true;
   }
   if (column == "contact_angle") return spectrum_revolutions == 0 || system.contacts.empty();
   return spectrum_revolutions == 0 && (column == "max_radius" || column == "spectrum");
 }
 
+std::optional<SweepPoint> SweepWay::point(std::size_t k) const {
+  return sweep.points[way * size() + index(k)];
+}
+
 std::vector<SweepEntry> SweepWay::entries() const {
   std::vector<SweepEntry> entries;
   for (std::size_t k = 0; k < size(); ++k) {
-    const std::optional<SweepPoint>& p = point(k);
+    const std::optional<SweepPoint> p = point(k);
     if (!p) continue;
     SweepEntry entry{summary_of(p->motion), values[index(k)], {}, p->motion.impacts_per_rev()};
     const Portrait& seen = p->portrait;

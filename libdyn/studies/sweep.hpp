@@ -3,8 +3,9 @@
 
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/monitor.hpp"
-#include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/point_rows.hpp"
 #include "libdyn/studies/portrait.hpp"
+#include "libdyn/studies/row_travel.hpp"
 #include "libdyn/studies/study_models.hpp"
 
 namespace whirl::inline dyn {
@@ -94,6 +95,17 @@ struct SweepPoint {
   }
 };
 
+template <class Bytes>
+void travel(Bytes& bytes, Is<SweepEnd> auto& end) {
+  bytes(end.displacement, end.velocity, end.revolution);
+}
+
+template <class Bytes>
+void travel(Bytes& bytes, Is<SweepPoint> auto& point) {
+  auto& [motion, end, portrait] = point;
+  bytes(motion, end, portrait);
+}
+
 struct SweepResult {
   static constexpr std::string_view group = "/sweep";
   /// Dimension of the points in front of the parameter.
@@ -169,9 +181,7 @@ struct SweepWay {
   std::size_t size() const { return values.size(); }
   /// Number of the value that was the k-th.
   std::size_t index(std::size_t k) const { return way == 1 ? size() - 1 - k : k; }
-  const std::optional<SweepPoint>& point(std::size_t k) const {
-    return sweep.points[way * size() + index(k)];
-  }
+  std::optional<SweepPoint> point(std::size_t k) const;
   /// The values that are computed.
   std::vector<SweepEntry> entries() const;
 };

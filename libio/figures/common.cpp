@@ -8,7 +8,6 @@
 
 #include "libio/figures/result_of.hpp"
 #include "libio/results/call.hpp"
-#include "libio/results/study_columns.hpp"
 
 namespace whirl::inline io::figures {
 
@@ -79,7 +78,12 @@ ShownAxis shown_axis(const ResultView& result, const std::string& path) {
 
 std::vector<ShownAxis> shown_axes(const ResultView& result, std::string_view group) {
   std::vector<ShownAxis> axes;
-  for (StoredParameter& p : stored_parameters(result.file, group)) {
+  std::vector<StoredParameter> parameters = stored_parameters(result.file, group);
+  const CoarseGrid grid = drawn_grid(result.file, group);
+  const std::size_t leading = grid.steps.size() - std::min(grid.steps.size(), parameters.size());
+  for (StoredParameter& p : parameters) {
+    const std::size_t axis = leading + axes.size();
+    if (!grid.is_all()) p.values = drawn_values(grid, axis, p.values);
     axes.push_back(shown(std::move(p)));
   }
   return axes;

@@ -41,7 +41,7 @@ struct ShownAxis {
   std::string si_unit{};
 };
 ShownAxis shown_axis(const ResultView& result, const std::string& path);
-/// Those of a study.
+/// Those of a study, with the values that are drawn.
 std::vector<ShownAxis> shown_axes(const ResultView& result, std::string_view group);
 
 /// A line for a shell that calls a verb on the model of a result, with what was set of it, and with

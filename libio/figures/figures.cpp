@@ -6,6 +6,7 @@
 
 #include "libbase/error.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/drawn_grid.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/result_schema.hpp"
 
@@ -101,7 +102,10 @@ bool is_in(const FigureKind& kind, const ResultView& result) {
 std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result) {
   if (!is_in(kind, result)) return {};
   std::vector<Figure> figures = kind.make(result);
+  const std::string first = kind.needs.empty() ? "/" : kind.needs.front();
+  const std::string note = figures::coarseness(result.file, first.substr(0, first.find('/', 1)));
   for (Figure& f : figures) {
+    if (!note.empty()) f.notes.push_back(note);
     f.kind = kind.name;
     f.heading = kind.title;
     if (f.title.empty()) f.title = result.title;

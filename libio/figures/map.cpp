@@ -146,7 +146,8 @@ std::vector<Figure> map_figures(const ResultView& result) {
   std::vector<Figure> figures;
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {
     Cells cells = planes.cells(plane, [&](std::size_t i) {
-      return points[i] ? motion_number(points[i]->kind, points[i]->period) : std::nan("");
+      const auto point = points[i];
+      return point ? motion_number(point->kind, point->period) : std::nan("");
     });
     keep_used(cells, motions());
     cells.title = "motion";
@@ -161,7 +162,8 @@ std::vector<Figure> exponent_map_figures(const ResultView& result) {
   std::vector<Figure> figures;
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {
     Cells cells = planes.cells(plane, [&](std::size_t i) {
-      return points[i] ? points[i]->largest_exponent() : std::nan("");
+      const auto point = points[i];
+      return point ? point->largest_exponent() : std::nan("");
     });
     cells.map = ColorMap::diverging;
     cells.title = "largest exponent [1/rev]";
@@ -186,7 +188,7 @@ std::vector<Figure> regime_map_figures(const ResultView& result) {
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       Cells cells = planes.cells(plane, [&](std::size_t i) {
-        const auto& point = study.points[i];
+        const auto point = study.points[i];
         const bool is_known = point && c < point->contacts.size();
         return is_known ? static_cast<double>(point->contacts[c].regime) : std::nan("");
       });
@@ -203,7 +205,7 @@ std::vector<Figure> regime_map_figures(const ResultView& result) {
 constexpr double not_motions = 2.0;  ///< categories before the motions: not settled, failed
 
 /// Motions that starts lead to, each described by the first start that led there.
-/// @param attractor  numbers of categories
+/// @param attractor  numbers of categories; one that no start has is without a name
 std::vector<Category> basin_categories(const PointRows<BasinsPoint>& points,
                                        const std::vector<double>& attractor) {
   double count = 0.0;
@@ -213,8 +215,11 @@ std::vector<Category> basin_categories(const PointRows<BasinsPoint>& points,
     const auto first = static_cast<std::size_t>(
         std::find(attractor.begin(), attractor.end(), number - 1.0 + not_motions) -
         attractor.begin());
-    if (first == attractor.size()) continue;
-    const ClassifiedMotion motion = points[first] ? points[first]->motion : ClassifiedMotion{};
+    if (first == attractor.size()) {  // of a coarse picture
+      all.emplace_back();
+      continue;
+    }
+    const ClassifiedMotion motion = points[first].value_or(BasinsPoint{}).motion;
     const auto kind = static_cast<std::size_t>(motion_number(motion.kind, motion.period));
     all.push_back({fmt::format("{}: {}", number, motions()[kind].name),
                    series_paint(static_cast<std::size_t>(number - 1))});
@@ -224,12 +229,14 @@ std::vector<Category> basin_categories(const PointRows<BasinsPoint>& points,
 
 /// Displacements at the starts [m, rad], a row per start; NaN where there is none.
 Mat starts_of(const PointRows<BasinsPoint>& points) {
+  const auto count = static_cast<Eigen::Index>(points.size());
   Eigen::Index width = 0;
   for (const auto& p : points) width = std::max(width, p ? p->start.displacement.size() : 0);
-  Mat starts = Mat::Constant(std::ssize(points), width, std::nan(""));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i] || points[i]->start.displacement.size() != width) continue;
-    starts.row(static_cast<Eigen::Index>(i)) = points[i]->start.displacement;
+  Mat starts = Mat::Constant(count, width, std::nan(""));
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto point = points[static_cast<std::size_t>(i)];
+    if (point && point->start.displacement.size() == width)
+      starts.row(i) = point->start.displacement;
   }
   return starts;
 }
@@ -251,8 +258,9 @@ Eigen::Index widest_place(const Mat& starts) {
 }
 
 /// Random starts, by the motion that they lead to.
+/// @param step  between the numbers of those that are drawn
 Figure starts_figure(const Mat& starts, const std::vector<double>& attractor,
-                     const std::vector<Category>& all) {
+                     const std::vector<Category>& all, std::size_t step) {
   const Eigen::Index widest = widest_place(starts);
   const Mat place = starts.middleCols(widest, 2);  // x, y
   Figure f{.width = 640.0, .height = 600.0};
@@ -274,7 +282,7 @@ Figure starts_figure(const Mat& starts, const std::vector<double>& attractor,
       const auto row = static_cast<Eigen::Index>(i);
       c.x.push_back(unit.factor * place(row, 0));
       c.y.push_back(unit.factor * place(row, 1));
-      c.hover.push_back(fmt::format("start {}, {}", i + 1, all[a].name));
+      c.hover.push_back(fmt::format("start {}, {}", i * step + 1, all[a].name));
     }
     if (c.x.empty()) continue;
     c.name = fmt::format(
@@ -292,7 +300,10 @@ std::vector<Figure> basin_figures(const ResultView& result) {
   for (const int number : study.attractor) attractor.push_back(number + not_motions);
   const std::vector<Category> all = basin_categories(study.points, attractor);
   std::vector<ShownAxis> axes = shown_axes(result, BasinsResult::group);
-  if (axes.size() < 2) return {starts_figure(starts_of(study.points), attractor, all)};
+  if (axes.size() < 2) {
+    const CoarseGrid grid = drawn_grid(result.file, BasinsResult::group);
+    return {starts_figure(starts_of(study.points), attractor, all, grid.steps.at(0))};
+  }
   const Planes planes(std::move(axes));
   std::vector<Figure> figures;
   for (std::size_t plane = 0; plane < planes.count(); ++plane) {

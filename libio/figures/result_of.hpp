@@ -3,10 +3,10 @@
 
 #include <typeinfo>
 
+#include "libio/figures/drawn_grid.hpp"
 #include "libio/figures/figures.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/dataset_path.hpp"
-#include "libio/results/study_columns.hpp"
 
 namespace whirl::inline io::figures {
 
@@ -19,11 +19,13 @@ const T& result_of(const ResultView& view) {
   return *static_cast<const T*>(known.get());
 }
 
-/// The same of a study.
+/// The same of a study, of whose points those are read that are drawn.
 template <class Study>
 const Study& study_of(const ResultView& view) {
   std::shared_ptr<const void>& known = view.known[typeid(Study)];
-  if (!known) known = std::make_shared<const Study>(stored_study<Study>(view.file));
+  if (!known)
+    known = std::make_shared<const Study>(
+        stored_study<Study>(view.file, drawn_grid(view.file, Study::group)));
   return *static_cast<const Study*>(known.get());
 }
 

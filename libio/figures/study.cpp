@@ -95,7 +95,7 @@ Panel duty_panel(const SweepView& v) {
 
 Panel force_panel(const SweepView& v) {
   std::vector<double> all;
-  for (std::size_t i = 0; i < v.study.points.size(); ++i) {
+  for (std::size_t i = 0; i < v.points.size(); ++i) {
     all.push_back(v.most(i, &ContactDoing::max_normal));
   }
   const DisplayUnit newton = unit_for(largest_of(all), "N");

@@ -21,13 +21,14 @@ struct SweepView {
   explicit SweepView(const ResultView& result);
 
   const SweepResult& study;
+  const std::vector<std::optional<SweepPoint>>& points;
   ShownAxis axis;
   std::vector<std::string> ways, stations;
   std::size_t sections = 0;  ///< of a station
 
   /// Null where it is not computed.
   const SweepPoint* point(std::size_t i) const {
-    return i < study.points.size() && study.points[i] ? &*study.points[i] : nullptr;
+    return i < points.size() && points[i] ? &*points[i] : nullptr;
   }
   /// Displacement of a station once a revolution [m].
   double x(std::size_t i, std::size_t station, std::size_t section) const {

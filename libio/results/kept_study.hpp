@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -11,7 +12,6 @@
 
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/study_outcome.hpp"
-#include "libdyn/studies/travel.hpp"
 #include "libio/model/study_points.hpp"
 #include "libio/results/study_columns.hpp"
 #include "libio/results/study_file.hpp"
@@ -73,18 +73,16 @@ Study run_kept(const StudyKeeping& keeping, const KeptStudy<Study>& kept, Study 
 
 /// Adds points that a file has.
 /// @throws FileError  if it has other numbers of a point that is there already
-template <class Row>
-void unite(PointRows<Row>& points, PointRows<Row> more, const std::filesystem::path& from) {
-  points.resize(more.size());
-  for (std::size_t i = 0; i < more.size(); ++i) {
-    if (!more[i]) continue;
-    if (!points[i]) {
-      points[i] = std::move(more[i]);
-    } else if (packed(*points[i]) != packed(*more[i])) {
-      throw FileError(fmt::format("{} has other numbers of point {} than the files before",
-                                  from.string(), i + 1));
-    }
-  }
+template <class Result>
+void unite(PointRows<study_columns::RowOf<Result>>& points, std::size_t size,
+           const ResultReader& from) {
+  points.resize(size);
+  each_stored_row<Result>(from, size, [&](std::size_t i, const auto& row) {
+    if (!points.has(i)) return points.set(i, row);
+    if (points.bytes(i) == packed(row)) return;
+    throw FileError(fmt::format("{} has other numbers of point {} than the files before",
+                                from.path().string(), i + 1));
+  });
 }
 
 /// A study of many points that has run, and what there is to say of all of them.
@@ -109,23 +107,26 @@ StudyRun<Result> run_study(const StudyKeeping& keeping, const StudyPoints& point
                    const Result& found) { write_study(to, points.axes(), found); },
       .take =
           [&](Result& begun, const ResultReader& from) {
-            unite(begun.points, read_study<Result>(from, size).points, from.path());
+            unite<Result>(begun.points, size, from);
             resumed = done_points(begun.points);
           },
       .run = study,
-      .pack = [](const Result& so_far,
-                 std::size_t point) { return packed(so_far.points[point].value()); },
+      .pack = [](const Result& so_far, std::size_t point) { return so_far.points.bytes(point); },
       .unpack =
           [&](Result& begun, std::size_t point, std::string_view bytes) {
             if (point >= size) return;
             begun.points.resize(size);
-            std::optional<Row>& row = begun.points[point];
-            resumed += row ? 0 : 1;
-            unpack(bytes, row.emplace());
+            resumed += begun.points.has(point) ? 0 : 1;
+            Row row;
+            unpack(bytes, row);
+            begun.points.set(point, row);
           }};
-  Result result = run_kept(keeping, kept);
-  StudyOutcome outcome =
-      study_outcome(motions_of(result.points), resumed, describe, keeping.stripe);
+  Result begun;
+  if (!keeping.place.file.empty()) {
+    begun.points.overflow_into(std::filesystem::absolute(keeping.place.file).parent_path());
+  }
+  Result result = run_kept(keeping, kept, std::move(begun));
+  StudyOutcome outcome = study_outcome(result.points, resumed, describe, keeping.stripe);
   return {std::move(result), std::move(outcome)};
 }
 

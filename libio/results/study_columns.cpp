@@ -62,7 +62,7 @@ std::size_t StudyWriter::width(const Facts& column) const {
   return numbers;
 }
 
-void StudyWriter::write_points(const Facts& column, const std::vector<double>& values) {
+DatasetBlocks StudyWriter::begin_points(const Facts& column) {
   std::vector<Eigen::Index> shape;
   DatasetInfo info{column.unit, column.meaning, {}};
   const auto add = [&](const Axis& axis) {
@@ -75,19 +75,24 @@ void StudyWriter::write_points(const Facts& column, const std::vector<double>& v
     add(axis == axes_.end() ? Axis{} : axis->second);
   }
   const std::string place = path(column.name);
-  if (column.is_integer) {
-    file_.dataset(place, std::vector<int>(values.begin(), values.end()), shape, info);
-  } else {
-    file_.dataset(place, values, shape, info);
-  }
+  DatasetBlocks dataset = file_.dataset_blocks(
+      place, column.is_integer ? ObjectKind::integer : ObjectKind::real, shape, info);
   if (!column.words.empty()) file_.attribute(place, words_attribute, column.words);
+  return dataset;
 }
 
-void StudyWriter::write_done(const std::vector<int>& done) {
-  const bool is_complete = std::count(done.begin(), done.end(), 1) == std::ssize(done);
+void StudyWriter::write_points(const Facts& column, std::span<const double> values) {
+  DatasetBlocks dataset = begin_points(column);
+  dataset.add(values);
+  dataset.finish();
+}
+
+void StudyWriter::write_done(std::size_t points, const std::function<bool(std::size_t)>& is_done) {
+  std::vector<double> done(points);
+  for (std::size_t i = 0; i < points; ++i) done[i] = is_done(i) ? 1.0 : 0.0;
+  const bool is_complete = std::count(done.begin(), done.end(), 0.0) == 0;
   file_.attribute(group_, "complete", is_complete ? 1 : 0);
-  if (is_complete) return;
-  write_points(done_column(), {done.begin(), done.end()});
+  if (!is_complete) write_points(done_column(), done);
 }
 
 namespace {
@@ -99,18 +104,16 @@ std::vector<std::string> split_words(const std::string& list) {
   return words;
 }
 
-/// Codes of a list of words become those of another list; -1 for words that this one is without.
-void translate(std::vector<double>& codes, const std::string& from, const std::string& to) {
-  if (from == to) return;
-  const std::vector<std::string> theirs = split_words(from), ours = split_words(to);
-  for (double& code : codes) {
-    if (!(code >= 0.0 && code < static_cast<double>(theirs.size()))) {
-      code = -1.0;
-      continue;
-    }
-    const auto found = std::find(ours.begin(), ours.end(), theirs[static_cast<std::size_t>(code)]);
-    code = found == ours.end() ? -1.0 : static_cast<double>(found - ours.begin());
+/// Per code of a list of words that of the same word in another list; -1 for words that this one is
+/// without.
+std::vector<double> translation(const std::string& from, const std::string& to) {
+  const std::vector<std::string> ours = split_words(to);
+  std::vector<double> codes;
+  for (const std::string& word : split_words(from)) {
+    const auto found = std::find(ours.begin(), ours.end(), word);
+    codes.push_back(found == ours.end() ? -1.0 : static_cast<double>(found - ours.begin()));
   }
+  return codes;
 }
 
 }  // namespace
@@ -122,8 +125,9 @@ std::size_t stored_points(const ResultReader& file, const std::string& group) {
   return static_cast<std::size_t>(product(shape));
 }
 
-std::optional<StoredColumn> read_column(const ResultReader& file, const std::string& group,
-                                        const Facts& column, std::size_t points, Missing missing) {
+std::optional<StoredColumn> stored_column(const ResultReader& file, const std::string& group,
+                                          const Facts& column, std::size_t points,
+                                          Missing missing) {
   const std::string path = group + '/' + column.name;
   const bool may_miss = column.is_optional || missing == Missing::allowed;
   if (may_miss && !file.has(path)) return std::nullopt;
@@ -134,12 +138,23 @@ std::optional<StoredColumn> read_column(const ResultReader& file, const std::str
   if (!fits) {
     throw FileError(fmt::format("{} is not of {} points: it is of another study", path, points));
   }
-  StoredColumn stored{.values = file.numbers(path)};
-  if (!column.words.empty() && file.has_attribute(path, words_attribute)) {
-    translate(stored.values, file.string_attribute(path, words_attribute), column.words);
-  }
+  StoredColumn stored{.file = file, .path = path, .width = product(all.last(behind))};
   if (behind > 0) stored.rows = static_cast<std::size_t>(shape[shape.size() - behind]);
+  if (!column.words.empty() && file.has_attribute(path, words_attribute)) {
+    const std::string words = file.string_attribute(path, words_attribute);
+    if (words != column.words) stored.codes = translation(words, column.words);
+  }
   return stored;
+}
+
+std::vector<double> StoredColumn::numbers(std::size_t first, std::size_t points) const {
+  std::vector<double> values = file.numbers(path, first * width, points * width);
+  if (!codes) return values;
+  for (double& code : values) {
+    const bool is_known = code >= 0.0 && code < static_cast<double>(codes->size());
+    code = is_known ? (*codes)[static_cast<std::size_t>(code)] : -1.0;
+  }
+  return values;
 }
 
 std::vector<bool> read_done(const ResultReader& file, const std::string& group,
@@ -148,10 +163,12 @@ std::vector<bool> read_done(const ResultReader& file, const std::string& group,
   if (says && file.number_attribute(group, "complete") != 0.0) {
     return std::vector<bool>(points, true);
   }
-  const auto flags = read_column(file, group, done_column(), points);
-  std::vector<bool> done(points, !flags && !says);
-  if (!flags) return done;
-  for (std::size_t i = 0; i < points; ++i) done[i] = flags->values[i] != 0.0;
+  const auto flags = stored_column(file, group, done_column(), points);
+  std::vector<bool> done;
+  if (!flags) return std::vector<bool>(points, !says);
+  file.each_block(flags->path, [&](std::span<const double> values) {
+    for (const double flag : values) done.push_back(flag != 0.0);
+  });
   return done;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
-/// Points of a study by their columns (libbase/column.hpp): into a result file and back, and as what a
-/// file is checked against.
+/// Studies of many points: into a result file and back, and as what a file is checked against.
 ///
 /// A dataset has the shape of the study, then that of its column. Points that are not computed are NaN,
 /// or -1 in columns of integers; `done` tells them apart, and is left out once all are.
@@ -14,14 +13,12 @@
 #include <type_traits>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/field.hpp"
-#include "libdyn/studies/classified_motion.hpp"
-#include "libdyn/studies/point_runner.hpp"
+#include "libdyn/studies/row_travel.hpp"
 #include "libdyn/studies/study_outcome.hpp"
+#include "libio/results/coarse_grid.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/hdf5.hpp"
-#include "libio/results/motion_codes.hpp"
+#include "libio/results/point_columns.hpp"
 #include "libio/results/result_schema.hpp"
 #include "libio/text/parameter_axis.hpp"
 
@@ -29,154 +26,8 @@ namespace whirl::inline io {
 
 namespace study_columns {
 
-template <class T>
-struct CodeOf {
-  static constexpr bool is = std::is_enum_v<T>;
-  using type = T;
-};
-template <class T>
-struct CodeOf<std::optional<T>> {
-  static constexpr bool is = std::is_enum_v<T>;
-  using type = T;
-};
-
-template <class T>
-constexpr bool is_scalar = std::is_arithmetic_v<T> || CodeOf<T>::is;
-template <class T>
-constexpr bool is_integer = std::is_integral_v<T> || CodeOf<T>::is;
-
-/// Numbers of one point; what a value has more is cut, what it lacks stays as it is.
-template <class T>
-void put(const T& value, std::span<double> to) {
-  if constexpr (requires { value.has_value(); }) {
-    if (value) put(*value, to);
-  } else if constexpr (is_scalar<T>) {
-    to[0] = static_cast<double>(value);
-  } else if constexpr (requires { T::ColsAtCompileTime; }) {
-    std::size_t at = 0;
-    for (Eigen::Index i = 0; i < value.rows(); ++i) {
-      for (Eigen::Index j = 0; j < value.cols() && at < to.size(); ++j) to[at++] = value(i, j);
-    }
-  } else {
-    std::copy_n(value.begin(), std::min(value.size(), to.size()), to.begin());
-  }
-}
-
-/// @param rows  of a matrix
-template <class T>
-void take(T& value, std::span<const double> from, std::size_t rows) {
-  if constexpr (requires { value.has_value(); }) {
-    if (from[0] >= 0.0) value = static_cast<typename T::value_type>(static_cast<int>(from[0]));
-  } else if constexpr (CodeOf<T>::is) {
-    value = static_cast<T>(static_cast<int>(from[0]));
-  } else if constexpr (std::is_same_v<T, bool>) {
-    value = from[0] > 0.0;
-  } else if constexpr (is_scalar<T>) {
-    value = static_cast<T>(from[0]);
-  } else if constexpr (requires { T::ColsAtCompileTime; }) {
-    const std::size_t cols = T::ColsAtCompileTime == 1 ? 1 : from.size() / std::max(rows, 1ul);
-    value.resize(static_cast<Eigen::Index>(cols == 0 ? 0 : from.size() / cols),
-                 static_cast<Eigen::Index>(cols));
-    for (std::size_t i = 0; i < from.size(); ++i) {
-      value(static_cast<Eigen::Index>(i / cols), static_cast<Eigen::Index>(i % cols)) = from[i];
-    }
-  } else {
-    value.assign(from.begin(), from.end());
-  }
-}
-
-/// What a dataset of points is described by, whatever its type; its dimensions are those behind the
-/// points, of an axis its own.
-struct Facts : columns::Facts {
-  bool is_integer = false;
-  std::string words{};  ///< of codes, as words_attribute; empty: none
-};
-
 /// The column that says which points are computed.
 Facts done_column();
-
-/// A dataset of points, and how numbers get from a row into it and back.
-template <class Row>
-struct PointColumn {
-  Facts facts{};
-  std::function<void(const Row&, std::span<double>)> put{};
-  /// @param rows  size of its first dimension
-  std::function<void(Row&, std::span<const double>, std::size_t rows)> take{};
-  bool is_of_motion = false;  ///< not known where the motion failed
-};
-
-/// Words of codes, and what they mean for people.
-template <class T>
-void add_words(Facts& facts) {
-  using Code = typename CodeOf<T>::type;
-  facts.words = code_words<Code>();
-  facts.meaning += ": " + code_legend<Code>() + (std::is_enum_v<T> ? "" : ", -1 failed");
-  facts.values = {-1.0, static_cast<double>(choices(Code{}).size() - 1), false};
-}
-
-template <class Value, class Member>
-Facts facts_of(const Column<Member>& c, std::string_view before = "") {
-  Facts facts{columns::facts_of(c, before), is_integer<Value>};
-  if (c.dimensions == "point") facts.dimensions = before;
-  if constexpr (std::is_same_v<Value, bool>) facts.values = {-1.0, 1.0, false};
-  if constexpr (CodeOf<Value>::is) add_words<Value>(facts);
-  return facts;
-}
-
-/// Adds the columns of a part of a row.
-/// @param part  gives the part of a row, whose members can be set if the row can
-template <class Row, HasColumns Part, class Get>
-void add_columns(std::vector<PointColumn<Row>>& to, const Get& part) {
-  for_each_column<Part>([&](const auto& c) {
-    if constexpr (is_rows_column<std::remove_cvref_t<decltype(c)>>) {
-      using Element = RowOf<Part, decltype(c.member)>;
-      for_each_column<Element>([&](const auto& inner) {
-        using Value = ColumnValue<Element, decltype(inner.member)>;
-        to.push_back({facts_of<Value>(inner, c.dimension),
-                      [=](const Row& row, std::span<double> all) {
-                        const auto& list = std::invoke(c.member, part(row));
-                        for (std::size_t i = 0; i < list.size(); ++i) {
-                          study_columns::put(std::invoke(inner.member, list[i]), all.subspan(i, 1));
-                        }
-                      },
-                      [=](Row& row, std::span<const double> all, std::size_t) {
-                        auto& list = std::invoke(c.member, part(row));
-                        list.resize(all.size());
-                        for (std::size_t i = 0; i < list.size(); ++i) {
-                          study_columns::take(std::invoke(inner.member, list[i]), all.subspan(i, 1),
-                                              1);
-                        }
-                      }});
-      });
-    } else {
-      using Value = ColumnValue<Part, decltype(c.member)>;
-      to.push_back({facts_of<Value>(c),
-                    [=](const Row& row, std::span<double> all) {
-                      study_columns::put(std::invoke(c.member, part(row)), all);
-                    },
-                    [=](Row& row, std::span<const double> all, std::size_t rows) {
-                      study_columns::take(std::invoke(c.member, part(row)), all, rows);
-                    }});
-    }
-  });
-}
-
-/// All columns of a row: those of its motion first.
-template <class Row>
-std::vector<PointColumn<Row>> point_columns() {
-  std::vector<PointColumn<Row>> all;
-  add_columns<Row, ClassifiedMotion>(
-      all, [](auto& row) -> auto& { return motion_of(row); });
-  for (PointColumn<Row>& c : all) c.is_of_motion = true;
-  if constexpr (!std::is_same_v<Row, ClassifiedMotion>) {
-    add_columns<Row, Row>(
-        all, [](auto& row) -> auto& { return row; });
-  }
-  return all;
-}
-
-template <class Result>
-using RowOf = typename decltype(Result::points)::value_type::value_type;
 
 using columns::dimension_names;
 
@@ -194,9 +45,12 @@ class StudyWriter {
   void write_parameters(const std::vector<ParameterAxis>& parameters, const std::string& leads);
   /// Numbers that a column has of a point.
   std::size_t width(const Facts& column) const;
-  /// @param values  of all points, one after the other
-  void write_points(const Facts& column, const std::vector<double>& values);
-  void write_done(const std::vector<int>& done);
+  /// Begins the dataset of a column; the numbers of one point come after those of the other.
+  DatasetBlocks begin_points(const Facts& column);
+  /// @param values  of all points
+  void write_points(const Facts& column, std::span<const double> values);
+  /// @param is_done  whether a point is
+  void write_done(std::size_t points, const std::function<bool(std::size_t)>& is_done);
 
  private:
   struct Axis {
@@ -218,16 +72,24 @@ constexpr bool is_aside(const Column<Member>& c) {
 /// Whether columns may be missing that are not optional, as in files of earlier versions.
 enum class Missing { refused, allowed };
 
-/// Numbers of a column of so many points as a file has them, and the size of its first dimension;
-/// nothing if it may be missing and is. Codes are those of the words that stand beside them, whatever
-/// their order there; -1 for words that are unknown.
+/// A column of a study's points in a file.
 struct StoredColumn {
-  std::vector<double> values;
-  std::size_t rows = 1;
+  const ResultReader& file;
+  std::string path;
+  std::size_t width = 1;  ///< numbers of a point
+  std::size_t rows = 1;   ///< size of its first dimension
+  /// Per code of the file that of the same word here, -1 for words that are unknown; none: they are
+  /// the same.
+  std::optional<std::vector<double>> codes{};
+
+  /// The numbers of some points, one after the other.
+  std::vector<double> numbers(std::size_t first, std::size_t points) const;
 };
-std::optional<StoredColumn> read_column(const ResultReader& file, const std::string& group,
-                                        const Facts& column, std::size_t points,
-                                        Missing missing = Missing::refused);
+/// Nothing if it may be missing and is.
+/// @throws FileError  if it is not of so many points
+std::optional<StoredColumn> stored_column(const ResultReader& file, const std::string& group,
+                                          const Facts& column, std::size_t points,
+                                          Missing missing = Missing::refused);
 /// How many points a file has; 0: none of this study.
 std::size_t stored_points(const ResultReader& file, const std::string& group);
 /// Which points a file has.
@@ -244,14 +106,51 @@ struct StoredParameter {
   std::vector<double> values;  ///< [SI]
 };
 
+/// Numbers of rows that are in memory together while a file is written or read.
+constexpr std::size_t numbers_at_once = std::size_t{1} << 21;
+
+/// Writes the rows of a study, block by block.
+template <class Result>
+void write_rows(study_columns::StudyWriter& to, const Result& result, std::size_t most_numbers) {
+  using namespace study_columns;
+  using Row = study_columns::RowOf<Result>;
+  std::vector<PointColumn<Row>> columns;
+  std::vector<DatasetBlocks> datasets;
+  std::size_t of_point = 0;
+  for (PointColumn<Row>& column : point_columns<Row>()) {
+    if constexpr (requires { result.leaves_out(""); }) {
+      if (result.leaves_out(column.facts.name)) continue;
+    }
+    datasets.push_back(to.begin_points(column.facts));
+    of_point += to.width(column.facts);
+    columns.push_back(std::move(column));
+  }
+  const std::size_t at_once = std::max<std::size_t>(1, most_numbers / of_point);
+  for (std::size_t first = 0; first < result.points.size(); first += at_once) {
+    std::vector<std::optional<Row>> rows;
+    const std::size_t last = std::min(first + at_once, result.points.size());
+    for (std::size_t i = first; i < last; ++i) rows.push_back(result.points[i]);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const std::size_t width = to.width(columns[c].facts);
+      std::vector<double> values(width * rows.size(),
+                                 columns[c].facts.is_integer ? -1.0 : std::nan(""));
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (!rows[i] || (columns[c].is_of_motion && motion_of(*rows[i]).has_failed())) continue;
+        columns[c].put(*rows[i], {values.data() + i * width, width});
+      }
+      datasets[c].add(values);
+    }
+  }
+  for (DatasetBlocks& dataset : datasets) dataset.finish();
+}
+
 /// Writes what a study has found so far as its group of a result file.
 /// @param parameters  those of its points, in the order of its grid
 /// @throws FileError  as ResultWriter
 template <class Result>
 void write_study(ResultWriter& file, const std::vector<ParameterAxis>& parameters,
-                 const Result& result) {
+                 const Result& result, std::size_t most_numbers = numbers_at_once) {
   using namespace study_columns;
-  using Row = study_columns::RowOf<Result>;
   StudyWriter to(file, Result::group, result.sizes());
   for_each_column<Result>([&](const auto& c) {
     if constexpr (!is_rows_column<std::remove_cvref_t<decltype(c)>>) {
@@ -268,74 +167,100 @@ void write_study(ResultWriter& file, const std::vector<ParameterAxis>& parameter
   std::string leads;
   if constexpr (requires { Result::leads; }) leads = Result::leads;
   to.write_parameters(parameters, leads);
-  for (const PointColumn<Row>& column : point_columns<Row>()) {
-    if constexpr (requires { result.leaves_out(""); }) {
-      if (result.leaves_out(column.facts.name)) continue;
-    }
-    const std::size_t width = to.width(column.facts);
-    std::vector<double> values(width * result.points.size(),
-                               column.facts.is_integer ? -1.0 : std::nan(""));
-    for (std::size_t i = 0; i < result.points.size(); ++i) {
-      const auto& row = result.points[i];
-      if (!row || (column.is_of_motion && motion_of(*row).has_failed())) continue;
-      column.put(*row, {values.data() + i * width, width});
-    }
-    to.write_points(column.facts, values);
-  }
+  write_rows(to, result, most_numbers);
   for_each_column<Result>([&](const auto& c) {
     if constexpr (!is_rows_column<std::remove_cvref_t<decltype(c)>>) {
       const auto& values = std::invoke(c.member, result);
       using Element = typename std::remove_cvref_t<decltype(values)>::value_type;
       if constexpr (std::is_arithmetic_v<Element>) {
         if (is_aside(c) || values.size() == 0) return;
-        to.write_points(facts_of<Element>(c), {values.begin(), values.end()});
+        to.write_points(facts_of<Element>(c), std::vector<double>(values.begin(), values.end()));
       }
     }
   });
-  std::vector<int> done;
-  for (const auto& row : result.points) done.push_back(row ? 1 : 0);
-  to.write_done(done);
+  to.write_done(result.points.size(), [&](std::size_t i) { return result.points.has(i); });
 }
 
-/// Reads the points of a study, to go on from.
+/// How rows are read.
+struct RowReading {
+  study_columns::Missing missing = study_columns::Missing::refused;
+  std::function<bool(std::size_t)> is_wanted{};  ///< whether a point is; empty: all are
+  std::size_t most_numbers = numbers_at_once;    ///< in memory
+};
+
+/// Calls f with the number and the row of every point that a file has of a study, in their order.
 /// @param points  how many it has
-/// @return  a result that knows nothing else
 /// @throws FileError  as ResultReader, and if it has another number of points
-template <class Result>
-Result read_study(const ResultReader& file, std::size_t points,
-                  study_columns::Missing missing = study_columns::Missing::refused) {
+template <class Result, class F>
+void each_stored_row(const ResultReader& file, std::size_t points, const F& f,
+                     const RowReading& reading = {}) {
   using namespace study_columns;
   using Row = study_columns::RowOf<Result>;
   const std::string group(Result::group);
   const std::vector<bool> done = read_done(file, group, points);
-  Result result;
-  result.points.resize(points);
-  for (std::size_t i = 0; i < points; ++i) {
-    if (done[i]) result.points[i].emplace();
+  std::vector<PointColumn<Row>> columns;
+  std::vector<StoredColumn> stored;
+  std::size_t of_point = 1;
+  for (PointColumn<Row>& column : point_columns<Row>()) {
+    auto here = stored_column(file, group, column.facts, points, reading.missing);
+    if (!here) continue;
+    of_point += here->width;
+    stored.push_back(std::move(*here));
+    columns.push_back(std::move(column));
   }
-  for (const PointColumn<Row>& column : point_columns<Row>()) {
-    const auto stored = read_column(file, group, column.facts, points, missing);
-    if (!stored || points == 0) continue;
-    const std::size_t width = stored->values.size() / points;
-    for (std::size_t i = 0; i < points; ++i) {
-      if (!done[i]) continue;
-      column.take(*result.points[i], {stored->values.data() + i * width, width}, stored->rows);
+  const std::size_t at_once = std::max<std::size_t>(1, reading.most_numbers / of_point);
+  for (std::size_t first = 0; first < points; first += at_once) {
+    std::vector<std::pair<std::size_t, Row>> rows;  // behind the first point of the block
+    const std::size_t count = std::min(at_once, points - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_wanted = !reading.is_wanted || reading.is_wanted(first + i);
+      if (done[first + i] && is_wanted) rows.push_back({i, Row{}});
+    }
+    if (rows.empty()) continue;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const std::size_t width = stored[c].width;
+      const std::vector<double> values = stored[c].numbers(first, count);
+      for (auto& [i, row] : rows) {
+        columns[c].take(row, {values.data() + i * width, width}, stored[c].rows);
+      }
+    }
+    for (auto& [i, row] : rows) {
+      if (motion_of(row).has_failed()) motion_of(row) = {};
+      f(first + i, std::move(row));
     }
   }
-  for (auto& row : result.points) {
-    if (row && motion_of(*row).has_failed()) motion_of(*row) = {};
-  }
+}
+
+/// Reads the points of a study, to go on from.
+/// @return  a result that knows nothing else
+/// @throws FileError  as each_stored_row
+template <class Result>
+Result read_study(const ResultReader& file, std::size_t points) {
+  Result result;
+  result.points.resize(points);
+  each_stored_row<Result>(file, points,
+                          [&](std::size_t i, const auto& row) { result.points.set(i, row); });
   return result;
 }
 
-/// All that a file holds of a study, to be shown: its points, and the members that say what they are
-/// of. What a file of an earlier version is without is as in a new row.
+/// What a file holds of a study, to be shown: its points, or some of them, and the members that say
+/// what they are of. What a file of an earlier version is without is as in a new row.
 /// @throws FileError  as ResultReader
 template <class Result>
-Result stored_study(const ResultReader& file) {
+Result stored_study(const ResultReader& file, const CoarseGrid& grid = {}) {
   using namespace study_columns;
   const std::string group(Result::group);
-  auto result = read_study<Result>(file, stored_points(file, group), Missing::allowed);
+  const std::size_t points = stored_points(file, group);
+  Result result;
+  result.points.resize(grid.is_all() ? points : grid.points());
+  RowReading reading{.missing = Missing::allowed};
+  if (!grid.is_all()) reading.is_wanted = [&](std::size_t i) { return grid.has(i); };
+  each_stored_row<Result>(
+      file, points,
+      [&](std::size_t i, const auto& row) {
+        result.points.set(grid.is_all() ? i : grid.number_of(i), row);
+      },
+      reading);
   for_each_column<Result>([&](const auto& c) {
     if constexpr (!is_rows_column<std::remove_cvref_t<decltype(c)>>) {
       using Given = std::invoke_result_t<decltype(c.member), Result&>;
@@ -345,7 +270,14 @@ Result stored_study(const ResultReader& file) {
         if (!cells) return;
         Eigen::Index count = 1;
         for (const Eigen::Index n : cells->shape) count *= n;
-        columns::Taking(*cells).take(std::invoke(c.member, result), std::span(&count, 1));
+        auto& values = std::invoke(c.member, result);
+        columns::Taking(*cells).take(values, std::span(&count, 1));
+        if (c.dimensions != "point" || grid.is_all()) return;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+          if (grid.has(i)) values[kept++] = values[i];
+        }
+        values.resize(kept);
       }
     }
   });

@@ -22,6 +22,9 @@ namespace whirl::inline io {
 
 namespace {
 
+constexpr int rarely = 100;     ///< times what it takes, until a whole file is written again
+constexpr int first_of_run = 10;  ///< likewise, in a run that goes on with one
+
 /// The parts of a call that change what is computed; the model is compared as a text.
 std::vector<std::string> essential(const Call& call) {
   std::vector<std::string> kept{call.verb, call.file};
@@ -113,11 +116,14 @@ StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWri
   begin_();  // says at once what cannot be written
   const bool goes_on = !place_.restarts && origin_of(place_.file) == Origin::result;
   if (goes_on) {
+    const auto since = clock::now();
     resume(place_, place_.file, place_.call, "take another name, or --restart to replace it",
            [&](const ResultReader& earlier) {
              if (const auto work = read_work(earlier)) seconds_before_ = work->seconds;
              take(earlier);
            });
+    cost_ = clock::now() - since;  // writing takes about as long as reading
+    next_whole_ = clock::now() + first_of_run * cost_;
   } else if (std::filesystem::exists(journal_of(place_.file))) {
     journal().clear();  // of a study that is begun anew
   }
@@ -165,7 +171,6 @@ void StudyFile::add(std::span<const std::size_t> points,
 }
 
 void StudyFile::save() {
-  constexpr int rarely = 100;  // times what it takes, until a whole file is written again
   constexpr std::chrono::seconds soon(2);
   if (place_.file.empty() || std::exchange(is_current_, false)) return;
   if (journal_ && cost_ > soon && is_stopped_ && is_stopped_()) return;

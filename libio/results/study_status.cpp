@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <span>
 
 #include "libdyn/studies/basins.hpp"
 #include "libdyn/studies/branch_result.hpp"
@@ -60,14 +61,16 @@ bool count_grid(const ResultReader& file, const Stripe& stripe, StudyStatus& sta
     const std::size_t points = study_columns::stored_points(file, group);
     if (points == 0) continue;
     std::vector<bool> done = study_columns::read_done(file, group, points);
-    const std::vector<double> motion = file.numbers(group + "/motion");
     status.points = static_cast<long>(stripe.points(points));
     status.failed = 0;
-    for (std::size_t i = 0; i < points; ++i) {
-      if (!done[i]) continue;
-      ++status.done;
-      if (motion[i] < 0.0) ++*status.failed;
-    }
+    std::size_t i = 0;
+    file.each_block(group + "/motion", [&](std::span<const double> motions) {
+      for (const double motion : motions) {
+        if (!done[i++]) continue;
+        ++status.done;
+        if (motion < 0.0) ++*status.failed;
+      }
+    });
     for (const std::uint64_t row : rows_in_journal(journal_of(file.path()))) {
       if (row >= points || done[row]) continue;
       done[row] = true;

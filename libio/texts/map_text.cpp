@@ -41,14 +41,37 @@ int rank_of(const std::string& kind) {
 /// Shares of something [%], per plane.
 using Shares = std::vector<double>;
 
-/// How many points have another motion than in the plane before.
-Shares changes(const PointRows<ClassifiedMotion>& points, std::size_t planes) {
-  Shares percents(planes, 0.0);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i % planes == 0 || kind_of(points[i]) == kind_of(points[i - 1])) continue;
-    percents[i % planes] += 100.0 / static_cast<double>(points.size() / planes);
+/// What there is how often in a map.
+struct MapShares {
+  std::map<std::pair<int, std::string>, Shares> kinds{};  ///< by their rank
+  std::map<Regime, Shares> regimes{};
+  Shares changes{};  ///< points that have another motion than in the plane before
+};
+
+MapShares shares_of(const PointRows<ClassifiedMotion>& points, std::size_t planes) {
+  MapShares all{.changes = Shares(planes, 0.0)};
+  std::map<std::pair<int, int>, Shares*> known;  // of kinds and periods: names take long
+  const double each = 100.0 / static_cast<double>(points.size() / planes);
+  const Shares* before = nullptr;
+  std::size_t i = 0;
+  for (const MapPoint& point : points) {
+    const std::size_t plane = i++ % planes;
+    const int kind = !point ? -2 : point->has_failed() ? -1 : static_cast<int>(*point->kind);
+    Shares*& shares = known[{kind, point ? point->period : 0}];
+    if (!shares) {
+      const std::string name = kind_of(point);
+      shares = &all.kinds[{rank_of(name), name}];
+      shares->resize(planes);
+    }
+    (*shares)[plane] += each;
+    if (plane > 0 && shares != before) all.changes[plane] += each;
+    before = shares;
+    if (!point || point->contacts.empty()) continue;
+    Shares& regime = all.regimes[point->regime()];
+    regime.resize(planes);
+    regime[plane] += each;
   }
-  return percents;
+  return all;
 }
 
 std::vector<std::string> cells(std::string_view name, const Shares& percents) {
@@ -120,23 +143,11 @@ std::string map_shares(const MapResult& map, const std::vector<ParameterAxis>& a
   for (std::size_t p = 0; p < planes; ++p) {
     head.push_back(has_planes ? fmt::format("{:.6g}", axes[2].shown(p)) : "share");
   }
-  std::map<std::pair<int, std::string>, Shares> kinds;
-  std::map<Regime, Shares> regimes;
-  const double each = 100.0 / static_cast<double>(map.points.size() / planes);
-  for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const MapPoint& point = map.points[i];
-    const auto count = [&](Shares& shares) {
-      shares.resize(planes);
-      shares[i % planes] += each;
-    };
-    const std::string kind = kind_of(point);
-    count(kinds[{rank_of(kind), kind}]);
-    if (point && !point->contacts.empty()) count(regimes[point->regime()]);
-  }
+  const auto [kinds, regimes, changes] = shares_of(map.points, planes);
   Table motions(head);
   for (const auto& [kind, percents] : kinds) motions.row(cells(kind.second, percents));
   if (has_planes) {
-    std::vector<std::string> row = cells("another than before", changes(map.points, planes));
+    std::vector<std::string> row = cells("another than before", changes);
     row[1] = "-";
     motions.row(row);
   }

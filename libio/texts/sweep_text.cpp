@@ -21,7 +21,7 @@ bool is_same_motion(const std::optional<SweepPoint>& a, const std::optional<Swee
 /// Values with the same motion.
 struct Stretch {
   std::size_t from = 0, to = 0;              ///< as SweepWay counts them
-  const ClassifiedMotion* motion = nullptr;  ///< the first one; null: not computed, or failed
+  std::optional<ClassifiedMotion> motion{};  ///< the first one; none: not computed, or failed
   std::string kind = "not computed";
   double least_impacts = 0.0, most_impacts = 0.0;  ///< per revolution
   double largest_exponent = 0.0;                   ///< per revolution
@@ -29,16 +29,17 @@ struct Stretch {
 
 Stretch stretch_from(const SweepWay& way, std::size_t from) {
   Stretch s{.from = from, .to = from};
-  while (s.to + 1 < way.size() && is_same_motion(way.point(from), way.point(s.to + 1))) ++s.to;
-  if (!way.point(from)) return s;
-  const ClassifiedMotion& first = way.point(from)->motion;
+  const std::optional<SweepPoint> begin = way.point(from);
+  while (s.to + 1 < way.size() && is_same_motion(begin, way.point(s.to + 1))) ++s.to;
+  if (!begin) return s;
+  const ClassifiedMotion& first = begin->motion;
   s.kind = first.has_failed() ? "failed" : name_of(*first.kind);
   if (first.has_failed()) return s;
-  s.motion = &first;
+  s.motion = first;
   s.least_impacts = s.most_impacts = first.impacts_per_rev();
   s.largest_exponent = first.largest_exponent();
   for (std::size_t i = from; i <= s.to; ++i) {
-    const ClassifiedMotion& motion = way.point(i)->motion;
+    const ClassifiedMotion motion = way.point(i).value().motion;
     s.least_impacts = std::min(s.least_impacts, motion.impacts_per_rev());
     s.most_impacts = std::max(s.most_impacts, motion.impacts_per_rev());
     s.largest_exponent = std::max(s.largest_exponent, motion.largest_exponent());
@@ -94,7 +95,7 @@ std::vector<LargestReading> largest_readings(const SweepResult& sweep) {
   for (std::size_t i = 0; i < sweep.probes.size(); ++i) {
     LargestReading most{sweep.probes[i]};
     for (std::size_t k = 0; k < sweep.points.size(); ++k) {
-      const Vec& size = sweep.points[k] ? sweep.points[k]->portrait.probe_peak_to_peak : Vec();
+      const Vec size = sweep.points[k].value_or(SweepPoint{}).portrait.probe_peak_to_peak;
       const auto row = static_cast<Eigen::Index>(i);
       if (row >= size.size() || !std::isfinite(size(row)) || size(row) <= most.peak_to_peak) {
         continue;

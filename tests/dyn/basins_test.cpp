@@ -23,7 +23,10 @@ TEST(Basins, KnowsAnOrbitByAnyOfItsSections) {
   Ending resting = wild;
   resting.regimes = {Regime::none};
   const std::vector<Ending> all{orbit(a), orbit(b), orbit(c), wild, wilder, resting, orbit(a)};
-  EXPECT_EQ(attractors(scene.contacts, all), (std::vector<int>{0, 0, 1, 2, 2, 3, 0}));
+  AttractorNumbers numbers(scene.contacts);
+  std::vector<int> found;
+  for (const Ending& ending : all) found.push_back(numbers.number_of(ending));
+  EXPECT_EQ(found, (std::vector<int>{0, 0, 1, 2, 2, 3, 0}));
 }
 
 TEST(Basins, StartsAreReproducible) {

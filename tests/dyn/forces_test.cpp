@@ -531,7 +531,7 @@ TEST(MotionForces, GoOnFromValueToValueOfASweep) {
   MotionState state = start_of(rotor.model(), scene);
   for (const std::size_t point : {0u, 1u, 3u, 2u}) {
     run(scene, state, 30, {.tolerance = 1e-13});
-    const SweepEnd& end = found.points[point]->end;
+    const SweepEnd end = found.points[point].value().end;
     EXPECT_EQ(end.revolution, state.revolution);
     const Vec expected = displacement(scene, state);
     EXPECT_LT((end.displacement - expected).norm(), 1e-8 * expected.norm()) << point;

@@ -5,6 +5,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/travel.hpp"
+#include "libdyn/studies/point_runner.hpp"
 #include "tests/support/post.hpp"
 #include "tests/support/studies.hpp"
 

@@ -96,7 +96,7 @@ TEST(Sweep, BeginsEachValueAsAsked) {
   ASSERT_EQ(carried.points.size(), 80u);
   expect_same(carried.points[0]->motion, fresh.points[0]->motion);
   // down begins at the last value, where up has ended
-  const FullState& top = carried.points[39]->end;
+  const FullState top = carried.points[39].value().end;
   StudyMotion again = begin_motion(rotor_stator(), {&options.values[39], 1}, &top);
   classify_together({&again, 1}, brief);
   expect_same(carried.points[79]->motion, classified(again));

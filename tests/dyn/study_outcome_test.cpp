@@ -4,15 +4,22 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "libdyn/studies/row_travel.hpp"
+
 namespace whirl::study_outcome_test {
 
 ClassifiedMotion unsettled(long settles_after) {
   return {.kind = MotionKind::not_settled, .settles_after = settles_after};
 }
 
-StudyOutcome outcome_of(const PointRows<ClassifiedMotion>& points) {
-  return study_outcome(motions_of(points), 1,
-                       [](std::size_t i) { return "point " + std::to_string(i); });
+StudyOutcome outcome_of(const std::vector<std::optional<ClassifiedMotion>>& motions) {
+  PointRows<ClassifiedMotion> points(motions.size());
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (motions[i]) points.set(i, *motions[i]);
+  }
+  return study_outcome(points, 1, [](std::size_t i) { return "point " + std::to_string(i); });
 }
 
 TEST(StudyOutcome, CountsWhatFailedAndNamesTheFirst) {

@@ -96,6 +96,23 @@ TEST_F(KeptStudies, KeepWhatIsNewBesideTheirFile) {
   EXPECT_EQ(ResultReader(path).numbers("/numbers"), whole.points);
 }
 
+// A file that took long to read is not written anew before anything else.
+TEST_F(KeptStudies, GoOnBesideTheirFile) {
+  EXPECT_THROW(run_kept(keeping, study([](Numbers& so_far, const auto& monitor) {
+                          grow(so_far, monitor, 0, 30);
+                        })),
+               Killed);
+  writings = 0;
+  auto goes_on = study([](Numbers& so_far, const auto& m) { grow(so_far, m, 30, 33); });
+  goes_on.take = [](Numbers& begun, const ResultReader& from) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    begun.points = from.numbers("/numbers");
+  };
+  EXPECT_THROW(run_kept(keeping, goes_on), Killed);
+  EXPECT_EQ(writings, 0);
+  EXPECT_EQ(rows_in_journal(journal).size(), 32u);
+}
+
 TEST_F(KeptStudies, ThatBeginAnewForgetIt) {
   const auto killed = study([](Numbers& so_far, const auto& m) { grow(so_far, m, 0, 30); });
   EXPECT_THROW(run_kept(keeping, killed), Killed);

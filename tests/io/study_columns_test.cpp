@@ -30,8 +30,8 @@ ClassifiedMotion motion() {
 MapResult half_a_map() {
   MapResult map{.system = {.contacts = {"ring"}, .states = 2}};
   map.points.resize(6);
-  map.points[4] = motion();
-  map.points[2] = ClassifiedMotion{.failure = "it left its bearing"};
+  map.points.set(4, motion());
+  map.points.set(2, {.failure = "it left its bearing"});
   return map;
 }
 
@@ -62,7 +62,7 @@ TEST_F(StudyColumns, KnowWhatIsDone) {
   EXPECT_EQ(done_points(again.points), 2u);
   EXPECT_TRUE(again.points[2]->has_failed());
   EXPECT_TRUE(again.points[2]->exponents.empty());
-  const ClassifiedMotion& chaos = *again.points[4];
+  const ClassifiedMotion chaos = again.points[4].value();
   EXPECT_EQ(chaos.kind, MotionKind::chaotic);
   EXPECT_EQ(chaos.revolutions, 1000);
   EXPECT_EQ(chaos.resolution, 1.0 / 3.0);
@@ -75,11 +75,77 @@ TEST_F(StudyColumns, KnowWhatIsDone) {
 
 TEST_F(StudyColumns, AreWholeWhenAllIsDone) {
   MapResult map = half_a_map();
-  for (auto& point : map.points) point = motion();
+  for (std::size_t i = 0; i < map.points.size(); ++i) map.points.set(i, motion());
   const ResultReader file = saved(map, axes);
   EXPECT_EQ(file.number_attribute("/map", "complete"), 1.0);
   EXPECT_FALSE(file.has("/map/done"));
   EXPECT_EQ(done_points(read_study<MapResult>(file, 6).points), 6u);
+}
+
+// Rows in blocks of any size, from memory or from the disk, make the same file.
+TEST_F(StudyColumns, AreTheSameInBlocks) {
+  const MapResult map = half_a_map();
+  MapResult on_disk = half_a_map();
+  on_disk.points = PointRows<ClassifiedMotion>(RowStore(6, {.block = 1, .in_memory = 0}));
+  on_disk.points.overflow_into(folder);
+  for (const std::size_t i : {4ul, 2ul}) on_disk.points.set(i, map.points[i].value());
+  const ResultReader whole = saved(map, axes);
+  for (const std::size_t numbers : {1ul, 70ul, 90ul}) {  // of one, some points
+    const std::filesystem::path place = folder / "blocks.h5";
+    {
+      ResultWriter file(place, Replaces::anything);
+      write_study(file, axes, on_disk, numbers);
+      file.commit();
+    }
+    const ResultReader blocks(place);
+    EXPECT_EQ(blocks.list("/map"), whole.list("/map"));
+    for (const std::string& name : whole.list("/map")) {
+      const std::string dataset = "/map/" + name;
+      EXPECT_EQ(blocks.kind(dataset), whole.kind(dataset)) << name;
+      EXPECT_EQ(blocks.shape(dataset), whole.shape(dataset)) << name;
+      EXPECT_EQ(blocks.axes(dataset), whole.axes(dataset)) << name;
+      if (whole.kind(dataset) == ObjectKind::text) continue;
+      EXPECT_EQ(packed(blocks.numbers(dataset)), packed(whole.numbers(dataset))) << name;
+    }
+    PointRows<ClassifiedMotion> again(6);
+    const auto take = [&](std::size_t i, const ClassifiedMotion& m) { again.set(i, m); };
+    each_stored_row<MapResult>(blocks, 6, take, {.most_numbers = numbers});
+    const auto known = read_study<MapResult>(whole, 6);
+    for (std::size_t i = 0; i < 6; ++i) {
+      ASSERT_EQ(again.has(i), known.points.has(i)) << i;
+      if (!again.has(i)) continue;
+      EXPECT_EQ(again.bytes(i), known.points.bytes(i)) << i;
+    }
+  }
+}
+
+// Every second value along an axis: what is along the points goes with them.
+TEST_F(StudyColumns, AreReadCoarser) {
+  const CoarseGrid grid{{2, 3}, {1, 2}};
+  EXPECT_EQ(grid.points(), 4u);
+  std::vector<std::size_t> had;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!grid.has(i)) continue;
+    EXPECT_EQ(grid.number_of(i), had.size());
+    had.push_back(i);
+  }
+  EXPECT_EQ(had, (std::vector<std::size_t>{0, 2, 3, 5}));
+
+  BasinsResult basins{.system = {.states = 1, .dofs = 1}, .sections = 1};
+  basins.points.resize(6);
+  for (int i = 0; i < 6; ++i) {
+    basins.points.set(static_cast<std::size_t>(i),
+                      {.motion = {.kind = MotionKind::periodic, .period = i, .exponents = {0.0}},
+                       .start = {Vec::Ones(1), Vec::Zero(1)},
+                       .sections = {1.0}});
+    basins.attractor.push_back(10 * i);
+  }
+  const auto coarse = stored_study<BasinsResult>(saved(basins, axes), grid);
+  ASSERT_EQ(coarse.points.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(coarse.points[i]->motion.period, static_cast<int>(had[i]));
+    EXPECT_EQ(coarse.attractor[i], 10 * static_cast<int>(had[i]));
+  }
 }
 
 TEST_F(StudyColumns, RefuseAnotherNumberOfPoints) {
@@ -96,7 +162,7 @@ TEST_F(StudyColumns, GoOnWithAFileFromBeforeAColumn) {
       if (c.facts.name == key) continue;
       to.write_points(c.facts, std::vector<double>(6 * to.width(c.facts), 1.0));
     }
-    to.write_done(std::vector<int>(6, 1));
+    to.write_done(6, [](std::size_t) { return true; });
     file.commit();
     return ResultReader(folder / "before.h5");
   };
@@ -150,7 +216,7 @@ TEST_F(StudyColumns, KeepPortraits) {
                     .sections = 4,
                     .spectrum_revolutions = 1};
   sweep.points.resize(4);
-  SweepPoint& point = sweep.points[3].emplace();
+  SweepPoint point;
   point.motion = motion();
   point.end = {Vec::LinSpaced(3, 0.0, 1.0), Vec::Zero(3)};
   point.portrait = {.poincare_x = Mat::Random(2, 4),
@@ -158,6 +224,7 @@ TEST_F(StudyColumns, KeepPortraits) {
                     .max_radius = Vec::Random(2),
                     .spectrum = Mat::Random(2, 17),
                     .contact_angle = Mat::Random(1, 36)};
+  sweep.points.set(3, point);
   const ResultReader file = saved(sweep, {axes[0]});
   EXPECT_EQ(file.strings("/sweep/direction"), (std::vector<std::string>{"up", "down"}));
   EXPECT_EQ(file.shape("/sweep/spectrum"), (std::vector<Eigen::Index>{2, 2, 2, 17}));
@@ -180,10 +247,10 @@ TEST_F(StudyColumns, NumberRandomStarts) {
   BasinsResult basins{.system = {.states = 2, .dofs = 3}, .is_random = true, .sections = 1};
   basins.points.resize(2);
   EXPECT_FALSE(saved(basins, {}).has("/basins/attractor"));
-  for (auto& point : basins.points) {
-    point = BasinsPoint{.motion = {.kind = MotionKind::periodic, .exponents = {0.0, -1.0}},
-                        .start = {Vec::Ones(3), Vec::Zero(3)},
-                        .sections = {1.0, 2.0}};
+  for (std::size_t i = 0; i < basins.points.size(); ++i) {
+    basins.points.set(i, {.motion = {.kind = MotionKind::periodic, .exponents = {0.0, -1.0}},
+                          .start = {Vec::Ones(3), Vec::Zero(3)},
+                          .sections = {1.0, 2.0}});
   }
   basins.attractor = {0, 0};
   const ResultReader file = saved(basins, {});

@@ -39,7 +39,9 @@ TEST(BasinsText, SharesAddUpToAllStarts) {
   settled.motion.period = 2;
   settled.motion.exponents = {-0.5};
   open.motion.kind = MotionKind::not_settled;
-  result.points = {settled, settled, open, settled};
+  result.points.resize(4);
+  for (const std::size_t i : {0ul, 1ul, 3ul}) result.points.set(i, settled);
+  result.points.set(2, open);
   result.basins = {{.first = 0, .count = 3}};
   const BasinShares shares = basin_shares(result);
   EXPECT_DOUBLE_EQ(shares.attractors.at(0).share, 0.75);

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace whirl::inline io {
+
+/// Some points of a study: every so-manieth value along each of its axes, the first one among them.
+struct CoarseGrid {
+  std::vector<std::size_t> sizes{};  ///< of the axes
+  std::vector<std::size_t> steps{};  ///< as many
+
+  bool is_all() const;
+  std::size_t points() const;
+  bool has(std::size_t point) const;
+  /// The number of a point that it has.
+  std::size_t number_of(std::size_t point) const;
+};
+
+}  // namespace whirl::inline io
