@@ -37,6 +37,11 @@ struct Monitor {
       return *told || (is_stopped && is_stopped());
     };
   }
+  /// The same of work whose result is another one, and is saved otherwise or not at all.
+  template <class Other>
+  Monitor<Other> of() const {
+    return {.progress = progress, .is_stopped = is_stopped, .ranks = ranks};
+  }
   void show(long done, long total) const {
     if (progress) progress(done, total);
   }

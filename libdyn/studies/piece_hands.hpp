@@ -234,7 +234,7 @@ template <class Row, class Given>
   WorkQueue<Letter> queue(threads);
   ranks.send({0, LetterKind::ready, packed(threads)});
   Patience patience;
-  Silence silence;
+  std::optional<Silence> silence;  // from its first letter on: it may have much to do before
   bool has_stopped = false;
   const auto send = [&](Letter letter) {
     ranks.send(std::move(letter));
@@ -244,7 +244,7 @@ template <class Row, class Given>
     const std::optional<Letter> letter = ranks.receive();
     if (letter) {
       patience.begin_anew();
-      silence.hear();
+      silence.emplace();
       if (letter->kind == LetterKind::stop || letter->kind == LetterKind::end) {
         *ranks.told_to_stop = true;
       }
@@ -262,8 +262,11 @@ template <class Row, class Given>
     }
     // the leader may be busy for long where it prepares pieces
     constexpr int longer = 30;
-    if (const auto lasts = silence.look(); lasts > longer * ranks.patience)
-      throw LostRank(0, lasts);
+    if (silence) {
+      if (const auto lasts = silence->look(); lasts > longer * ranks.patience) {
+        throw LostRank(0, lasts);
+      }
+    }
     if (letter) continue;
     if (auto answer = queue.take(patience.next())) send(std::move(*answer));
   }

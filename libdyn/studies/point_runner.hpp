@@ -2,7 +2,6 @@
 /// Points of a study, computed piece by piece in threads, and in processes that share it.
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -11,7 +10,7 @@
 
 #include "libbase/piece_sizes.hpp"
 #include "libdyn/studies/monitor.hpp"
-#include "libdyn/studies/piece_hands.hpp"
+#include "libdyn/studies/piece_runner.hpp"
 #include "libdyn/studies/point_rows.hpp"
 #include "libdyn/studies/point_work.hpp"
 
@@ -90,58 +89,35 @@ class Savings {
   bool is_saved_ = false;
 };
 
-/// Computes the points of a result that are not done. Pieces that are stopped leave theirs so.
-///
-/// Where the monitor has ranks, that is processes that all come here with the same work, the leader
-/// shares out pieces and alone returns; the others serve it to its end.
-///
+/// Computes the points of a result that are not done, as run_pieces. Pieces that are stopped leave
+/// theirs so.
 /// @param result  its `points` are PointRows<Row>
-/// @throws WorkIsDone  in ranks that do not lead
-/// @throws LostRank    where one does not answer any more; what is done is saved
 template <class Row, class Given, class Result>
 void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor<Result>& monitor) {
-  const std::function<bool()> stops = [&monitor] { return monitor.stops(); };
-  if (monitor.ranks && !monitor.ranks->leads()) serve(work, *monitor.ranks, stops);
   PointRows<Row>& points = result.points;
   const auto open = static_cast<long>(open_points(points, work.stripe));
   long done = 0;
   Savings<Result> savings(result, monitor);
   PieceSizes sizes(work.most_together, work.computing_threads());
-  const auto keep = [&](std::optional<FinishedPiece<Row>> finished) {
-    if (!finished || !finished->is_whole) return;
-    for (std::size_t i = 0; i < finished->piece.size(); ++i) {
-      const std::size_t point = finished->piece[i];
+  PiecesLeft<Row> pieces(work.pieces, points, work.stripe);
+  const auto next = [&](int threads) -> std::optional<OpenPiece<Given>> {
+    sizes.work_with(threads);
+    std::vector<std::size_t> piece = pieces.next(sizes);
+    if (piece.empty()) return std::nullopt;
+    Given given = work.given(piece);
+    return OpenPiece<Given>{std::move(piece), std::move(given)};
+  };
+  const auto keep = [&](FinishedPiece<Row> finished) {
+    for (std::size_t i = 0; i < finished.piece.size(); ++i) {
+      const std::size_t point = finished.piece[i];
       done += points.has(point) ? 0 : 1;
-      points.set(point, finished->rows[i]);
+      points.set(point, finished.rows[i]);
     }
-    sizes.learn(finished->piece.size(), finished->seconds);
-    savings.note(finished->piece);
+    sizes.learn(finished.piece.size(), finished.seconds);
+    savings.note(finished.piece);
     monitor.show(done, open);
   };
-  try {
-    PieceHands<Row, Given> hands(work, monitor.ranks, stops);
-    PiecesLeft<Row> pieces(work.pieces, points, work.stripe);
-    while (!monitor.stops()) {
-      sizes.work_with(hands.threads());
-      const std::vector<std::size_t> piece = pieces.next(sizes);
-      if (piece.empty()) break;
-      hands.add(piece, work.given(piece));
-      while (auto finished = hands.take()) keep(std::move(finished));
-      while (hands.is_full() && !monitor.stops()) keep(hands.wait());
-    }
-    while (hands.has_open() && !monitor.stops()) keep(hands.wait());
-    if (hands.has_away()) savings.save();  // who stops all ranks may not wait for long
-    hands.stop();
-    const auto enough = std::chrono::steady_clock::now() + std::chrono::seconds(2);
-    while (hands.has_open()) {
-      if (hands.has_away() && std::chrono::steady_clock::now() > enough) break;
-      keep(hands.wait());
-    }
-  } catch (...) {  // a wrong model somewhere in the middle: what is done is kept
-    savings.save();
-    throw;
-  }
-  savings.save();
+  run_pieces<Row, Given>(work, {next, keep, [&savings] { savings.save(); }}, monitor);
 }
 
 }  // namespace whirl::inline dyn

@@ -34,6 +34,8 @@ struct PointWork {
   /// The rows of a piece, in any thread of any process: the same for the same points and what they are
   /// given, bit by bit.
   std::function<std::vector<Row>(const Piece&, Given&)> compute{};
+  /// What a piece has when it is stopped is worth keeping, too.
+  bool keeps_parts = false;
 
   /// Threads beside the one that prepares.
   int computing_threads() const { return prepare ? threads - 1 : threads; }
@@ -58,7 +60,7 @@ FinishedPiece<Row> finish_piece(const PointWork<Row, Given>& work,
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Row> rows = work.compute(piece, given);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  return {piece, std::move(rows), !stops(), taken.count()};
+  return {piece, std::move(rows), work.keeps_parts || !stops(), taken.count()};
 }
 
 }  // namespace whirl::inline dyn
