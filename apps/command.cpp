@@ -8,6 +8,7 @@
 #include "apps/arithmetic.hpp"
 #include "apps/program.hpp"
 #include "libbase/travel.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/bare_speed.hpp"
 #include "libio/text/terminal.hpp"
@@ -75,10 +76,24 @@ int print(Report report, const Invocation& call, const std::vector<BareSpeed>& b
   return after_printing(report.status);
 }
 
+/// Checks the --isa of a command that ranks run again: they have agreed on one before it was read.
+/// @throws ModelError  if theirs rounds otherwise
+void require_agreed(const std::string& asked) {
+  if (asked.empty() || rounds_alike(asked, instruction_set())) return;
+  throw ModelError({"--isa " + asked}, "",
+                   fmt::format("the processes have agreed on {}, which rounds otherwise; say it to "
+                               "whirl-mpi rerun, too",
+                               instruction_set()));
+}
+
 int execute(const Verb& verb, CommandLine& line) {
   Invocation& call = line.call;
   call.output = read_options<OutputOptions>(call.given);
-  if (!call.ranks) adopt_arithmetic(call.text("isa"));  // ranks have agreed on one
+  if (!call.ranks) {
+    adopt_arithmetic(call.text("isa"));
+  } else if (!call.model_text.empty()) {
+    require_agreed(call.text("isa"));
+  }
   require_free_places(call.files());
   const std::vector<BareSpeed> bare = bare_speeds(speed_options(line));
   if (!call.output.quiet) {
@@ -95,8 +110,10 @@ int run_command(const Verb& verb, const std::vector<std::string>& words, const S
   if (const int* status = std::get_if<int>(&read)) return *status;
   CommandLine& line = std::get<CommandLine>(read);
   const std::string& file = line.call.file;
-  if (ranks) ranks->share([&] { return packed(words); });
-  line.call.ranks = ranks;
+  if (ranks && shares_work(verb, line.call.given)) {
+    ranks->share([&] { return packed(words); });
+    line.call.ranks = ranks;
+  }
   try {
     return execute(verb, line);
   } catch (const ModelError& error) {

@@ -48,12 +48,12 @@ int unknown_verb(const std::string& word) {
 int run_verb(const std::vector<std::string>& words, const Ranks* ranks) {
   const Verb* const verb = verb_named(words[1]);
   if (!verb) return unknown_verb(words[1]);
-  if (!verb->run_words) return run_command(*verb, words, {}, verb->shares_work ? ranks : nullptr);
+  if (!verb->run_words) return run_command(*verb, words, {}, ranks);
   if (words.size() > 2 && words[2] == "--help") {
     fmt::print("{}", verb->usage);
     return exit_status::done;
   }
-  return verb->run_words({words.begin() + 2, words.end()});
+  return verb->run_words({words.begin() + 2, words.end()}, ranks);
 }
 
 }  // namespace

@@ -13,6 +13,10 @@ const Verb* verb_named(std::string_view name) {
   return nullptr;
 }
 
+bool shares_work(const Verb& verb, const GivenValues& given) {
+  return verb.shares_work && (verb.shares_with.empty() || given.contains(verb.shares_with));
+}
+
 const std::vector<OptionSpec>& own_options(const Verb& verb) {
   return verb.run_words ? verb.options_in_words : verb.run.options;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "libbase/ranks.hpp"
 #include "libio/text/option.hpp"
 
 namespace whirl::inline cli {
@@ -39,9 +40,11 @@ struct Verb {
   std::string_view takes_more_help = "";  ///< what they are
   std::string_view example;               ///< a command line
   VerbRun run{};
-  bool shares_work = false;  ///< run hands pieces to other processes, see Ranks
-  /// Instead of run, of a verb that reads the words after it itself and prints: its exit status.
-  int (*run_words)(const std::vector<std::string>&) = nullptr;
+  bool shares_work = false;           ///< run hands pieces to other processes, see Ranks
+  std::string_view shares_with = "";  ///< the option that asks for such work; empty: all of it is
+  /// Instead of run, of a verb that reads the words after it itself and prints: its exit status. Of
+  /// processes the leader alone is here, with those that may share the work; null: there are none.
+  int (*run_words)(const std::vector<std::string>& words, const Ranks*) = nullptr;
   std::string_view usage = "";                 ///< what --help prints then
   std::vector<OptionSpec> options_in_words{};  ///< and what those words may be
 };
@@ -50,6 +53,9 @@ struct Verb {
 const std::vector<Verb>& verbs();
 /// The one of a name or alias; null: there is none.
 const Verb* verb_named(std::string_view name);
+
+/// Whether a call of a verb with these options hands pieces to other processes.
+bool shares_work(const Verb& verb, const GivenValues& given);
 
 /// The options of a verb beside those of all verbs.
 const std::vector<OptionSpec>& own_options(const Verb& verb);

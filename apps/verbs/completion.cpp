@@ -12,7 +12,7 @@ constexpr std::string_view completion_usage =
     "Usage: whirl completion\n\nPrints a script that completes verbs, options and names of files "
     "in bash:\nput  source <(whirl completion)  into ~/.bashrc\n";
 
-int run_completion(const std::vector<std::string>&) {
+int run_completion(const std::vector<std::string>&, const Ranks*) {
   std::vector<CompletedVerb> completed;
   for (const Verb& verb : verbs()) {
     CompletedVerb& to = completed.emplace_back(CompletedVerb{std::string(verb.name), {}, {}});

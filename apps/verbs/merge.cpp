@@ -22,7 +22,7 @@ constexpr std::string_view merge_usage =
     "rows that a stopped\nrun has left beside it.\n";
 
 /// Joins parts of a study in one file.
-int run_merge(const std::vector<std::string>& words) {
+int run_merge(const std::vector<std::string>& words, const Ranks*) {
   if (words.empty()) {
     fmt::print("{}", merge_usage);
     return exit_status::wrong_input;

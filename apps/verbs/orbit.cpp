@@ -65,6 +65,7 @@ Report rotating_orbit(const Invocation& call, const OrbitVerbOptions& asked, con
 }
 
 Report run_orbit(const Invocation& given, const OrbitVerbOptions& asked) {
+  if (asked.starts) return search_orbits(given, asked);
   std::optional<BranchStart> point;
   Invocation call = given;
   if (asked.point) {
@@ -79,7 +80,6 @@ Report run_orbit(const Invocation& given, const OrbitVerbOptions& asked) {
   const OrbitMethod method = *asked.how.method;
   require_balance(method, asked.how.harmonics.is_given, "--harmonics");
   require_balance(method, asked.verify, "--verify");
-  if (asked.starts) return search_orbits(call, asked, model);
   if (*asked.frame == OrbitFrame::stationary) {
     return stationary_orbit(call, asked, model, point);
   }
@@ -98,6 +98,8 @@ Verb orbit_verb() {
       .summary = "one periodic orbit, stable or not, with its Floquet multipliers",
       .example = "whirl orbit models/jeffcott_stator.toml --period 1",
       .run = run_orbit,
+      .shares_work = true,
+      .shares_with = "starts",
   };
 }
 

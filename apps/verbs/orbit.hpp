@@ -27,6 +27,6 @@ struct OrbitVerbOptions {
 };
 
 /// Orbits near random starts.
-Report search_orbits(const Invocation& call, const OrbitVerbOptions& asked, const Model& model);
+Report search_orbits(const Invocation& call, const OrbitVerbOptions& asked);
 
 }  // namespace whirl::inline cli

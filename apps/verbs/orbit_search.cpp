@@ -15,30 +15,35 @@ namespace whirl::inline cli {
 
 namespace {
 
-OrbitSearchOptions search_options(const OrbitVerbOptions& asked) {
+OrbitSearchOptions search_options(const OrbitVerbOptions& asked, int threads) {
   const auto refuse = [](bool is_given, const char* option) {
     if (is_given) throw ModelError({option}, "", "does not go with --starts");
   };
   refuse(asked.frame.is_given, "--frame");
   refuse(asked.how.method.is_given, "--method");
+  refuse(asked.how.harmonics.is_given, "--harmonics");
+  refuse(asked.verify, "--verify");
   refuse(asked.point.is_given, "--point");
   refuse(asked.from.is_given, "--from");
   OrbitSearchOptions options{
       .period = *asked.period, .starts = *asked.starts, .size = *asked.size, .seed = *asked.seed};
   if (asked.settled.discard.is_given) options.discard = *asked.settled.discard;
+  options.threads = threads;
   if (options.size > 0.0) return options;
   throw asked.size.wrong("expected a number above 0");
 }
 
 }  // namespace
 
-Report search_orbits(const Invocation& call, const OrbitVerbOptions& asked, const Model& model) {
-  const OrbitSearchOptions options = search_options(asked);
+Report search_orbits(const Invocation& call, const OrbitVerbOptions& asked) {
+  const OrbitSearchOptions options = search_options(asked, study_threads(call));
+  const Model model = call.model();
+  require_speed(model);
   const Scene scene = make_scene(model);
   install_interrupt_handler();
-  const OrbitSearch search =
-      search_orbits(scene, start_state(model, scene, nullptr), options,
-                    {.progress = progress_of(call, "starts"), .is_stopped = is_interrupted});
+  const OrbitSearch search = search_orbits(
+      scene, start_state(model, scene, nullptr), options,
+      {.progress = progress_of(call, "starts"), .is_stopped = is_interrupted, .ranks = call.ranks});
   Report report =
       orbit_report(call, model,
                    fmt::format("Orbits of {} revolution{} from {} random starts", options.period,

@@ -16,7 +16,7 @@ constexpr std::string_view rerun_usage =
     "...).\n";
 
 /// Runs the command stored in a result again, on the model stored there.
-int run_rerun(const std::vector<std::string>& words) {
+int run_rerun(const std::vector<std::string>& words, const Ranks* ranks) {
   if (words.empty()) {
     fmt::print("{}", rerun_usage);
     return exit_status::wrong_input;
@@ -38,7 +38,7 @@ int run_rerun(const std::vector<std::string>& words) {
   }
   std::vector<std::string> line = words_again("whirl", call);
   line.insert(line.end(), words.begin() + 1, words.end());
-  return run_command(*verb, line, {text, call.sets});
+  return run_command(*verb, line, {text, call.sets}, ranks);
 }
 
 }  // namespace

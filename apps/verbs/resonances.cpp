@@ -1,6 +1,7 @@
 #include "apps/verb.hpp"
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
+#include "apps/verbs/study.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
@@ -24,7 +25,8 @@ struct ResonancesVerbOptions {
   auto fields() { return std::tie(modes, speeds, largest, confirm, starts, seed, isa); }
 };
 
-ResonanceOptions resonance_options(const ResonancesVerbOptions& asked, const Model& model) {
+ResonanceOptions resonance_options(const ResonancesVerbOptions& asked, const Model& model,
+                                   int threads) {
   if (asked.confirm && model.contacts.empty()) {
     throw ModelError({"--confirm"}, "", "expected a model with contacts to bounce in");
   }
@@ -32,19 +34,21 @@ ResonanceOptions resonance_options(const ResonancesVerbOptions& asked, const Mod
           .modes = *asked.modes,
           .largest = *asked.largest,
           .confirms = asked.confirm,
-          .search = {.starts = *asked.starts, .seed = *asked.seed}};
+          .search = {.starts = *asked.starts, .seed = *asked.seed},
+          .threads = threads};
 }
 
 Report run_resonances(const Invocation& call, const ResonancesVerbOptions& asked) {
   const Model model = call.model();
   const Assembler assembler(linear_structure(model));
-  const ResonanceOptions options = resonance_options(asked, model);
+  const ResonanceOptions options = resonance_options(asked, model, study_threads(call));
   const auto file = call.result_file(model);
   if (options.confirms) install_interrupt_handler();
   const ResonanceStudy study =
       resonance_study(model, assembler, options,
                       {.progress = progress_of(call, "looking for bouncing motions"),
-                       .is_stopped = is_interrupted});
+                       .is_stopped = is_interrupted,
+                       .ranks = call.ranks});
   Report report = begin_report(call, model, record_of(study));
   report.status = study.is_whole ? 0 : 130;
   report.text = headline("Internal resonances seen from the rotor", model) + "\n" + text_of(study) +
@@ -71,6 +75,8 @@ Verb resonances_verb() {
           "speeds at which two modes are in p:q resonance seen from the rotor, where it may bounce",
       .example = "whirl resonances models/two_disk_mac.toml --speeds 1000:8000:50rpm --confirm",
       .run = run_resonances,
+      .shares_work = true,
+      .shares_with = "confirm",
   };
 }
 

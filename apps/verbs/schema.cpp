@@ -17,7 +17,7 @@ constexpr std::string_view schema_usage =
     "#:schema ./FILE.json\n";
 
 /// The schema of model files, to a file or to standard output.
-int run_schema(const std::vector<std::string>& words) {
+int run_schema(const std::vector<std::string>& words, const Ranks*) {
   const bool is_forced = words.size() == 3 && words[2] == "--force";
   const bool has_file = (words.size() == 2 || is_forced) && words[0] == "--out";
   if (!words.empty() && !has_file) {

@@ -6,6 +6,8 @@
 #include "libdyn/motions/transient.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/studies/basins.hpp"
+#include "libdyn/studies/orbit_travel.hpp"
+#include "libdyn/studies/point_runner.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -32,7 +34,7 @@ Flow until(const std::function<bool()>& stops, Flow flow) {
   return flow;
 }
 
-/// The orbit near where a motion gets; nothing: there is none, or it was stopped.
+/// The orbit near where a motion gets, without its tangents; nothing: there is none, or it was stopped.
 std::optional<PeriodicOrbit> orbit_near(const Flow& flow, Trajectory t,
                                         const OrbitSearchOptions& options,
                                         const std::function<bool()>& stops) {
@@ -43,7 +45,41 @@ std::optional<PeriodicOrbit> orbit_near(const Flow& flow, Trajectory t,
   if (t.outcome != Outcome::reached_end) return std::nullopt;
   PeriodicOrbit orbit = find_orbit(flow, t.state.y, {.period = options.period});
   if (!orbit.is_good()) return std::nullopt;
+  orbit.tangents.clear();
   return orbit;
+}
+
+/// What every start leads to.
+struct Starts {
+  PointRows<std::optional<PeriodicOrbit>> points;
+};
+
+/// The orbits that the first starts lead to, up to one that is not done.
+OrbitSearch gathered(const Starts& starts, const Vec& scale) {
+  OrbitSearch search;
+  std::vector<SearchedOrbit>& all = search.orbits;
+  for (std::optional<std::optional<PeriodicOrbit>> point : starts.points) {
+    if (!point) break;
+    ++search.done;
+    std::optional<PeriodicOrbit>& orbit = *point;
+    if (!orbit) {
+      ++search.failed;
+      continue;
+    }
+    const auto known = std::find_if(all.begin(), all.end(), [&](const SearchedOrbit& s) {
+      return is_same(*orbit, s.orbit, scale);
+    });
+    if (known != all.end()) {
+      ++known->starts;
+    } else {
+      const int shortest = shortest_period(*orbit, scale);
+      all.push_back({std::move(*orbit), shortest, 1});
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const SearchedOrbit& a, const SearchedOrbit& b) {
+    return std::pair(a.orbit.is_stable(), a.starts) > std::pair(b.orbit.is_stable(), b.starts);
+  });
+  return search;
 }
 
 }  // namespace
@@ -62,34 +98,18 @@ OrbitSearch search_orbits(const Scene& scene, const MotionState& around,
                           const OrbitSearchOptions& options, const Monitor<OrbitSearch>& monitor) {
   const auto stops = [&monitor] { return monitor.stops(); };
   const Flow flow = until(stops, flow_of(scene.contacts));
-  OrbitSearch search;
-  std::vector<SearchedOrbit>& all = search.orbits;
-  for (; search.done < options.starts && !stops(); ++search.done) {
-    monitor.show(search.done, options.starts);
+  Starts starts;
+  starts.points.resize(static_cast<std::size_t>(options.starts));
+  PointWork<std::optional<PeriodicOrbit>> work{.most_together = 1, .threads = options.threads};
+  work.compute = [&](const auto& piece, NothingGiven&) {
     const Trajectory begun{.system = &scene.contacts,
                            .state = random_start(scene.contacts, around, options.size, options.seed,
-                                                 static_cast<std::uint64_t>(search.done)),
+                                                 std::uint64_t{piece[0]}),
                            .revolutions = options.discard};
-    auto orbit = orbit_near(flow, begun, options, stops);
-    if (!orbit && stops()) break;
-    if (!orbit) {
-      ++search.failed;
-      continue;
-    }
-    const auto known = std::find_if(all.begin(), all.end(), [&](const SearchedOrbit& s) {
-      return is_same(*orbit, s.orbit, flow.scale);
-    });
-    if (known != all.end()) {
-      ++known->starts;
-    } else {
-      const int shortest = shortest_period(*orbit, flow.scale);
-      all.push_back({std::move(*orbit), shortest, 1});
-    }
-  }
-  std::stable_sort(all.begin(), all.end(), [](const SearchedOrbit& a, const SearchedOrbit& b) {
-    return std::pair(a.orbit.is_stable(), a.starts) > std::pair(b.orbit.is_stable(), b.starts);
-  });
-  return search;
+    return std::vector{orbit_near(flow, begun, options, stops)};
+  };
+  run_points(work, starts, monitor.of<Starts>());
+  return gathered(starts, flow.scale);
 }
 
 }  // namespace whirl::inline dyn

@@ -18,11 +18,12 @@ struct OrbitSearchOptions {
   long discard = 10;       ///< revolutions that bring a start near something
   double size = 0.5;       ///< how far starts are away: see random_start
   std::uint64_t seed = 1;  ///< of the starts
+  int threads = 1;         ///< of this process that do the work; 0: the calling one
 };
 
 /// An orbit, and how many starts led there.
 struct SearchedOrbit {
-  PeriodicOrbit orbit{};
+  PeriodicOrbit orbit{};    ///< without its tangents
   int shortest_period = 1;  ///< [revolutions]
   long starts = 1;
 
@@ -59,7 +60,8 @@ struct OrbitSearch {
 };
 
 /// Newton's method from random starts, each after some revolutions. Orbits are the same where their
-/// states are, begun at any revolution of their period.
+/// states are, begun at any revolution of their period. Threads and processes share the starts; what
+/// is found does not depend on them: a search that is stopped has what all of its first starts lead to.
 /// @param around   what the starts are near
 /// @param monitor  told the starts; nothing is saved
 OrbitSearch search_orbits(const Scene& scene, const MotionState& around,

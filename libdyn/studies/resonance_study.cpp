@@ -5,6 +5,8 @@
 
 #include "libbase/constants.hpp"
 #include "libdyn/motions/identify.hpp"
+#include "libdyn/studies/orbit_travel.hpp"
+#include "libdyn/studies/point_runner.hpp"
 
 namespace whirl::inline dyn {
 
@@ -31,6 +33,32 @@ double size_at(const Contact& contact, const Assembler& assembler, const System&
   const Eigen::Vector2cd d =
       closing_rows(contact, assembler, system.dofs).cast<Complex>() * mode->shape;
   return Orbit(d(0), d(1)).major();
+}
+
+/// What was found near every resonance.
+struct Confirmed {
+  PointRows<std::optional<Bouncing>> points;
+};
+
+/// Looks for bouncing motions near all resonances.
+void confirm(ResonanceStudy& study, const Model& model, const ResonanceOptions& options,
+             const Monitor<ResonanceStudy>& monitor) {
+  BouncingOptions search = options.search;
+  search.is_stopped = monitor.stop_asked();
+  PointWork<std::optional<Bouncing>> work{.most_together = 1, .threads = options.threads};
+  work.compute = [&](const auto& piece, NothingGiven&) {
+    return std::vector{find_bouncing([&](double speed) { return scene_at_speed(model, speed); },
+                                     study.diagram, study.places[piece[0]], search)};
+  };
+  Confirmed confirmed;
+  confirmed.points.resize(study.places.size());
+  run_points(work, confirmed, monitor.of<Confirmed>());
+  for (std::size_t i = 0; i < study.places.size(); ++i) {
+    std::optional<std::optional<Bouncing>> found = confirmed.points[i];
+    study.places[i].is_confirmed = found.has_value();
+    if (found) study.places[i].bouncing = std::move(*found);
+    study.is_whole = study.is_whole && found;
+  }
 }
 
 }  // namespace
@@ -76,18 +104,7 @@ ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
     }
     study.places.push_back(std::move(place));
   }
-  if (!options.confirms) return study;
-  BouncingOptions search = options.search;
-  search.is_stopped = monitor.is_stopped;
-  long done = 0;
-  for (ResonancePlace& place : study.places) {
-    place.bouncing = find_bouncing([&](double speed) { return scene_at_speed(model, speed); },
-                                   study.diagram, place, search);
-    study.is_whole = !monitor.stops();
-    place.is_confirmed = study.is_whole || place.bouncing;
-    if (!study.is_whole) break;
-    monitor.show(++done, std::ssize(study.places));
-  }
+  if (options.confirms) confirm(study, model, options, monitor);
   return study;
 }
 

@@ -20,6 +20,7 @@ struct ResonanceOptions {
   int largest = 4;        ///< of p and q
   bool confirms = false;  ///< look for bouncing motions near each of them
   BouncingOptions search{};
+  int threads = 1;  ///< of this process that look for them; 0: the calling one
 };
 
 /// Orbits of both modes in a contact, by their largest on the rotor.
@@ -97,7 +98,8 @@ struct ResonanceStudy {
 /// The model at another speed, reduced.
 std::shared_ptr<const Scene> scene_at_speed(const Model& model, double speed);
 
-/// Finds the resonances between some speeds, and bouncing motions near them if that is asked for.
+/// Finds the resonances between some speeds, and bouncing motions near them if that is asked for, which
+/// threads and processes share.
 /// @throws NumericalError  as campbell
 ResonanceStudy resonance_study(const Model& model, const Assembler& assembler,
                                const ResonanceOptions& options,

@@ -4,9 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+
 #include "libdyn/motions/start.hpp"
 #include "libdyn/studies/found_orbit.hpp"
+#include "libdyn/studies/orbit_travel.hpp"
 #include "libdyn/taylor/batch.hpp"
+#include "tests/support/post.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::orbit_search_test {
@@ -34,25 +39,74 @@ TEST(OrbitSearch, FindsUnstableOrbitsOnce) {
   for (std::size_t i = 1; i < all.orbits.size(); ++i) {
     EXPECT_LE(all.orbits[i].starts, all.orbits[i - 1].starts);
   }
-  // stopped it has what the first starts led to
-  long begun = 0;
-  const OrbitSearch part = search_orbits(scene, around, options,
-                                         {.progress = [&](long done, long) { begun = done; },
-                                          .is_stopped = [&] { return begun == 5; }});
-  EXPECT_EQ(part.done, 5);
 }
 
-// A start that would take days on its way, and Newton's method behind it, are left when they are asked
+/// Two searches found the same, bit by bit.
+void expect_same_orbits(const OrbitSearch& a, const OrbitSearch& b) {
+  EXPECT_EQ(a.done, b.done);
+  EXPECT_EQ(a.failed, b.failed);
+  ASSERT_EQ(a.orbits.size(), b.orbits.size());
+  for (std::size_t i = 0; i < a.orbits.size(); ++i) {
+    EXPECT_EQ(a.orbits[i].starts, b.orbits[i].starts);
+    EXPECT_EQ(a.orbits[i].shortest_period, b.orbits[i].shortest_period);
+    EXPECT_EQ(packed(a.orbits[i].orbit), packed(b.orbits[i].orbit));
+  }
+}
+
+// Threads and processes find the same, and not the leader alone.
+TEST(OrbitSearch, IsTheSameInThreadsAndRanks) {
+  const test::RotorStator rotor{.Omega = 138.4, .kC = 64e6, .mu = 0.11};
+  const Scene scene = rotor.scene();
+  const MotionState around = start_state(rotor.model(), scene, nullptr);
+  OrbitSearchOptions options{.starts = 24, .size = 1.0};
+  const OrbitSearch alone = search_orbits(scene, around, options, {});
+  for (const auto& [count, threads] : {std::pair{1, 2}, {2, 1}, {3, 2}}) {
+    options.threads = threads;
+    std::atomic<int> sent = 0;
+    expect_same_orbits(test::in_ranks(count,
+                                      [&](Ranks ranks) {
+                                        ranks.send = [&, send = ranks.send](Letter letter) {
+                                          sent += letter.kind == LetterKind::rows;
+                                          send(std::move(letter));
+                                        };
+                                        return search_orbits(scene, around, options,
+                                                             {.ranks = &ranks});
+                                      }),
+                       alone);
+    EXPECT_EQ(sent > 0, count > 1);
+  }
+}
+
+// A search that is stopped has what so many starts lead to, whatever later ones have found meanwhile.
+TEST(OrbitSearch, StoppedItHasWhatItsFirstStartsLedTo) {
+  const test::RotorStator rotor{.Omega = 138.4, .kC = 64e6, .mu = 0.11};
+  const Scene scene = rotor.scene();
+  const MotionState around = start_state(rotor.model(), scene, nullptr);
+  OrbitSearchOptions options{.starts = 400, .size = 1.0, .threads = 2};
+  std::atomic<bool> is_stopped = false;
+  const OrbitSearch part =
+      search_orbits(scene, around, options,
+                    {.progress = [&](long done, long) { is_stopped = done >= 5; },
+                     .is_stopped = [&] { return is_stopped.load(); }});
+  EXPECT_GE(part.done, 4);  // two threads: one of the first five may not be done
+  EXPECT_LT(part.done, 400);
+  options.starts = part.done;
+  expect_same_orbits(search_orbits(scene, around, options, {}), part);
+}
+
+// A start that would take days on its way, or minutes in Newton's method, is left when it is asked
 // to stop; the start does not count, neither as one with an orbit nor as one without.
 TEST(OrbitSearch, StopsWithinAStart) {
   const test::RotorStator rotor{.Omega = 138.4, .kC = 64e6, .mu = 0.11};
   const Scene scene = rotor.scene();
   const MotionState around = start_state(rotor.model(), scene, nullptr);
-  for (const long discard : {1'000'000'000L, 0L}) {
-    long asked = 0;
-    const OrbitSearch none =
-        search_orbits(scene, around, {.starts = 40, .discard = discard, .size = 1.0},
-                      {.is_stopped = [&] { return ++asked > 3; }});
+  for (const auto& [discard, period] : {std::pair{1'000'000'000L, 1}, {0L, 20'000}}) {
+    const auto begin = std::chrono::steady_clock::now();
+    const OrbitSearch none = search_orbits(
+        scene, around, {.period = period, .starts = 40, .discard = discard, .size = 1.0},
+        {.is_stopped = [begin] {
+          return std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(50);
+        }});
     EXPECT_EQ(none.done, 0) << discard;
     EXPECT_EQ(none.failed, 0) << discard;
     EXPECT_TRUE(none.orbits.empty()) << discard;
