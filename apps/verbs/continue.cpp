@@ -65,7 +65,8 @@ BranchSetup asked_branches(const ContinueVerbOptions& asked, const Model& model)
 
 Report run_continue(const Invocation& call, const ContinueVerbOptions& asked) {
   const Model model = call.model();
-  const BranchSetup setup = asked_branches(asked, model);
+  BranchSetup setup = asked_branches(asked, model);
+  setup.threads = study_threads(call);
   Report report =
       orbit_report(call, model, "Periodic orbits along " + setup.parameters.along.axis.path);
   const auto settled = [&] {
@@ -99,6 +100,7 @@ Verb continue_verb() {
           "whirl continue models/jeffcott_stator.toml --speed 138.4rad/s --set "
           "contact.ring.stiffness=64e6 --over contact.ring.friction=0.1:0.15:0.002 --at 0.15",
       .run = run_continue,
+      .shares_work = true,
   };
 }
 

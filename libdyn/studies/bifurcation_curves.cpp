@@ -1,11 +1,11 @@
 #include "libdyn/studies/bifurcation_curves.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "libbase/error.hpp"
 #include "libdyn/branches/bifurcation_curve.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
-#include "libdyn/studies/branch_walk.hpp"
 
 namespace whirl::inline dyn {
 
@@ -20,8 +20,8 @@ bool is_followed(const Bifurcation& b) {
   return b.kind != BifurcationKind::grazing || b.at.residual < on_branch;
 }
 
-BranchEquations equations_of(const BifurcationCurve& curve, const PlaneScenes& scenes,
-                             const Vec& scale, const ParameterRange& along) {
+BranchEquations equations_of(const BegunWalk& curve, const PlaneScenes& scenes,
+                             const ParameterRange& along) {
   const FlowPlane plane{
       [&scenes](double a, double b) { return flow_of(scenes.at(a, b), *scenes.first); },
       [&scenes, contact = curve.contact](double a, double b, std::span<const Vec> starts) {
@@ -31,11 +31,11 @@ BranchEquations equations_of(const BifurcationCurve& curve, const PlaneScenes& s
         for (const Vec& y : starts) own.push_back(change.to(y));
         return nearest_graze(*scene, contact, own);
       }};
-  return bifurcation_curve_equations(curve.kind, plane, scale, along.low, along.high);
+  return bifurcation_curve_equations(curve.kind, plane, scenes.first->contacts.state_scale(),
+                                     along.low, along.high);
 }
 
-ContinuationOptions walk_options(const BifurcationCurve& curve,
-                                 const BifurcationCurveOptions& options) {
+ContinuationOptions walk_options(const BegunWalk& curve, const BifurcationCurveOptions& options) {
   ContinuationOptions how = options.across.options(curve.direction);
   how.period = curve.branch.period;
   how.most_points = options.most_points;
@@ -44,11 +44,10 @@ ContinuationOptions walk_options(const BifurcationCurve& curve,
 }
 
 /// The first point of a curve, at the bifurcation that it goes through.
-Branch begun_at(const Bifurcation& bifurcation, const BifurcationCurve& curve,
-                const PlaneScenes& scenes, const Vec& scale,
+Branch begun_at(const Bifurcation& bifurcation, const BegunWalk& curve, const PlaneScenes& scenes,
                 const BifurcationCurveOptions& options) {
   try {
-    return Continuation(equations_of(curve, scenes, scale, options.along), bifurcation.at.z,
+    return Continuation(equations_of(curve, scenes, options.along), bifurcation.at.z,
                         walk_options(curve, options))
         .branch();
   } catch (const NumericalError& error) {  // a point where two of them meet, say
@@ -63,27 +62,6 @@ Branch begun_at(const Bifurcation& bifurcation, const BifurcationCurve& curve,
   }
 }
 
-std::vector<BifurcationCurve> begun_curves(const BranchTree& tree, const PlaneScenes& scenes,
-                                           const BifurcationCurveOptions& options) {
-  std::vector<BifurcationCurve> curves;
-  for (std::size_t k = 0; k < tree.branches.size(); ++k) {
-    const Branch& branch = tree.branches[k].branch;
-    for (const Bifurcation& b : branch.bifurcations) {
-      if (!is_followed(b)) continue;
-      for (const double direction : options.across.directions()) {
-        BifurcationCurve curve{.kind = b.kind,
-                               .contact = b.contact,
-                               .branch_number = static_cast<int>(k) + 1,
-                               .direction = direction,
-                               .branch = {.period = branch.period}};
-        curve.branch = begun_at(b, curve, scenes, tree.layout.scale, options);
-        curves.push_back(std::move(curve));
-      }
-    }
-  }
-  return curves;
-}
-
 }  // namespace
 
 bool BifurcationCurves::is_complete() const {
@@ -95,27 +73,40 @@ double first_value(const ParameterRange& along, const BranchPoint& point) {
   return along.low + point.z(point.z.size() - 2) * (along.high - along.low);
 }
 
-BifurcationCurves follow_bifurcations(const PlaneScenes& scenes, const BranchTree& tree,
-                                      BifurcationCurves curves,
-                                      const BifurcationCurveOptions& options,
-                                      const Monitor<BifurcationCurves>& monitor) {
-  if (curves.curves.empty()) curves.curves = begun_curves(tree, scenes, options);
-  long added = 0;
-  save_as_it_grows(curves, monitor, [&](const std::function<void()>& save_if_due) {
-    for (BifurcationCurve& curve : curves.curves) {
-      if (curve.branch.end) continue;
-      Continuation walk(equations_of(curve, scenes, tree.layout.scale, options.along), curve.branch,
-                        walk_options(curve, options));
-      const bool has_ended = walk_to_end(
-          walk, curve.branch, monitor, [](const BranchPoint&) {},
-          [&] {
-            monitor.show(++added, options.most_points);
-            save_if_due();
-          });
-      if (!has_ended) return;
+BifurcationCurves begin_curves(const PlaneScenes& scenes, const BranchTree& tree,
+                               const BifurcationCurveOptions& options) {
+  BifurcationCurves curves;
+  for (std::size_t k = 0; k < tree.branches.size(); ++k) {
+    const Branch& branch = tree.branches[k].branch;
+    for (const Bifurcation& b : branch.bifurcations) {
+      if (!is_followed(b)) continue;
+      for (const double direction : options.across.directions()) {
+        BifurcationCurve curve{.kind = b.kind,
+                               .contact = b.contact,
+                               .branch_number = static_cast<int>(k) + 1,
+                               .direction = direction,
+                               .branch = {.period = branch.period}};
+        curve.branch = begun_at(b, begun_walk(curve), scenes, options);
+        curves.curves.push_back(std::move(curve));
+      }
     }
-  });
+  }
   return curves;
+}
+
+BegunWalk begun_walk(const BifurcationCurve& curve) {
+  return {.is_curve = true,
+          .branch = curve.branch,
+          .direction = curve.direction,
+          .kind = curve.kind,
+          .contact = curve.contact};
+}
+
+WalkNews walk_curve(const PlaneScenes& scenes, const BifurcationCurveOptions& options,
+                    BegunWalk begun, const StretchLimits& limits) {
+  const ContinuationOptions how = walk_options(begun, options);
+  BranchEquations equations = equations_of(begun, scenes, options.along);
+  return walk_stretch({std::move(equations), std::move(begun.branch), how}, limits);
 }
 
 }  // namespace whirl::inline dyn

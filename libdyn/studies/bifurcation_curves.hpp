@@ -8,7 +8,6 @@
 
 #include "libdyn/branches/branch.hpp"
 #include "libdyn/studies/branch_tree.hpp"
-#include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/parameter_range.hpp"
 
 namespace whirl::inline dyn {
@@ -45,13 +44,17 @@ struct BifurcationCurves {
 /// Value of the first parameter at a point of a curve.
 double first_value(const ParameterRange& along, const BranchPoint& point);
 
-/// Follows every fold, period doubling, Neimark-Sacker point and grazing of complete branches.
-///
-/// @param tree    whose bifurcations they are
-/// @param curves  what there is of them already, which is gone on with, bit by bit; may be none
-BifurcationCurves follow_bifurcations(const PlaneScenes& scenes, const BranchTree& tree,
-                                      BifurcationCurves curves,
-                                      const BifurcationCurveOptions& options,
-                                      const Monitor<BifurcationCurves>& monitor);
+/// Curves through every fold, period doubling, Neimark-Sacker point and grazing of complete branches, at
+/// their first points.
+/// @param tree  whose bifurcations they are
+BifurcationCurves begin_curves(const PlaneScenes& scenes, const BranchTree& tree,
+                               const BifurcationCurveOptions& options);
+
+/// A curve as a walk.
+BegunWalk begun_walk(const BifurcationCurve& curve);
+
+/// A stretch of the walk along a curve.
+WalkNews walk_curve(const PlaneScenes& scenes, const BifurcationCurveOptions& options,
+                    BegunWalk begun, const StretchLimits& limits);
 
 }  // namespace whirl::inline dyn

@@ -25,7 +25,7 @@ BranchOrbit orbit_of(const BranchLayout& layout, const TracedBranch& traced, std
   const BranchPoint& point = traced.branch.points[i];
   BranchOrbit orbit{.value = point.value,
                     .branch = number,
-                    .revolutions = layout.period(traced.branch, point),
+                    .revolutions = layout.period(traced.branch.period, point),
                     .work = traced.measures[i].work,
                     .residual = point.residual,
                     .state = traced.starts[i],

@@ -1,31 +1,98 @@
 #include "libdyn/studies/branch_study.hpp"
 
+#include <utility>
+
+#include "libdyn/studies/branch_walk.hpp"
+#include "libdyn/studies/piece_runner.hpp"
+
 namespace whirl::inline dyn {
+
+namespace {
+
+constexpr std::size_t of_tree = 0, of_curves = 1;  ///< what a piece is a walk of
+
+WalkWork walk_work(const BranchScenes& scenes, const BranchStudyOptions& options,
+                   StretchLimits limits) {
+  WalkWork work{.threads = options.threads, .keeps_parts = true};
+  work.compute = [&, limits = std::move(limits)](const WalkWork::Piece& piece, BegunWalk& begun) {
+    return std::vector{piece[0] == of_tree
+                           ? walk_branch(scenes.along, options.tree, std::move(begun), limits)
+                           : walk_curve(scenes.plane, *options.curves, std::move(begun), limits)};
+  };
+  return work;
+}
+
+/// The walks of a study that are not done.
+class WalksLeft {
+ public:
+  WalksLeft(const BranchScenes& scenes, const BranchStudyOptions& options, BranchStudy& study)
+      : scenes_(scenes),
+        options_(options),
+        study_(study),
+        tree_(scenes.along, options.tree, study.tree) {}
+
+  std::optional<OpenPiece<BegunWalk>> next() {
+    if (auto walk = tree_.next()) {
+      return OpenPiece<BegunWalk>{{of_tree, walk->number}, std::move(walk->begun)};
+    }
+    if (!options_.curves || !study_.tree.is_complete()) return std::nullopt;
+    std::vector<BifurcationCurve>& curves = study_.curves.curves;
+    if (curves.empty() && !has_curves_) {
+      study_.curves = begin_curves(scenes_.plane, study_.tree, *options_.curves);
+    }
+    has_curves_ = true;
+    are_away_.resize(curves.size(), false);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      if (are_away_[i] || curves[i].branch.end) continue;
+      are_away_[i] = true;
+      return OpenPiece<BegunWalk>{{of_curves, i}, begun_walk(curves[i])};
+    }
+    return std::nullopt;
+  }
+
+  void keep(const WalkWork::Piece& piece, WalkNews news) {
+    if (piece[0] == of_tree) return tree_.keep(piece[1], std::move(news));
+    are_away_[piece[1]] = false;
+    add_news(study_.curves.curves[piece[1]].branch, news.branch, {});
+  }
+
+ private:
+  const BranchScenes& scenes_;
+  const BranchStudyOptions& options_;
+  BranchStudy& study_;
+  TreeGrowth tree_;
+  bool has_curves_ = false;  ///< they are begun, if there are any
+  std::vector<bool> are_away_;
+};
+
+}  // namespace
 
 BranchStudy follow_branches(const BranchScenes& scenes, BranchStudy study,
                             const std::function<std::optional<Vec>()>& settled,
                             const BranchStudyOptions& options,
                             const Monitor<BranchStudy>& monitor) {
-  if (study.tree.branches.empty()) {
+  const bool leads = !monitor.ranks || monitor.ranks->leads();
+  if (leads && study.tree.branches.empty()) {
     const std::optional<Vec> start = settled();
     if (!start) return study;
     study.tree = begin_tree(scenes.along, *start, options.tree);
   }
+  WalksLeft walks(scenes, options, study);
+  SaveTimer timer;
   const auto save = [&] {
     if (monitor.save) monitor.save(study);
   };
-  study.tree = grow_tree(scenes.along, study.tree, options.tree,
-                         {monitor.progress, monitor.is_stopped, [&](const BranchTree& so_far) {
-                            study.tree = so_far;
-                            save();
-                          }});
-  if (!options.curves || !study.tree.is_complete()) return study;
-  study.curves =
-      follow_bifurcations(scenes.plane, study.tree, study.curves, *options.curves,
-                          {monitor.progress, monitor.is_stopped, [&](const BifurcationCurves& c) {
-                             study.curves = c;
-                             save();
-                           }});
+  long added = 0;
+  const auto keep = [&](FinishedPiece<WalkNews> stretch) {
+    WalkNews& news = stretch.rows[0];
+    added += std::ssize(news.branch.points);
+    walks.keep(stretch.piece, std::move(news));
+    monitor.show(added, options.tree.most_points);
+    if (timer.is_due()) timer.save(save);
+  };
+  const WalkWork work =
+      walk_work(scenes, options, {options.stretch, [&monitor] { return monitor.stops(); }});
+  run_pieces<WalkNews, BegunWalk>(work, {[&](int) { return walks.next(); }, keep, save}, monitor);
   return study;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 /// Branches along a parameter, and the curves of their bifurcations along a second one, together.
 
+#include <chrono>
 #include <functional>
 #include <optional>
 
 #include "libdyn/studies/bifurcation_curves.hpp"
+#include "libdyn/studies/monitor.hpp"
 
 namespace whirl::inline dyn {
 
@@ -19,6 +21,10 @@ struct BranchStudy {
 struct BranchStudyOptions {
   BranchTreeOptions tree{};
   std::optional<BifurcationCurveOptions> curves{};  ///< nothing: branches alone
+  int threads = 1;                                  ///< of this process; 0: the calling one
+  /// After which a walk is saved and gone on with. Beginning again takes some evaluations, of the hundreds
+  /// that fit in.
+  std::chrono::duration<double> stretch = std::chrono::milliseconds(500);
 };
 
 /// The scenes of the branches, and those of the plane that their bifurcations are followed in.
@@ -27,7 +33,8 @@ struct BranchScenes {
   PlaneScenes plane;
 };
 
-/// Follows branches, and then the curves of their bifurcations.
+/// Follows branches, and then the curves of their bifurcations; threads and processes share the walks.
+/// What is found depends neither on them nor on the stretches.
 ///
 /// @param study    what there is already, which is gone on with, bit by bit; may be an empty_tree
 /// @param settled  a state near the first orbit, asked where there is no branch; nothing: stop

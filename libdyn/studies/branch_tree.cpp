@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include "libbase/error.hpp"
 #include "libdyn/branches/bifurcation.hpp"
@@ -60,7 +62,9 @@ class TreeEquations {
   }
 
   /// Adds what the orbit of a point does, and its state at phase 0.
-  void measure(const BranchLayout& layout, TracedBranch& branch, const BranchPoint& point) const {
+  /// @param period  of the branch [revolutions]
+  /// @param to      with measures and starts
+  void measure(const BranchLayout& layout, int period, const BranchPoint& point, auto& to) const {
     const auto at = scenes_.at(point.value);
     const BasisChange change(*at, *scenes_.first);
     OrbitMeasure found;
@@ -74,12 +78,11 @@ class TreeEquations {
     } else {
       // the state in the basis of this value; in most cases the first one's
       start = point.state(layout.scale);
-      found = measure_orbit(*at, options_.stations, change.to(start),
-                            layout.period(branch.branch, point));
+      found = measure_orbit(*at, options_.stations, change.to(start), layout.period(period, point));
     }
     if (layout.is_rotating) found.sections.resize(found.sections.rows(), 0);
-    branch.measures.push_back(std::move(found));
-    branch.starts.push_back(std::move(start));
+    to.measures.push_back(std::move(found));
+    to.starts.push_back(std::move(start));
   }
 
  private:
@@ -105,19 +108,20 @@ ContinuationOptions walk_options(const BranchTreeOptions& options, double direct
   return how;
 }
 
-/// A branch that ends on another one would be walked again from there.
-void drop_same(std::vector<TracedBranch>& branches, std::size_t number, double range) {
+/// The number of the first branch that would be walked again from where another one ends, among those
+/// that come behind it; nothing: there is none.
+std::optional<std::size_t> same_branch(const std::vector<TracedBranch>& branches,
+                                       std::size_t number, double range) {
   const Branch& done = branches[number].branch;
   const double u = done.points.back().value;
   for (std::size_t i = number + 1; i < branches.size(); ++i) {
     const TracedBranch& b = branches[i];
     if (b.parent == branches[number].parent && b.branch.period == done.period &&
-        b.branch.points.size() == 1 &&
         std::abs(b.branch.points[0].value - u) < same_place * range) {
-      branches.erase(branches.begin() + static_cast<std::ptrdiff_t>(i));
-      return;
+      return i;
     }
   }
+  return std::nullopt;
 }
 
 /// Adds the branches that begin on one of a tree.
@@ -129,23 +133,8 @@ void add_switched(BranchTree& tree, std::size_t number, const TreeEquations& equ
     TracedBranch branch{.branch = {.period = next->period, .points = {next->start}},
                         .parent = static_cast<int>(number) + 1,
                         .generation = from.generation + 1};
-    equations.measure(tree.layout, branch, next->start);
+    equations.measure(tree.layout, next->period, next->start, branch);
     tree.branches.push_back(std::move(branch));
-  }
-}
-
-/// What the end of a branch means for the others.
-void branch_out(BranchTree& tree, std::size_t number, const TreeEquations& equations,
-                const BranchTreeOptions& options) {
-  const Branch& done = tree.branches[number].branch;
-  if (done.ends_as(EndKind::period_halved)) {
-    drop_same(tree.branches, number, options.along.high - options.along.low);
-  }
-  if (number == 0 && done.ends_as(EndKind::closed) && tree.branches.size() > 1) {
-    tree.branches.erase(tree.branches.begin() + 1);
-  }
-  if (tree.branches[number].generation < options.generations) {
-    add_switched(tree, number, equations);
   }
 }
 
@@ -194,35 +183,80 @@ BranchTree begin_tree(const ParameterScenes& scenes, const Vec& start,
         : is_rotating ? autonomous_continuation(equations.autonomous_flow_at(), start, period, how)
                       : orbit_continuation(equations.flow_at(), start, how);
     tree.branches.push_back({.branch = walk.branch(), .direction = direction});
-    equations.measure(tree.layout, tree.branches.back(), walk.branch().points[0]);
+    equations.measure(tree.layout, options.period, walk.branch().points[0], tree.branches.back());
   }
   return tree;
 }
 
-BranchTree grow_tree(const ParameterScenes& scenes, BranchTree tree,
-                     const BranchTreeOptions& options, const Monitor<BranchTree>& monitor) {
+WalkNews walk_branch(const ParameterScenes& scenes, const BranchTreeOptions& options,
+                     BegunWalk begun, const StretchLimits& limits) {
   const TreeEquations equations(scenes, options);
-  long added = 0;
-  save_as_it_grows(tree, monitor, [&](const std::function<void()>& save_if_due) {
-    for (std::size_t i = 0; i < tree.branches.size(); ++i) {
-      TracedBranch& traced = tree.branches[i];
-      if (traced.branch.end) continue;
-      Continuation walk(equations.of(tree.layout), traced.branch,
-                        walk_options(options, traced.direction));
-      const bool has_ended = walk_to_end(
-          walk, traced.branch, monitor,
-          [&](const BranchPoint& point) { equations.measure(tree.layout, traced, point); },
-          [&] {
-            monitor.show(++added, options.most_points);
-            // a branch that has ended is not saved before those that begin on it
-            if (!traced.branch.end) save_if_due();
-          });
-      if (!has_ended) return;
-      branch_out(tree, i, equations, options);
-      save_if_due();
-    }
-  });
-  return tree;
+  BranchLayout layout = empty_tree(*scenes.first, options).layout;
+  layout.harmonics = begun.harmonics;
+  const int period = begun.branch.period;
+  return walk_stretch(
+      {equations.of(layout), std::move(begun.branch), walk_options(options, begun.direction)},
+      limits, [&](const BranchPoint& point, WalkNews& news) {
+        equations.measure(layout, period, point, news);
+      });
+}
+
+TreeGrowth::TreeGrowth(const ParameterScenes& scenes, const BranchTreeOptions& options,
+                       BranchTree& tree)
+    : scenes_(scenes), options_(options), tree_(tree) {
+  number_walks();
+  while (has_ended(settled_)) ++settled_;
+}
+
+void TreeGrowth::number_walks() {
+  while (walks_.size() < tree_.branches.size()) walks_.push_back({.number = numbers_++});
+}
+
+bool TreeGrowth::has_ended(std::size_t branch) const {
+  return branch < tree_.branches.size() && tree_.branches[branch].branch.end;
+}
+
+std::optional<TreeGrowth::OpenWalk> TreeGrowth::next() {
+  for (std::size_t i = 0; i < walks_.size(); ++i) {
+    if (walks_[i].is_away || has_ended(i)) continue;
+    walks_[i].is_away = true;
+    const TracedBranch& traced = tree_.branches[i];
+    return OpenWalk{walks_[i].number,
+                    {.branch = traced.branch,
+                     .direction = traced.direction,
+                     .harmonics = tree_.layout.harmonics}};
+  }
+  return std::nullopt;
+}
+
+void TreeGrowth::keep(std::size_t number, WalkNews news) {
+  const auto walk =
+      std::find_if(walks_.begin(), walks_.end(), [&](const Walk& w) { return w.number == number; });
+  if (walk == walks_.end()) return;  // of a branch that was dropped meanwhile
+  walk->is_away = false;
+  TracedBranch& traced = tree_.branches[static_cast<std::size_t>(walk - walks_.begin())];
+  add_news(traced.branch, news.branch, {});
+  std::move(news.measures.begin(), news.measures.end(), std::back_inserter(traced.measures));
+  std::move(news.starts.begin(), news.starts.end(), std::back_inserter(traced.starts));
+  while (has_ended(settled_)) branch_out(settled_++);
+}
+
+void TreeGrowth::branch_out(std::size_t number) {
+  const auto drop = [this](std::size_t other) {
+    tree_.branches.erase(tree_.branches.begin() + static_cast<std::ptrdiff_t>(other));
+    walks_.erase(walks_.begin() + static_cast<std::ptrdiff_t>(other));
+  };
+  const Branch& done = tree_.branches[number].branch;
+  const bool closes = done.ends_as(EndKind::closed);
+  if (done.ends_as(EndKind::period_halved)) {
+    const double range = options_.along.high - options_.along.low;
+    if (const auto same = same_branch(tree_.branches, number, range)) drop(*same);
+  }
+  if (number == 0 && closes && tree_.branches.size() > 1) drop(1);
+  if (tree_.branches[number].generation < options_.generations) {
+    add_switched(tree_, number, TreeEquations(scenes_, options_));
+    number_walks();
+  }
 }
 
 }  // namespace whirl::inline dyn

@@ -1,13 +1,14 @@
 #pragma once
 /// Branches of periodic orbits along a parameter, and those that begin at their bifurcations.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/studies/found_orbit.hpp"
-#include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/parameter_range.hpp"
+#include "libdyn/studies/walk_stretch.hpp"
 #include "libdyn/system/probes.hpp"
 
 namespace whirl::inline dyn {
@@ -43,8 +44,9 @@ struct BranchLayout {
   ProbeLabels probes{};                 ///< those of the model
 
   /// Of a point of a branch [revolutions].
-  double period(const Branch& branch, const BranchPoint& point) const {
-    return is_rotating ? point.z(states) : branch.period;
+  /// @param of_branch  the same of the branch, where that is fixed
+  double period(int of_branch, const BranchPoint& point) const {
+    return is_rotating ? point.z(states) : of_branch;
   }
 };
 
@@ -66,9 +68,47 @@ BranchTree empty_tree(const Scene& first, const BranchTreeOptions& options);
 BranchTree begin_tree(const ParameterScenes& scenes, const Vec& start,
                       const BranchTreeOptions& options);
 
-/// Walks until all branches have ended. A first branch that closes is not walked the other way, too.
-/// @param tree  at least begun; what it has is gone on with, bit by bit
-BranchTree grow_tree(const ParameterScenes& scenes, BranchTree tree,
-                     const BranchTreeOptions& options, const Monitor<BranchTree>& monitor);
+/// A stretch of the walk along a branch.
+WalkNews walk_branch(const ParameterScenes& scenes, const BranchTreeOptions& options,
+                     BegunWalk begun, const StretchLimits& limits);
+
+/// A tree that grows by stretches of its branches, several of them at a time.
+///
+/// It becomes what it is where one branch is walked after the other, whichever is done first: those that
+/// begin on a branch come behind the others once it and all before it have ended, and then it is seen
+/// which branch was walked twice. A first branch that closes needs no walk the other way.
+class TreeGrowth {
+ public:
+  struct OpenWalk {
+    std::size_t number = 0;  ///< that stays the walk's, whatever becomes of the tree
+    BegunWalk begun{};
+  };
+
+  /// @param tree  at least begun; what it has is gone on with, bit by bit
+  TreeGrowth(const ParameterScenes& scenes, const BranchTreeOptions& options, BranchTree& tree);
+
+  /// A walk to go on with; nothing: all that can be walked are away, or have ended.
+  std::optional<OpenWalk> next();
+  /// Takes in what a stretch of a walk has found.
+  void keep(std::size_t number, WalkNews news);
+
+ private:
+  struct Walk {
+    std::size_t number = 0;
+    bool is_away = false;
+  };
+
+  void number_walks();
+  bool has_ended(std::size_t branch) const;
+  /// What the end of a branch means for the others.
+  void branch_out(std::size_t number);
+
+  const ParameterScenes& scenes_;
+  const BranchTreeOptions& options_;
+  BranchTree& tree_;
+  std::vector<Walk> walks_;  ///< as branches
+  std::size_t numbers_ = 0;  ///< given to walks
+  std::size_t settled_ = 0;  ///< branches that have ended, with all before them, and branched out
+};
 
 }  // namespace whirl::inline dyn

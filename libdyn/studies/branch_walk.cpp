@@ -2,15 +2,12 @@
 
 namespace whirl::inline dyn {
 
-void add_news(Branch& known, const Branch& walked) {
-  const auto from = [](const auto& list, std::size_t begin) {
-    return list.begin() + static_cast<std::ptrdiff_t>(begin);
+void add_news(Branch& known, const Branch& walked, const BranchExtent& beyond) {
+  const auto add = [](auto& list, const auto& from, std::size_t begin) {
+    list.insert(list.end(), from.begin() + static_cast<std::ptrdiff_t>(begin), from.end());
   };
-  known.points.insert(known.points.end(), from(walked.points, known.points.size()),
-                      walked.points.end());
-  known.bifurcations.insert(known.bifurcations.end(),
-                            from(walked.bifurcations, known.bifurcations.size()),
-                            walked.bifurcations.end());
+  add(known.points, walked.points, beyond.points);
+  add(known.bifurcations, walked.bifurcations, beyond.bifurcations);
   known.end = walked.end;
 }
 

@@ -8,8 +8,16 @@
 
 namespace whirl::inline dyn {
 
-/// Adds to a branch what a walk has found since: no more than that is copied.
-void add_news(Branch& known, const Branch& walked);
+/// How much of a branch is known.
+struct BranchExtent {
+  std::size_t points = 0, bifurcations = 0;
+};
+inline BranchExtent extent_of(const Branch& branch) {
+  return {branch.points.size(), branch.bifurcations.size()};
+}
+
+/// Adds to a branch what a walk has found beyond that, and its end: no more than that is copied.
+void add_news(Branch& known, const Branch& walked, const BranchExtent& beyond);
 
 /// Walks until a branch ends.
 ///
@@ -23,10 +31,10 @@ bool walk_to_end(Continuation& walk, Branch& branch, const Monitor<Result>& moni
                  const std::function<void()>& added) {
   while (!monitor.stops() && walk.advance()) {
     measure(walk.branch().points.back());
-    add_news(branch, walk.branch());
+    add_news(branch, walk.branch(), extent_of(branch));
     added();
   }
-  add_news(branch, walk.branch());
+  add_news(branch, walk.branch(), extent_of(branch));
   return branch.end.has_value();
 }
 

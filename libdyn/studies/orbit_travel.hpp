@@ -53,8 +53,8 @@ void travel(Bytes& bytes, Is<Branch> auto& branch) {
 
 template <class Bytes>
 void travel(Bytes& bytes, Is<OrbitMeasure> auto& measure) {
-  auto& [radii, work, sections] = measure;
-  bytes(radii, work, sections);
+  auto& [radii, work, probe_peak_to_peak, sections] = measure;
+  bytes(radii, work, probe_peak_to_peak, sections);
 }
 
 }  // namespace whirl::inline dyn

@@ -19,7 +19,7 @@ BranchSetup branch_setup(BranchParameters parameters, BranchTreeOptions tree,
 }
 
 BranchStudyOptions BranchSetup::options() const {
-  BranchStudyOptions options{.tree = tree};
+  BranchStudyOptions options{.tree = tree, .threads = threads};
   if (has_curves()) {
     options.curves = {tree.along, parameters.across->range, tree.most_points};
   }

@@ -20,6 +20,7 @@ struct BranchSetup {
   Model at_first;                      ///< the model at the first value
   std::shared_ptr<const Scene> scene;  ///< of that
   std::vector<std::string> stations;   ///< names of those that are measured
+  int threads = 1;                     ///< of this process that follow them
 
   bool has_curves() const { return parameters.across.has_value(); }
   BranchStudyOptions options() const;

@@ -50,23 +50,23 @@ class Mpi : public Studies {
     return wait(start(mpirun, in_ranks(count, words)));
   }
 
-  /// Whether a study of any number of ranks and threads writes what whirl writes.
+  /// Whether a study of any number of ranks and threads finds and writes what whirl does.
   void expect_same_file(const std::vector<std::string>& words, const std::string& group) const {
     const auto with = [&](int threads, const std::string& file) {
       std::vector<std::string> all = words;
-      all.insert(all.end(), {"--threads", std::to_string(threads), "--out", file});
+      all.insert(all.end(), {"--threads", std::to_string(threads), "--out", file, "--json", "-"});
       return all;
     };
-    ASSERT_EQ(whirl(with(2, "alone.h5")).status, 0);
+    const Outcome alone = whirl(with(2, "alone.h5"));
+    ASSERT_EQ(alone.status, 0) << alone.err;
     for (const int ranks : {1, 2, 4}) {
       for (const int threads : {1, 2}) {
         const Outcome outcome = whirl_mpi(ranks, with(threads, "shared.h5"));
         ASSERT_EQ(outcome.status, 0) << outcome.err;
         EXPECT_EQ(outcome.err, "");
-        expect_same("alone.h5", "shared.h5", group);
-        const ResultReader one(folder / "alone.h5"), other(folder / "shared.h5");
-        EXPECT_EQ(one.strings("/model"), other.strings("/model"));
-        EXPECT_EQ(one.list("/"), other.list("/"));
+        EXPECT_EQ(outcome.out, alone.out);
+        EXPECT_FALSE(ResultReader(folder / "shared.h5").list(group).empty());
+        expect_same_results("alone.h5", "shared.h5");
         std::filesystem::remove(folder / "shared.h5");
       }
     }
@@ -152,6 +152,99 @@ TEST_F(Mpi, BasinsWriteTheSameFile) {
   expect_same_file({"basins", stator, "--set", "contact.ring.stiffness=64e6", "--speed",
                     "138.4rad/s", "--starts", "200", "--discard", "40", "--revolutions", "20"},
                    "/basins");
+}
+
+TEST_F(Mpi, BranchesAreTheSame) {
+  expect_same_file(
+      {"continue", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6",
+       "--over", "contact.ring.friction=0.08:0.18:0.0005", "--at", "0.13", "--switch", "2"},
+      "/branch");
+}
+
+TEST_F(Mpi, BifurcationCurvesAreTheSame) {
+  expect_same_file({"continue", stator, "--speed", "138.4rad/s", "--set",
+                    "contact.ring.stiffness=64e6", "--over", "contact.ring.friction=0.1:0.15:0.001",
+                    "--at", "0.13", "--over", "contact.ring.stiffness=63.5:64.5:0.5MN/m"},
+                   "/border");
+}
+
+TEST_F(Mpi, OrbitsNearRandomStartsAreTheSame) {
+  expect_same_file(
+      {"orbit", stator, "--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6", "--set",
+       "contact.ring.friction=0.11", "--starts", "30", "--size", "1"},
+      "/trajectory");
+}
+
+TEST_F(Mpi, BouncingMotionsAreTheSame) {
+  expect_same_file({"resonances", WHIRL_SOURCE_DIR "/models/two_disk_mac.toml", "--speeds",
+                    "3000:6000:100rpm", "--modes", "3", "--confirm", "--starts", "4"},
+                   "/resonances");
+}
+
+// As it was made, by whatever program; with other sets of values, and where nothing is shared.
+TEST_F(Mpi, RerunSharesItsWorkToo) {
+  auto words = map_words;
+  words.insert(words.end(), {"--out", "alone.h5"});
+  ASSERT_EQ(whirl(words).status, 0);
+  ASSERT_EQ(whirl_mpi(3, {"rerun", "alone.h5", "--out", "shared.h5"}).status, 0);
+  expect_same_results("alone.h5", "shared.h5");
+  const std::vector<std::string> set{"--set", "contact.ring.friction=0.05"};
+  std::vector<std::string> again{"rerun", "shared.h5", "--out", "again.h5", set[0], set[1]};
+  ASSERT_EQ(whirl(again).status, 0);
+  again[3] = "again_shared.h5";
+  ASSERT_EQ(whirl_mpi(2, again).status, 0);
+  expect_same_results("again.h5", "again_shared.h5");
+  const Outcome missing = whirl_mpi(2, {"rerun", "none.h5"});
+  EXPECT_EQ(missing.status, 2);
+  EXPECT_TRUE(has(missing.err, "none.h5")) << missing.err;
+
+  ASSERT_EQ(whirl({"modes", "rub.toml", "--out", "modes.h5"}).status, 0);
+  const Outcome modes = whirl_mpi(2, {"rerun", "modes.h5", "--json", "-"});
+  EXPECT_EQ(modes.status, 0) << modes.err;
+  EXPECT_EQ(modes.out, whirl({"rerun", "modes.h5", "--json", "-"}).out);
+}
+
+// The arithmetic of a result counts, and is not to be had any more once the processes have agreed.
+TEST_F(Mpi, RerunAsksForTheArithmeticOfItsResult) {
+  auto words = map_words;
+  words.insert(words.end(), {"--out", "alone.h5", "--isa", "baseline"});
+  ASSERT_EQ(whirl(words).status, 0);
+  if (instruction_sets().size() > 1) {
+    const Outcome refused = whirl_mpi(2, {"rerun", "alone.h5", "--out", "shared.h5"});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_TRUE(has(refused.err, "--isa baseline")) << refused.err;
+  }
+  ASSERT_EQ(whirl_mpi(2, {"rerun", "alone.h5", "--out", "shared.h5", "--isa", "baseline"}).status,
+            0);
+  expect_same_results("alone.h5", "shared.h5");
+}
+
+// On a disk of its own that is too small for two files of the whole study, one after the other.
+TEST_F(Mpi, OnAFullDiskTheLastFileStays) {
+  std::vector<std::string> words = long_map;
+  words.insert(words.end(), {"--out", "alone.h5"});
+  ASSERT_EQ(whirl(words).status, 0);
+  words.back() = "small/shared.h5";
+  std::string line = std::string(mpirun);
+  for (const std::string& word : in_ranks(2, words)) line += " '" + word + "'";
+  const auto size = std::filesystem::file_size(folder / "alone.h5");
+  write("run.sh", "mkdir small && mount -t tmpfs -o size=" + std::to_string(size * 5 / 4) +
+                      " none small || exit 77\n" + line +
+                      "\nstatus=$?\nls small\ncp small/shared.h5 .\nexit $status\n");
+  const Outcome outcome =
+      wait(start("unshare", {"--user", "--map-root-user", "--mount", "sh", "run.sh"}));
+  if (outcome.status == 77 || has(outcome.err, "unshare")) GTEST_SKIP() << outcome.err;
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "small/shared.h5") && has(outcome.err, "No space left on device"))
+      << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "shared.h5\n") && !has(outcome.out, ".tmp.")) << outcome.out;
+  {
+    const ResultReader file(folder / "shared.h5");
+    EXPECT_EQ(file.number_attribute("/map", "complete"), 0.0);
+  }
+  words.back() = "shared.h5";
+  ASSERT_EQ(whirl_mpi(2, words).status, 0);
+  expect_same_results("alone.h5", "shared.h5");
 }
 
 // Only the leader reads: the model, what was set, and the end that all motions go on from.

@@ -30,11 +30,17 @@ class Studies : public Program {
     EXPECT_EQ(names, other.list(group));
     for (const std::string& name : names) {
       const std::string path = group + '/' + name;
-      if (name.ends_with("multiplier")) {
-        const CMat x =
-            name == "multiplier" ? one.complex_matrix(path) : CMat(one.complex_vector(path));
-        const CMat y =
-            name == "multiplier" ? other.complex_matrix(path) : CMat(other.complex_vector(path));
+      ASSERT_EQ(one.kind(path), other.kind(path)) << path;
+      if (one.kind(path) == ObjectKind::group) {
+        expect_same(a, b, path);
+        continue;
+      }
+      if (one.kind(path) == ObjectKind::complex) {
+        const auto numbers = [&](const ResultReader& file) {
+          return file.shape(path).size() == 2 ? file.complex_matrix(path)
+                                              : CMat(file.complex_vector(path));
+        };
+        const CMat x = numbers(one), y = numbers(other);
         ASSERT_EQ(x.size(), y.size()) << path;
         const auto bytes = static_cast<std::size_t>(x.size()) * sizeof(Complex);
         EXPECT_EQ(std::memcmp(x.data(), y.data(), bytes), 0) << path;
@@ -47,6 +53,21 @@ class Studies : public Program {
       const std::vector<double> x = one.numbers(path), y = other.numbers(path);
       ASSERT_EQ(x.size(), y.size()) << path;
       EXPECT_EQ(std::memcmp(x.data(), y.data(), x.size() * sizeof(double)), 0) << path;
+    }
+  }
+
+  /// The same of all that two files hold but the calls that made them.
+  void expect_same_results(const std::string& a, const std::string& b) const {
+    const ResultReader one(folder / a), other(folder / b);
+    const auto names = one.list("/");
+    EXPECT_EQ(names, other.list("/"));
+    for (const std::string& name : names) {
+      if (name == "call" || name == "arguments") continue;
+      if (one.kind('/' + name) == ObjectKind::group) {
+        expect_same(a, b, '/' + name);
+      } else if (one.kind('/' + name) == ObjectKind::text) {
+        EXPECT_EQ(one.strings('/' + name), other.strings('/' + name)) << name;
+      }
     }
   }
 

@@ -6,6 +6,7 @@
 #include "libbase/error.hpp"
 #include "libbase/travel.hpp"
 #include "libdyn/studies/point_runner.hpp"
+#include "tests/support/branch_trees.hpp"
 #include "tests/support/post.hpp"
 #include "tests/support/studies.hpp"
 
@@ -58,6 +59,32 @@ TEST(StudyRanks, BasinsAreTheSame) {
   BasinsOptions options = test::around_the_start();
   options.starts = 60;
   expect_same_in_ranks(basins, options);
+}
+
+// Branches and the curves of their bifurcations, in stretches that go from process to process.
+TEST(StudyRanks, BranchesAreTheSame) {
+  const test::DoublingRotor rotor;
+  BranchStudyOptions options{.tree = rotor.options(), .curves = rotor.curve_options()};
+  const BranchStudy begun{.tree = rotor.begun()};
+  const BranchStudy alone = test::followed(rotor.all_scenes(), begun, options);
+  EXPECT_GT(alone.curves.curves.size(), 1u);
+  options.stretch = std::chrono::milliseconds(5);
+  for (const auto& [count, threads] : {std::pair{2, 1}, {3, 2}, {4, 1}}) {
+    options.threads = threads;
+    std::atomic<int> scenes_elsewhere = 0;
+    const BranchStudy study = in_ranks(count, [&](const Ranks& ranks) {
+      BranchScenes scenes = rotor.all_scenes();
+      scenes.along.at = [&, at = scenes.along.at](double value) {
+        scenes_elsewhere += !ranks.leads();
+        return at(value);
+      };
+      return test::followed(scenes, ranks.leads() ? begun : BranchStudy{}, options,
+                            {.ranks = &ranks});
+    });
+    test::expect_same_tree(study.tree, alone.tree);
+    test::expect_same_curves(study.curves, alone.curves);
+    EXPECT_GT(scenes_elsewhere, 0) << count;
+  }
 }
 
 // Where a motion fails in another process its reason comes back with it.

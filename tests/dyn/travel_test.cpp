@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libdyn/studies/walk_stretch.hpp"
 #include "tests/support/travel.hpp"
 
 namespace whirl::dyn_travel_test {
@@ -124,6 +125,114 @@ TEST(Travel, SettledMotionsComeBackAsTheyWere) {
   EXPECT_EQ(d.end.contacts, c.end.contacts);
   EXPECT_EQ(d.outcome, c.outcome);
   EXPECT_EQ(d.failure, c.failure);
+}
+
+const PeriodicOrbit orbit{.period = 2,
+                          .revolution = 0.5,
+                          .states = {Vec::Random(4), Vec::Random(4)},
+                          .tangents = {Mat::Random(4, 4)},
+                          .residual = 1e-12,
+                          .residuals = {1.0, 1e-12},
+                          .multipliers = CVec::Random(4),
+                          .contacts = {{"ring", 0.1, 2.0, 0.3, 4.0, 5.0, 6.0, 7.0}},
+                          .failure = "none"};
+
+TEST(Travel, OrbitsComeBackAsTheyWere) {
+  const PeriodicOrbit back = there_and_back(orbit);
+  EXPECT_EQ(back.period, orbit.period);
+  EXPECT_EQ(back.revolution, orbit.revolution);
+  EXPECT_EQ(back.states, orbit.states);
+  EXPECT_EQ(back.tangents, orbit.tangents);
+  EXPECT_EQ(back.residual, orbit.residual);
+  EXPECT_EQ(back.residuals, orbit.residuals);
+  EXPECT_EQ(back.multipliers, orbit.multipliers);
+  EXPECT_EQ(back.contacts.at(0).touch_time, 7.0);
+  EXPECT_EQ(back.failure, orbit.failure);
+
+  AutonomousOrbit cycle{.state = Vec::Random(4), .period = 0.25, .residual = 1e-11};
+  cycle.residuals = {3.0, 1e-11};
+  cycle.multipliers = CVec::Random(3);
+  cycle.contacts = orbit.contacts;
+  const auto none = there_and_back(std::optional<Bouncing>());
+  EXPECT_FALSE(none);
+  const Bouncing bounces = there_and_back(Bouncing{500.0, 2.5, cycle, {3, 1}});
+  EXPECT_EQ(bounces.speed, 500.0);
+  EXPECT_EQ(bounces.turns, 2.5);
+  EXPECT_EQ(bounces.lines, (std::array{3, 1}));
+  EXPECT_EQ(bounces.cycle.state, cycle.state);
+  EXPECT_EQ(bounces.cycle.period, cycle.period);
+  EXPECT_EQ(bounces.cycle.residual, cycle.residual);
+  EXPECT_EQ(bounces.cycle.residuals, cycle.residuals);
+  EXPECT_EQ(bounces.cycle.multipliers, cycle.multipliers);
+  EXPECT_EQ(bounces.cycle.contacts.at(0).name, "ring");
+}
+
+TEST(Travel, BranchesComeBackAsTheyWere) {
+  const BranchPoint point{.value = 0.13,
+                          .z = Vec::Random(5),
+                          .tangent = Vec::Random(5),
+                          .step = 0.01,
+                          .multipliers = CVec::Random(4),
+                          .residual = 1e-12,
+                          .contacts = orbit.contacts};
+  const Bifurcation bifurcation{.kind = BifurcationKind::grazing,
+                                .at = point,
+                                .after = 7,
+                                .contact = "ring",
+                                .change = -1.0,
+                                .multiplier = {0.5, 0.25}};
+  const BegunWalk walk{.is_curve = true,
+                       .branch = {.period = 2,
+                                  .points = {point, {}},
+                                  .bifurcations = {bifurcation},
+                                  .end = BranchEnd{EndKind::no_orbit, "no more", "why"}},
+                       .direction = -1.0,
+                       .harmonics = 9,
+                       .kind = BifurcationKind::fold,
+                       .contact = "seal",
+                       .by_parameter = Vec::Random(4)};
+  const BegunWalk back = there_and_back(walk);
+  EXPECT_TRUE(back.is_curve);
+  EXPECT_EQ(back.direction, -1.0);
+  EXPECT_EQ(back.harmonics, 9);
+  EXPECT_EQ(back.kind, BifurcationKind::fold);
+  EXPECT_EQ(back.contact, "seal");
+  EXPECT_EQ(back.by_parameter, walk.by_parameter);
+  EXPECT_EQ(back.branch.period, 2);
+  ASSERT_EQ(back.branch.points.size(), 2u);
+  const BranchPoint& p = back.branch.points[0];
+  EXPECT_EQ(p.value, point.value);
+  EXPECT_EQ(p.z, point.z);
+  EXPECT_EQ(p.tangent, point.tangent);
+  EXPECT_EQ(p.step, point.step);
+  EXPECT_EQ(p.multipliers, point.multipliers);
+  EXPECT_EQ(p.residual, point.residual);
+  EXPECT_EQ(p.contacts.at(0).duty, 0.1);
+  ASSERT_EQ(back.branch.bifurcations.size(), 1u);
+  const Bifurcation& b = back.branch.bifurcations[0];
+  EXPECT_EQ(b.kind, BifurcationKind::grazing);
+  EXPECT_EQ(b.at.z, point.z);
+  EXPECT_EQ(b.after, 7u);
+  EXPECT_EQ(b.contact, "ring");
+  EXPECT_EQ(b.change, -1.0);
+  EXPECT_EQ(b.multiplier, bifurcation.multiplier);
+  ASSERT_TRUE(back.branch.end);
+  EXPECT_EQ(back.branch.end->kind, EndKind::no_orbit);
+  EXPECT_EQ(back.branch.end->text, "no more");
+  EXPECT_EQ(back.branch.end->reason, "why");
+
+  const WalkNews news{.branch = walk.branch,
+                      .measures = {{{0.1, 0.2}, 3.0, Vec::Random(2), Mat::Random(4, 2)}},
+                      .starts = {Vec::Random(4)},
+                      .by_parameter = Vec::Random(4)};
+  const WalkNews news_back = there_and_back(news);
+  EXPECT_EQ(news_back.branch.points.size(), 2u);
+  EXPECT_EQ(news_back.measures.at(0).radii, news.measures[0].radii);
+  EXPECT_EQ(news_back.measures[0].work, 3.0);
+  EXPECT_EQ(news_back.measures[0].probe_peak_to_peak, news.measures[0].probe_peak_to_peak);
+  EXPECT_EQ(news_back.measures[0].sections, news.measures[0].sections);
+  EXPECT_EQ(news_back.starts, news.starts);
+  EXPECT_EQ(news_back.by_parameter, news.by_parameter);
 }
 
 }  // namespace whirl::dyn_travel_test

@@ -1,8 +1,10 @@
 #pragma once
 /// A rotor in its stator whose orbits double their period, for studies along its friction.
 
+#include <gtest/gtest.h>
+
 #include "libdyn/motions/start.hpp"
-#include "libdyn/studies/bifurcation_curves.hpp"
+#include "libdyn/studies/branch_study.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -41,14 +43,44 @@ struct DoublingRotor {
   }
 
   /// The first branches, from the model's start.
-  BranchTree begun() const {
+  BranchTree begun() const { return begun(options()); }
+  BranchTree begun(const BranchTreeOptions& how) const {
     const ParameterScenes all = scenes();
     Trajectory motion{.system = &all.first->contacts,
                       .state = start_state(RotorStator{}.model(), *all.first, nullptr),
                       .revolutions = 500};
     integrate_single(motion, {});
-    return begin_tree(all, motion.state.y, options());
+    return begin_tree(all, motion.state.y, how);
   }
+  BranchScenes all_scenes() const { return {scenes(), plane()}; }
 };
+
+/// Branches that are begun, followed to their end or until they are stopped.
+inline BranchStudy followed(const BranchScenes& scenes, BranchStudy begun,
+                            const BranchStudyOptions& options,
+                            const Monitor<BranchStudy>& monitor = {}) {
+  return follow_branches(scenes, std::move(begun), {}, options, monitor);
+}
+
+/// All numbers of two trees are the same, bit by bit.
+inline void expect_same_tree(const BranchTree& a, const BranchTree& b) {
+  ASSERT_EQ(a.branches.size(), b.branches.size());
+  for (std::size_t k = 0; k < a.branches.size(); ++k) {
+    const TracedBranch &x = a.branches[k], &y = b.branches[k];
+    EXPECT_EQ(x.parent, y.parent);
+    EXPECT_EQ(x.generation, y.generation);
+    EXPECT_EQ(x.direction, y.direction);
+    EXPECT_EQ(x.branch.end_text(), y.branch.end_text());
+    ASSERT_EQ(x.branch.points.size(), y.branch.points.size()) << k;
+    EXPECT_EQ(packed(x.branch, x.measures, x.starts), packed(y.branch, y.measures, y.starts)) << k;
+  }
+}
+inline void expect_same_curves(const BifurcationCurves& a, const BifurcationCurves& b) {
+  ASSERT_EQ(a.curves.size(), b.curves.size());
+  for (std::size_t k = 0; k < a.curves.size(); ++k) {
+    EXPECT_EQ(a.curves[k].branch_number, b.curves[k].branch_number);
+    EXPECT_EQ(packed(begun_walk(a.curves[k])), packed(begun_walk(b.curves[k]))) << k;
+  }
+}
 
 }  // namespace whirl::test
