@@ -52,6 +52,7 @@ void run_pieces(const PointWork<Row, Given>& work, const PieceFlow<Row, Given>& 
     PieceHands<Row, Given> hands(work, monitor.ranks, stops);
     while (!monitor.stops()) {
       if (auto open = flow.next(hands.threads())) {
+        if (monitor.stops()) break;  // what it was given may have been stopped half-way
         hands.add(open->piece, std::move(open->given));
         while (auto finished = hands.take()) keep(std::move(finished));
         while (hands.is_full() && !monitor.stops()) keep(hands.wait());

@@ -158,6 +158,34 @@ TEST(StudyRanks, WhoIsStoppedStopsAll) {
   expect_same_points(rest.points, map(test::rotor_stator(), options).points);
 }
 
+struct Counted {
+  PointRows<int> points;
+};
+
+// A piece in whose preparation the leader is stopped is not kept, as it was given something half done; also
+// where it would be computed in a process that was not told yet.
+TEST(StudyRanks, WhatWasStoppedWhilePreparedIsNotKept) {
+  constexpr std::size_t pieces = 10, stopped = 3;
+  const Counted result = in_ranks(2, [&](const Ranks& ranks) {
+    Counted counted{.points = PointRows<int>(pieces)};
+    bool is_stopped = false;
+    PointWork<int, int> work{.pieces = {}, .most_together = 1};
+    for (std::size_t i = 0; i < pieces; ++i) work.pieces.push_back({i});
+    work.prepare = [&](const auto& piece) {
+      is_stopped = piece[0] == stopped;
+      return is_stopped ? -1 : 1;
+    };
+    work.compute = [](const auto&, int given) { return std::vector<int>{given}; };
+    Monitor<Counted> monitor{.is_stopped = [&] { return is_stopped; }, .ranks = &ranks};
+    run_points(work, counted, monitor);
+    return counted;
+  });
+  for (std::size_t i = 0; i < pieces; ++i) {
+    EXPECT_TRUE(i < stopped || !result.points[i]) << i;
+    EXPECT_EQ(result.points[i].value_or(1), 1) << i;
+  }
+}
+
 // A process that began and then says nothing: the leader does its own pieces, waits, saves and says which
 // rank is lost.
 TEST(StudyRanks, ALostRankEndsTheStudyWithAMessage) {
@@ -178,10 +206,6 @@ TEST(StudyRanks, ALostRankEndsTheStudyWithAMessage) {
   EXPECT_GT(saved, 0u);
   EXPECT_LT(saved, 36u);
 }
-
-struct Counted {
-  PointRows<int> points;
-};
 
 // Thousands of pieces that cost nothing go to another process and back, each to its own place.
 TEST(StudyRanks, ManySmallPiecesComeBack) {
