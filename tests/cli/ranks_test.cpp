@@ -72,7 +72,18 @@ class Mpi : public Studies {
     }
   }
 
-  /// Processes of the program that a process has started, in the order of their ranks.
+  /// The process that has started another one; 0: that has ended.
+  static pid_t parent_of(pid_t process) {
+    const std::string text = content("/proc/" + std::to_string(process) + "/stat");
+    if (text.empty()) return 0;
+    std::istringstream rest(text.substr(text.rfind(')') + 1));
+    char state = ' ';
+    pid_t parent = 0;
+    rest >> state >> parent;
+    return parent;
+  }
+
+  /// Processes of the program that a process, or one of its own, has started, in the order of their ranks.
   static std::vector<pid_t> ranks_of(pid_t parent, std::size_t count) {
     std::vector<pid_t> found;
     while (found.size() < count && ::kill(parent, 0) == 0) {
@@ -80,13 +91,9 @@ class Mpi : public Studies {
       for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
         const std::string name = entry.path().filename();
         if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-        std::string text = content(entry.path() / "stat");
-        if (!has(text, "(whirl-mpi)")) continue;
-        std::istringstream rest(text.substr(text.rfind(')') + 1));
-        char state = ' ';
-        pid_t its_parent = 0;
-        rest >> state >> its_parent;
-        if (its_parent == parent) found.push_back(std::stoi(name));
+        if (!has(content(entry.path() / "stat"), "(whirl-mpi)")) continue;
+        const pid_t process = std::stoi(name), starter = parent_of(process);
+        if (starter == parent || parent_of(starter) == parent) found.push_back(process);
       }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -19,6 +19,8 @@ import tempfile
 import time
 import traceback
 
+from result_files import differences, python_with_h5py
+
 SKIPPED = 77
 DAEMONS = ("munged", "slurmctld", "slurmd")
 CLIENTS = ("munge", "sbatch", "srun", "scontrol", "mpirun")
@@ -177,27 +179,6 @@ class Cluster:
         raise Failed(f"the job has not ended in {LIMIT:.0f} s")
 
 
-def differences(one, other, group):
-    """Names of datasets of a group that are not the same, bit by bit."""
-    import h5py
-
-    with h5py.File(one) as a, h5py.File(other) as b:
-        names = set()
-        for file in (a, b):
-            file[group].visititems(lambda name, item: names.add(name) if isinstance(item, h5py.Dataset) else None)
-
-        def content(file, name):
-            if name not in file[group]:
-                return None
-            item = file[group][name]
-            value = item[()]
-            return item.dtype, item.shape, value.tobytes() if item.dtype.kind != "O" else value.tolist()
-
-        if not names or not (a[group].attrs["complete"] and b[group].attrs["complete"]):
-            return ["complete"]
-        return sorted(name for name in names if content(a, name) != content(b, name))
-
-
 def undisturbed(script, whirl, cluster):
     """The same study by whirl, alone and in one go."""
     words = re.search(r"whirl-mpi (map .*?--out) atlas\.h5", script.replace("\\\n", " ")).group(1).split()
@@ -269,15 +250,6 @@ def first_process(arguments):
         assert os.getpid() == 1  # else the next line would end the session
         os.kill(-1, signal.SIGKILL)
         shutil.rmtree(folder, ignore_errors=True)
-
-
-def python_with_h5py():
-    """This Python, or that of the system, whose package it is; None where neither has it."""
-    for python in (sys.executable, "/usr/bin/python3"):
-        imports = [python, "-c", "import h5py"]
-        if shutil.which(python) and subprocess.run(imports, capture_output=True).returncode == 0:
-            return python
-    return None
 
 
 def why_not():
