@@ -76,12 +76,15 @@ Continuation::Continuation(BranchEquations equations, const Vec& x,
 }
 
 Continuation::Continuation(BranchEquations equations, Branch branch,
-                           const ContinuationOptions& options)
-    : equations_(std::move(equations)), options_(options), branch_(std::move(branch)) {
+                           const ContinuationOptions& options, Vec by_parameter)
+    : equations_(std::move(equations)),
+      options_(options),
+      branch_(std::move(branch)),
+      by_parameter_(std::move(by_parameter)) {
   options_.check();
   const Vec& z = branch_.points.back().z;
   weigh(z.size() - 1);
-  if (!branch_.end) by_parameter_ = derivative_by_parameter(z);
+  if (!branch_.end && by_parameter_.size() == 0) by_parameter_ = derivative_by_parameter(z);
 }
 
 void Continuation::weigh(Eigen::Index unknowns) {

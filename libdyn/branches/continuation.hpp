@@ -44,12 +44,16 @@ class Continuation {
   /// @throws NumericalError  if there is none, or no tangent
   Continuation(BranchEquations equations, const Vec& x, const ContinuationOptions& options);
   /// Goes on with a branch of at least one point.
-  Continuation(BranchEquations equations, Branch branch, const ContinuationOptions& options);
+  /// @param by_parameter  as by_parameter() was; empty: it is computed again
+  Continuation(BranchEquations equations, Branch branch, const ContinuationOptions& options,
+               Vec by_parameter = {});
 
   /// Adds a point, and the bifurcations on the way to it; false: the branch has ended.
   bool advance();
 
   const Branch& branch() const { return branch_; }
+  /// Derivative of the residual by the parameter at the last point.
+  const Vec& by_parameter() const { return by_parameter_; }
 
  private:
   /// A point that may become the next one.
@@ -103,7 +107,7 @@ class Continuation {
   BranchEquations equations_;
   ContinuationOptions options_;
   Branch branch_;
-  Vec by_parameter_;  ///< derivative of the residual at the last point
+  Vec by_parameter_;
   Vec weights_;
 };
 

@@ -106,7 +106,8 @@ WalkNews walk_curve(const PlaneScenes& scenes, const BifurcationCurveOptions& op
                     BegunWalk begun, const StretchLimits& limits) {
   const ContinuationOptions how = walk_options(begun, options);
   BranchEquations equations = equations_of(begun, scenes, options.along);
-  return walk_stretch({std::move(equations), std::move(begun.branch), how}, limits);
+  return walk_stretch(
+      {std::move(equations), std::move(begun.branch), how, std::move(begun.by_parameter)}, limits);
 }
 
 }  // namespace whirl::inline dyn

@@ -41,28 +41,36 @@ class WalksLeft {
       study_.curves = begin_curves(scenes_.plane, study_.tree, *options_.curves);
     }
     has_curves_ = true;
-    are_away_.resize(curves.size(), false);
+    curves_.resize(curves.size());
     for (std::size_t i = 0; i < curves.size(); ++i) {
-      if (are_away_[i] || curves[i].branch.end) continue;
-      are_away_[i] = true;
-      return OpenPiece<BegunWalk>{{of_curves, i}, begun_walk(curves[i])};
+      if (curves_[i].is_away || curves[i].branch.end) continue;
+      curves_[i].is_away = true;
+      BegunWalk walk = begun_walk(curves[i]);
+      walk.by_parameter = curves_[i].by_parameter;
+      return OpenPiece<BegunWalk>{{of_curves, i}, std::move(walk)};
     }
     return std::nullopt;
   }
 
   void keep(const WalkWork::Piece& piece, WalkNews news) {
     if (piece[0] == of_tree) return tree_.keep(piece[1], std::move(news));
-    are_away_[piece[1]] = false;
+    curves_[piece[1]] = {.is_away = false, .by_parameter = std::move(news.by_parameter)};
     add_news(study_.curves.curves[piece[1]].branch, news.branch, {});
   }
 
  private:
+  /// Along a curve.
+  struct Walk {
+    bool is_away = false;
+    Vec by_parameter{};  ///< as of BegunWalk
+  };
+
   const BranchScenes& scenes_;
   const BranchStudyOptions& options_;
   BranchStudy& study_;
   TreeGrowth tree_;
   bool has_curves_ = false;  ///< they are begun, if there are any
-  std::vector<bool> are_away_;
+  std::vector<Walk> curves_;
 };
 
 }  // namespace

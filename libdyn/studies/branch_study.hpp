@@ -22,9 +22,8 @@ struct BranchStudyOptions {
   BranchTreeOptions tree{};
   std::optional<BifurcationCurveOptions> curves{};  ///< nothing: branches alone
   int threads = 1;                                  ///< of this process; 0: the calling one
-  /// After which a walk is saved and gone on with. Beginning again takes some evaluations, of the hundreds
-  /// that fit in.
-  std::chrono::duration<double> stretch = std::chrono::milliseconds(500);
+  /// After which a walk can be saved, and is gone on with.
+  std::chrono::duration<double> stretch = std::chrono::milliseconds(100);
 };
 
 /// The scenes of the branches, and those of the plane that their bifurcations are followed in.

@@ -194,11 +194,11 @@ WalkNews walk_branch(const ParameterScenes& scenes, const BranchTreeOptions& opt
   BranchLayout layout = empty_tree(*scenes.first, options).layout;
   layout.harmonics = begun.harmonics;
   const int period = begun.branch.period;
-  return walk_stretch(
-      {equations.of(layout), std::move(begun.branch), walk_options(options, begun.direction)},
-      limits, [&](const BranchPoint& point, WalkNews& news) {
-        equations.measure(layout, period, point, news);
-      });
+  return walk_stretch({equations.of(layout), std::move(begun.branch),
+                       walk_options(options, begun.direction), std::move(begun.by_parameter)},
+                      limits, [&](const BranchPoint& point, WalkNews& news) {
+                        equations.measure(layout, period, point, news);
+                      });
 }
 
 TreeGrowth::TreeGrowth(const ParameterScenes& scenes, const BranchTreeOptions& options,
@@ -224,7 +224,8 @@ std::optional<TreeGrowth::OpenWalk> TreeGrowth::next() {
     return OpenWalk{walks_[i].number,
                     {.branch = traced.branch,
                      .direction = traced.direction,
-                     .harmonics = tree_.layout.harmonics}};
+                     .harmonics = tree_.layout.harmonics,
+                     .by_parameter = walks_[i].by_parameter}};
   }
   return std::nullopt;
 }
@@ -234,6 +235,7 @@ void TreeGrowth::keep(std::size_t number, WalkNews news) {
       std::find_if(walks_.begin(), walks_.end(), [&](const Walk& w) { return w.number == number; });
   if (walk == walks_.end()) return;  // of a branch that was dropped meanwhile
   walk->is_away = false;
+  walk->by_parameter = std::move(news.by_parameter);
   TracedBranch& traced = tree_.branches[static_cast<std::size_t>(walk - walks_.begin())];
   add_news(traced.branch, news.branch, {});
   std::move(news.measures.begin(), news.measures.end(), std::back_inserter(traced.measures));

@@ -96,6 +96,7 @@ class TreeGrowth {
   struct Walk {
     std::size_t number = 0;
     bool is_away = false;
+    Vec by_parameter{};  ///< as of BegunWalk
   };
 
   void number_walks();

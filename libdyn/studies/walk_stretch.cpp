@@ -17,6 +17,7 @@ WalkNews walk_stretch(Continuation walk, const StretchLimits& limits,
     if (clock::now() - begin >= limits.lasts) break;
   }
   add_news(news.branch, walk.branch(), begun);
+  news.by_parameter = walk.by_parameter();
   return news;
 }
 

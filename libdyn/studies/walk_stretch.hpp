@@ -20,11 +20,12 @@ struct BegunWalk {
   int harmonics = 0;       ///< of a branch by harmonic balance
   BifurcationKind kind{};  ///< of a curve
   std::string contact{};   ///< of a curve of grazings: which
+  Vec by_parameter{};      ///< of its Continuation; empty: not known
 };
 template <class Bytes>
 void travel(Bytes& bytes, Is<BegunWalk> auto& walk) {
-  auto& [is_curve, branch, direction, harmonics, kind, contact] = walk;
-  bytes(is_curve, branch, direction, harmonics, kind, contact);
+  auto& [is_curve, branch, direction, harmonics, kind, contact, by_parameter] = walk;
+  bytes(is_curve, branch, direction, harmonics, kind, contact, by_parameter);
 }
 
 /// What a stretch of a walk adds.
@@ -32,11 +33,12 @@ struct WalkNews {
   Branch branch{};                       ///< points, bifurcations and its end
   std::vector<OrbitMeasure> measures{};  ///< of a branch of a tree, per point
   std::vector<Vec> starts{};             ///< likewise: states at phase 0, in the first basis
+  Vec by_parameter{};                    ///< as of BegunWalk, at the last point
 };
 template <class Bytes>
 void travel(Bytes& bytes, Is<WalkNews> auto& news) {
-  auto& [branch, measures, starts] = news;
-  bytes(branch, measures, starts);
+  auto& [branch, measures, starts, by_parameter] = news;
+  bytes(branch, measures, starts, by_parameter);
 }
 
 /// Stretches of walks as pieces: the first number says of what, the second one is that of the walk.
