@@ -10,23 +10,26 @@ namespace whirl::inline base {
 ///
 /// The first piece of each thread is small, so that there is something to keep soon, whatever a point
 /// costs. Later ones take some seconds, or have as many points as fill the lanes of a batch well. None
-/// takes more than half a thread's share of what is left, down to the points that step together: one
-/// point may cost thirty times as much as another, and all threads are to end at about the same time.
-/// The last ones, and few points from the start, are shared out evenly.
+/// takes more than half a thread's share of what is left, down to some lanes: one point may cost thirty
+/// times as much as another, and all threads are to end at about the same time. The last ones, and few
+/// points from the start, are shared out evenly. Pieces of less would cost more than they save: at the
+/// end of each lanes stand empty, and a step of a few takes as long as one of all.
 class PieceSizes {
  public:
   /// @param most     points of a piece at most
   /// @param threads  that do the pieces; 0: the calling one
-  PieceSizes(std::size_t most, int threads)
-      : most_(most), threads_(static_cast<std::size_t>(std::max(1, threads))) {}
+  /// @param lanes    points that step together
+  PieceSizes(std::size_t most, int threads, int lanes = 8)
+      : most_(most),
+        threads_(static_cast<std::size_t>(std::max(1, threads))),
+        first_(static_cast<std::size_t>(lanes)) {}
 
   /// Points of the next piece.
   /// @param left  points that are not given out
   std::size_t next(std::size_t left) {
     const std::size_t share = (left + threads_ - 1) / threads_;
-    const std::size_t wanted = given_++ < threads_ ? first
-                               : cost_ > 0.0       ? lasting_points()
-                                                   : second;
+    const bool is_first = given_++ < threads_ && share > least;
+    const std::size_t wanted = is_first ? first_ : cost_ > 0.0 ? lasting_points() : second;
     return std::min({fair(share), wanted, most_, left});
   }
 
@@ -42,17 +45,16 @@ class PieceSizes {
   }
 
  private:
-  static constexpr std::size_t first = 8;    ///< points: lanes that step together
   static constexpr std::size_t second = 32;  ///< points, while none is known to cost what
   static constexpr std::size_t full = 64;    ///< points that leave few lanes empty at the end
-  static constexpr std::size_t few = 16;     ///< points that leave some
+  static constexpr std::size_t least = 32;   ///< points that fill lanes twice or more
   static constexpr double lasting = 4.0;     ///< [s], well below the ten until a first result
 
   /// Points of a piece at most, where so many are left for each thread.
   std::size_t fair(std::size_t share) {
     const std::size_t half = (share + 1) / 2;
     if (share > full || last_ > 0) return last_ > 0 ? last_ : std::max(full, half);
-    if (share > first && threads_ > 1) return std::max(share > few ? few : first, half);
+    if (share > least && threads_ > 1) return std::max(least, half);
     return last_ = share;
   }
 
@@ -61,7 +63,7 @@ class PieceSizes {
     return std::max(full, static_cast<std::size_t>(points));
   }
 
-  std::size_t most_, threads_;
+  std::size_t most_, threads_, first_;
   std::size_t given_ = 0;  ///< pieces
   std::size_t last_ = 0;   ///< points of the very last pieces; 0: it is not time for these
   double cost_ = 0.0;      ///< of a point [s]; 0: not known yet

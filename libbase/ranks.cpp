@@ -43,7 +43,7 @@ LostRank::LostRank(int rank, std::chrono::milliseconds silence)
 
 std::chrono::microseconds Patience::next() {
   using std::chrono::microseconds;
-  constexpr int at_once = 64, doublings = 5;  // 50 us to 1.6 ms
+  constexpr int at_once = 64, doublings = 7;  // 50 us to 6.4 ms
   if (looks_++ < at_once) {
     sched_yield();
     return microseconds(0);

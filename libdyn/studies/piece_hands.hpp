@@ -67,6 +67,7 @@ class PieceHands {
       away_[++last_] = piece;
       ++other.open;
       ranks_->send({rank, LetterKind::piece, packed(last_, piece, given)});
+      patience_.begin_anew();  // a long letter leaves while others are looked for
       return;
     }
     ++own_open_;
@@ -238,7 +239,7 @@ template <class Row, class Given>
   bool has_stopped = false;
   const auto send = [&](Letter letter) {
     ranks.send(std::move(letter));
-    patience.begin_anew();  // a long letter leaves while others are looked for
+    patience.begin_anew();  // as in PieceHands::add
   };
   for (auto next_alive = clock::now() + alive_every;;) {
     const std::optional<Letter> letter = ranks.receive();

@@ -13,6 +13,7 @@
 #include "libdyn/studies/piece_runner.hpp"
 #include "libdyn/studies/point_rows.hpp"
 #include "libdyn/studies/point_work.hpp"
+#include "libdyn/taylor/lanes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -98,7 +99,7 @@ void run_points(const PointWork<Row, Given>& work, Result& result, const Monitor
   const auto open = static_cast<long>(open_points(points, work.stripe));
   long done = 0;
   Savings<Result> savings(result, monitor);
-  PieceSizes sizes(work.most_together, work.computing_threads());
+  PieceSizes sizes(work.most_together, work.computing_threads(), lanes_together());
   PiecesLeft<Row> pieces(work.pieces, points, work.stripe);
   const auto next = [&](int threads) -> std::optional<OpenPiece<Given>> {
     sizes.work_with(threads);

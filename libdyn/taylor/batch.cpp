@@ -8,6 +8,7 @@
 
 #include "libbase/processors.hpp"
 #include "libdyn/taylor/instruction_sets.hpp"
+#include "libdyn/taylor/lanes.hpp"
 #include "libdyn/taylor/pack_engines.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "libdyn/taylor/batch.cpp"
@@ -22,6 +23,11 @@ const char* name_of_target() {
   return hwy::TargetName(HWY_TARGET);
 }
 
+int two_registers() {  // of engine_two_packs.cpp
+  return 2 *
+         static_cast<int>(hwy::HWY_NAMESPACE::Lanes(hwy::HWY_NAMESPACE::CappedTag<double, 8>()));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace whirl::inline dyn
 HWY_AFTER_NAMESPACE();
@@ -29,6 +35,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace whirl::inline dyn {
 HWY_EXPORT(name_of_target);
+HWY_EXPORT(two_registers);
 
 int order_for(double tolerance) {
   if (tolerance >= 1e-7) return 8;
@@ -98,6 +105,10 @@ bool fuses(std::string_view set) {
 
 std::string instruction_set() {
   return name_of(HWY_DYNAMIC_DISPATCH(name_of_target)());
+}
+
+int lanes_together() {
+  return HWY_DYNAMIC_DISPATCH(two_registers)();
 }
 
 std::vector<std::string> instruction_sets() {

@@ -18,7 +18,7 @@ import sys
 import tempfile
 import time
 
-from result_files import differences, is_complete, python_with_h5py
+from result_files import differences, python_with_h5py
 
 SKIPPED = 77
 LIMIT = 300.0  # [s], of a run
@@ -93,9 +93,8 @@ class Trials:
         if whole.returncode != 0:
             raise Failed(f"whirl {name}: {whole.stderr}")
         begin = time.monotonic()
-        self.finish(self.start())
+        self.end()
         self.takes = time.monotonic() - begin
-        self.compare()
 
     @property
     def file(self):
@@ -131,12 +130,18 @@ class Trials:
             time.sleep(0.02)
         return job.returncode
 
-    def compare(self):
-        if different := differences(self.folder / f"{self.name}.h5", self.file, self.group):
+    def differences(self):
+        return differences(self.folder / f"{self.name}.h5", self.file, self.group)
+
+    def end(self):
+        """Lets the same line go on to its end, and looks at what it leaves."""
+        if status := self.finish(self.start()):
+            raise Failed(f"{self.name} ends with status {status}: " + (self.folder / "told").read_text())
+        if different := self.differences():
             raise Failed(f"{self.name}: not as undisturbed: " + ", ".join(different))
-        if left := [path.name for path in self.folder.iterdir() if path.name.startswith("killed.h5.rows")]:
-            raise Failed("left behind: " + ", ".join(left))
         for path in self.folder.glob("killed.h5*"):
+            if path != self.file:
+                raise Failed(f"left behind: {path.name}")
             path.unlink()
 
     def kill(self, who, how):
@@ -150,22 +155,20 @@ class Trials:
         if job.poll() is None and (rank is None or rank in ranks):
             os.kill(job.pid if rank is None else ranks[rank], how)
         self.finish(job)  # whose status, after SIGTERM, depends on the MPI
-        return not is_complete(self.file, self.group)
+        return bool(self.differences())
 
     def run(self, who, how):
         """Kills it once to three times, and lets it go on to its end; (kills, whether something was saved before)."""
         kills, was_saved, wanted = 0, False, self.random.randint(1, 3)
-        for _ in range(20):
+        while kills < wanted:
             if self.kill(who, how):
                 kills += 1
                 was_saved |= self.file.exists()
-            elif kills == 0:  # that was too late: it begins anew
-                self.compare()
-            if kills == wanted or is_complete(self.file, self.group):
+            elif kills > 0:
                 break
-        if status := self.finish(self.start()):
-            raise Failed(f"the same line ends with status {status}: " + (self.folder / "told").read_text())
-        self.compare()
+            else:  # that was too late: it begins anew
+                self.end()
+        self.end()
         return kills, was_saved
 
 
