@@ -39,14 +39,9 @@ constexpr ValidValues numbers_of(std::string_view dimension) {
 /// Where a column is written.
 enum class Written { everywhere, in_file, in_json };
 
-/// One member of a result.
-///
-/// A member of a whole result that is one number, text or choice is an attribute of its group; one
-/// that has many numbers is a dataset. A member of a row is a dataset of all rows together.
-template <class Member>
-struct Column {
+/// What a column says of a member, whatever its type.
+struct ColumnInfo {
   std::string_view key;      ///< dataset or attribute, below the group
-  Member member;             ///< pointer to a member, or function of the result: then not read back
   std::string_view unit;     ///< SI unit; empty if it has none
   std::string_view meaning;  ///< what it is, for a plot's axis and the manual
   /// Dimensions by name, beyond that of the rows: "stations speeds". Those of one name have one size
@@ -60,7 +55,17 @@ struct Column {
   Written written = Written::everywhere;
   bool is_axis = false;  ///< numbers or names along its one dimension, which other datasets have
   bool is_from_one = false;  ///< a number from 0 that is written from 1
-  bool is_optional = false;  ///< see maybe()
+  bool is_optional = false;  ///< see Column::maybe()
+};
+
+/// One member of a result.
+///
+/// A member of a whole result that is one number, text or choice is an attribute of its group; one
+/// that has many numbers is a dataset. A member of a row is a dataset of all rows together.
+template <class Member>
+struct Column : ColumnInfo {
+  /// Pointer to a member, or function of the result, which is read back if it gives a part of it.
+  Member member;
 
   constexpr Column along(std::string_view names) const { return with(&Column::dimensions, names); }
   /// @param name  of its dimension; of a member of a row left out: the rows
@@ -77,7 +82,7 @@ struct Column {
 
  private:
   template <class Value>
-  constexpr Column with(Value Column::*fact, const Value& value) const {
+  constexpr Column with(Value ColumnInfo::*fact, const Value& value) const {
     Column c = *this;
     c.*fact = value;
     return c;
@@ -87,19 +92,23 @@ struct Column {
 template <class Member>
 constexpr Column<Member> column(std::string_view key, Member member, std::string_view unit,
                                 std::string_view meaning) {
-  return {key, member, unit, meaning};
+  return {{key, unit, meaning}, member};
 }
 
-/// A member of a result that is a list of structs with columns of their own.
-template <class Member>
-struct RowsColumn {
-  Member member;                  ///< pointer to a member, or function of the result
+/// What a column of rows says, whatever their type.
+struct RowsInfo {
   std::string_view dimension;     ///< of the rows: "branches"; their key in JSON, too
   std::string_view number = "";   ///< dataset of their numbers, 1, 2, ...; empty: none
   std::string_view meaning = "";  ///< of the numbers
   std::string_view prefix = "";   ///< of their datasets: "critical_"
-  bool is_optional = false;       ///< see maybe()
+  bool is_optional = false;       ///< see RowsColumn::maybe()
   Written written = Written::everywhere;
+};
+
+/// A member of a result that is a list of structs with columns of their own.
+template <class Member>
+struct RowsColumn : RowsInfo {
+  Member member;  ///< pointer to a member, or function of the result
 
   constexpr RowsColumn numbered(std::string_view name, std::string_view what) const {
     return with(&RowsColumn::number, name).with(&RowsColumn::meaning, what);
@@ -113,7 +122,7 @@ struct RowsColumn {
 
  private:
   template <class Value>
-  constexpr RowsColumn with(Value RowsColumn::*fact, const Value& value) const {
+  constexpr RowsColumn with(Value RowsInfo::*fact, const Value& value) const {
     RowsColumn c = *this;
     c.*fact = value;
     return c;
@@ -122,7 +131,7 @@ struct RowsColumn {
 
 template <class Member>
 constexpr RowsColumn<Member> rows(Member member, std::string_view dimension) {
-  return {member, dimension};
+  return {{dimension}, member};
 }
 
 /// A struct that names its members: `static constexpr auto columns()`, a tuple of them.
