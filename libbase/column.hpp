@@ -4,9 +4,9 @@
 /// files do from fields (field.hpp).
 
 #include <concepts>
+#include <cstddef>
 #include <limits>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -134,7 +134,54 @@ constexpr RowsColumn<Member> rows(Member member, std::string_view dimension) {
   return {{dimension}, member};
 }
 
-/// A struct that names its members: `static constexpr auto columns()`, a tuple of them.
+namespace lists {
+template <std::size_t Number, class C>
+struct Place {
+  C column;
+};
+template <class Numbers, class... C>
+struct Places;
+template <std::size_t... Number, class... C>
+struct Places<std::index_sequence<Number...>, C...> : Place<Number, C>... {};
+}  // namespace lists
+
+/// The columns of a struct, in their order: ColumnList{column(...), rows(...)}. A std::tuple of as many
+/// takes compilers several times as long.
+template <class... C>
+struct ColumnList : lists::Places<std::index_sequence_for<C...>, C...> {
+  static constexpr std::size_t size = sizeof...(C);
+};
+template <class... C>
+ColumnList(C...) -> ColumnList<C...>;
+
+namespace lists {
+template <std::size_t Number, class C>
+constexpr const C& at(const Place<Number, C>& place) {
+  return place.column;
+}
+template <class... A, class... B, std::size_t... I, std::size_t... J>
+constexpr ColumnList<A..., B...> join(const ColumnList<A...>& a, const ColumnList<B...>& b,
+                                      std::index_sequence<I...>, std::index_sequence<J...>) {
+  return {at<I>(a)..., at<J>(b)...};
+}
+template <class... C, std::size_t... I, class F>
+constexpr void for_each(const ColumnList<C...>& list, std::index_sequence<I...>, const F& f) {
+  (f(at<I>(list)), ...);
+}
+}  // namespace lists
+
+/// Lists one behind the other.
+template <class... A>
+constexpr ColumnList<A...> joined(const ColumnList<A...>& list) {
+  return list;
+}
+template <class... A, class... B, class... Lists>
+constexpr auto joined(const ColumnList<A...>& a, const ColumnList<B...>& b, const Lists&... lists) {
+  return joined(lists::join(a, b, std::index_sequence_for<A...>(), std::index_sequence_for<B...>()),
+                lists...);
+}
+
+/// A struct that names its members: `static constexpr auto columns()`, a list of them.
 template <class T>
 concept HasColumns = requires {
   T::columns();
@@ -158,7 +205,8 @@ inline constexpr auto columns_of = T::columns();
 /// Calls f with every column of a struct.
 template <HasColumns T, class F>
 constexpr void for_each_column(const F& f) {
-  std::apply([&](const auto&... c) { (f(c), ...); }, columns_of<T>);
+  constexpr std::size_t size = decltype(T::columns())::size;
+  lists::for_each(columns_of<T>, std::make_index_sequence<size>(), f);
 }
 
 /// Type of what a column gives of a struct.

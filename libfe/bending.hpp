@@ -27,7 +27,7 @@ struct BendingLine {
     };
     constexpr auto deflection = &BendingLine::deflection, moment = &BendingLine::moment,
                    shear = &BendingLine::shear;
-    return std::tuple{
+    return ColumnList{
         column("z", &BendingLine::z, "m", "position along the shaft, both ends of every beam")
             .axis("along+")
             .within(valid::finite),

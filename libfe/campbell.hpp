@@ -17,7 +17,7 @@ struct CampbellBranch {
   std::vector<double> log_decrement;  ///< per speed; NaN likewise
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("whirl", &CampbellBranch::whirl, "", "sense of whirl"),
         column("frequency", &CampbellBranch::frequency, "rad/s", "damped natural frequency")
             .along("speeds"),
@@ -32,7 +32,7 @@ struct Crossing {
   int branch = 0;      ///< from 0
 
   static constexpr auto columns() {
-    return std::tuple{column("speed", &Crossing::speed, "rad/s", "critical speed"),
+    return ColumnList{column("speed", &Crossing::speed, "rad/s", "critical speed"),
                       column("branch", &Crossing::branch, "", "branch that is critical")
                           .from_one()
                           .within(valid::numbers_of("branches"))};
@@ -53,7 +53,7 @@ struct Threshold {
 
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("speed", &Threshold::speed, "rad/s", "threshold of instability"),
         column("frequency", &Threshold::frequency, "rad/s", "of the whirl at the threshold"),
         column("branch", &Threshold::branch, "", "branch that loses its damping; 0: none of these")
@@ -69,7 +69,7 @@ struct CampbellGap {
   std::string why;
 
   static constexpr auto columns() {
-    return std::tuple{column("speed", &CampbellGap::speed, "rad/s", "speed that is left out"),
+    return ColumnList{column("speed", &CampbellGap::speed, "rad/s", "speed that is left out"),
                       column("why", &CampbellGap::why, "", "why")};
   }
 };
@@ -87,7 +87,7 @@ struct Campbell {
   static constexpr std::string_view group = "/campbell";
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("speed", &Campbell::speeds, "rad/s", "rotor speed")
             .axis("speeds+")
             .within(valid::finite)

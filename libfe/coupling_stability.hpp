@@ -16,7 +16,7 @@ struct CoupledMode {
   double frequency = 0.0;      ///< damped [rad/s]
 
   static constexpr auto columns() {
-    return std::tuple{column("coupling", &CoupledMode::coupling, "N/m", "cross-coupled stiffness"),
+    return ColumnList{column("coupling", &CoupledMode::coupling, "N/m", "cross-coupled stiffness"),
                       column("log_decrement", &CoupledMode::log_decrement, "",
                              "of the mode that it destabilizes"),
                       column("frequency", &CoupledMode::frequency, "rad/s", "of that mode")};

@@ -33,7 +33,7 @@ struct Critical {
 
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("speed", &Critical::speed, "rad/s", "undamped critical speed"),
         column("damped_speed", &Critical::damped_speed, "rad/s", "damped critical speed"),
         column("damping_ratio", &Critical::damping_ratio, "",
@@ -55,7 +55,7 @@ struct CriticalSpeeds {
   static constexpr std::string_view group = "/critical";
   static constexpr auto columns() {
     constexpr double most_order = 1e6;
-    return std::tuple{rows(&CriticalSpeeds::criticals, "criticals"),
+    return ColumnList{rows(&CriticalSpeeds::criticals, "criticals"),
                       column("order", &CriticalSpeeds::order, "", "excitation frequency over speed")
                           .within(valid::from_to(valid::positive.least, most_order))
                           .only(Written::in_file)};

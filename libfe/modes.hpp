@@ -63,7 +63,7 @@ struct Mode {
   bool is_heavily_damped() const { return damping_ratio() > heavy_damping; }
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("frequency", &Mode::frequency, "rad/s", "damped natural frequency"),
         column("damping_ratio", &Mode::damping_ratio, "", "damping ratio"),
         column("log_decrement", &Mode::log_decrement, "", "logarithmic decrement"),
@@ -116,7 +116,7 @@ struct ModesAtPoints : Modes {
   static constexpr std::string_view group = "/modes";
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         rows(&ModesAtPoints::oscillatory, "modes").numbered("number", "mode"),
         column("shape", &ModesAtPoints::shape, "m, rad",
                "complex shape: x, y, theta_x, theta_y of every node, then of every body")

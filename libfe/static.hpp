@@ -18,7 +18,7 @@ struct BearingLoad {
 
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("bearing", &BearingLoad::name, "", "bearing").axis().as("name"),
         column("bearing_load", &BearingLoad::force, "N", "force of the rotor on the bearing (x, y)")
             .along("2")
@@ -34,7 +34,7 @@ struct StaticEquilibrium {
 
   static constexpr std::string_view group = "/static";
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("displacement", &StaticEquilibrium::displacement, "m, rad",
                "static displacement: x, y, theta_x, theta_y of every node, then of every body")
             .along("full")

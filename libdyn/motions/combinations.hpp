@@ -19,7 +19,7 @@ struct Combination {
     double frequency = 0.0;  ///< signed [rad/s]
 
     static constexpr auto columns() {
-      return std::tuple{column("times", &Term::times, "", "so many times"),
+      return ColumnList{column("times", &Term::times, "", "so many times"),
                         column("frequency", &Term::frequency, "rad/s", "signed frequency")};
     }
   };

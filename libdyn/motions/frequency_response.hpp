@@ -55,7 +55,7 @@ struct ResponsePair {
   CVec accelerance;      ///< acceleration, -w^2 times that [1/kg]
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("from", &ResponsePair::from, "", "station and direction of the force"),
         column("to", &ResponsePair::to, "", "station and direction of the motion"),
         column("receptance", &ResponsePair::receptance, "m/N", "displacement by force")
@@ -80,7 +80,7 @@ struct FrequencyResponse {
   static constexpr std::string_view group = "/frf";
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("speed", &FrequencyResponse::speed, "rad/s", "rotor speed").only(in_file),
         column("frequency", &FrequencyResponse::frequencies, "rad/s", "frequency of the force")
             .axis("frequencies+")

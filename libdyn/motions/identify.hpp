@@ -43,7 +43,7 @@ struct IdentifiedPeak {
 
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("frequency", &IdentifiedPeak::frequency, "rad/s", "signed frequency of the peak")
             .axis()
             .within(valid::finite),
@@ -76,7 +76,7 @@ struct FrequencyRatio {
     constexpr auto both = [](const FrequencyRatio& r) {
       return std::vector<double>{r.high, r.low};
     };
-    return std::tuple{column("ratio", ratio, "", "p:q"),
+    return ColumnList{column("ratio", ratio, "", "p:q"),
                       column("error", &FrequencyRatio::error, "", "relative, of the ratio"),
                       column("frequencies", both, "rad/s", "seen from the rotor")};
   }
@@ -90,7 +90,7 @@ struct Identification {
 
   static constexpr std::string_view group = "/mac";
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         rows(&Identification::peaks, "peaks+").maybe(),
         column("resonance", &Identification::resonance, "", "two strongest, seen from the rotor")
             .only(Written::in_json)};

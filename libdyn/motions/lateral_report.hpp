@@ -41,7 +41,7 @@ struct LateralJournal {
   double mass = 0.0;  ///< [kg]
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("name", &LateralJournal::name, "", "bearing or oil film"),
         column("mass", &LateralJournal::mass, "kg", "that it carries at rest at full speed")};
   }
@@ -56,7 +56,7 @@ struct LateralPlane {
 
   static constexpr auto columns() {
     using P = LateralPlane;
-    return std::tuple{column("case", &P::of_case, "", "case of unbalance")
+    return ColumnList{column("case", &P::of_case, "", "case of unbalance")
                           .within(valid::numbers_of("cases"))
                           .from_one(),
                       column("station", &P::station, "", "where it is"),
@@ -76,7 +76,7 @@ struct LateralCase {
 
   static constexpr auto columns() {
     using C = LateralCase;
-    return std::tuple{
+    return ColumnList{
         column("mode_speed", &C::mode_speed, "rad/s", "undamped critical speed of its mode"),
         column("whirl", &C::whirl, "", "sense of whirl of that mode"),
         column("vibration", &C::vibration, "m", "largest at operating speeds, peak to peak"),
@@ -96,7 +96,7 @@ struct LateralResponse {
 
   static constexpr auto columns() {
     using R = LateralResponse;
-    return std::tuple{
+    return ColumnList{
         column("case", &R::of_case, "", "case of unbalance")
             .within(valid::numbers_of("cases"))
             .from_one(),
@@ -111,7 +111,7 @@ struct LateralProbe {
   std::string station;
 
   static constexpr auto columns() {
-    return std::tuple{column("probe", &LateralProbe::station, "", "station").axis()};
+    return ColumnList{column("probe", &LateralProbe::station, "", "station").axis()};
   }
 };
 
@@ -147,7 +147,7 @@ struct LateralPeak : ResponsePeak {
   static constexpr auto columns() {
     using enum Written;
     using P = LateralPeak;
-    return std::tuple{
+    return ColumnList{
         column("case", &P::of_case, "", "case of unbalance")
             .within(valid::numbers_of("cases"))
             .from_one(),
@@ -179,7 +179,7 @@ struct LateralClearance {
   static constexpr auto columns() {
     using enum Written;
     using C = LateralClearance;
-    return std::tuple{column("case", &C::of_case, "", "case of unbalance")
+    return ColumnList{column("case", &C::of_case, "", "case of unbalance")
                           .within(valid::numbers_of("cases"))
                           .from_one(),
                       column("name", &C::name, "", "whose clearance it is"),
@@ -228,7 +228,7 @@ struct LateralCheck {
 
   static constexpr auto columns() {
     using C = LateralCheck;
-    return std::tuple{column("rule", &C::rule, "", "what is asked for"),
+    return ColumnList{column("rule", &C::rule, "", "what is asked for"),
                       column("case", &C::of_case, "", "case of unbalance; 0: of none").from_one(),
                       column("place", &C::place, "", "where"),
                       column("speed", &C::speed, "rad/s", "at which it was found"),
@@ -272,7 +272,7 @@ struct LateralReport {
   static constexpr auto columns() {
     using enum Written;
     using R = LateralReport;
-    return std::tuple{
+    return ColumnList{
         column("minimum_speed", &R::minimum_speed, "rad/s", "least continuous speed"),
         column("maximum_speed", &R::maximum_speed, "rad/s", "largest continuous speed"),
         column("trip_speed", &R::trip_speed, "rad/s", "at which it is stopped"),

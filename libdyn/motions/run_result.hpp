@@ -36,7 +36,7 @@ struct ContactShare : ContactDoing {
   double mean_slip = 0.0;  ///< [m/s]
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("name", &ContactShare::name, "", "contact").axis(),
         column("regime", &ContactShare::regime, "", "regime"),
         column("duty", &ContactShare::duty, "", "share of time in touch"),
@@ -54,7 +54,7 @@ struct ContactShares {
 
   static constexpr std::string_view group = "/contacts";
   static constexpr auto columns() {
-    return std::tuple{rows(&ContactShares::contacts, "contacts+").maybe()};
+    return ColumnList{rows(&ContactShares::contacts, "contacts+").maybe()};
   }
 };
 ContactShares contact_shares(const std::vector<ContactMeasure>& contacts, long revolutions);
@@ -68,7 +68,7 @@ struct MotionEnd {
 
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("end_displacement", &MotionEnd::displacement, "m, rad",
                "displacement at the end: x, y, theta_x, theta_y of every node, then of every body")
             .along("full"),
@@ -93,7 +93,7 @@ struct StudyStart {
 
   static constexpr std::string_view group = "/from";
   static constexpr auto columns() {
-    return std::tuple{column("displacement", &StudyStart::displacement, "m, rad",
+    return ColumnList{column("displacement", &StudyStart::displacement, "m, rad",
                              "displacement that the motions begin with")
                           .along("full")
                           .within(valid::finite),
@@ -121,7 +121,7 @@ struct RunFacts {
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
     constexpr double most_samples = 1e9;
-    return std::tuple{
+    return ColumnList{
         column("samples_per_revolution", &RunFacts::samples_per_revolution, "", "samples")
             .within(valid::from_to(1.0, most_samples)),
         column("revolutions", &RunFacts::revolutions, "", "revolutions that are recorded")
@@ -141,7 +141,7 @@ struct StationMotion {
   Vec x, y;  ///< per sample [m]
 
   static constexpr auto columns() {
-    return std::tuple{column("station", &StationMotion::station, "", "station").axis(),
+    return ColumnList{column("station", &StationMotion::station, "", "station").axis(),
                       column("x", &StationMotion::x, "m", "displacement x").along("samples"),
                       column("y", &StationMotion::y, "m", "displacement y").along("samples")};
   }
@@ -152,10 +152,10 @@ struct ProbeSignal : ProbeLabel {
   Vec displacement;  ///< per sample [m]
 
   static constexpr auto columns() {
-    return std::tuple_cat(ProbeLabel::columns(),
-                          std::tuple{column("displacement", &ProbeSignal::displacement, "m",
-                                            "displacement that a probe reads")
-                                         .along("samples")});
+    return joined(ProbeLabel::columns(),
+                  ColumnList{column("displacement", &ProbeSignal::displacement, "m",
+                                    "displacement that a probe reads")
+                                 .along("samples")});
   }
 };
 
@@ -170,7 +170,7 @@ struct MotionRecord {
 
   static constexpr std::string_view group = "/trajectory";
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("time", &MotionRecord::time, "s", "time since the start")
             .axis("samples+")
             .within(valid::finite),
@@ -201,7 +201,7 @@ struct StationSpectrum {
   Vec amplitude;  ///< per line [m]
 
   static constexpr auto columns() {
-    return std::tuple{column("amplitude", &StationSpectrum::amplitude, "m",
+    return ColumnList{column("amplitude", &StationSpectrum::amplitude, "m",
                              "radius of the circle at a signed frequency (Hann window)")
                           .along("lines")};
   }
@@ -214,7 +214,7 @@ struct StationSpectra {
 
   static constexpr std::string_view group = "/spectra";
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("frequency", &StationSpectra::frequency, "rad/s", "signed frequency, forward > 0")
             .axis("lines+")
             .within(valid::finite),
@@ -229,7 +229,7 @@ struct ReductionFacts {
   double eigenvalue_error = 0.0, receptance_error = 0.0;
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("size", &ReductionFacts::size, "", "reduced degrees of freedom"),
         column("freedoms", &ReductionFacts::dofs, "", "degrees of freedom"),
         column("eigenvalue_error", &ReductionFacts::eigenvalue_error, "", "largest, relative"),
@@ -245,7 +245,7 @@ struct RunCost {
   std::string method;
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("steps", &RunCost::steps, "", "steps"),
         column("evaluations", &RunCost::evaluations, "", "of the equations of motion"),
         column("events", &RunCost::events, "", "begins and ends of contacts"),
@@ -261,10 +261,9 @@ struct ProbeSummary : ProbeLabel {
 
   static constexpr auto columns() {
     using P = ProbeSummary;
-    return std::tuple_cat(
-        ProbeLabel::columns(),
-        std::tuple{column("mean", &P::mean, "m", "of the reading"),
-                   column("peak_to_peak", &P::peak_to_peak, "m", "of the reading")});
+    return joined(ProbeLabel::columns(),
+                  ColumnList{column("mean", &P::mean, "m", "of the reading"),
+                             column("peak_to_peak", &P::peak_to_peak, "m", "of the reading")});
   }
 };
 
@@ -279,7 +278,7 @@ struct RunSummary {
 
   static constexpr auto columns() {
     using S = RunSummary;
-    return std::tuple{
+    return ColumnList{
         column("revolutions", &S::revolutions, "", "revolutions that are recorded"),
         rows(&S::contacts, "contacts"),
         column("reduction", &S::reduction, "", "how the rotor was reduced"),
@@ -296,7 +295,7 @@ struct FrequencyPeak {
   double amplitude = 0.0;  ///< radius [m]
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("frequency", &FrequencyPeak::frequency, "rad/s", "signed frequency, forward > 0"),
         column("amplitude", &FrequencyPeak::amplitude, "m", "radius of the circle")};
   }
@@ -311,7 +310,7 @@ struct StationSummary {
 
   static constexpr auto columns() {
     using S = StationSummary;
-    return std::tuple{column("node", &S::node, "", "number of the node"),
+    return ColumnList{column("node", &S::node, "", "number of the node"),
                       column("name", &S::name, "", "what is there"),
                       column("max_radius", &S::max_radius, "m", "largest distance from the axis"),
                       column("peaks", &S::peaks, "", "strongest lines of the spectrum"),

@@ -24,7 +24,7 @@ struct RestingStation {
   double z = 0.0;           ///< of a node, along the shaft [m]
 
   static constexpr auto columns() {
-    return std::tuple{column("node", &RestingStation::node, "", "number of the node"),
+    return ColumnList{column("node", &RestingStation::node, "", "number of the node"),
                       column("name", &RestingStation::name, "", "what is there"),
                       column("x", &RestingStation::x, "m", "displacement"),
                       column("y", &RestingStation::y, "m", "displacement")};
@@ -36,8 +36,8 @@ struct RestingProbe : ProbeLabel {
   double mean = 0.0;  ///< [m]
 
   static constexpr auto columns() {
-    return std::tuple_cat(ProbeLabel::columns(), std::tuple{column("mean", &RestingProbe::mean, "m",
-                                                                   "what it reads at rest")});
+    return joined(ProbeLabel::columns(),
+                  ColumnList{column("mean", &RestingProbe::mean, "m", "what it reads at rest")});
   }
 };
 
@@ -54,7 +54,7 @@ struct StaticStudy {
 
   static constexpr auto columns() {
     using S = StaticStudy;
-    return std::tuple{rows(&S::stations, "stations"),
+    return ColumnList{rows(&S::stations, "stations"),
                       rows(
                           [](const S& s) -> const auto& { return s.at_rest.bearings; }, "bearings"),
                       rows(

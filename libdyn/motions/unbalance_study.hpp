@@ -34,7 +34,7 @@ struct StationResponse {
 
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("node", &StationResponse::node, "", "number of the node").only(in_json),
         column("name", &StationResponse::name, "", "what is there").only(in_json),
         column("station", &StationResponse::label, "", "station").axis().only(in_file),
@@ -74,7 +74,7 @@ struct ForcedResponse {
   static constexpr auto columns() {
     using enum Written;
     using F = ForcedResponse;
-    return std::tuple{
+    return ColumnList{
         column("force", &F::force, "", "order or frequency of the force").axis(),
         column("forces", &F::forces, "", "their names").only(in_json),
         column("order", &F::order, "", "of the speed").only(in_json),
@@ -97,7 +97,7 @@ struct ProbePeak : ResponsePeak {
   static constexpr auto columns() {
     using enum Written;
     using P = ProbePeak;
-    return std::tuple{
+    return ColumnList{
         column("speed", &P::speed, "rad/s", "speed of a peak").axis().within(valid::finite),
         column("probe", &P::row, "", "number of the probe, from 1")
             .within(valid::numbers_of("probes"))
@@ -126,9 +126,9 @@ struct ProbeResponse : ProbeLabel {
   static constexpr auto columns() {
     using enum Written;
     using P = ProbeResponse;
-    return std::tuple_cat(
+    return joined(
         ProbeLabel::columns(),
-        std::tuple{
+        ColumnList{
             column("amplitude", &P::amplitude, "m", "complex amplitude of what a probe reads")
                 .along("speeds")
                 .only(in_file),
@@ -159,9 +159,9 @@ struct ForcedReading : ProbeLabel {
   static constexpr auto columns() {
     using enum Written;
     using F = ForcedReading;
-    return std::tuple_cat(
+    return joined(
         ProbeLabel::columns(),
-        std::tuple{
+        ColumnList{
             column("force", &F::force, "", "order or frequency of the force"),
             column("forces", &F::forces, "", "their names").only(in_json),
             column("order", &F::order, "", "of the speed").only(in_json),
@@ -192,7 +192,7 @@ struct StationPeak : ResponsePeak {
 
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("speed", &StationPeak::speed, "rad/s", "speed of a peak")
             .axis()
             .within(valid::finite),
@@ -232,7 +232,7 @@ struct UnbalanceStudy {
   static constexpr std::string_view group = "/unbalance";
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("speed", &UnbalanceStudy::speeds, "rad/s", "rotor speed")
             .axis("speeds+")
             .within(valid::finite)

@@ -22,7 +22,7 @@ struct ReferenceMotion {
   long revolutions = 0;  ///< from the start
 
   static constexpr auto columns() {
-    return std::tuple{column("made_by", &ReferenceMotion::made_by, "", "how"),
+    return ColumnList{column("made_by", &ReferenceMotion::made_by, "", "how"),
                       column("error", &ReferenceMotion::error, "", "its own"),
                       column("growth", &ReferenceMotion::growth, "", "of a small deviation")};
   }
@@ -88,7 +88,7 @@ struct TimedRun {
   Failure failure() const { return has_failed() ? integration.failure : Failure(); }
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("method", &TimedRun::method, "", "method"),
         column("tolerance", &TimedRun::tolerance, "", "of its steps"),
         column("error", &TimedRun::error, "", "at the end"),

@@ -124,7 +124,7 @@ struct HarmonicOrbit {
     double change = 0.0;
 
     static constexpr auto columns() {
-      return std::tuple{
+      return ColumnList{
           column("harmonics", &Level::harmonics, "", "that were tried"),
           column("steps", &Level::steps, "", "of Newton's method"),
           column("change", &Level::change, "", "from the one before [length scales]")};

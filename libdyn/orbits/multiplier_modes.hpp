@@ -17,7 +17,7 @@ struct MultiplierMode {
 
   static constexpr auto columns() {
     using M = MultiplierMode;
-    return std::tuple{
+    return ColumnList{
         column(
             "mode", [](const M& m) { return m.mode > 0 ? std::optional(m.mode) : std::nullopt; },
             "", "number of the mode; null: there is none"),

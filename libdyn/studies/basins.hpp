@@ -65,7 +65,7 @@ struct BasinsPoint {
   std::vector<double> sections{};
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column(
             "start_displacement", [](auto& p) -> auto& { return p.start.displacement; }, "m, rad",
             "displacement at the start")
@@ -111,7 +111,7 @@ struct BasinsResult {
   ColumnSizes sizes() const;
   static constexpr auto columns() {
     using C = BasinsResult;
-    return std::tuple{
+    return ColumnList{
         column("start", &C::starts, "", "start").axis("starts+").maybe(), contact_names<C>(),
         rows(&C::points, "point"),
         column("attractor", &C::attractor, "",
@@ -131,7 +131,7 @@ struct FirstStart {
     using S = FirstStart;
     constexpr auto displacement = [](const S& s) { return s.state.displacement; };
     constexpr auto velocity = [](const S& s) { return s.state.velocity; };
-    return std::tuple{
+    return ColumnList{
         column("number", &S::number, "", "number of the start"),
         column("displacement", displacement, "m, rad", "displacement there").as("displacement"),
         column("velocity", velocity, "m/s, rad/s", "velocity there").as("velocity")};
@@ -148,7 +148,7 @@ struct Attractor : MotionSummary {
 
   static constexpr auto columns() {
     using A = Attractor;
-    return std::tuple{column("number", &A::number, "", "number of the motion"),
+    return ColumnList{column("number", &A::number, "", "number of the motion"),
                       column("motion", &A::motion, "", "kind of motion"),
                       column("share", &A::share, "", "of the starts that did not fail"),
                       column("period_revs", &A::period, "", "period [revolutions]"),
@@ -166,7 +166,7 @@ struct BasinShares {
   double unsettled = 0.0;             ///< share of motions that did not settle
 
   static constexpr auto columns() {
-    return std::tuple{column("starts", &BasinShares::starts, "", "starts"),
+    return ColumnList{column("starts", &BasinShares::starts, "", "starts"),
                       rows(&BasinShares::attractors, "attractors")};
   }
 };

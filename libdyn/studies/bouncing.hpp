@@ -33,7 +33,7 @@ struct Bouncing {
   bool is_stable() const { return cycle.is_stable(); }
 
   static constexpr auto columns() {
-    return std::tuple{column("speed", &Bouncing::speed, "rad/s", "where it was found"),
+    return ColumnList{column("speed", &Bouncing::speed, "rad/s", "where it was found"),
                       column("period_revs", &Bouncing::turns, "", "period [revolutions]"),
                       column("stable", &Bouncing::is_stable, "", "whether it attracts")};
   }

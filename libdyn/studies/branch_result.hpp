@@ -22,8 +22,8 @@ struct BranchRow : EndTexts {
   static constexpr auto columns() {
     using B = BranchRow;
     constexpr double most_revolutions = 1e9;
-    return std::tuple_cat(
-        std::tuple{column("number", &B::number, "", "branch")
+    return joined(
+        ColumnList{column("number", &B::number, "", "branch")
                        .axis()
                        .within(valid::numbers_of("branches"))
                        .only(Written::in_file),
@@ -60,7 +60,7 @@ struct BranchOrbit {
   static constexpr auto columns() {
     using B = BranchOrbit;
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("value", &B::value, unit_of_parameter, "the parameter's")
             .axis()
             .within(valid::finite),
@@ -128,7 +128,7 @@ struct BranchBifurcation {
   static constexpr auto columns() {
     using B = BranchBifurcation;
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("bifurcation", &B::value, unit_of_parameter, "value of the parameter")
             .axis()
             .within(valid::finite)
@@ -170,8 +170,8 @@ struct BranchResult {
   static constexpr auto columns() {
     using B = BranchResult;
     using enum Written;
-    return std::tuple_cat(
-        std::tuple{
+    return joined(
+        ColumnList{
             column(
                 "parameter", [](const B& b) { return b.parameter.path; }, "",
                 "path of the parameter")
@@ -190,7 +190,7 @@ struct BranchResult {
             column("contact", &B::contacts, "", "contact").axis("contacts+").only(in_file).maybe(),
             rows([](const B& b) { return b.probes.list(); }, "probes").only(in_json).maybe()},
         probe_label_columns(),
-        std::tuple{rows(&B::points, "points"), rows(&B::bifurcations, "bifurcations").only(in_json),
+        ColumnList{rows(&B::points, "points"), rows(&B::bifurcations, "bifurcations").only(in_json),
                    rows(&B::bifurcations, "bifurcations").only(in_file).maybe(),
                    column("walk", &B::walk, "", "what the walk goes on from")
                        .along("packed")

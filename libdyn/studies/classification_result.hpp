@@ -38,7 +38,7 @@ struct ClassificationResult {
     constexpr auto residual = [](const Result& r) {
       return r.of.is_proven ? std::optional(r.of.residual) : std::nullopt;
     };
-    return std::tuple{
+    return ColumnList{
         column("exponent", &Result::exponents, "1/s", "Lyapunov exponents, descending")
             .along("exponents")
             .only(in_file),

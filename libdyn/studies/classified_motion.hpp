@@ -4,7 +4,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "libbase/column.hpp"
@@ -39,7 +38,7 @@ struct ClassifiedMotion {
 
   static constexpr auto columns() {
     using C = ClassifiedMotion;
-    return std::tuple{
+    return ColumnList{
         column("motion", &C::kind, "", "kind of motion"),
         column("period", &C::period, "",
                "period of a periodic motion [revolutions]; 0: none, or longer"),
@@ -71,7 +70,7 @@ struct MotionSummary {
 
   static constexpr auto columns() {
     using S = MotionSummary;
-    return std::tuple{column("motion", &S::motion, "", "kind of motion"),
+    return ColumnList{column("motion", &S::motion, "", "kind of motion"),
                       column("period_revs", &S::period, "", "period [revolutions]"),
                       column("regime", &S::regime, "", "the strongest of all contacts"),
                       column("lyapunov_max", &S::largest_exponent, "",

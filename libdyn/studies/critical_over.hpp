@@ -16,7 +16,7 @@ struct CriticalOverBranch {
 
   static constexpr auto columns() {
     using B = CriticalOverBranch;
-    return std::tuple{
+    return ColumnList{
         column("whirl", &B::whirl, "", "sense of whirl"),
         column("speed", &B::speed, "rad/s", "undamped critical speed").along("values"),
         column("damped_speed", &B::damped_speed, "rad/s", "damped critical speed").along("values"),
@@ -34,9 +34,9 @@ struct CriticalOver : OverValues {
   static auto& parameter_of(auto& result, std::string_view) { return result.parameter; }
   static constexpr auto columns() {
     using C = CriticalOver;
-    return std::tuple_cat(OverValues::columns(),
-                          std::tuple{rows(&C::branches, "branches").numbered("branch", "branch"),
-                                     rows(&C::gaps, "gaps").maybe().only(Written::in_json)});
+    return joined(OverValues::columns(),
+                  ColumnList{rows(&C::branches, "branches").numbered("branch", "branch"),
+                             rows(&C::gaps, "gaps").maybe().only(Written::in_json)});
   }
 };
 

@@ -27,8 +27,8 @@ struct CurveRow : EndTexts {
   static constexpr auto columns() {
     using C = CurveRow;
     using enum Written;
-    return std::tuple_cat(
-        std::tuple{column("number", &C::number, "", "curve")
+    return joined(
+        ColumnList{column("number", &C::number, "", "curve")
                        .axis()
                        .within(valid::numbers_of("borders"))
                        .only(in_file),
@@ -51,7 +51,7 @@ struct CurvePlace {
 
   static constexpr auto columns() {
     using C = CurvePlace;
-    return std::tuple{
+    return ColumnList{
         column("first", &C::first, unit_of_parameter, "of the first parameter")
             .axis()
             .within(valid::finite),
@@ -78,7 +78,7 @@ struct CurveResult {
   static constexpr auto columns() {
     using C = CurveResult;
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         rows(&C::curves, "borders"), rows(&C::places, "places+").only(in_file),
         column("walk", &C::walk, "", "what the walk goes on from")
             .along("packed_borders")

@@ -34,7 +34,7 @@ struct EndTexts {
 
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("end", &EndTexts::end, "", "why it ends"),
         column("end_kind", &EndTexts::end_kind, "", "what makes it end").only(in_file).maybe(),
         column("end_kind", &EndTexts::kind, "", "null: it goes on").only(in_json),

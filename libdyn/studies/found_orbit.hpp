@@ -50,7 +50,7 @@ struct ShootingGap {
 
   static constexpr auto columns() {
     using G = ShootingGap;
-    return std::tuple{
+    return ColumnList{
         column("failure", &G::failure, "", "of shooting").only(Written::in_json).maybe(),
         column("displacement", &G::displacement, "", "[length scales]").maybe(),
         column("velocity", &G::velocity, "", "[length scales]").maybe(),
@@ -75,7 +75,7 @@ struct OrbitSeries {
   static constexpr auto columns() {
     using S = OrbitSeries;
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("order", &S::orders, "", "frequency over speed").axis("orders").only(in_file),
         column("amplitude", &S::amplitudes, "m, rad",
                "displacement of all points is Re sum amplitude e^(i order phase)")
@@ -117,7 +117,7 @@ struct FoundOrbit {
 
   static constexpr auto columns() {
     using O = FoundOrbit;
-    return std::tuple{
+    return ColumnList{
         column("period_revs", &O::period, "", "revolutions"),
         column("shortest_period_revs", &O::shortest_period, "", "after which it repeats"),
         column("residual", &O::residual, "", "[length scales]"),
@@ -142,7 +142,7 @@ struct RotatingOrbit : AutonomousOrbit {
 
   static constexpr auto columns() {
     using O = RotatingOrbit;
-    return std::tuple{
+    return ColumnList{
         column("period_revs", &O::revolutions, "", "revolutions"),
         column("period", &O::period, "s", "as a time"),
         column("residual", &O::residual, "", "[length scales]"),

@@ -25,7 +25,7 @@ struct MapResult {
   /// Sizes of the dimensions of its columns that no other column has.
   ColumnSizes sizes() const { return {{"exponents", system.states}}; }
   static constexpr auto columns() {
-    return std::tuple{contact_names<MapResult>(), rows(&MapResult::points, "point")};
+    return ColumnList{contact_names<MapResult>(), rows(&MapResult::points, "point")};
   }
 };
 

@@ -27,7 +27,7 @@ struct OverValues {
   static constexpr auto columns() {
     using enum Written;
     using O = OverValues;
-    return std::tuple{column("parameter", &O::path, "", "path of the value").only(in_json),
+    return ColumnList{column("parameter", &O::path, "", "path of the value").only(in_json),
                       column("unit", &O::unit, "", "SI unit of the values").only(in_json),
                       column("value", &O::values, unit_of_parameter, "of the parameter")
                           .axis("values+")
@@ -42,7 +42,7 @@ struct ValueGap {
   std::string why;
 
   static constexpr auto columns() {
-    return std::tuple{column("value", &ValueGap::value, unit_of_parameter, "that is left out"),
+    return ColumnList{column("value", &ValueGap::value, unit_of_parameter, "that is left out"),
                       column("why", &ValueGap::why, "", "why")};
   }
 };

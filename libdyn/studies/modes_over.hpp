@@ -18,7 +18,7 @@ struct ModesOverBranch {
 
   static constexpr auto columns() {
     using B = ModesOverBranch;
-    return std::tuple{
+    return ColumnList{
         column("whirl", &B::whirl, "", "sense of whirl"),
         column("frequency", &B::frequency, "rad/s", "damped natural frequency").along("values"),
         column("log_decrement", &B::log_decrement, "", "logarithmic decrement").along("values"),
@@ -36,7 +36,7 @@ struct ModesOverThreshold {
 
   static constexpr auto columns() {
     using T = ModesOverThreshold;
-    return std::tuple{column("value", &T::value, unit_of_parameter, "threshold of instability"),
+    return ColumnList{column("value", &T::value, unit_of_parameter, "threshold of instability"),
                       column("frequency", &T::frequency, "rad/s", "of the whirl at the threshold"),
                       column("branch", &T::branch, "", "branch that loses its damping")
                           .from_one()
@@ -55,11 +55,10 @@ struct ModesOver : OverValues {
   static auto& parameter_of(auto& result, std::string_view) { return result.parameter; }
   static constexpr auto columns() {
     using M = ModesOver;
-    return std::tuple_cat(
-        OverValues::columns(),
-        std::tuple{rows(&M::branches, "branches").numbered("branch", "branch"),
-                   rows(&M::thresholds, "thresholds").prefixed("threshold_").maybe(),
-                   rows(&M::gaps, "gaps").maybe().only(Written::in_json)});
+    return joined(OverValues::columns(),
+                  ColumnList{rows(&M::branches, "branches").numbered("branch", "branch"),
+                             rows(&M::thresholds, "thresholds").prefixed("threshold_").maybe(),
+                             rows(&M::gaps, "gaps").maybe().only(Written::in_json)});
   }
 };
 

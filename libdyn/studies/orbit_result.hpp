@@ -17,7 +17,7 @@ struct OrbitResult {
 
   static constexpr std::string_view group = "/orbit";
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("multiplier", &OrbitResult::multipliers, "",
                "Floquet multipliers of the period, the largest first")
             .axis("multipliers"),

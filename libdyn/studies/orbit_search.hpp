@@ -33,7 +33,7 @@ struct SearchedOrbit {
 
   static constexpr auto columns() {
     using S = SearchedOrbit;
-    return std::tuple{column("stable", &S::is_stable, "", "whether it attracts"),
+    return ColumnList{column("stable", &S::is_stable, "", "whether it attracts"),
                       column("period_revs", &S::shortest_period, "", "revolutions"),
                       column("starts", &S::starts, "", "that led there"),
                       column(
@@ -53,7 +53,7 @@ struct OrbitSearch {
 
   static constexpr auto columns() {
     using S = OrbitSearch;
-    return std::tuple{column("starts", &S::done, "", "that were tried"),
+    return ColumnList{column("starts", &S::done, "", "that were tried"),
                       column("without_orbit", &S::failed, "", "of these, that led to none"),
                       rows(&S::orbits, "orbits")};
   }

@@ -29,7 +29,7 @@ struct ContactOrbits {
   double fast = 0.0, slow = 0.0;  ///< major semi-axes; NaN where no mode is near
 
   static constexpr auto columns() {
-    return std::tuple{column("name", &ContactOrbits::name, "", "contact"),
+    return ColumnList{column("name", &ContactOrbits::name, "", "contact"),
                       column("fast", &ContactOrbits::fast, "", "of the faster mode"),
                       column("slow", &ContactOrbits::slow, "", "of the slower mode")};
   }
@@ -51,7 +51,7 @@ struct ResonancePlace : InternalResonance {
     constexpr auto found = [](const ResonancePlace& r) {
       return r.is_confirmed ? std::make_optional(r.bouncing) : std::nullopt;
     };
-    return std::tuple{
+    return ColumnList{
         column("speed", &ResonancePlace::speed, "rad/s", "speed of the resonance").axis(),
         column("p", &ResonancePlace::p, "", "of the ratio p:q, of the faster mode")
             .within(valid::from_to(1.0, most_order)),
@@ -91,7 +91,7 @@ struct ResonanceStudy {
 
   static constexpr std::string_view group = "/resonances";
   static constexpr auto columns() {
-    return std::tuple{rows(&ResonanceStudy::places, "resonances").maybe()};
+    return ColumnList{rows(&ResonanceStudy::places, "resonances").maybe()};
   }
 };
 

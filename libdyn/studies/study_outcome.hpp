@@ -21,7 +21,7 @@ struct UnsettledMotions {
 
   static constexpr auto columns() {
     using M = UnsettledMotions;
-    return std::tuple{
+    return ColumnList{
         column("motions", &M::motions, "", "motions that have not settled"),
         column("settle_after_revs", &M::settles_after, "", "revolutions of transient"),
         column("would_settle", &M::would_settle, "", "motions that would settle then")};
@@ -39,7 +39,7 @@ struct StudyOutcome {
 
   static constexpr auto columns() {
     using O = StudyOutcome;
-    return std::tuple{column("resumed", &O::resumed, "", "points that were there already"),
+    return ColumnList{column("resumed", &O::resumed, "", "points that were there already"),
                       column("not_settled", &O::unsettled, "", "motions that have not settled"),
                       column("failure", &O::failure, "", "how many points failed")
                           .only(Written::in_json)

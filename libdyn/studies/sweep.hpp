@@ -35,7 +35,7 @@ struct SweepPoint {
   Portrait portrait{};
 
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column(
             "poincare_x", [](auto& p) -> auto& { return p.portrait.poincare_x; }, "m",
             "x at phase 0, last sections")
@@ -128,8 +128,8 @@ struct SweepResult {
   bool leaves_out(std::string_view column) const;
   static constexpr auto columns() {
     using C = SweepResult;
-    return std::tuple_cat(
-        std::tuple{column("direction", &C::ways, "", "direction").axis("ways+"), contact_names<C>(),
+    return joined(
+        ColumnList{column("direction", &C::ways, "", "direction").axis("ways+"), contact_names<C>(),
                    column("station", &C::stations, "", "station").axis("stations+"),
                    column("order", &C::orders, "", "signed frequency over speed, forward > 0")
                        .axis("orders+")
@@ -139,7 +139,7 @@ struct SweepResult {
                        .axis("sectors")
                        .maybe()},
         probe_label_columns(),
-        std::tuple{column("probe_order", &C::probe_orders, "", "frequency over speed")
+        ColumnList{column("probe_order", &C::probe_orders, "", "frequency over speed")
                        .axis("probe_orders+")
                        .within(valid::finite)
                        .maybe(),
@@ -158,7 +158,7 @@ struct SweepEntry : MotionSummary {
   static constexpr auto columns() {
     using enum Written;
     using E = SweepEntry;
-    return std::tuple{
+    return ColumnList{
         column("value", &E::value, "", "of the parameter"),
         column("motion", &E::motion, "", "kind of motion"),
         column("period_revs", &E::period, "", "period [revolutions]"),

@@ -17,7 +17,7 @@ namespace whirl::inline dyn {
 struct CircleRow : CirclePoint {
   static constexpr auto columns() {
     using C = CircleRow;
-    return std::tuple{column("value", &C::value, unit_of_parameter, "the parameter's")
+    return ColumnList{column("value", &C::value, unit_of_parameter, "the parameter's")
                           .axis()
                           .within(valid::finite),
                       column("rotation", &C::rotation, "", "turns of the circle per revolution")
@@ -68,7 +68,7 @@ struct TorusResult {
     using T = TorusResult;
     using enum Written;
     constexpr double most_revolutions = 1e9;
-    return std::tuple{
+    return ColumnList{
         column("angle", &T::angles, "rad", "angle around the circle").axis("angles").only(in_file),
         column("displacement", &T::displacement, "m, rad", "displacement of all points at phase 0")
             .along("angles full")

@@ -18,7 +18,7 @@ struct UnbalanceOverStation {
 
   static constexpr auto columns() {
     using S = UnbalanceOverStation;
-    return std::tuple{
+    return ColumnList{
         column("station", &S::station, "", "station").axis(),
         column("largest", &S::largest, "m", "largest major semi-axis").along("values"),
         column("largest_speed", &S::largest_speed, "rad/s", "speed of the largest one")
@@ -36,9 +36,9 @@ struct UnbalanceOverProbe : ProbeLabel {
 
   static constexpr auto columns() {
     using P = UnbalanceOverProbe;
-    return std::tuple_cat(
+    return joined(
         ProbeLabel::columns(),
-        std::tuple{
+        ColumnList{
             column("largest", &P::largest, "m", "largest reading, peak to peak").along("values"),
             column("largest_speed", &P::largest_speed, "rad/s", "speed of the largest one")
                 .along("values"),
@@ -54,7 +54,7 @@ struct UnbalanceOverPeak : StationPeak {
 
   static constexpr auto columns() {
     using P = UnbalanceOverPeak;
-    return std::tuple{
+    return ColumnList{
         column("value", &P::value, unit_of_parameter, "of the parameter"),
         column("speed", &P::speed, "rad/s", "speed of a peak"),
         column("amplitude", &P::amplitude, "m", "major semi-axis there"),
@@ -76,13 +76,12 @@ struct UnbalanceOver : OverValues {
   static constexpr auto columns() {
     using U = UnbalanceOver;
     using enum Written;
-    return std::tuple_cat(
-        OverValues::columns(),
-        std::tuple{rows(&U::stations, "stations+"),
-                   rows(&U::probes, "probes").prefixed("probe_").maybe().only(in_file),
-                   rows(&U::probes, "probes").maybe().only(in_json),
-                   rows(&U::peaks, "peaks").prefixed("peak_").maybe(),
-                   rows(&U::gaps, "gaps").maybe().only(in_json)});
+    return joined(OverValues::columns(),
+                  ColumnList{rows(&U::stations, "stations+"),
+                             rows(&U::probes, "probes").prefixed("probe_").maybe().only(in_file),
+                             rows(&U::probes, "probes").maybe().only(in_json),
+                             rows(&U::peaks, "peaks").prefixed("peak_").maybe(),
+                             rows(&U::gaps, "gaps").maybe().only(in_json)});
   }
 };
 

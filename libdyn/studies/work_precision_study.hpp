@@ -46,7 +46,7 @@ struct WorkPrecisionStudy {
     constexpr auto growth = [](const Study& s) { return s.reference.growth; };
     constexpr auto counted = [](const Study& s) { return s.options.revolutions; };
     constexpr auto discard = [](const Study& s) { return s.options.discard; };
-    return std::tuple{
+    return ColumnList{
         column("method", methods, "", "method").axis("methods+").only(in_file),
         column("tolerance", tolerances, "", "tolerance of a step")
             .axis("tolerances+")

@@ -29,7 +29,7 @@ struct ClearanceUse {
       for (const SpeedRange& r : use.beyond) all.push_back({r.first, r.last});
       return all;
     };
-    return std::tuple{column("name", &ClearanceUse::name, "", "whose clearance it is"),
+    return ColumnList{column("name", &ClearanceUse::name, "", "whose clearance it is"),
                       column("clearance", &ClearanceUse::clearance, "m", "clearance"),
                       column("largest", &ClearanceUse::largest, "m", "largest distance"),
                       column("largest_at", &ClearanceUse::at, "rad/s", "where it is that far"),
@@ -47,7 +47,7 @@ struct RunningClearance {
 
   static constexpr auto columns() {
     using R = RunningClearance;
-    return std::tuple{column("name", &R::name, "", "whose clearance it is"),
+    return ColumnList{column("name", &R::name, "", "whose clearance it is"),
                       column("clearance", &R::clearance, "m", "clearance"),
                       column("distance", &R::distance, "m", "of the rotor at rest from its middle"),
                       column("left", &R::left, "m", "what is left of it")};

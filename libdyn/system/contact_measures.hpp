@@ -46,7 +46,7 @@ struct ContactDoing {
 
   static constexpr auto columns() {
     using C = ContactDoing;
-    return std::tuple{column("regime", &C::regime, "", "regime of a contact"),
+    return ColumnList{column("regime", &C::regime, "", "regime of a contact"),
                       column("duty", &C::duty, "", "share of time in touch"),
                       column("impacts_per_rev", &C::impacts_per_rev, "", "impacts per revolution"),
                       column("sticking", &C::sticking, "", "share of time sticking"),

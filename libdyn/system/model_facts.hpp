@@ -29,7 +29,7 @@ struct ModelFacts {
 
   static constexpr auto columns() {
     using F = ModelFacts;
-    return std::tuple{
+    return ColumnList{
         column("mass", &F::mass, "kg", "mass of the rotor"),
         column("length", &F::length, "m", "length of the shaft"),
         column("nodes", &F::nodes, "", "nodes"),

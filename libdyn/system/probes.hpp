@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "libbase/column.hpp"
@@ -28,7 +27,7 @@ struct ProbeLabel {
 
   static constexpr auto columns() {
     using enum Written;
-    return std::tuple{
+    return ColumnList{
         column("name", &ProbeLabel::name, "", "probe").axis(),
         column("angle", &ProbeLabel::angle, "rad", "direction of a probe, from +x towards +y")
             .only(in_file),
@@ -53,7 +52,7 @@ struct ProbeLabels {
 /// Columns of the labels of a result that has them as its member `probes`.
 constexpr auto probe_label_columns() {
   using enum Written;
-  return std::tuple{column(
+  return ColumnList{column(
                         "probe_name", [](auto& r) -> auto& { return r.probes.names; }, "", "probe")
                         .axis("probes")
                         .only(in_file)

@@ -19,7 +19,7 @@ struct PlaneCoefficients {
 
   static constexpr auto columns() {
     using P = PlaneCoefficients;
-    return std::tuple{column("xx", &P::xx, "", "force along x by a motion along x"),
+    return ColumnList{column("xx", &P::xx, "", "force along x by a motion along x"),
                       column("xy", &P::xy, "", "force along x by a motion along y"),
                       column("yx", &P::yx, "", "force along y by a motion along x"),
                       column("yy", &P::yy, "", "force along y by a motion along y")};
@@ -48,7 +48,7 @@ struct RunningFilm {
   static constexpr auto columns() {
     using enum Written;
     using R = RunningFilm;
-    return std::tuple{
+    return ColumnList{
         column("name", &R::name, "", "oil film").axis(),
         column("eccentricity", &R::eccentricity, "", "of the journal over the clearance"),
         column("attitude", &R::attitude, "rad", "from the load to the journal, > 0 about +z")
@@ -82,7 +82,7 @@ struct RunningFilms {
   std::vector<RunningFilm> films;
 
   static constexpr std::string_view group = "/films";
-  static constexpr auto columns() { return std::tuple{rows(&RunningFilms::films, "films")}; }
+  static constexpr auto columns() { return ColumnList{rows(&RunningFilms::films, "films")}; }
 };
 
 /// A journal at a place, a displacement from the middle of its bearing [m].

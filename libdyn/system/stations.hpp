@@ -27,7 +27,7 @@ struct PointNames {
 
   static constexpr std::string_view group = "/points";
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("z", &PointNames::z, "m", "position of the nodes along the shaft")
             .along("nodes+")
             .within(valid::finite)

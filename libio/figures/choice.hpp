@@ -17,7 +17,7 @@ struct DrawableKind {
   std::vector<std::string> variants;  ///< stations, contacts or planes; empty: there is one figure
 
   static constexpr auto columns() {
-    return std::tuple{column("kind", &DrawableKind::name, "", "kind"),
+    return ColumnList{column("kind", &DrawableKind::name, "", "kind"),
                       column("variants", &DrawableKind::variants, "", "of several of a kind")};
   }
 };
@@ -27,7 +27,7 @@ struct DrawableKinds {
   std::vector<DrawableKind> kinds;
   std::vector<std::string> problems;  ///< of kinds that cannot be drawn, a sentence each
 
-  static constexpr auto columns() { return std::tuple{rows(&DrawableKinds::kinds, "kinds")}; }
+  static constexpr auto columns() { return ColumnList{rows(&DrawableKinds::kinds, "kinds")}; }
 };
 DrawableKinds drawable_kinds(const ResultView& result);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <functional>
 #include <iterator>
+#include <ranges>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -122,24 +123,25 @@ constexpr auto make_any_columns(std::index_sequence<I...>) {
 /// All columns of a struct.
 template <HasColumns T>
 inline constexpr auto any_columns =
-    make_any_columns<T>(std::make_index_sequence<std::tuple_size_v<decltype(T::columns())>>());
+    make_any_columns<T>(std::make_index_sequence<decltype(T::columns())::size>());
 
 /// What a column gives of its owner.
 template <HasColumns T, std::size_t I, class Owner>
 decltype(auto) of_owner(Owner* owner) {
   using Struct = std::conditional_t<std::is_const_v<Owner>, const T, T>;
-  return std::invoke(std::get<I>(columns_of<T>).member, *static_cast<Struct*>(owner));
+  return std::invoke(lists::at<I>(columns_of<T>).member, *static_cast<Struct*>(owner));
 }
 
 template <HasColumns T, std::size_t I>
 constexpr AnyColumn any_rows() {
-  constexpr const auto& c = std::get<I>(columns_of<T>);
+  constexpr const auto& c = lists::at<I>(columns_of<T>);
   using Member = std::remove_cvref_t<decltype(c.member)>;
   using Row = RowOf<T, Member>;
   AnyColumn any;
   any.rows = c;
   any.is_rows = true;
-  if constexpr (HasColumns<Row>) {  // points of studies have their own ways
+  // points of studies have their own ways
+  if constexpr (HasColumns<Row> && std::ranges::contiguous_range<ColumnValue<T, Member>>) {
     any.of_row = any_columns<Row>;
     any.row_size = sizeof(Row);
     any.give_rows = [](const void* owner, const AnyColumn::ToRows& to) {
@@ -159,7 +161,7 @@ constexpr AnyColumn any_rows() {
 
 template <HasColumns T, std::size_t I>
 constexpr AnyColumn any_column() {
-  constexpr const auto& c = std::get<I>(columns_of<T>);
+  constexpr const auto& c = lists::at<I>(columns_of<T>);
   if constexpr (is_rows_column<std::remove_cvref_t<decltype(c)>>) {
     return any_rows<T, I>();
   } else {

@@ -41,7 +41,7 @@ struct StudyStatus {
 
   static constexpr auto columns() {
     using S = StudyStatus;
-    return std::tuple{column("file", &S::file, "", "result file"),
+    return ColumnList{column("file", &S::file, "", "result file"),
                       column("verb", &S::verb, "", "that computes it"),
                       column("done", &S::done, "", "points that are computed"),
                       column("points", &S::points, "", "of all"),

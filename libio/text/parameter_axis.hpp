@@ -37,7 +37,7 @@ struct ParameterAxis {
 
   static constexpr auto columns() {
     using A = ParameterAxis;
-    return std::tuple{column("parameter", &A::path, "", "path of the value in the model"),
+    return ColumnList{column("parameter", &A::path, "", "path of the value in the model"),
                       column("unit", &A::unit, "", "SI unit of the values"),
                       column("values", &A::values, "", "that it takes")};
   }

@@ -26,7 +26,7 @@ struct Row {
   double twice() const { return 2.0 * speed; }
 
   static constexpr auto columns() {
-    return std::tuple{column("speed", &Row::speed, "rad/s", "a speed").within(valid::nonnegative),
+    return ColumnList{column("speed", &Row::speed, "rad/s", "a speed").within(valid::nonnegative),
                       column("color", &Row::color, "", "a choice"),
                       column("partner", &Row::partner, "", "number of a row").from_one(),
                       column("value", &Row::value, "m", "a complex number"),
@@ -46,7 +46,7 @@ struct Result {
 
   static constexpr std::string_view group = "/thing";
   static constexpr auto columns() {
-    return std::tuple{
+    return ColumnList{
         column("place", &Result::places, "m", "places").axis("places+"),
         column("share", &Result::share, "", "a number"),
         column("title", &Result::title, "", "a text"),
@@ -163,7 +163,7 @@ struct Place {
   std::vector<double> over;
 
   static constexpr auto columns() {
-    return std::tuple{column("value", &Place::value, unit_of_parameter, "the parameter's").axis(),
+    return ColumnList{column("value", &Place::value, unit_of_parameter, "the parameter's").axis(),
                       column("reason", &Place::reason, "", "a text"),
                       column("partner", &Place::partner, "", "a number"),
                       column("over", &Place::over, "N", "over names").along("names").maybe()};
@@ -179,7 +179,7 @@ struct Walk {
   static constexpr std::string_view group = "/walk";
   static auto& parameter_of(auto& result, std::string_view) { return result.parameter; }
   static constexpr auto columns() {
-    return std::tuple{column("count", &Walk::count, "", "may be nothing").maybe(),
+    return ColumnList{column("count", &Walk::count, "", "may be nothing").maybe(),
                       column("name", &Walk::names, "", "names").axis("names+").maybe(),
                       rows(&Walk::places, "places")};
   }

@@ -9,7 +9,7 @@ namespace whirl::grid_record_test {
 struct Row {
   double x = 0.0;  // [m]
 
-  static constexpr auto columns() { return std::tuple{column("x", &Row::x, "m", "place")}; }
+  static constexpr auto columns() { return ColumnList{column("x", &Row::x, "m", "place")}; }
 };
 
 // the last axis runs fastest, as in ParameterGrid

@@ -25,7 +25,7 @@ struct Row {
   double twice() const { return 2.0 * duty; }
 
   static constexpr auto columns() {
-    return std::tuple{column("name", &Row::name, "", "name"),
+    return ColumnList{column("name", &Row::name, "", "name"),
                       column("speed", &Row::speed, "rad/s", "speed"),
                       column("radius", &Row::radius, "m", "radius"),
                       column("duty", &Row::duty, "", "share"),
