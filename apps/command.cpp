@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <new>
 
-#include "apps/arithmetic.hpp"
 #include "apps/program.hpp"
 #include "libbase/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
@@ -88,13 +87,8 @@ void require_agreed(const std::string& asked) {
 
 int execute(const Verb& verb, CommandLine& line) {
   Invocation& call = line.call;
-  call.output = read_options<OutputOptions>(call.given);
-  if (!call.ranks) {
-    adopt_arithmetic(call.text("isa"));
-  } else if (!call.model_text.empty()) {
-    require_agreed(call.text("isa"));
-  }
-  require_free_places(call.files());
+  call.prepare();
+  if (call.ranks && !call.model_text.empty()) require_agreed(call.text("isa"));
   const std::vector<BareSpeed> bare = bare_speeds(speed_options(line));
   if (!call.output.quiet) {
     for (const BareSpeed& s : bare) fmt::print(stderr, "whirl: warning: {}\n", s.warning());

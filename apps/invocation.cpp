@@ -2,10 +2,12 @@
 
 #include <filesystem>
 
+#include "apps/arithmetic.hpp"
 #include "apps/program.hpp"
 #include "apps/verb.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libio/text/interrupt.hpp"
 
 namespace whirl::inline cli {
 
@@ -21,6 +23,7 @@ std::string Invocation::text(std::string_view option) const {
 
 Model Invocation::model() const {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (made) return *made;
   if (ranks && !ranks->leads()) return parse_model(ranks->share({}), file, {}, folder);
   Model model =
       model_text.empty() ? read_model(file, sets) : parse_model(model_text, file, sets, folder);
@@ -76,11 +79,36 @@ CommandFiles Invocation::files() const {
           .is_forced = output.force};
 }
 
+std::unique_ptr<ResultWriter> Invocation::begun(std::unique_ptr<ResultWriter> to,
+                                                const Model& model) const {
+  write_origin(*to, {parts(), line, version}, model);
+  return to;
+}
+
 std::unique_ptr<ResultWriter> Invocation::result_file(const Model& model) const {
+  if (!output.out) return kept_file(model);
+  return begun(std::make_unique<ResultWriter>(out_file(), result_replaces(), kept), model);
+}
+
+std::unique_ptr<ResultWriter> Invocation::kept_file(const Model& model) const {
+  return kept ? begun(std::make_unique<ResultWriter>(*kept), model) : nullptr;
+}
+
+std::unique_ptr<ResultWriter> Invocation::saved_file(const Model& model) const {
   if (!output.out) return nullptr;
-  auto writer = std::make_unique<ResultWriter>(out_file(), result_replaces());
-  write_origin(*writer, {parts(), line, version}, model);
-  return writer;
+  return begun(std::make_unique<ResultWriter>(out_file(), result_replaces()), model);
+}
+
+void Invocation::prepare() {
+  output = read_options<OutputOptions>(given);
+  if (!ranks) adopt_arithmetic(text("isa"));  // ranks have agreed on one
+  require_free_places(files());
+}
+
+std::function<bool()> Invocation::stop_asked() const {
+  if (is_stopped) return is_stopped;
+  install_interrupt_handler();
+  return is_interrupted;
 }
 
 }  // namespace whirl::inline cli

@@ -1,6 +1,7 @@
 #pragma once
 /// One call of a verb, and what comes of it.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,7 +18,8 @@
 
 namespace whirl::inline io {
 class ResultWriter;
-}
+struct KeptResult;
+}  // namespace whirl::inline io
 
 namespace whirl::inline cli {
 
@@ -55,6 +57,12 @@ class Invocation {
   /// Files that a study takes its points from, instead of computing any.
   std::optional<std::vector<std::string>> joins;
 
+  // of a program that calls verbs itself; left out, they are for a terminal
+  std::shared_ptr<const Model> made;  ///< the model, if there is one already
+  KeptResult* kept = nullptr;         ///< takes what the file of --out holds
+  std::function<void(const std::string& what, long done, long total)> progress{};
+  std::function<bool()> is_stopped{};
+
   /// What is given of an option that several verbs have, for what all verbs do alike.
   std::vector<std::string> values(std::string_view option) const;
   /// The same of one that is given once; empty: it is not.
@@ -79,8 +87,23 @@ class Invocation {
   /// The files that it reads and writes.
   CommandFiles files() const;
 
-  /// The file of --out with the facts of this call in it, or nothing.
+  /// Whether somebody wants what a result file holds.
+  bool wants_result() const { return output.out.is_given || kept; }
+  /// The file of --out, and what is kept beside it, with the facts of this call in it; or nothing.
   std::unique_ptr<ResultWriter> result_file(const Model& model) const;
+  /// Only what is kept, likewise.
+  std::unique_ptr<ResultWriter> kept_file(const Model& model) const;
+  /// Only the file, likewise.
+  std::unique_ptr<ResultWriter> saved_file(const Model& model) const;
+
+  /// Reads the options that all verbs have, and adopts what they say for the whole process.
+  /// @throws ModelError, FileError  for a wrong one, and for places that are not free
+  void prepare();
+  /// Tells whether to stop. Where nobody else is asked, Ctrl-C asks for it from now on.
+  std::function<bool()> stop_asked() const;
+
+ private:
+  std::unique_ptr<ResultWriter> begun(std::unique_ptr<ResultWriter> to, const Model& model) const;
 };
 
 /// What a verb found.

@@ -5,7 +5,6 @@
 #include "apps/verbs/simulation.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/work_precision.hpp"
-#include "libio/text/interrupt.hpp"
 #include "libio/text/parameter_axis.hpp"
 #include "libio/texts/work_precision_text.hpp"
 
@@ -46,10 +45,9 @@ Report run_bench(const Invocation& call, const BenchVerbOptions& asked) {
   const auto file = call.result_file(model);
   const WorkPrecisionOptions options = bench_options(asked);
   const Scene scene = make_scene(model);
-  install_interrupt_handler();
   const WorkPrecisionStudy study = work_precision_study(
       scene.contacts, starting_state(asked.from, model, scene), options,
-      {.progress = progress_of(call, "measuring"), .is_stopped = is_interrupted});
+      {.progress = progress_of(call, "measuring"), .is_stopped = call.stop_asked()});
 
   Report report = begin_report(call, model, record_of(study));
   report.status = study.is_whole ? 0 : 130;

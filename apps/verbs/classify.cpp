@@ -1,7 +1,6 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/options.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libio/text/interrupt.hpp"
 #include "libio/texts/classification_text.hpp"
 
 namespace whirl::inline cli {
@@ -23,10 +22,10 @@ ClassifyOptions classify_options(const Invocation& call, const ClassifyVerbOptio
                           .revolutions = *asked.revolutions,
                           .exponents = *asked.revolutions,
                           .tolerance = *asked.tolerance};
-  options.watch = [progress = progress_of(call, "classifying"),
+  options.watch = [progress = progress_of(call, "classifying"), is_stopped = call.stop_asked(),
                    total = options.discard + options.revolutions](long done) {
     progress(done, total);
-    return !is_interrupted();
+    return !is_stopped();
   };
   return options;
 }
@@ -37,7 +36,6 @@ Report run_classify(const Invocation& call, const ClassifyVerbOptions& asked) {
   const auto file = call.result_file(model);
   const ClassifyOptions options = classify_options(call, asked);
   const Scene scene = make_scene(model);
-  install_interrupt_handler();
   const Classification c =
       classify(scene.contacts, starting_state(asked.from, model, scene), options);
   const ClassificationResult result{c, scene.contacts.period()};

@@ -18,6 +18,11 @@ Report begin_report(const Invocation& call, const Model& model, const Record& re
 }
 
 std::function<void(long, long)> progress_of(const Invocation& call, std::string what) {
+  if (call.progress) {
+    return [show = call.progress, what = std::move(what)](long done, long total) {
+      show(what, done, total);
+    };
+  }
   return [shown = std::make_shared<std::optional<ProgressLine>>(), what = std::move(what),
           shows = !call.output.quiet](long done, long total) {
     if (!*shown) shown->emplace(what, total, shows);

@@ -40,10 +40,10 @@ Report search_orbits(const Invocation& call, const OrbitVerbOptions& asked) {
   const Model model = call.model();
   require_speed(model);
   const Scene scene = make_scene(model);
-  install_interrupt_handler();
-  const OrbitSearch search = search_orbits(
-      scene, start_state(model, scene, nullptr), options,
-      {.progress = progress_of(call, "starts"), .is_stopped = is_interrupted, .ranks = call.ranks});
+  const OrbitSearch search = search_orbits(scene, start_state(model, scene, nullptr), options,
+                                           {.progress = progress_of(call, "starts"),
+                                            .is_stopped = call.stop_asked(),
+                                            .ranks = call.ranks});
   Report report =
       orbit_report(call, model,
                    fmt::format("Orbits of {} revolution{} from {} random starts", options.period,

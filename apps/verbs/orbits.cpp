@@ -33,13 +33,12 @@ BranchParameters asked_parameters(const AlongVerbOptions& options, const Model& 
 Trajectory after_transient(const Invocation& call, const SettledVerbOptions& options,
                            const Option<std::string>& from, const Model& model,
                            const Scene& scene) {
-  install_interrupt_handler();
   const bool goes_on = from && !options.discard.is_given;
   return run_transient(scene, starting_state(from, model, scene),
                        {.revolutions = goes_on ? 0 : *options.discard,
                         .tolerance = *options.tolerance,
                         .progress = progress_of(call, "going through the transient"),
-                        .is_stopped = is_interrupted});
+                        .is_stopped = call.stop_asked()});
 }
 
 Report orbit_report(const Invocation& call, const Model& model, const std::string& what) {

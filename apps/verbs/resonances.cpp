@@ -7,7 +7,6 @@
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
-#include "libio/text/interrupt.hpp"
 #include "libio/texts/resonance_text.hpp"
 
 namespace whirl::inline cli {
@@ -43,11 +42,10 @@ Report run_resonances(const Invocation& call, const ResonancesVerbOptions& asked
   const Assembler assembler(linear_structure(model));
   const ResonanceOptions options = resonance_options(asked, model, study_threads(call));
   const auto file = call.result_file(model);
-  if (options.confirms) install_interrupt_handler();
   const ResonanceStudy study =
       resonance_study(model, assembler, options,
                       {.progress = progress_of(call, "looking for bouncing motions"),
-                       .is_stopped = is_interrupted,
+                       .is_stopped = options.confirms ? call.stop_asked() : nullptr,
                        .ranks = call.ranks});
   Report report = begin_report(call, model, record_of(study));
   report.status = study.is_whole ? 0 : 130;

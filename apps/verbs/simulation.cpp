@@ -2,7 +2,6 @@
 
 #include "apps/verbs/common.hpp"
 #include "libdyn/studies/travel.hpp"
-#include "libio/text/interrupt.hpp"
 
 namespace whirl::inline cli {
 
@@ -38,12 +37,11 @@ Run run_simulation(const Invocation& call, const Model& model,
                                       .integration = {.tolerance = *options.tolerance}},
                        .method = options.method.value_or(""),
                        .stations = options.stations.value_or(""),
-                       .is_written = call.output.out.is_given,
+                       .is_written = call.wants_result(),
                        .progress = progress_of(call, "simulating"),
-                       .is_stopped = is_interrupted};
+                       .is_stopped = call.stop_asked()};
   Model started = model;
   started.start = start_of(options.from, model);
-  install_interrupt_handler();
   return run_model(started, run, earlier_end(started.start));
 }
 

@@ -31,7 +31,10 @@ int study_threads(const Invocation& call) {
 StudyKeeping study_keeping(const Invocation& call, const Model& model,
                            const KeptVerbOptions& options, std::string what,
                            std::vector<std::string> notes) {
-  install_interrupt_handler();
+  const auto with_notes = [report = Report{.notes = std::move(notes)}](auto file) {
+    if (file) write_notes(*file, report);
+    return file;
+  };
   const Stripe stripe = call.stripe();
   const bool leads = !call.ranks || call.ranks->leads();  // others have no file
   if (leads && !stripe.is_all() && !call.output.out) {
@@ -45,14 +48,11 @@ StudyKeeping study_keeping(const Invocation& call, const Model& model,
                     .version = version,
                     .start_file = start_of(options.from, model).file,
                     .start = earlier_start(options.from, model, call.ranks)},
-          .begin =
-              [&call, &model, report = Report{.notes = std::move(notes)}] {
-                auto file = call.result_file(model);
-                write_notes(*file, report);
-                return file;
-              },
+          .begin = [=, &call, &model] { return with_notes(call.saved_file(model)); },
+          .begin_kept = [=, &call, &model] { return with_notes(call.kept_file(model)); },
           .progress = progress_of(call, std::move(what)),
-          .is_stopped = [computes = !call.joins] { return !computes || is_interrupted(); },
+          .is_stopped = [computes = !call.joins,
+                         stops = call.stop_asked()] { return !computes || stops(); },
           .ranks = call.ranks,
           .stripe = stripe};
 }

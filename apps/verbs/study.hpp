@@ -9,7 +9,6 @@
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libio/results/kept_study.hpp"
-#include "libio/text/interrupt.hpp"
 
 namespace whirl::inline cli {
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "libdyn/system/stations.hpp"
@@ -105,6 +106,19 @@ std::vector<std::string> coordinate_names(const DofMap& dofs, const Model& model
   return names;
 }
 
+std::vector<double> coordinate_places(const DofMap& dofs, const Model& model,
+                                      const Assembler& assembler) {
+  const Vec z = point_names(model, assembler).z;
+  std::vector<double> places(static_cast<std::size_t>(dofs.size()), std::nan(""));
+  for (int q = 0; q < dofs.size(); ++q) {
+    double& at = places[static_cast<std::size_t>(q)];
+    for (Sparse::InnerIterator it(dofs.T, q); it && std::isnan(at); ++it) {
+      if (it.row() < 4 * dofs.nodes) at = z(it.row() / 4);
+    }
+  }
+  return places;
+}
+
 std::vector<fs::path> write_matrix_market(const fs::path& stem, const Model& model,
                                           const Assembler& assembler, double Omega,
                                           Replaces replaces) {
@@ -116,13 +130,10 @@ std::vector<fs::path> write_matrix_market(const fs::path& stem, const Model& mod
                  replaces_own(files.back(), mtx_head, replaces));
   }
   const std::vector<std::string> names = coordinate_names(system.dofs, model);
-  const Vec z = point_names(model, assembler).z;
+  const std::vector<double> places = coordinate_places(system.dofs, model, assembler);
   std::string table(dofs_head);
   for (std::size_t q = 0; q < names.size(); ++q) {
-    std::string at;
-    for (Sparse::InnerIterator it(system.dofs.T, static_cast<int>(q)); it && at.empty(); ++it) {
-      if (it.row() < 4 * system.dofs.nodes) at = fmt::format("{}", z(it.row() / 4));
-    }
+    const std::string at = std::isnan(places[q]) ? "" : fmt::format("{}", places[q]);
     table += fmt::format("{},{},{}\n", q + 1, csv_quoted(names[q]), at);
   }
   files.emplace_back(stem.string() + "_dofs.csv");

@@ -15,6 +15,10 @@ namespace whirl::inline io {
 /// them together.
 std::vector<std::string> coordinate_names(const DofMap& dofs, const Model& model);
 
+/// Where each of them is, that of a body or of an internal shape function NaN [m].
+std::vector<double> coordinate_places(const DofMap& dofs, const Model& model,
+                                      const Assembler& assembler);
+
 /// Writes STEM_M.mtx, STEM_C.mtx, STEM_G.mtx, STEM_K.mtx (Matrix Market, coordinate format) and
 /// STEM_dofs.csv, a line per coordinate.
 ///

@@ -401,6 +401,31 @@ void set_value(ConfigNode& root, std::string_view assignment) {
   }
 }
 
+const ConfigNode& value_at(ConfigNode& root, std::string_view asked) {
+  const std::string path(asked);
+  ConfigNode* node = &root;
+  for (const std::string& part : split_path(path)) {
+    if (node->kind == ConfigNode::Kind::array) {
+      node = &element(*node, part, path, {});
+      continue;
+    }
+    ConfigNode* const next = node->find(part);
+    if (next) {
+      node = next;
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const auto& [key, value] : node->entries) names.push_back(key);
+    const auto near = nearest(part, names);
+    throw ModelError({}, path,
+                     near ? fmt::format("is not in the model; did you mean \"{}\"?", *near)
+                     : names.empty() ? std::string("is not in the model")
+                                     : fmt::format("is not in the model; there are \"{}\"",
+                                                   fmt::join(names, "\", \"")));
+  }
+  return *node;
+}
+
 std::string to_toml(const ConfigNode& root) {
   std::string out;
   write_table(root, "", out);

@@ -53,6 +53,11 @@ ConfigNode parse_toml(std::string_view text, const std::string& file);
 ///                     parts
 void set_value(ConfigNode& root, std::string_view assignment);
 
+/// The value at a path as set_value takes one.
+///
+/// @throws ModelError  if there is none, saying what is there instead
+const ConfigNode& value_at(ConfigNode& root, std::string_view path);
+
 /// A text between quotation marks, as TOML has it.
 std::string toml_text(std::string_view text);
 /// A key: bare, if it may be.

@@ -1,12 +1,15 @@
 #pragma once
 /// Result files: self-describing HDF5, always whole.
 
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "libbase/linalg.hpp"
@@ -24,6 +27,25 @@ struct DatasetInfo {
 /// What an object of a file holds.
 enum class ObjectKind { group, real, integer, complex, text, other };
 
+/// What a result file would hold, kept in memory instead.
+struct KeptResult {
+  struct Dataset {
+    std::string path;
+    /// The last index runs fastest.
+    std::variant<std::vector<double>, std::vector<int>, std::vector<Complex>,
+                 std::vector<std::string>>
+        values;
+    std::vector<Eigen::Index> shape;
+    DatasetInfo info;
+  };
+  struct Attribute {
+    std::string object, name;
+    std::variant<std::string, double, int> value;
+  };
+  std::vector<Dataset> datasets;      ///< in the order of their writing
+  std::vector<Attribute> attributes;  ///< likewise, without those that `info` says
+};
+
 /// A dataset of numbers that is written block by block. Every member throws as ResultWriter.
 class DatasetBlocks {
  public:
@@ -38,17 +60,20 @@ class DatasetBlocks {
 
  private:
   friend class ResultWriter;
-  DatasetBlocks(std::filesystem::path place, std::string path, std::int64_t id, std::size_t count)
-      : place_(std::move(place)), path_(std::move(path)), id_(id), count_(count) {}
+  DatasetBlocks(std::filesystem::path place, std::string path, std::size_t count)
+      : place_(std::move(place)), path_(std::move(path)), count_(count) {}
+  void write(std::span<const double> values);
 
   std::filesystem::path place_;  ///< of the file
   std::string path_;
-  std::int64_t id_;        ///< HDF5's handle
   std::size_t count_ = 0;  ///< of all numbers
   std::size_t next_ = 0;
+  std::int64_t id_ = -1;  ///< HDF5's handle; -1: there is no file, or it is closed
+  KeptResult* kept_ = nullptr;
+  std::size_t kept_number_ = 0;  ///< of the dataset there
 };
 
-/// Writes a result file beside its place; commit() puts it there whole.
+/// Writes a result file beside its place, where commit() puts it whole; or keeps what it would hold.
 ///
 /// Objects are named by absolute paths, "/trajectory/x"; groups are made on the way. Datasets above
 /// 64 kB are compressed. The same calls write the same bytes. Every member throws FileError, which
@@ -56,7 +81,11 @@ class DatasetBlocks {
 class ResultWriter {
  public:
   /// @throws FileError  as FileReplacement
-  explicit ResultWriter(const std::filesystem::path& path, Replaces what = Replaces::own_results);
+  /// @param kept  takes the same; null: nobody does
+  explicit ResultWriter(const std::filesystem::path& path, Replaces what = Replaces::own_results,
+                        KeptResult* kept = nullptr);
+  /// Without a file.
+  explicit ResultWriter(KeptResult& kept) : kept_(&kept) {}
   /// Gives up what was written, unless it was committed.
   ~ResultWriter();
   ResultWriter(const ResultWriter&) = delete;
@@ -87,6 +116,8 @@ class ResultWriter {
   /// Begins one whose numbers come block by block, real or integer ones: several may be open at a time.
   DatasetBlocks dataset_blocks(const std::string& path, ObjectKind kind,
                                const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
+  /// All that was kept of another one.
+  void write(const KeptResult& kept);
 
   /// Brings the file to the disk and to its place, with a checksum behind what HDF5 reads; nothing
   /// can be written after it.
@@ -100,11 +131,16 @@ class ResultWriter {
                       const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   void write(const std::string& path, std::int64_t type, const void* values,
              const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
+  /// @param values  with so many elements as the shape says
+  template <class Value>
+  void write_or_keep(const std::string& path, std::int64_t type, const Value* values,
+                     const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   void write_attribute(const std::string& object, const std::string& name, std::int64_t type,
                        const void* value);
 
-  FileReplacement file_;
-  std::int64_t id_ = -1;  ///< HDF5's handle; -1 once closed
+  std::optional<FileReplacement> file_{};
+  KeptResult* kept_ = nullptr;
+  std::int64_t id_ = -1;  ///< HDF5's handle; -1: there is no file, or it is closed
 };
 
 /// Some of the numbers along a dimension.
@@ -160,6 +196,9 @@ class ResultReader {
   std::vector<int> integers(const std::string& path) const;
   std::vector<std::string> strings(const std::string& path) const;
 
+  /// Names of the attributes of a dataset or group, in the order of the alphabet; those that HDF5 keeps
+  /// axes in are left out.
+  std::vector<std::string> attributes(const std::string& object) const;
   /// Names of the members of a group, in the order of the alphabet.
   std::vector<std::string> list(const std::string& group) const;
 

@@ -22,6 +22,8 @@ namespace whirl::inline io {
 struct StudyKeeping {
   StudyPlace place{};
   StudyFile::Begin begin{};  ///< makes its file, with the facts of the call
+  /// Makes what keeps the study in memory when it has run, likewise; it may give nothing.
+  StudyFile::Begin begin_kept{};
   std::function<void(long done, long total)> progress{};  ///< as of Monitor
   std::function<bool()> is_stopped{};                     ///< likewise
   const Ranks* ranks = nullptr;                           ///< likewise
@@ -68,6 +70,10 @@ Study run_kept(const StudyKeeping& keeping, const KeptStudy<Study>& kept, Study 
   }
   Study study = kept.run(std::move(begun), monitor);
   file.finish();
+  if (const auto to = keeping.begin_kept ? keeping.begin_kept() : nullptr) {
+    write_start(*to, keeping.place);
+    kept.write(*to, study);
+  }
   return study;
 }
 

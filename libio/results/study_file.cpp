@@ -104,6 +104,14 @@ void remove_leftovers(const std::filesystem::path& place) {
 
 }  // namespace
 
+void write_start(ResultWriter& file, const StudyPlace& place) {
+  if (!place.start) return;
+  const EarlierEnd& start = *place.start;
+  StudyStart from{start.state.displacement, start.state.velocity, start.phase};
+  if (start.revolution != 0) from.revolution = static_cast<double>(start.revolution);
+  write_result(file, from);
+}
+
 StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWriter&)> write,
                      const std::function<void(const ResultReader&)>& take,
                      std::function<bool()> is_stopped)
@@ -176,11 +184,7 @@ void StudyFile::save() {
   if (journal_ && cost_ > soon && is_stopped_ && is_stopped_()) return;
   const auto begin = clock::now();
   const auto file = begin_();
-  if (const auto& start = place_.start) {
-    StudyStart from{start->state.displacement, start->state.velocity, start->phase};
-    if (start->revolution != 0) from.revolution = static_cast<double>(start->revolution);
-    write_result(*file, from);
-  }
+  write_start(*file, place_);
   write_(*file);
   const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begun_;
   write_work(*file, this_work(seconds_before_ + now.count()));

@@ -32,6 +32,9 @@ struct StudyPlace {
   std::optional<EarlierEnd> start{};  ///< the end of that
 };
 
+/// Writes where the motions of a study begin, if that is the end of another result.
+void write_start(ResultWriter& file, const StudyPlace& place);
+
 /// It holds what is done at every moment, and an earlier run of the same study is gone on with.
 /// Without a file it does nothing.
 class StudyFile {

@@ -396,6 +396,27 @@ std::vector<std::string> ResultReader::strings(const std::string& path) const {
   return read_texts(attempt, open_dataset(attempt, id_));
 }
 
+std::vector<std::string> ResultReader::attributes(const std::string& object) const {
+  const Attempt attempt(path_, "read attributes of", object);
+  if (!has(object)) attempt.fail("there is none");
+  const Handle id(attempt(H5Oopen(id_, object.c_str(), H5P_DEFAULT)));
+  H5O_info_t info;
+  attempt(H5Oget_info2(id, &info, H5O_INFO_NUM_ATTRS));
+  std::vector<std::string> names;
+  for (hsize_t i = 0; i < info.num_attrs; ++i) {
+    const auto get = [&](char* text, std::size_t size) {
+      return attempt(
+          H5Aget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, i, text, size, H5P_DEFAULT));
+    };
+    std::string name(static_cast<std::size_t>(get(nullptr, 0)), '\0');
+    get(name.data(), name.size() + 1);
+    const bool is_of_axes = name == "CLASS" || name == "NAME" || name == "DIMENSION_LIST" ||
+                            name == "REFERENCE_LIST" || name == "DIMENSION_LABELS";
+    if (!is_of_axes) names.push_back(name);
+  }
+  return names;
+}
+
 std::vector<std::string> ResultReader::list(const std::string& group) const {
   const Attempt attempt(path_, "read group", group);
   if (!has(group)) attempt.fail("there is none");

@@ -50,6 +50,12 @@ std::vector<hsize_t> chunks(const std::vector<hsize_t>& sizes, std::size_t item_
   return chunk;
 }
 
+std::size_t numbers_of(const std::vector<Eigen::Index>& shape) {
+  std::size_t count = 1;
+  for (const Eigen::Index size : shape) count *= static_cast<std::size_t>(size);
+  return count;
+}
+
 /// Has compressed pieces go to the file, or a full disk is not seen before it is closed.
 void flush_chunks(const Attempt& attempt, hid_t dataset) {
   const Handle how(attempt(H5Dget_create_plist(dataset)));
@@ -64,10 +70,11 @@ auto row_major(const Matrix& values) {
 
 }  // namespace
 
-ResultWriter::ResultWriter(const fs::path& path, Replaces what) : file_(path, what) {
-  const Attempt attempt(file_.place(), "create", "the file");
+ResultWriter::ResultWriter(const fs::path& path, Replaces what, KeptResult* kept) : kept_(kept) {
+  file_.emplace(path, what);
+  const Attempt attempt(file_->place(), "create", "the file");
   const Handle properties = creation(H5P_FILE_CREATE), access = file_access();
-  id_ = attempt(H5Fcreate(file_.temporary().c_str(), H5F_ACC_TRUNC, properties, access));
+  id_ = attempt(H5Fcreate(file_->temporary().c_str(), H5F_ACC_TRUNC, properties, access));
 }
 
 ResultWriter::~ResultWriter() {
@@ -75,17 +82,36 @@ ResultWriter::~ResultWriter() {
 }
 
 void ResultWriter::commit() {
+  if (!file_) return;
   assert(id_ >= 0);
-  const Attempt attempt(file_.place(), "write", "the file");
+  const Attempt attempt(file_->place(), "write", "the file");
   attempt(H5Fflush(id_, H5F_SCOPE_GLOBAL));
   attempt(H5Fclose(std::exchange(id_, -1)));
-  seal(file_.temporary());
-  file_.commit();
+  seal(file_->temporary());
+  file_->commit();
+}
+
+void ResultWriter::write(const KeptResult& kept) {
+  for (const KeptResult::Dataset& d : kept.datasets) {
+    if (const auto* texts = std::get_if<std::vector<std::string>>(&d.values)) {
+      dataset(d.path, *texts, d.info);
+    } else if (const auto* numbers = std::get_if<std::vector<double>>(&d.values)) {
+      dataset(d.path, *numbers, d.shape, d.info);
+    } else if (const auto* integers = std::get_if<std::vector<int>>(&d.values)) {
+      dataset(d.path, *integers, d.shape, d.info);
+    } else {
+      const auto& complexes = std::get<std::vector<Complex>>(d.values);
+      write_or_keep(d.path, complex_type(), complexes.data(), d.shape, d.info);
+    }
+  }
+  for (const KeptResult::Attribute& a : kept.attributes) {
+    std::visit([&](const auto& value) { attribute(a.object, a.name, value); }, a.value);
+  }
 }
 
 void ResultWriter::write_attribute(const std::string& object, const std::string& name,
                                    std::int64_t type, const void* value) {
-  const Attempt attempt(file_.place(), "write attribute", object + '@' + name);
+  const Attempt attempt(file_->place(), "write attribute", object + '@' + name);
   if (object != "/" && !exists(id_, object)) make_groups(attempt, id_, object + '/');
   const Handle owner(attempt(H5Oopen(id_, object.c_str(), H5P_DEFAULT)));
   if (H5Aexists(owner, name.c_str()) > 0) attempt(H5Adelete(owner, name.c_str()));
@@ -97,21 +123,25 @@ void ResultWriter::write_attribute(const std::string& object, const std::string&
 
 void ResultWriter::attribute(const std::string& object, const std::string& name,
                              const std::string& value) {
+  if (kept_) kept_->attributes.push_back({object, name, value});
+  if (!file_) return;
   const char* text = value.c_str();
   write_attribute(object, name, text_type(), &text);
 }
 
 void ResultWriter::attribute(const std::string& object, const std::string& name, double value) {
-  write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+  if (kept_) kept_->attributes.push_back({object, name, value});
+  if (file_) write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
 }
 
 void ResultWriter::attribute(const std::string& object, const std::string& name, int value) {
-  write_attribute(object, name, H5T_NATIVE_INT, &value);
+  if (kept_) kept_->attributes.push_back({object, name, value});
+  if (file_) write_attribute(object, name, H5T_NATIVE_INT, &value);
 }
 
 std::int64_t ResultWriter::create(const std::string& path, std::int64_t type,
                                   const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
-  const Attempt attempt(file_.place(), "write dataset", path);
+  const Attempt attempt(file_->place(), "write dataset", path);
   const std::vector<hsize_t> sizes(shape.begin(), shape.end());
   hsize_t count = 1;
   for (const hsize_t size : sizes) count *= size;
@@ -136,8 +166,9 @@ std::int64_t ResultWriter::create(const std::string& path, std::int64_t type,
   }
   Handle dataset(
       attempt(H5Dcreate2(id_, path.c_str(), type, space, H5P_DEFAULT, properties, access)));
-  attribute(path, "units", info.units);
-  attribute(path, "long_name", info.long_name);
+  const char *units = info.units.c_str(), *long_name = info.long_name.c_str();
+  write_attribute(path, "units", text_type(), &units);
+  write_attribute(path, "long_name", text_type(), &long_name);
 
   if (info.axes.size() > sizes.size()) attempt.fail("more axes than dimensions");
   for (std::size_t i = 0; i < info.axes.size(); ++i) {
@@ -160,7 +191,7 @@ std::int64_t ResultWriter::create(const std::string& path, std::int64_t type,
 void ResultWriter::write(const std::string& path, std::int64_t type, const void* values,
                          const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
   const Handle dataset(create(path, type, shape, info));
-  const Attempt attempt(file_.place(), "write dataset", path);
+  const Attempt attempt(file_->place(), "write dataset", path);
   if (std::count(shape.begin(), shape.end(), 0) == 0) {
     attempt(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
   }
@@ -170,26 +201,52 @@ void ResultWriter::write(const std::string& path, std::int64_t type, const void*
 DatasetBlocks ResultWriter::dataset_blocks(const std::string& path, ObjectKind kind,
                                            const std::vector<Eigen::Index>& shape,
                                            const DatasetInfo& info) {
-  std::size_t count = 1;
-  for (const Eigen::Index size : shape) count *= static_cast<std::size_t>(size);
-  const hid_t type = kind == ObjectKind::integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
-  return {file_.place(), path, create(path, type, shape, info), count};
+  const std::size_t count = numbers_of(shape);
+  const bool is_integer = kind == ObjectKind::integer;
+  DatasetBlocks blocks(file_ ? file_->place() : fs::path(), path, count);
+  if (kept_) {
+    blocks.kept_ = kept_;
+    blocks.kept_number_ = kept_->datasets.size();
+    kept_->datasets.push_back({path, std::vector<double>(), shape, info});
+    if (is_integer) kept_->datasets.back().values = std::vector<int>();
+  }
+  if (file_)
+    blocks.id_ = create(path, is_integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE, shape, info);
+  return blocks;
 }
 
 DatasetBlocks::DatasetBlocks(DatasetBlocks&& other) noexcept
     : place_(std::move(other.place_)),
       path_(std::move(other.path_)),
-      id_(std::exchange(other.id_, -1)),
       count_(other.count_),
-      next_(other.next_) {}
+      next_(other.next_),
+      id_(std::exchange(other.id_, -1)),
+      kept_(other.kept_),
+      kept_number_(other.kept_number_) {}
 
 DatasetBlocks::~DatasetBlocks() {
   if (id_ >= 0) H5Dclose(id_);
 }
 
 void DatasetBlocks::add(std::span<const double> values) {
+  if (next_ + values.size() > count_) {
+    Attempt(place_, "write dataset", path_).fail("more numbers than it has room for");
+  }
+  if (kept_) {
+    std::visit(
+        [&](auto& list) {
+          if constexpr (requires { static_cast<double>(list.front()); }) {
+            list.insert(list.end(), values.begin(), values.end());
+          }
+        },
+        kept_->datasets[kept_number_].values);
+  }
+  if (id_ >= 0) write(values);
+  next_ += values.size();
+}
+
+void DatasetBlocks::write(std::span<const double> values) {
   const Attempt attempt(place_, "write dataset", path_);
-  if (next_ + values.size() > count_) attempt.fail("more numbers than it has room for");
   const Handle space(attempt(H5Dget_space(id_)));
   const double* from = values.data();
   for_each_box(
@@ -200,54 +257,68 @@ void DatasetBlocks::add(std::span<const double> values) {
         attempt(H5Dwrite(id_, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, from));
         from += numbers;
       });
-  next_ += values.size();
 }
 
 void DatasetBlocks::finish() {
   const Attempt attempt(place_, "write dataset", path_);
   if (next_ != count_) attempt.fail("not all of its numbers were given");
+  if (id_ < 0) return;
   flush_chunks(attempt, id_);
   attempt(H5Dclose(std::exchange(id_, -1)));
 }
 
+template <class Value>
+void ResultWriter::write_or_keep(const std::string& path, std::int64_t type, const Value* values,
+                                 const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
+  if (kept_) {
+    const std::vector<Value> all(values, values + numbers_of(shape));
+    kept_->datasets.push_back({path, all, shape, info});
+  }
+  if (file_) write(path, type, values, shape, info);
+}
+
 void ResultWriter::dataset(const std::string& path, const Vec& values, const DatasetInfo& info) {
-  write(path, H5T_NATIVE_DOUBLE, values.data(), {values.size()}, info);
+  write_or_keep(path, H5T_NATIVE_DOUBLE, values.data(), {values.size()}, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const Mat& values, const DatasetInfo& info) {
-  write(path, H5T_NATIVE_DOUBLE, row_major(values).data(), {values.rows(), values.cols()}, info);
+  write_or_keep(path, H5T_NATIVE_DOUBLE, row_major(values).data(), {values.rows(), values.cols()},
+                info);
 }
 
 void ResultWriter::dataset(const std::string& path, const CVec& values, const DatasetInfo& info) {
-  write(path, complex_type(), values.data(), {values.size()}, info);
+  write_or_keep(path, complex_type(), values.data(), {values.size()}, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const CMat& values, const DatasetInfo& info) {
-  write(path, complex_type(), row_major(values).data(), {values.rows(), values.cols()}, info);
+  write_or_keep(path, complex_type(), row_major(values).data(), {values.rows(), values.cols()},
+                info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<double>& values,
                            const DatasetInfo& info) {
-  write(path, H5T_NATIVE_DOUBLE, values.data(), {std::ssize(values)}, info);
+  write_or_keep(path, H5T_NATIVE_DOUBLE, values.data(), {std::ssize(values)}, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<int>& values,
                            const DatasetInfo& info) {
-  write(path, H5T_NATIVE_INT, values.data(), {std::ssize(values)}, info);
+  write_or_keep(path, H5T_NATIVE_INT, values.data(), {std::ssize(values)}, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<double>& values,
                            const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
-  write(path, H5T_NATIVE_DOUBLE, values.data(), shape, info);
+  write_or_keep(path, H5T_NATIVE_DOUBLE, values.data(), shape, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<int>& values,
                            const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
-  write(path, H5T_NATIVE_INT, values.data(), shape, info);
+  write_or_keep(path, H5T_NATIVE_INT, values.data(), shape, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<std::string>& values,
                            const DatasetInfo& info) {
+  if (kept_) kept_->datasets.push_back({path, values, {std::ssize(values)}, info});
+  if (!file_) return;
   std::vector<const char*> texts;
   for (const std::string& value : values) texts.push_back(value.c_str());
   write(path, text_type(), texts.data(), {std::ssize(texts)}, info);
