@@ -44,9 +44,12 @@ write_basic_package_version_file(whirlConfigVersion.cmake COMPATIBILITY SameMino
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/whirlConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/whirlConfigVersion.cmake
         DESTINATION ${package})
 
-# cpack -G DEB in the build folder: a Debian package of the component runtime
+# cpack -G DEB in the build folder: Debian packages of the component runtime, and of the Python package
 set(CPACK_GENERATOR DEB)
 set(CPACK_COMPONENTS_ALL runtime)
+if(WHIRL_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
@@ -55,5 +58,11 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "rotordynamics with contact")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME whirl)
 set(CPACK_DEBIAN_RUNTIME_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-whirl)
+set(CPACK_DEBIAN_PYTHON_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
+    "python3-scipy, python3-xarray, python3-pandas, python3-matplotlib")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 include(CPack)

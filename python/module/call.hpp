@@ -1,0 +1,36 @@
+#pragma once
+/// Verbs of the command line, called from Python.
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/invocation.hpp"
+#include "apps/verb.hpp"
+#include "python/module/model_text.hpp"
+
+namespace whirl::inline python {
+
+/// What a verb found.
+struct Found {
+  Report report;
+  std::shared_ptr<KeptResult> kept = std::make_shared<KeptResult>();
+  double seconds = 0.0;  ///< that the verb itself took
+};
+
+/// All verbs that take a model and run, with their options.
+pybind11::list verb_table();
+
+/// Runs a verb as the command line does, with the same options. Python's other threads run meanwhile;
+/// signals are looked at now and then, and an exception of their handlers, or of `progress`, stops it:
+/// it then leaves, with what was found until then as its attribute `found`.
+///
+/// @param given     texts of options by their names, as the command line has them
+/// @param progress  called with (what, done, total) now and then, or None
+/// @throws ModelError, NumericalError, FileError
+std::unique_ptr<Found> run_verb(const std::string& verb, const ModelText& model,
+                                const GivenValues& given, const pybind11::object& progress);
+
+}  // namespace whirl::inline python

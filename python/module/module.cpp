@@ -1,0 +1,66 @@
+// The module whirl._whirl: what the package is made of.
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "apps/program.hpp"
+#include "libio/model/file_text.hpp"
+#include "libio/model/model_schema.hpp"
+#include "python/module/call.hpp"
+#include "python/module/errors.hpp"
+#include "python/module/model_text.hpp"
+#include "python/module/pictures.hpp"
+#include "python/module/store.hpp"
+
+namespace py = pybind11;
+using namespace whirl;
+
+PYBIND11_MODULE(_whirl, module) {
+  module.doc() = "The libraries of whirl, for the package whirl.";
+  module.attr("version") = version;
+  translate_errors();
+
+  py::class_<ModelText>(module, "ModelText")
+      .def(py::init<std::string, std::string, std::vector<std::string>>(), py::arg("file"),
+           py::arg("text"), py::arg("sets"))
+      .def("with_sets", &ModelText::with, py::arg("sets"))
+      .def("value", &ModelText::value, py::arg("path"))
+      .def("matrices", &ModelText::matrices)
+      .def_property_readonly("file", &ModelText::file)
+      .def_property_readonly("text", &ModelText::text)
+      .def_property_readonly("sets", &ModelText::sets)
+      .def_property_readonly("source", [](const ModelText& m) { return m.made()->source; })
+      .def_property_readonly("title", [](const ModelText& m) { return m.made()->title; })
+      .def_property_readonly("speed", [](const ModelText& m) { return m.made()->speed; });
+
+  py::class_<Store>(module, "Store")
+      .def(py::init<const std::string&>(), py::arg("file"))
+      .def("paths", &Store::paths)
+      .def("info", &Store::info, py::arg("path"))
+      .def("values", &Store::values, py::arg("path"))
+      .def("attributes", &Store::attributes)
+      .def("save", &Store::save, py::arg("file"), py::arg("force"));
+
+  py::class_<Found>(module, "Found")
+      .def_property_readonly("json", [](const Found& f) { return f.report.record.json(); })
+      .def_property_readonly("text", [](const Found& f) { return f.report.text; })
+      .def_property_readonly("notes", [](const Found& f) { return f.report.notes; })
+      .def_property_readonly(
+          "failure", [](const Found& f) { return f.report.failure ? f.report.failure.text() : ""; })
+      .def_property_readonly("status", [](const Found& f) { return f.report.status; })
+      .def_readonly("seconds", &Found::seconds)
+      .def("store", [](const Found& f) { return Store(f.kept); });
+
+  py::class_<Drawn>(module, "Drawn")
+      .def(py::init<const std::string&>(), py::arg("file"))
+      .def("kinds", &Drawn::kinds)
+      .def("svg", &Drawn::svg, py::arg("kind"), py::arg("variant"))
+      .def("figure", &Drawn::figure, py::arg("kind"), py::arg("variant"));
+
+  module.def("model_schema", [] { return model_schema().json(); });
+  module.def("file_text", [](const std::string& path) { return file_text(path); });
+  module.def("verb_table", &verb_table);
+  module.def("run", &run_verb, py::arg("verb"), py::arg("model"), py::arg("given"),
+             py::arg("progress"));
+  module.def("report_html", &report_html, py::arg("files"));
+}

@@ -1,0 +1,44 @@
+"""Methods of models that stand in no list of their own: verbs of the program, and tables of model files.
+
+`tools/python-stubs` writes methods.pyi of it, for editors and type checkers.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Callable
+
+from .verbs import VERBS, method_of, python_name
+
+TABLES = {
+    **dict.fromkeys(["operation", "bow", "damping", "reduction", "start"], "one"),
+    **dict.fromkeys(["shaft", "layer", "disk", "unbalance", "force", "probe", "body", "bearing", "seal", "link",
+                     "oil_film", "contact"], "several"),
+    "material": "named",
+}
+"""Tables of model files: whether there is one, or several; of materials one of each name."""
+
+
+class Methods:
+    """What Model has beside its own methods."""
+
+
+def _table_method(table: str) -> Callable:
+    def method(self: Any, /, **keys: Any) -> Any:
+        return self.add(table, **keys)
+
+    method.__name__ = table
+    method.__qualname__ = f"Model.{table}"
+    method.__doc__ = f"Adds [{table}] of the model file, with its keys (docs/model-file.md); the model itself."
+    return method
+
+
+def _call(self: Any, verb: Any, args: tuple, options: dict[str, Any]) -> Any:
+    return self._call(verb, args, options)
+
+
+for _table in TABLES:
+    if _table not in VERBS:
+        setattr(Methods, _table, _table_method(_table))
+for _verb in VERBS.values():
+    for _name in filter(None, (_verb.name, _verb.alias)):
+        setattr(Methods, python_name(_name), method_of(_verb, _call))

@@ -1,0 +1,278 @@
+"""Models: read, changed by paths, and computed with."""
+
+from __future__ import annotations
+
+import copy
+import os
+import re
+import tomllib
+import warnings
+from typing import Any, Mapping, NamedTuple, Optional, Union
+
+import numpy as np
+
+from . import _whirl, progress as _progress
+from .methods import TABLES, Methods
+from .results import Result
+from .verbs import Verb, given_values, text_of
+
+
+def _toml(value: Any) -> str | None:
+    """A value as it stands in a model file; None: it cannot."""
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
+    if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1):
+        items = [_toml(v) for v in value]
+        return None if None in items else f"[{', '.join(items)}]"
+    if isinstance(value, Mapping):
+        items = [(key, _toml(v)) for key, v in value.items()]
+        if any(not isinstance(key, str) or text is None for key, text in items):
+            return None
+        return "{" + ", ".join(f"{_key(key)} = {text}" for key, text in items) + "}"
+    return text_of(value)
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else str(_toml(key))
+
+
+def _assignment(path: Any, value: Any) -> str:
+    if not isinstance(path, str):
+        raise TypeError(f"expected the path of a value such as 'contact.seal.friction', found {path!r}")
+    text = value if isinstance(value, str) else _toml(value)
+    if text is None:
+        raise TypeError(f"{path}: expected a number, a text with a unit, True or False, a list or a dict, "
+                        f"found {type(value).__name__}")
+    return f"{path}={text}"
+
+
+def _assignments(values: Union[Mapping[str, Any], list, None]) -> list[str]:
+    if values is None:
+        return []
+    if isinstance(values, Mapping):
+        return [_assignment(path, value) for path, value in values.items()]
+    if isinstance(values, (list, tuple)) and all(isinstance(v, str) for v in values):
+        return list(values)
+    raise TypeError(f"set: expected a dict of paths and values, found {type(values).__name__}")
+
+
+def _keys(table: str, keys: Mapping[str, Any]) -> dict[str, Any]:
+    """Keys of a table, which those that are words of Python end in _: in_, from_."""
+    made = {}
+    for name, value in keys.items():
+        if _toml(value) is None:
+            raise TypeError(f"{table}() {name}: expected a number, a text with a unit, True or False, a list or a "
+                            f"dict, found {type(value).__name__}")
+        made[name.removesuffix("_")] = value
+    return made
+
+
+def _toml_of(tree: Mapping[str, Any]) -> str:
+    """A model as a file."""
+    lines = [f"{key} = {_toml(value)}" for key, value in tree.items() if key not in TABLES]
+    for table, kind in TABLES.items():
+        if table not in tree:
+            continue
+        value = tree[table]
+        parts = ([(f"[[{table}]]", v) for v in value] if kind == "several" else
+                 [(f"[{table}.{_key(name)}]", v) for name, v in value.items()] if kind == "named" else
+                 [(f"[{table}]", value)])
+        for head, keys in parts:
+            lines += ["", head, *(f"{_key(key)} = {_toml(v)}" for key, v in keys.items())]
+    return "\n".join(lines) + "\n"
+
+
+class Matrices(NamedTuple):
+    """M q'' + (C + speed G) q' + K q = f of the rotor, supports eliminated, nothing condensed."""
+
+    M: Any
+    """Mass, scipy.sparse.csc_array [kg, kg m^2]."""
+    C: Any
+    """Damping [N s/m, N m s/rad]."""
+    G: Any
+    """Gyroscopic matrix, times the speed [kg m^2]."""
+    K: Any
+    """Stiffness [N/m, N m/rad]."""
+    dofs: list[str]
+    """What each q is: 'node 3 x', 'node 3 theta_y', ..."""
+    z: np.ndarray
+    """Where each q is along the shaft [m]; NaN for bodies and internal shape functions."""
+    speed: float
+    """[rad/s]"""
+
+
+class Model(Methods):
+    """A rotor with its bearings, seals and contacts.
+
+    Values are read and set by their paths in the model file, with units as there::
+
+        m = whirl.read("rotor.toml")
+        m["contact.seal.friction"] = 0.2
+        m["operation.speed"] = "3000 rpm"
+        run = m.simulate(revolutions=512)
+
+    Every verb of the command line is a method; its options are keyword arguments.
+
+    Models are built in code, too: tables of the model file are methods, their keys keyword arguments::
+
+        m = (whirl.Model(title="a disk", gravity=9.81)
+             .operation(speed="3000 rpm")
+             .material(name="steel", density="7800 kg/m^3", youngs_modulus="210 GPa", poisson_ratio=0.3)
+             .shaft(material="steel", length="1 m", outer_diameter="30 mm", elements=10)
+             .disk(at="500 mm", mass="12 kg", polar_inertia=0.1, diametral_inertia=0.05)
+             .bearing(at=0.0, stiffness="10 MN/m")
+             .bearing(at=1.0, stiffness="10 MN/m"))
+    """
+
+    def __init__(self, text: Optional[str] = None, name: Union[str, os.PathLike] = "model.toml", **keys: Any) -> None:
+        """A model of a TOML text; or one to be built, of keys that stand in no table (title, gravity).
+
+        `name` is for messages; files that the model names are looked for in its folder.
+        Raises ModelError, with all `problems`, where the text is no model.
+        """
+        self._name = os.fspath(name)
+        self._tree: Optional[dict[str, Any]] = None
+        self._made: Optional[_whirl.ModelText] = None
+        if text is None:
+            self._tree = {"format": 1, **_keys("Model", keys)}
+        elif keys:
+            raise TypeError(f"Model() takes a text or keys, not both; found a text and {', '.join(keys)}")
+        elif not isinstance(text, str):
+            raise TypeError(f"Model() takes the text of a model, found {type(text).__name__}; whirl.read() reads files")
+        else:
+            self._made = _whirl.ModelText(self._name, text, [])
+
+    @property
+    def _text(self) -> _whirl.ModelText:
+        if self._made is None:
+            self._made = _whirl.ModelText(self._name, _toml_of(self._tree or {}), [])
+        return self._made
+
+    def add(self, table: str, **keys: Any) -> Model:
+        """Adds a table of the model file, or one more of those that there may be several of; the model itself.
+
+        Methods of these names do the same, but of 'unbalance', which is a verb. The model is looked at as a
+        whole when it is used first: ModelError then tells all problems.
+        """
+        if table not in TABLES:
+            raise TypeError(f"there is no table {table!r}; there are {', '.join(TABLES)}")
+        if self._tree is None:
+            self._tree = tomllib.loads(self.to_toml())
+        self._made = None
+        keys = _keys(table, keys)
+        if TABLES[table] == "several":
+            self._tree.setdefault(table, []).append(keys)
+        elif TABLES[table] == "named":
+            if "name" not in keys:
+                raise TypeError(f"{table}() needs a name")
+            self._tree.setdefault(table, {})[keys.pop("name")] = keys
+        else:
+            self._tree.setdefault(table, {}).update(keys)
+        return self
+
+    @property
+    def title(self) -> str:
+        return self._text.title
+
+    @property
+    def path(self) -> str:
+        """The file that it was read from."""
+        return self._text.file
+
+    @property
+    def sets(self) -> list[str]:
+        """What was set of it since: 'PATH=VALUE', as --set of the command line has it."""
+        return self._text.sets
+
+    def __getitem__(self, path: str) -> Any:
+        """A value as it is written: a number [SI], a text with its unit, a list or a dict."""
+        if not isinstance(path, str):
+            raise TypeError(f"expected the path of a value such as 'contact.seal.friction', found {path!r}")
+        return self._text.value(path)
+
+    def __setitem__(self, path: str, value: Any) -> None:
+        """Sets a value; where it makes no model, ModelError says why and the model stays as it was."""
+        self._change([_assignment(path, value)])
+
+    def _change(self, assignments: list[str]) -> None:
+        self._made = self._text.with_sets(assignments)
+        self._tree = None
+
+    def update(self, values: Mapping[str, Any]) -> None:
+        """Sets several values, all or none."""
+        self._change(_assignments(values))
+
+    def copy(self) -> Model:
+        """Another model, which begins as this one is."""
+        other = object.__new__(type(self))
+        other._name, other._tree, other._made = self._name, copy.deepcopy(self._tree), self._made
+        return other
+
+    def to_toml(self) -> str:
+        """The model as a file, with everything that was set and with the tables that it names in it."""
+        return self._text.source
+
+    def save(self, path: Union[str, os.PathLike]) -> None:
+        """Writes the model as a file."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.to_toml())
+
+    def _with(self, speed: Any, sets: Any) -> _whirl.ModelText:
+        assignments = _assignments(sets)
+        if speed is not None:
+            assignments.append(_assignment("operation.speed", speed))
+        return self._text.with_sets(assignments) if assignments else self._text
+
+    def matrices(self, speed: Any = None) -> Matrices:
+        """Mass, damping, gyroscopic and stiffness matrix at a speed, with what each coordinate is.
+
+        Oil films are linear about their journals' equilibrium, tables of bearings are those of the speed.
+        Needs scipy.
+        """
+        try:
+            from scipy.sparse import csc_array
+        except ImportError as error:
+            raise ImportError("matrices() gives sparse matrices of scipy: apt-get install python3-scipy") from error
+        found = self._with(speed, None).matrices()
+        n = len(found["names"])
+        made = (csc_array(found[name], shape=(n, n), copy=False) for name in "MCGK")
+        return Matrices(*made, found["names"], np.array(found["z"]), found["speed"])
+
+    def _call(self, verb: Verb, args: tuple, options: dict[str, Any]) -> Result:
+        model, show = self._text, None
+        if options:
+            speed, sets = options.pop("speed", None), options.pop("set", None)
+            wanted = options.pop("progress", None)
+            if speed is not None or sets is not None:
+                model = self._with(speed, sets)
+            show = wanted if callable(wanted) else None
+            is_shown = wanted is None or wanted is True
+        else:
+            is_shown = True
+        given = given_values(verb, args, options)
+        bar = _progress.bar() if is_shown and show is None else None
+        try:
+            found = _whirl.run(verb.name, model, given, bar or show)
+        except BaseException as error:
+            if hasattr(error, "found"):  # stopped: what was found until then
+                error.result = Result._of(error.found, verb.name)  # type: ignore[attr-defined]
+                del error.found
+            raise
+        finally:
+            if bar:
+                bar.close()
+        if found.failure:
+            warnings.warn(f"{verb.name}: {found.failure}", RuntimeWarning, stacklevel=3)
+        return Result._of(found, verb.name)
+
+    def __repr__(self) -> str:
+        title = f" {self.title!r}" if self.title else ""
+        return f"<whirl.Model{title} of {self.path}>"
+
+
+def read(path: Union[str, os.PathLike]) -> Model:
+    """Reads a model file (TOML) and all that it names. Raises ModelError with all problems."""
+    path = os.fspath(path)
+    return Model(_whirl.file_text(path), path)
