@@ -42,8 +42,9 @@ inline SweepOptions along_speed(SweepStart start) {
   return options;
 }
 
+/// More than are computed in one piece by one thread.
 inline BasinsOptions around_the_start() {
-  return {.starts = 24, .size = 1.0, .classify = brief};
+  return {.starts = 40, .size = 1.0, .classify = brief};
 }
 
 /// Bit by bit, NaN too.
