@@ -40,7 +40,9 @@ struct Instants {
   /// What was found, with the work of one revolution.
   OrbitMeasure result(double revolutions) {
     found.work /= revolutions;
-    found.probe_peak_to_peak = most - least;
+    for (Eigen::Index i = 0; i < most.size(); ++i) {
+      found.probe_peak_to_peak.push_back(most(i) - least(i));
+    }
     return std::move(found);
   }
 

@@ -16,7 +16,7 @@ struct OrbitMeasure {
   double work = 0.0;
   /// Largest reading of each probe of the model less its smallest, over the period [m]. As the radii, of
   /// ten instants a step of the integrator, or eight a harmonic.
-  Vec probe_peak_to_peak;
+  std::vector<double> probe_peak_to_peak;
   Mat sections;  ///< x and y of the stations in turn (rows) after every whole revolution (columns) [m]
 };
 

@@ -32,10 +32,7 @@ BranchOrbit orbit_of(const BranchLayout& layout, const TracedBranch& traced, std
                     .multipliers = CVec::Constant(layout.states, Complex(nan, nan)),
                     .radii = traced.measures[i].radii,
                     .probe_peak_to_peak = traced.measures[i].probe_peak_to_peak};
-  const auto probes = static_cast<Eigen::Index>(layout.probes.size());
-  if (orbit.probe_peak_to_peak.size() != probes) {
-    orbit.probe_peak_to_peak = Vec::Constant(probes, nan);
-  }
+  orbit.probe_peak_to_peak.resize(layout.probes.size(), nan);
   if (point.multipliers.size() > 0) orbit.stability = point.is_stable() ? 1 : 0;
   const Eigen::Index known = std::min(layout.states, point.multipliers.size());
   orbit.multipliers.head(known) = point.multipliers.head(known);

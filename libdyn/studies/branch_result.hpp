@@ -50,7 +50,8 @@ struct BranchOrbit {
   CVec multipliers{};              ///< as many as states; NaN behind the last one
   std::vector<double> radii{};     ///< per station: largest distance from the axis [m]
   Mat sections_x{}, sections_y{};  ///< stations x revolutions, NaN beyond the period [m]
-  Vec probe_peak_to_peak{};        ///< per probe, see OrbitMeasure; NaN in files of before [m]
+  std::vector<double>
+      probe_peak_to_peak{};  ///< per probe, see OrbitMeasure; NaN in files of before [m]
   std::vector<double> duty{}, impacts{}, max_normal{}, max_tangential{};  ///< per contact
 
   std::optional<bool> is_stable() const;
@@ -98,7 +99,9 @@ struct BranchOrbit {
         column("probe_peak_to_peak", &B::probe_peak_to_peak, "m",
                "largest less smallest reading of a probe")
             .along("probes")
+            .only(in_file)
             .maybe(),
+        column("probe_peak_to_peak", &B::probe_peak_to_peak, "m", "likewise").only(in_json).maybe(),
         column("duty", &B::duty, "", "share of time in touch").along("contacts").maybe(),
         column("impacts_per_rev", &B::impacts, "", "impacts per revolution")
             .along("contacts")

@@ -60,13 +60,6 @@ std::vector<double> BranchPoints::numbers(std::vector<double> BranchOrbit::*list
       [&](const BranchOrbit& p) { return i < (p.*list).size() ? (p.*list)[i] : std::nan(""); });
 }
 
-std::vector<double> BranchPoints::peaks_to_peaks(std::size_t probe) const {
-  const auto row = static_cast<Eigen::Index>(probe);
-  return numbers([&](const BranchOrbit& p) {
-    return row < p.probe_peak_to_peak.size() ? p.probe_peak_to_peak(row) : std::nan("");
-  });
-}
-
 double largest_multiplier(const BranchOrbit& point) {
   return point.multipliers.size() > 0 ? std::abs(point.multipliers(0)) : std::nan("");
 }

@@ -26,8 +26,6 @@ struct BranchPoints {
   std::vector<double> numbers(const std::function<double(const BranchOrbit&)>& number) const;
   /// One of every point's list of numbers; NaN where it is shorter.
   std::vector<double> numbers(std::vector<double> BranchOrbit::*list, std::size_t i) const;
-  /// What a probe reads of every point, peak to peak [m].
-  std::vector<double> peaks_to_peaks(std::size_t probe) const;
 };
 
 /// The size of the largest multiplier of a point.

@@ -116,7 +116,7 @@ std::vector<Figure> branch_figures(const ResultView& result) {
     const ProbeLabel probe = b.of.probes[i];
     const DisplayUnit unit = unit_of(probe);
     Figure f = figure_of(result, b, probe_name(probe), with_unit("peak to peak", unit),
-                         scaled(b.peaks_to_peaks(i), unit.factor));
+                         scaled(b.numbers(&BranchOrbit::probe_peak_to_peak, i), unit.factor));
     f.probes = {probe.name};
     figures.push_back(std::move(f));
   }

@@ -77,8 +77,8 @@ void add_branches(Figure& f, const BranchPoints& b, std::size_t station, const P
     } else if (probe && is_of("peak to peak")) {
       const std::vector<std::string>& names = b.of.probes.names;
       const auto named = std::find(names.begin(), names.end(), probe->name);
-      add(b.peaks_to_peaks(static_cast<std::size_t>(named - names.begin())),
-          shown_in_one(p.y.title));
+      const auto number = static_cast<std::size_t>(named - names.begin());
+      add(b.numbers(&BranchOrbit::probe_peak_to_peak, number), shown_in_one(p.y.title));
     } else if (is_of("largest radius")) {
       add(b.numbers(&BranchOrbit::radii, station), shown_in_one(p.y.title));
     }

@@ -51,7 +51,7 @@ void add(std::vector<std::string>& sets, const std::string& set) {
 }
 
 /// A sparse matrix by columns, whose arrays look at it.
-py::tuple columns_of(Sparse matrix) {
+py::tuple compressed_columns(Sparse matrix) {
   matrix.makeCompressed();
   auto* const kept = new Sparse(std::move(matrix));
   const py::capsule owner(kept, [](void* pointer) { delete static_cast<Sparse*>(pointer); });
@@ -86,10 +86,10 @@ py::dict ModelText::matrices() const {
   const Assembler assembler(linear_structure(model));
   const System system = assembler.uncondensed(model.speed);
   py::dict all;
-  all["M"] = columns_of(system.M);
-  all["C"] = columns_of(system.C);
-  all["G"] = columns_of(system.G);
-  all["K"] = columns_of(system.K);
+  all["M"] = compressed_columns(system.M);
+  all["C"] = compressed_columns(system.C);
+  all["G"] = compressed_columns(system.G);
+  all["K"] = compressed_columns(system.K);
   all["names"] = coordinate_names(system.dofs, model);
   all["z"] = coordinate_places(system.dofs, model, assembler);
   all["speed"] = model.speed;

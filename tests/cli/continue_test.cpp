@@ -18,6 +18,7 @@ TEST_F(ContinueStudy, ContinueFollowsPeriodDoublings) {
               "--over", "contact.ring.friction=0.1:0.15:0.002", "--at", "0.15", "--switch", "1",
               "--out", "branch.h5"});
   EXPECT_EQ(r["parameter"], "contact.ring.friction");
+  EXPECT_FALSE(r.contains("probes") || r["points"][0].contains("probe_peak_to_peak_m"));
   ASSERT_EQ(r["branches"].size(), 2u);
   EXPECT_EQ(r["branches"][0]["period_revs"], 1);
   EXPECT_EQ(r["branches"][1]["period_revs"], 2);

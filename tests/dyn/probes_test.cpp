@@ -120,13 +120,13 @@ TEST(Probes, ReadOrbits) {
   const PeriodicOrbit orbit =
       find_orbit(flow_of(scene.contacts), Vec::Zero(scene.contacts.size()), {});
   ASSERT_TRUE(orbit.is_good()) << orbit.failure;
-  const Vec found = measure_orbit(scene, {}, orbit.states[0], 1.0).probe_peak_to_peak;
-  ASSERT_EQ(found.size(), 2);
-  for (const Eigen::Index i : {0, 1}) {
-    const double angle = model.structure.probes[static_cast<std::size_t>(i)].angle;
+  const auto found = measure_orbit(scene, {}, orbit.states[0], 1.0).probe_peak_to_peak;
+  ASSERT_EQ(found.size(), 2u);
+  for (const std::size_t i : {0u, 1u}) {
+    const double angle = model.structure.probes[i].angle;
     const double exact = 2.0 * std::abs(reading(angle, model.speed));
-    EXPECT_LE(found(i), exact * (1.0 + solves));
-    EXPECT_GE(found(i), exact * std::cos(0.1));
+    EXPECT_LE(found[i], exact * (1.0 + solves));
+    EXPECT_GE(found[i], exact * std::cos(0.1));
   }
 }
 

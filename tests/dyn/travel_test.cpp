@@ -222,7 +222,7 @@ TEST(Travel, BranchesComeBackAsTheyWere) {
   EXPECT_EQ(back.branch.end->reason, "why");
 
   const WalkNews news{.branch = walk.branch,
-                      .measures = {{{0.1, 0.2}, 3.0, Vec::Random(2), Mat::Random(4, 2)}},
+                      .measures = {{{0.1, 0.2}, 3.0, {4.0, 5.0}, Mat::Random(4, 2)}},
                       .starts = {Vec::Random(4)},
                       .by_parameter = Vec::Random(4)};
   const WalkNews news_back = there_and_back(news);

@@ -26,7 +26,7 @@ BranchPoint point(double value, Eigen::Index unknowns) {
 BranchTree example() {
   BranchTree tree{.layout = {.states = 2, .scale = Vec::Ones(2), .contacts = {"ring"}}};
   tree.layout.probes = ProbeLabels({{.name = "1X", .angle = 0.5}});
-  OrbitMeasure measure{.radii = {1e-3}, .work = 2.0, .probe_peak_to_peak = Vec{{3e-3}}};
+  OrbitMeasure measure{.radii = {1e-3}, .work = 2.0, .probe_peak_to_peak = {3e-3}};
   measure.sections = Mat{{0.1, 0.2}, {0.3, 0.4}};
   TracedBranch first{.branch = {.period = 1, .points = {point(0.1, 3), point(0.2, 3)}}};
   first.branch.bifurcations = {
@@ -130,7 +130,7 @@ TEST_F(BranchResults, GoOnWithoutReadingsOfProbes) {
   BranchTree tree = example();
   tree.layout.probes = {};
   for (TracedBranch& traced : tree.branches) {
-    for (OrbitMeasure& m : traced.measures) m.probe_peak_to_peak = Vec();
+    for (OrbitMeasure& m : traced.measures) m.probe_peak_to_peak.clear();
   }
   write(path, tree);
   EXPECT_FALSE(ResultReader(path).has("/branch/probe_peak_to_peak"));
@@ -142,8 +142,8 @@ TEST_F(BranchResults, GoOnWithoutReadingsOfProbes) {
   const auto result = read_result<BranchResult>(ResultReader(path));
   EXPECT_EQ(result.probes.names, std::vector<std::string>{"1X"});
   ASSERT_EQ(result.points.size(), 4u);
-  EXPECT_TRUE(std::isnan(result.points[2].probe_peak_to_peak(0)));
-  EXPECT_EQ(result.points[3].probe_peak_to_peak(0), 3e-3);
+  EXPECT_TRUE(std::isnan(result.points[2].probe_peak_to_peak[0]));
+  EXPECT_EQ(result.points[3].probe_peak_to_peak[0], 3e-3);
 }
 
 // Rows of bifurcations, of which there may be none, say it too.
