@@ -89,6 +89,8 @@ class Invocation {
 
   /// Whether somebody wants what a result file holds.
   bool wants_result() const { return output.out.is_given || kept; }
+  /// Whether somebody looks at the record of its report, which of many points is large.
+  bool wants_record() const { return output.json.is_given || kept; }
   /// The file of --out, and what is kept beside it, with the facts of this call in it; or nothing.
   std::unique_ptr<ResultWriter> result_file(const Model& model) const;
   /// Only what is kept, likewise.

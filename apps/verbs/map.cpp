@@ -33,7 +33,7 @@ Report run_map(const Invocation& call, const MapVerbOptions& asked) {
       [&](std::size_t i) { return points.describe(i); });
 
   Record record;
-  if (call.output.json) {
+  if (call.wants_record()) {
     std::vector<MotionSummary> motions;
     for (const auto& p : result.points) motions.push_back(p ? summary_of(*p) : MotionSummary{});
     record.set("axes", columns::record_value(points.axes(), 1.0));

@@ -52,7 +52,7 @@ Report run_sweep(const Invocation& call, const SweepVerbOptions& asked) {
       [&](std::size_t i) { return points.describe(i % values); });
 
   Record record = record_of(axis);
-  if (call.output.json) {
+  if (call.wants_record()) {
     const auto entries = [&result = result, &axis](std::size_t way) {
       return columns::record_value(SweepWay{result, axis.values, way}.entries(), 1.0);
     };
