@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include "apps/program.hpp"
+#include "libio/import/import_file.hpp"
 #include "libio/model/file_text.hpp"
 #include "libio/model/model_schema.hpp"
 #include "python/module/call.hpp"
@@ -59,6 +60,10 @@ PYBIND11_MODULE(_whirl, module) {
 
   module.def("model_schema", [] { return model_schema().json(); });
   module.def("file_text", [](const std::string& path) { return file_text(path); });
+  module.def("import_file", [](const std::string& file, const std::string& place) {
+    const Imported made = import_file(file, place, Replaces::own_pictures);
+    return py::make_tuple(made.left_out, made.taken_differently);
+  });
   module.def("verb_table", &verb_table);
   module.def("run", &run_verb, py::arg("verb"), py::arg("model"), py::arg("given"),
              py::arg("progress"));

@@ -11,8 +11,9 @@
 from ._whirl import version as __version__
 from .arrays import Array
 from .errors import FileError, ModelError, NumericalError, Problem
-from .model import Matrices, Model, read
+from .model import Matrices, Model, from_ross, read
 from .results import Group, Page, Result, open, report
+from .state_space import StateSpace
 
 __all__ = ["Array", "FileError", "Group", "Matrices", "Model", "ModelError", "NumericalError", "Page",
-           "Problem", "Result", "open", "read", "report"]
+           "Problem", "Result", "StateSpace", "from_ross", "open", "read", "report"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import os
 import re
+import tempfile
 import tomllib
 import warnings
 from typing import Any, Mapping, NamedTuple, Optional, Union
@@ -14,6 +15,7 @@ import numpy as np
 from . import _whirl, progress as _progress
 from .methods import TABLES, Methods
 from .results import Result
+from .state_space import StateSpace, state_space
 from .verbs import Verb, given_values, text_of
 
 
@@ -240,6 +242,19 @@ class Model(Methods):
         made = (csc_array(found[name], shape=(n, n), copy=False) for name in "MCGK")
         return Matrices(*made, found["names"], np.array(found["z"]), found["speed"])
 
+    def state_space(self, inputs: Any = None, outputs: Any = None, quantity: Any = "displacement",
+                    modes: Optional[int] = None, speed: Any = None) -> StateSpace:
+        """A, B, C, D of the linear rotor at a speed, of the matrices of `matrices`: forces to motions.
+
+        `inputs` and `outputs` are those of `frf`: stations by number or name with a direction of x, y, theta_x
+        and theta_y, "7:x,ring:y" or a list of such, or names of probes. Left out: x and y of all that have a
+        name; of outputs: the inputs. `quantity` is displacement, velocity or acceleration, or several. `modes`
+        keeps the lowest modes only; left out: all, which is the whole model.
+
+        Needs scipy. Raises ModelError for unknown ends, NumericalError where something has no mass.
+        """
+        return state_space(self, inputs, outputs, quantity, modes, speed)
+
     def _call(self, verb: Verb, args: tuple, options: dict[str, Any]) -> Result:
         model, show = self._text, None
         if options:
@@ -276,3 +291,21 @@ def read(path: Union[str, os.PathLike]) -> Model:
     """Reads a model file (TOML) and all that it names. Raises ModelError with all problems."""
     path = os.fspath(path)
     return Model(_whirl.file_text(path), path)
+
+
+def from_ross(path: Union[str, os.PathLike]) -> Model:
+    """Reads a rotor saved by ROSS, TOML or JSON, as `whirl import` does; tables are in the model then.
+
+    A UserWarning tells what the model does not have, or takes differently. Raises ModelError with the places of
+    all problems, FileError if the file cannot be read.
+    """
+    path = os.fspath(path)
+    stem = os.path.splitext(os.path.basename(path))[0]
+    with tempfile.TemporaryDirectory(prefix="whirl-") as folder:
+        place = os.path.join(folder, f"{stem}.toml")
+        left_out, taken_differently = _whirl.import_file(path, place)
+        text = read(place).to_toml()
+    for what, lines in (("taken differently", taken_differently), ("left out", left_out)):
+        for line in lines:
+            warnings.warn(f"{path}: {what}: {line}", UserWarning, stacklevel=2)
+    return Model(text, f"{stem}.toml")

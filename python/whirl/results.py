@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
+import re
 import shutil
 import tempfile
 import weakref
@@ -276,6 +277,25 @@ class Result:
         """A table of pandas, see Group.to_dataframe; left out: of the group of the verb."""
         return self._main(group).to_dataframe(of)
 
+    def to_mat(self, path: Union[str, os.PathLike]) -> None:
+        """Writes a file of MATLAB (version 5, which Octave reads too): one struct per group. Needs scipy.
+
+        Arrays and numbers keep their names, their dimensions and their order, so that x(station, time) is as
+        here; a single dimension is a column, texts are a cell array. `units` has structs of the same names with
+        the SI unit of each array. `verb` and `model`, the text of its file, are beside them. What is no name in
+        MATLAB has _ for its other signs.
+        """
+        made: dict[str, Any] = {"verb": self.verb, "model": self.model, "units": {}}
+        for name, group in self.groups.items():
+            arrays = {_matlab_name(key): group[key] for key in group}
+            values = {key: np.asarray(a, dtype=object) if a.dtype.kind == "U" else np.asarray(a)
+                      for key, a in arrays.items()}
+            numbers = {_matlab_name(key): value for key, value in group.attributes.items()}
+            made[_matlab_name(name)] = {**values, **numbers}
+            made["units"][_matlab_name(name)] = {key: a.unit for key, a in arrays.items()}
+        need("scipy.io").savemat(path, made, appendmat=False, long_field_names=True, do_compression=True,
+                                 oned_as="column")
+
     def save(self, path: Union[str, os.PathLike], force: bool = False) -> None:
         """Writes a result file, as --out of the command line does. With `force` over any file."""
         self._store.save(os.fspath(path), force)
@@ -335,6 +355,13 @@ class Result:
         groups = ", ".join(name for name, group in self.groups.items() if group.keys())
         ended = "" if self.is_whole else f"; {self.failure or 'stopped'}"
         return f"<whirl.Result of {self.verb}: {groups or 'no arrays'}{ended}>"
+
+
+def _matlab_name(name: str) -> str:
+    made = re.sub(r"\W", "_", name, flags=re.ASCII)
+    if made in ("break", "case", "continue", "end", "for", "global", "if", "otherwise", "return", "switch", "while"):
+        return made + "_"
+    return made if made[:1].isalpha() else f"a_{made}"
 
 
 class Page:

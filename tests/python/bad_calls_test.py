@@ -71,6 +71,12 @@ CALLS = [
     (lambda m: m.update({"contact.ring.friction": 0.1, "operation.speed": "1 m"}), ME, "expected a speed"),
     (lambda m: m.update([1, 2]), TE, "expected a dict"),
     (lambda m: m.matrices(speed="1 kg"), ME, "expected a speed"),
+    (lambda m: m.state_space(inputs=3), TE, "inputs: expected a text"),
+    (lambda m: m.state_space(inputs="nowhere:x"), ME, "inputs"),
+    (lambda m: m.state_space(outputs="rotor:sideways"), ME, "outputs"),
+    (lambda m: m.state_space("rotor:forward"), ME, "a sense of whirl is no real signal"),
+    (lambda m: m.state_space(quantity="jerk"), ME, "displacement, velocity, acceleration"),
+    (lambda m: m.state_space(modes=0), ME, "expected 1 to"),
     # files and texts
     (lambda m: whirl.read("nothing.toml"), ME, "cannot read the file"),
     (lambda m: whirl.read(3), TE, ""),

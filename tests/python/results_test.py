@@ -2,7 +2,6 @@
 xarray, pandas and matplotlib where these are; figures are the library's own."""
 
 import gc
-import importlib.util
 import inspect
 import json
 import os
@@ -13,12 +12,7 @@ import unittest
 
 import numpy as np
 import support
-from support import command_line, model, same_bits, whirl
-
-
-def needs(*modules):
-    missing = [m for m in modules if importlib.util.find_spec(m) is None]
-    return unittest.skipIf(missing, f"there is no {', '.join(missing)}")
+from support import command_line, model, needs, same_bits, whirl
 
 
 class Arrays(unittest.TestCase):

@@ -5,6 +5,7 @@
 Exit status 77, skipped, without the module or numpy.
 """
 
+import importlib.util
 import os
 import pathlib
 import subprocess
@@ -25,6 +26,11 @@ except ImportError as error:
 
 FOLDER = tempfile.TemporaryDirectory(prefix="whirl-python-test-")
 os.chdir(FOLDER.name)
+
+
+def needs(*modules):
+    missing = [m for m in modules if importlib.util.find_spec(m) is None]
+    return unittest.skipIf(missing, f"there is no {', '.join(missing)}")
 
 
 def model(name):

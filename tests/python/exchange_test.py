@@ -1,0 +1,156 @@
+"""To and from other programs: state spaces for scipy.signal, files of MATLAB, rotors saved by ROSS."""
+
+import json
+import os
+import unittest
+import warnings
+
+import numpy as np
+import support
+from support import model, needs, same_bits, whirl
+
+PROBES = """
+[[probe]]
+name  = "top"
+node  = 7
+angle = "45 deg"
+[[probe]]
+name  = "front x"
+at    = "500 mm"
+angle = 2.0
+"""
+
+
+def scaled(a, b):
+    """The largest difference of arrays, by the largest of the second."""
+    return np.abs(a - b).max() / np.abs(b).max()
+
+
+@needs("scipy")
+class StateSpaces(unittest.TestCase):
+    def compare(self, m, inputs, outputs, speed):
+        quantities = {"displacement": "receptance", "velocity": "mobility", "acceleration": "accelerance"}
+        found = m.frf(from_=inputs, to=outputs, frequencies="1:200:3.7Hz", speed=speed)
+        made = m.state_space(inputs, outputs, quantity=list(quantities), speed=speed)
+        H = made.response(found.frf.frequency)
+        k = len(made.outputs) // 3
+        self.assertEqual(len(found.frf.to), k * len(made.inputs))
+        self.assertEqual(list(found.frf.to)[:k], made.outputs[:k])
+        self.assertEqual(list(found.frf["from"])[::k], made.inputs)
+        self.assertEqual(made.speed, found.frf.speed)
+        worst = 0.0
+        for i, name in enumerate(quantities.values()):
+            expected = np.asarray(found.frf[name]).reshape(len(made.inputs), k, -1).transpose(1, 0, 2)
+            worst = max(worst, scaled(H[i * k:(i + 1) * k], expected))
+        return worst
+
+    def test_frequency_responses_are_those_of_the_program(self):
+        for name, speed in [("two_disk_mac", "4430 rpm"), ("two_disk_oil_film", None), ("compressor", "5000 rpm"),
+                            ("jeffcott", "2000 rpm"), ("overhung_disk", 0.0), ("cross_coupled_bearing", None),
+                            ("jeffcott_stator", "1300 rpm")]:
+            with self.subTest(model=name):
+                worst = self.compare(model(name), None, None, speed)
+                print(f"{name}: {worst:.1e}")
+                self.assertLess(worst, 1e-10)
+
+    def test_ends_are_stations_tilts_and_probes(self):
+        m = model("two_disk_mac")
+        m = whirl.Model(m.to_toml() + PROBES, m.path)
+        self.assertLess(self.compare(m, "ring:theta_y,3:x,top", "top,front x,left disk:y,7:theta_x", "3000 rpm"), 1e-10)
+        made = m.state_space(["ring", "top"], ["front x"], quantity="acceleration", speed="3000 rpm")
+        self.assertEqual((made.inputs[1], made.outputs), ("top", ["front x acceleration"]))
+        self.assertEqual((made.B.shape[1], made.C.shape[0], made.D.shape), (2, 1, (1, 2)))
+
+    def test_are_taken_by_scipy(self):
+        from scipy import signal
+        from scipy.linalg import expm
+
+        m = model("two_disk_mac")
+        made = m.state_space("4:x", "4:x,7:y", speed="3000 rpm", modes=8)
+        self.assertEqual(made.A.shape, (16, 16))
+        self.assertEqual(len(made.states), 16)
+        self.assertEqual(made.shapes.shape[1], 8)
+        eigenvalues = np.linalg.eigvals(m.state_space("4:x", speed="3000 rpm").A)
+        for mode in np.asarray(m.modes(modes=4, speed="3000 rpm").modes.eigenvalue):
+            self.assertLess(np.abs(eigenvalues - mode).min(), 1e-9 * abs(mode))
+        # a force that begins: the rotor after a while, step by step and at once
+        times = np.linspace(0.0, 0.2, 201)
+        _, y, _ = signal.lsim(made.to_scipy(), np.ones_like(times), times)
+        grown = expm(made.A * times[-1]) - np.eye(16)
+        self.assertLess(scaled(y[-1], made.C @ grown @ np.linalg.solve(made.A, made.B[:, 0])), 1e-9)
+
+    def test_free_rotors_have_theirs(self):
+        m = whirl.Model(model("two_disk_mac").to_toml())
+        free = whirl.Model("\n".join(["format = 1", "[[body]]", 'name = "ball"', "mass = 2", "spins = true"]))
+        self.assertAlmostEqual(abs(free.state_space("ball:x").response(10.0)[0, 0, 0]), 1 / 200, places=15)
+        self.assertGreater(len(m.state_space("1:x").A), 0)
+
+    def test_coordinates_without_mass_are_named(self):
+        with self.assertRaisesRegex(whirl.NumericalError, "a mass of every coordinate; without: node 1 theta_x"):
+            model("blade_seal").state_space()
+
+
+@needs("scipy")
+class Matlab(unittest.TestCase):
+    def test_files_hold_every_array_with_its_unit(self):
+        import scipy.io
+
+        for found in (model("two_disk_mac").identify(speed="4430 rpm", revolutions=16, discard=2, modes=4),
+                      model("two_disk_mac").frf(from_="ring:x", frequencies="0:100:1Hz"),
+                      model("jeffcott_stator").continue_({"operation.speed": "130:130.5:0.25rad/s"}, discard=50, most=4)):
+            with self.subTest(verb=found.verb):
+                found.to_mat("run.mat")
+                read = scipy.io.loadmat("run.mat", struct_as_record=False, chars_as_strings=True)
+                self.assertEqual((read["verb"][0], read["model"][0]), (found.verb, found.model))
+                count = 0
+                for name, group in found.groups.items():
+                    struct = read[whirl.results._matlab_name(name)][0, 0]
+                    units = getattr(read["units"][0, 0], whirl.results._matlab_name(name))[0, 0]
+                    for key in group:
+                        field = whirl.results._matlab_name(key)
+                        self.compare(getattr(struct, field), np.asarray(group[key]))
+                        unit = getattr(units, field)
+                        self.assertEqual(unit[0] if unit.size else "", group[key].unit)
+                        count += 1
+                    for key, value in group.attributes.items():
+                        self.assertEqual(getattr(struct, key).item() if not isinstance(value, str) else value, value)
+                self.assertGreater(count, 4)
+
+    def compare(self, read, array):
+        if array.dtype.kind == "U":
+            self.assertEqual([str(cell[0]) if cell.size else "" for cell in read.ravel()],
+                             [str(text) for text in array.ravel()])
+        else:
+            self.assertTrue(same_bits(np.ascontiguousarray(read).reshape(array.shape), array))
+
+    def test_names_are_names_there(self):
+        for name, made in (("x", "x"), ("a-b/c", "a_b_c"), ("1X", "a_1X"), ("_y", "a__y"), ("end", "end_")):
+            self.assertEqual(whirl.results._matlab_name(name), made)
+
+
+@unittest.skipUnless(hasattr(whirl._whirl, "import_file"), "the module has no import_file")
+class Ross(unittest.TestCase):
+    FILES = support.REPOSITORY / "tests/data/ross"
+
+    def test_rotors_are_those_of_the_import(self):
+        for path in [*sorted(self.FILES.glob("*.toml")), support.MODELS / "layered_ross.json"]:
+            with self.subTest(file=path.name), warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                m = whirl.from_ross(path)
+                status, text, errors = support.command_line("import", path, "--out", "rotor.toml", "--force", "--json", "-")
+                self.assertEqual(status, 0, errors)
+                record = json.loads(text)
+                said = [str(w.message) for w in told]
+                self.assertEqual(len(said), len(record["left_out"]) + len(record["taken_differently"]))
+                expected = whirl.read("rotor.toml").modes(modes=6, speed="1000 rpm")
+                self.assertTrue(same_bits(m.modes(modes=6, speed="1000 rpm").eigenvalue, expected.eigenvalue))
+
+    def test_nothing_else_is(self):
+        with self.assertRaisesRegex(whirl.FileError, "nothing.json"):
+            whirl.from_ross("nothing.json")
+        with self.assertRaises(whirl.ModelError):
+            whirl.from_ross(support.MODELS / "jeffcott.toml")
+        self.assertFalse(os.path.exists("jeffcott.toml"))
+
+
+support.main()
