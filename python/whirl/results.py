@@ -321,7 +321,8 @@ class Result:
 
     def _usual(self) -> Optional[str]:
         kinds = self._pictures().kinds()
-        usual = [kind for kind, _, _, verb in kinds if verb == self.verb] or [kind for kind, *_ in kinds]
+        usual = ([kind for kind, _, _, verb in kinds if verb == self.verb]
+                 or [kind for kind, *_ in kinds if kind != "layout"] or [kind for kind, *_ in kinds])
         return usual[0] if usual else None
 
     def svg(self, kind: Optional[str] = None, which: str = "") -> str:
