@@ -8,8 +8,14 @@
 `whirl.read` reads models, whose methods are the verbs of the command line; `whirl.open` reads result files.
 """
 
-from ._whirl import version as __version__
-from .arrays import Array
+import sys as _sys
+
+try:
+    from ._whirl import version as __version__
+    from .arrays import Array
+except ImportError as error:
+    raise ImportError(f"{error}: whirl needs numpy and the Python that it was built with, such as /usr/bin/python3; "
+                      f"this is {_sys.executable}") from error
 from .errors import FileError, ModelError, NumericalError, Problem
 from .model import Matrices, Model, from_ross, read
 from .results import Group, Page, Result, open, report

@@ -127,16 +127,17 @@ def _shapes(M: np.ndarray, K: np.ndarray, dofs: list[str]) -> np.ndarray:
             mu, shapes = linalg.eigh(M, K + shift * M)
         except np.linalg.LinAlgError:
             continue  # negative stiffness that is larger
-        return (shapes / np.sqrt(mu))[:, ::-1]
+        shapes = (shapes / np.sqrt(mu))[:, ::-1]
+        # of the highest modes and of rigid motions mu, and thus the modal mass, is less exact
+        return np.linalg.solve(np.linalg.cholesky(shapes.T @ M @ shapes), shapes.T).T
     raise NumericalError("the stiffness matrix is negative beyond all bounds")
 
 
 def state_space(model: Any, inputs: Any, outputs: Any, quantity: Any, modes: Any, speed: Any) -> StateSpace:
-    quantities = [quantity] if isinstance(quantity, str) else list(quantity)
-    for one in quantities:
-        if one not in QUANTITIES:
-            raise ModelError([Problem("quantity", 0, 0, "", f"found {one!r}, expected {', '.join(QUANTITIES)} or "
-                                      "several of them")])
+    quantities = list(quantity) if isinstance(quantity, (list, tuple)) else [quantity]
+    if not quantities or any(one not in QUANTITIES for one in quantities):
+        raise ModelError([Problem("quantity", 0, 0, "", f"found {quantity!r}, expected {', '.join(QUANTITIES)} or "
+                                  "several of them")])
     of = model.matrices(speed=speed)
     if modes is not None and not (isinstance(modes, (int, np.integer)) and 1 <= modes <= len(of.dofs)):
         raise ModelError([Problem("modes", 0, 0, "", f"found {modes!r}, expected 1 to {len(of.dofs)}")])

@@ -1,6 +1,8 @@
 """Fifty wrong calls: each gives TypeError, ModelError or another of whirl's errors that says what would be
 right, and leaves the model as it was."""
 
+import subprocess
+import sys
 import unittest
 
 import numpy as np
@@ -76,6 +78,7 @@ CALLS = [
     (lambda m: m.state_space(outputs="rotor:sideways"), ME, "outputs"),
     (lambda m: m.state_space("rotor:forward"), ME, "a sense of whirl is no real signal"),
     (lambda m: m.state_space(quantity="jerk"), ME, "displacement, velocity, acceleration"),
+    (lambda m: m.state_space(quantity=3), ME, "found 3, expected displacement"),
     (lambda m: m.state_space(modes=0), ME, "expected 1 to"),
     # files and texts
     (lambda m: whirl.read("nothing.toml"), ME, "cannot read the file"),
@@ -119,6 +122,13 @@ class BadCalls(unittest.TestCase):
             self.assertTrue(problem.message)
         self.assertTrue(any(p.file == "rotor.toml" and p.line > 1 for p in problems))
         self.assertTrue(any("friction" in p.message for p in problems))
+
+    def test_another_python_is_told(self):
+        code = "import sys; sys.path.insert(0, sys.argv[1]); sys.modules[sys.argv[2]] = None; import whirl"
+        for module in ("numpy", "whirl._whirl"):
+            done = subprocess.run([sys.executable, "-c", code, support.PACKAGE, module], capture_output=True, text=True)
+            self.assertIn(f"needs numpy and the Python that it was built with, such as /usr/bin/python3; this is "
+                          f"{sys.executable}", done.stderr.splitlines()[-1])
 
     def test_errors_can_be_pickled(self):
         import pickle
