@@ -92,9 +92,7 @@ class Trials:
         whole = subprocess.run([options.whirl, *self.words, f"{name}.h5"], cwd=folder, capture_output=True, text=True)
         if whole.returncode != 0:
             raise Failed(f"whirl {name}: {whole.stderr}")
-        begin = time.monotonic()
-        self.end()
-        self.takes = time.monotonic() - begin
+        self.whole()
 
     @property
     def file(self):
@@ -144,6 +142,12 @@ class Trials:
                 raise Failed(f"left behind: {path.name}")
             path.unlink()
 
+    def whole(self):
+        """Takes its time from the beginning to the end, which other work on the machine changes."""
+        begin = time.monotonic()
+        self.end()
+        self.takes = time.monotonic() - begin
+
     def kill(self, who, how):
         """Begins, or goes on, and kills it at some moment; whether it was not done before."""
         job = self.start()
@@ -168,6 +172,7 @@ class Trials:
                 break
             else:  # that was too late: it begins anew
                 self.end()
+                self.whole()
         self.end()
         return kills, was_saved
 
