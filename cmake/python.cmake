@@ -2,6 +2,10 @@
 # from here on. The libraries that a module is made of are position-independent code; with hidden names
 # that is as fast as a program's.
 
+# Packages of tools/setup are those of Debian's Python, wherever another one comes first in the PATH.
+if(NOT Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "The Python that the package is for")
+endif()
 set(parts Interpreter Development.Module)
 if(WHIRL_PYTHON STREQUAL "AUTO")
   find_package(Python3 3.11 QUIET COMPONENTS ${parts})

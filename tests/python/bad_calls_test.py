@@ -5,9 +5,8 @@ import subprocess
 import sys
 import unittest
 
-import numpy as np
 import support
-from support import MODELS, model, whirl
+from support import MODELS, model, np, whirl
 
 ME, TE = whirl.ModelError, TypeError
 FILE = str(MODELS / "jeffcott_stator.toml")

@@ -5,9 +5,8 @@ import os
 import unittest
 import warnings
 
-import numpy as np
 import support
-from support import model, needs, same_bits, whirl
+from support import model, needs, np, same_bits, whirl
 
 PROBES = """
 [[probe]]

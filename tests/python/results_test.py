@@ -10,9 +10,8 @@ import subprocess
 import sys
 import unittest
 
-import numpy as np
 import support
-from support import command_line, model, needs, same_bits, whirl
+from support import command_line, model, needs, np, same_bits, whirl
 
 
 class Arrays(unittest.TestCase):
