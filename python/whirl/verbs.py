@@ -41,6 +41,12 @@ class Verb(NamedTuple):
     takes_speeds: bool
     takes_over: bool
 
+    @property
+    def options_in_order(self) -> list[tuple[Option, bool]]:
+        """Its options, the one first that may stand without its name; whether each is that one."""
+        first = "speeds" if self.takes_speeds else "over" if self.takes_over else ""
+        return sorted(((o, o.name == first) for o in self.options.values()), key=lambda pair: not pair[1])
+
 
 # what these say is said by Python itself
 _LEFT_OUT = {"set", "speed", "json", "quiet"}
@@ -161,10 +167,8 @@ def _unknown(verb: Verb, name: str) -> TypeError:
 def _signature(verb: Verb) -> inspect.Signature:
     P = inspect.Parameter
     parameters = [P("self", P.POSITIONAL_ONLY)]
-    first = "speeds" if verb.takes_speeds else "over" if verb.takes_over else ""
-    for option in [*filter(lambda o: o.name == first, verb.options.values()),
-                   *filter(lambda o: o.name != first, verb.options.values())]:
-        kind = P.POSITIONAL_OR_KEYWORD if option.name == first else P.KEYWORD_ONLY
+    for option, is_first in verb.options_in_order:
+        kind = P.POSITIONAL_OR_KEYWORD if is_first else P.KEYWORD_ONLY
         parameters.append(P(option.keyword, kind, default=False if option.is_flag else None))
     for name in ("speed", "set", "progress"):
         parameters.append(P(name, P.KEYWORD_ONLY, default=None))
