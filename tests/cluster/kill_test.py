@@ -23,17 +23,21 @@ from result_files import differences, python_with_h5py
 SKIPPED = 77
 LIMIT = 300.0  # [s], of a run
 STUCK = 20.0  # [s], that mpirun may take to end without ranks, or these without it
+LONG = 3.0  # [s], that an undisturbed study takes at least, lest every kill be too late
+LATEST = 0.9  # of the time that a study takes: when it is killed at the latest
+EARLIER = 0.7  # of that, after every kill that was too late
+TOO_LATE = 10  # such kills after another
 MARK = "WHIRL_KILL_TEST"
 DOUBLING = ["--speed", "138.4rad/s", "--set", "contact.ring.stiffness=64e6"]
-# Some seconds of two processors each: (group of the result, words)
+# (group of the result, coarsest step of the first value, words)
 STUDIES = {
-    "map": ("map", ["map", "jeffcott_stator.toml", "--over", "operation.speed=130:160:0.5rad/s",
-                    "--over", "contact.ring.friction=0:0.3:0.05", "--discard", "60", "--revolutions", "30"]),
-    "sweep": ("sweep", ["sweep", "jeffcott_stator.toml", "--over", "operation.speed=130:160:0.2rad/s",
-                        "--discard", "60", "--revolutions", "30"]),
-    "continue": ("branch", ["continue", "jeffcott_stator.toml", *DOUBLING, "--over",
-                            "contact.ring.friction=0.08:0.18:0.0002", "--at", "0.13", "--switch", "2",
-                            "--over", "contact.ring.stiffness=63.5:64.5:0.5MN/m"]),
+    "map": ("map", 0.4, ["map", "jeffcott_stator.toml", "--over", "operation.speed=130:160:{step}rad/s",
+                         "--over", "contact.ring.friction=0:0.3:0.03", "--discard", "60", "--revolutions", "30"]),
+    "sweep": ("sweep", 0.2, ["sweep", "jeffcott_stator.toml", "--over", "operation.speed=130:160:{step}rad/s",
+                             "--discard", "60", "--revolutions", "30"]),
+    "continue": ("branch", 0.0002, ["continue", "jeffcott_stator.toml", *DOUBLING, "--over",
+                                    "contact.ring.friction=0.08:0.18:{step}", "--at", "0.13", "--switch", "2",
+                                    "--over", "contact.ring.stiffness=63.5:64.5:0.5MN/m"]),
 }
 # who is killed, and how; a rank, "worker" for any but the first, or mpirun itself
 KILLS = {
@@ -84,15 +88,23 @@ class Trials:
     """Kills of one study."""
 
     def __init__(self, name, folder, options):
-        self.group, words = STUDIES[name]
         self.name, self.folder, self.options = name, folder, options
+        self.group, step, words = STUDIES[name]
         self.random = random.Random(f"{options.seed} {name}")
-        self.words = [*words, "--out"]
-        self.stuck = 0
-        whole = subprocess.run([options.whirl, *self.words, f"{name}.h5"], cwd=folder, capture_output=True, text=True)
-        if whole.returncode != 0:
-            raise Failed(f"whirl {name}: {whole.stderr}")
-        self.whole()
+        self.stuck, self.takes = 0, 0.0
+        while self.takes < LONG:
+            self.words = [word.format(step=step) for word in words] + ["--out"]
+            self.undisturbed.unlink(missing_ok=True)
+            whole = subprocess.run([options.whirl, *self.words, self.undisturbed.name], cwd=folder, capture_output=True,
+                                   text=True)
+            if whole.returncode != 0:
+                raise Failed(f"whirl {name}: {whole.stderr}")
+            self.whole()
+            step /= 2
+
+    @property
+    def undisturbed(self):
+        return self.folder / f"{self.name}.h5"
 
     @property
     def file(self):
@@ -129,7 +141,7 @@ class Trials:
         return job.returncode
 
     def differences(self):
-        return differences(self.folder / f"{self.name}.h5", self.file, self.group)
+        return differences(self.undisturbed, self.file, self.group)
 
     def end(self):
         """Lets the same line go on to its end, and looks at what it leaves."""
@@ -148,10 +160,10 @@ class Trials:
         self.end()
         self.takes = time.monotonic() - begin
 
-    def kill(self, who, how):
-        """Begins, or goes on, and kills it at some moment; whether it was not done before."""
+    def kill(self, who, how, latest):
+        """Begins, or goes on, and kills it at a moment before that part of its time; whether it was not done before."""
         job = self.start()
-        time.sleep(self.takes * self.random.uniform(0.1, 0.9))
+        time.sleep(self.takes * self.random.uniform(0.1 * latest, latest))
         while job.poll() is None and len(ranks_now()) < self.options.ranks:  # all of them have begun
             time.sleep(0.01)
         ranks = ranks_now()
@@ -163,14 +175,17 @@ class Trials:
 
     def run(self, who, how):
         """Kills it once to three times, and lets it go on to its end; (kills, whether something was saved before)."""
-        kills, was_saved, wanted = 0, False, self.random.randint(1, 3)
+        kills, late, was_saved, wanted = 0, 0, False, self.random.randint(1, 3)
         while kills < wanted:
-            if self.kill(who, how):
+            if self.kill(who, how, LATEST * EARLIER**late):
                 kills += 1
                 was_saved |= self.file.exists()
             elif kills > 0:
                 break
-            else:  # that was too late: it begins anew
+            else:  # that was too late, as mpirun takes a second to hand on a signal: it begins anew
+                late += 1
+                if late == TOO_LATE:
+                    raise Failed(f"{self.name} is done in {self.takes:.1f} s, before each of {late} kills")
                 self.end()
                 self.whole()
         self.end()
