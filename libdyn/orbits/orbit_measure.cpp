@@ -20,11 +20,10 @@ struct Instants {
       : cosine(scene.reduced.M * scene.contacts.cosine_load()),
         sine(scene.reduced.M * scene.contacts.sine_load()),
         oscillations(scene.contacts.oscillations()),
-        rows(2 * std::ssize(stations), scene.contacts.coordinates()),
-        probes(probe_rows(scene)),
-        least(Vec::Constant(probes.rows(), nan)),
-        most(least) {
+        rows(2 * std::ssize(stations), scene.contacts.coordinates()) {
     const Mat map = scene.displacement_map();
+    probes = probe_rows(scene, map);
+    least = most = Vec::Constant(probes.rows(), nan);
     Eigen::Index k = 0;
     for (const Point& p : stations) {
       rows.row(k++) = map.row(scene.reduced.dofs.full_index(p, X));

@@ -50,8 +50,8 @@ struct BranchOrbit {
   CVec multipliers{};              ///< as many as states; NaN behind the last one
   std::vector<double> radii{};     ///< per station: largest distance from the axis [m]
   Mat sections_x{}, sections_y{};  ///< stations x revolutions, NaN beyond the period [m]
-  std::vector<double>
-      probe_peak_to_peak{};  ///< per probe, see OrbitMeasure; NaN in files of before [m]
+  /// Per probe, see OrbitMeasure; NaN in files of before [m].
+  std::vector<double> probe_peak_to_peak{};
   std::vector<double> duty{}, impacts{}, max_normal{}, max_tangential{};  ///< per contact
 
   std::optional<bool> is_stable() const;

@@ -51,7 +51,7 @@ void add_probe_sections(const Scene& scene, const Classification& found, long se
   const auto n = scene.contacts.coordinates();
   const Eigen::Map<const Mat> states(found.sections.data(), 2 * n,
                                      std::ssize(found.sections) / (2 * n));
-  const Mat readings = probe_rows(scene) * states.topRows(n);
+  const Mat readings = probe_rows(scene, scene.displacement_map()) * states.topRows(n);
   to.probe_sections =
       Mat::Constant(readings.rows(), sections, std::numeric_limits<double>::quiet_NaN());
   to.probe_sections.leftCols(readings.cols()) = readings;
@@ -62,7 +62,7 @@ void add_probe_readings(const Scene& scene, const Mat& eta, const ResponseSpectr
                         long lines, Portrait& to) {
   const std::vector<Probe>& probes = probes_of(scene);
   if (probes.empty()) return;
-  const Mat readings = probe_rows(scene) * eta;
+  const Mat readings = probe_rows(scene, scene.displacement_map()) * eta;
   to.probe_mean = readings.rowwise().mean();
   to.probe_peak_to_peak = readings.rowwise().maxCoeff() - readings.rowwise().minCoeff();
   to.probe_spectrum.resize(readings.rows(), lines + 1);

@@ -30,9 +30,8 @@ const std::vector<Probe>& probes_of(const Scene& scene) {
   return scene.assembler.structure().probes;
 }
 
-Mat probe_rows(const Scene& scene) {
+Mat probe_rows(const Scene& scene, const Mat& map) {
   const std::vector<Probe>& probes = probes_of(scene);
-  const Mat map = scene.displacement_map();
   Mat rows(std::ssize(probes), map.cols());
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const Point point = scene.assembler.point(probes[i].at);

@@ -75,7 +75,8 @@ constexpr auto probe_label_columns() {
 const std::vector<Probe>& probes_of(const Scene& scene);
 
 /// What they read of reduced coordinates, probes x coordinates.
-Mat probe_rows(const Scene& scene);
+/// @param map  the displacement_map() of the scene
+Mat probe_rows(const Scene& scene, const Mat& map);
 
 /// Peak to peak of what a probe reads of a motion x + i y = f e^(i w t) + b e^(-i w t) [m]:
 ///
