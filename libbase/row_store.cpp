@@ -81,8 +81,10 @@ void RowStore::set(std::size_t row, std::string_view bytes) {
   if (is_full) {
     make_room();
     Block next;
-    if (!blocks_.empty()) next.begin = blocks_.back().begin + blocks_.back().size;
-    if (!blocks_.empty()) next.bytes.reserve(std::max(limits_.block, needed));
+    if (!blocks_.empty()) {  // the first one of a small study grows as it needs
+      next.begin = blocks_.back().begin + blocks_.back().size;
+      next.bytes.reserve(std::max(limits_.block, needed));
+    }
     blocks_.push_back(std::move(next));
   }
   Block& block = blocks_.back();

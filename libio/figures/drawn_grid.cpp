@@ -39,9 +39,9 @@ CoarseGrid drawn_grid(const std::vector<std::size_t>& shape, bool is_sweep,
     grid.steps.back() = std::max<std::size_t>(1, share(shape.back(), most.values_of_sweep));
     return grid;
   }
-  const auto drawn = [&](std::size_t axis) { return share(grid.sizes[axis], grid.steps[axis]); };
-  const auto of_plane = [&] { return drawn(0) * (shape.size() > 1 ? drawn(1) : 1); };
-  while (of_plane() > most.of_plane) ++grid.steps[shape.size() > 1 && drawn(1) > drawn(0) ? 1 : 0];
+  const auto of_plane = [&] { return grid.taken(0) * (shape.size() > 1 ? grid.taken(1) : 1); };
+  while (of_plane() > most.of_plane)
+    ++grid.steps[shape.size() > 1 && grid.taken(1) > grid.taken(0) ? 1 : 0];
   if (shape.size() > 2) {
     const std::size_t planes = std::max<std::size_t>(1, most.of_planes / of_plane());
     grid.steps[2] = std::max<std::size_t>(1, share(shape[2], planes));

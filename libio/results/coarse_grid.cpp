@@ -4,21 +4,13 @@
 
 namespace whirl::inline io {
 
-namespace {
-
-std::size_t taken(std::size_t size, std::size_t step) {
-  return (size + step - 1) / step;
-}
-
-}  // namespace
-
 bool CoarseGrid::is_all() const {
   return std::all_of(steps.begin(), steps.end(), [](std::size_t step) { return step == 1; });
 }
 
 std::size_t CoarseGrid::points() const {
   std::size_t product = 1;
-  for (std::size_t i = 0; i < sizes.size(); ++i) product *= taken(sizes[i], steps[i]);
+  for (std::size_t i = 0; i < sizes.size(); ++i) product *= taken(i);
   return product;
 }
 
@@ -33,7 +25,7 @@ std::size_t CoarseGrid::number_of(std::size_t point) const {
   std::size_t number = 0, stride = 1;
   for (std::size_t i = sizes.size(); i-- > 0; point /= sizes[i]) {
     number += point % sizes[i] / steps[i] * stride;
-    stride *= taken(sizes[i], steps[i]);
+    stride *= taken(i);
   }
   return number;
 }

@@ -11,6 +11,10 @@ struct CoarseGrid {
   std::vector<std::size_t> steps{};  ///< as many
 
   bool is_all() const;
+  /// Values along an axis that it has.
+  std::size_t taken(std::size_t axis) const {
+    return (sizes[axis] + steps[axis] - 1) / steps[axis];
+  }
   std::size_t points() const;
   bool has(std::size_t point) const;
   /// The number of a point that it has.

@@ -263,9 +263,9 @@ Result stored_study(const ResultReader& file, const CoarseGrid& grid = {}) {
       reading);
   for_each_column<Result>([&](const auto& c) {
     if constexpr (!is_rows_column<std::remove_cvref_t<decltype(c)>>) {
-      using Given = std::invoke_result_t<decltype(c.member), Result&>;
-      if constexpr (std::is_same_v<Given, std::remove_cvref_t<Given>&>) {
-        const auto kind = columns::kind_of<std::remove_cvref_t<Given>>();
+      using Member = std::remove_cvref_t<decltype(c.member)>;
+      if constexpr (columns::is_read<Result, Member>) {
+        const auto kind = columns::kind_of<ColumnValue<Result, Member>>();
         auto cells = columns::read_cells(file, group + '/' + std::string(c.key), kind);
         if (!cells) return;
         Eigen::Index count = 1;
