@@ -73,6 +73,9 @@ class DatasetBlocks {
   std::size_t kept_number_ = 0;  ///< of the dataset there
 };
 
+/// Thrown out of a writing that is given up.
+struct WritingGivenUp {};
+
 /// Writes a result file beside its place, where commit() puts it whole; or keeps what it would hold.
 ///
 /// Objects are named by absolute paths, "/trajectory/x"; groups are made on the way. Datasets above
@@ -119,6 +122,12 @@ class ResultWriter {
   /// All that was kept of another one.
   void write(const KeptResult& kept);
 
+  /// From now on go_on() asks this whether to give up.
+  void give_up_if(std::function<bool()> is_given_up) { is_given_up_ = std::move(is_given_up); }
+  /// Asked now and then by what writes much.
+  /// @throws WritingGivenUp
+  void go_on() const;
+
   /// Brings the file to the disk and to its place, with a checksum behind what HDF5 reads; nothing
   /// can be written after it.
   /// @throws FileError  the place then is as it was
@@ -141,6 +150,7 @@ class ResultWriter {
   std::optional<FileReplacement> file_{};
   KeptResult* kept_ = nullptr;
   std::int64_t id_ = -1;  ///< HDF5's handle; -1: there is no file, or it is closed
+  std::function<bool()> is_given_up_{};
 };
 
 /// Some of the numbers along a dimension.

@@ -45,6 +45,8 @@ class StudyWriter {
   void write_parameters(const std::vector<ParameterAxis>& parameters, const std::string& leads);
   /// Numbers that a column has of a point.
   std::size_t width(const Facts& column) const;
+  /// @throws WritingGivenUp
+  void go_on() const { file_.go_on(); }
   /// Begins the dataset of a column; the numbers of one point come after those of the other.
   DatasetBlocks begin_points(const Facts& column);
   /// @param values  of all points
@@ -127,6 +129,7 @@ void write_rows(study_columns::StudyWriter& to, const Result& result, std::size_
   }
   const std::size_t at_once = std::max<std::size_t>(1, most_numbers / of_point);
   for (std::size_t first = 0; first < result.points.size(); first += at_once) {
+    to.go_on();
     std::vector<std::optional<Row>> rows;
     const std::size_t last = std::min(first + at_once, result.points.size());
     for (std::size_t i = first; i < last; ++i) rows.push_back(result.points[i]);

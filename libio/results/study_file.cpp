@@ -22,7 +22,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr int rarely = 100;     ///< times what it takes, until a whole file is written again
+constexpr int rarely = 100;       ///< times what it takes, until a whole file is written again
 constexpr int first_of_run = 10;  ///< likewise, in a run that goes on with one
 
 /// The parts of a call that change what is computed; the model is compared as a text.
@@ -168,7 +168,7 @@ void StudyFile::add(std::span<const std::size_t> points,
                     const std::function<std::string(std::size_t point)>& pack) {
   if (place_.file.empty()) return;
   is_current_ = false;
-  if (is_dear()) {
+  if (journal_ || is_dear()) {
     std::vector<RowJournal::Row> rows;
     for (const std::size_t point : points) rows.push_back({point, pack(point)});
     journal().append(rows);
@@ -178,14 +178,24 @@ void StudyFile::add(std::span<const std::size_t> points,
   is_current_ = true;
 }
 
+bool StudyFile::is_given_up(clock::time_point since) const {
+  const bool is_late =
+      journal_ && cost_ > clock::duration::zero() && clock::now() - since > place_.patience;
+  return is_late && is_stopped_ && is_stopped_();
+}
+
 void StudyFile::save() {
-  constexpr std::chrono::seconds soon(2);
   if (place_.file.empty() || std::exchange(is_current_, false)) return;
-  if (journal_ && cost_ > soon && is_stopped_ && is_stopped_()) return;
   const auto begin = clock::now();
+  if (is_given_up(begin - cost_)) return;
   const auto file = begin_();
+  file->give_up_if([&] { return is_given_up(begin); });
   write_start(*file, place_);
-  write_(*file);
+  try {
+    write_(*file);
+  } catch (const WritingGivenUp&) {
+    return;
+  }
   const std::chrono::duration<double> now = std::chrono::steady_clock::now() - begun_;
   write_work(*file, this_work(seconds_before_ + now.count()));
   file->commit();

@@ -26,10 +26,11 @@ struct StudyPlace {
   std::vector<std::string> joins{};
   bool restarts = false;  ///< whatever the file holds is replaced
   Call call{};
-  std::string model{};                ///< text of the model
-  std::string version{};              ///< of the program
-  std::string start_file{};           ///< result that its motions go on from; empty: none
-  std::optional<EarlierEnd> start{};  ///< the end of that
+  std::string model{};                       ///< text of the model
+  std::string version{};                     ///< of the program
+  std::string start_file{};                  ///< result that its motions go on from; empty: none
+  std::optional<EarlierEnd> start{};         ///< the end of that
+  std::chrono::milliseconds patience{2000};  ///< what a saving may take once the study is to stop
 };
 
 /// Writes where the motions of a study begin, if that is the end of another result.
@@ -43,7 +44,7 @@ class StudyFile {
   using Begin = std::function<std::unique_ptr<ResultWriter>()>;
   /// @param write  adds what is computed so far
   /// @param take   takes over what an earlier run has left; not called if it restarts
-  /// @param is_stopped  whether the study ends at once: what takes long is not begun then
+  /// @param is_stopped  whether the study ends at once: a saving that takes long is given up then
   /// @throws FileError  if the file cannot be written or is of another study
   StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWriter&)> write,
             const std::function<void(const ResultReader&)>& take,
@@ -70,6 +71,10 @@ class StudyFile {
   std::string key() const;
   RowJournal& journal();
   bool is_dear() const;
+  /// Whether somebody waits for the end while the whole file is written, and need not: it has been
+  /// written before, and what is new is beside it.
+  /// @param since  when that was begun
+  bool is_given_up(clock::time_point since) const;
 
   StudyPlace place_;
   double seconds_before_ = 0.0;  ///< that earlier runs have computed

@@ -113,6 +113,39 @@ TEST_F(KeptStudies, GoOnBesideTheirFile) {
   EXPECT_EQ(rows_in_journal(journal).size(), 32u);
 }
 
+// What is new is beside the file: nobody who wants the study to stop waits for all of it.
+TEST_F(KeptStudies, GiveUpAWritingThatTakesLongOnceTheyAreToStop) {
+  bool is_stopped = false;
+  keeping.place.patience = std::chrono::milliseconds(70);
+  keeping.is_stopped = [&] { return is_stopped; };
+  auto stops = study([&](Numbers& so_far, const auto& monitor) {
+    for (std::size_t i = 0; i < 30; ++i) {
+      so_far.points[i] = static_cast<double>(i);
+      monitor.add(so_far, std::vector{i});
+    }
+    is_stopped = true;
+    monitor.save(so_far);
+  });
+  const auto write = stops.write;
+  stops.write = [&](ResultWriter& to, const Numbers& so_far) {
+    for (int block = 0; is_stopped && block < 1000; ++block) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      to.go_on();
+    }
+    write(to, so_far);
+  };
+  run_kept(keeping, stops);
+  EXPECT_LE(writings, 1);
+  EXPECT_EQ(rows_in_journal(journal).size(), 29u);
+
+  is_stopped = false;
+  run_kept(keeping, study([](Numbers& so_far, const auto&) {
+             for (std::size_t i = 0; i < 30; ++i) {
+               EXPECT_EQ(so_far.points[i], static_cast<double>(i));
+             }
+           }));
+}
+
 TEST_F(KeptStudies, ThatBeginAnewForgetIt) {
   const auto killed = study([](Numbers& so_far, const auto& m) { grow(so_far, m, 0, 30); });
   EXPECT_THROW(run_kept(keeping, killed), Killed);

@@ -81,6 +81,10 @@ ResultWriter::~ResultWriter() {
   if (id_ >= 0) H5Fclose(id_);
 }
 
+void ResultWriter::go_on() const {
+  if (is_given_up_ && is_given_up_()) throw WritingGivenUp();
+}
+
 void ResultWriter::commit() {
   if (!file_) return;
   assert(id_ >= 0);
