@@ -2,6 +2,8 @@
 
 #include <Eigen/SparseLU>
 
+#include "libbase/interruption.hpp"
+
 namespace whirl::inline base {
 
 struct SparseLu::Factors {
@@ -10,6 +12,7 @@ struct SparseLu::Factors {
 
 SparseLu::SparseLu() = default;
 SparseLu::SparseLu(const Sparse& A) : factors_(std::make_unique<Factors>()) {
+  interruption_point();
   factors_->lu.compute(A);
 }
 SparseLu::~SparseLu() = default;

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseLU>
 
+#include "libbase/interruption.hpp"
 #include "libbase/sparse_lu.hpp"
 
 namespace whirl::inline base {
@@ -18,6 +19,7 @@ ComplexSparseLu::ComplexSparseLu(ComplexSparseLu&&) noexcept = default;
 ComplexSparseLu& ComplexSparseLu::operator=(ComplexSparseLu&&) noexcept = default;
 
 bool ComplexSparseLu::factorize(const CSparse& A) {
+  interruption_point();
   factors_->lu.factorize(A);
   return factors_->lu.info() == Eigen::Success;
 }

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "libbase/interruption.hpp"
 #include "libbase/sparse_lu.hpp"
 #include "libfe/bow.hpp"
 #include "libfe/elements/body.hpp"
@@ -291,6 +292,7 @@ Assembler::Assembler(Structure structure)
 }
 
 Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
+  interruption_point();
   FullMatrices f = fixed_;
   Collector collector;
   bool any = false;

@@ -253,8 +253,11 @@ const std::vector<BearingCoefficients>& FilmEquilibrium::coefficients(double Ome
     if (is_new && !(state_->last && state_->last->Omega == Omega)) {
       state_->last = state_->found(Omega);
     }
-  } catch (...) {
+  } catch (const std::exception&) {
     known.failure = std::current_exception();
+  } catch (...) {  // left at an interruption_point
+    state_->known.erase(at);
+    throw;
   }
   if (known.failure) std::rethrow_exception(known.failure);
   if (is_new) {
