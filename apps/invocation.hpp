@@ -62,6 +62,8 @@ class Invocation {
   KeptResult* kept = nullptr;         ///< takes what the file of --out holds
   std::function<void(const std::string& what, long done, long total)> progress{};
   std::function<bool()> is_stopped{};
+  /// A result with the motion that this call would integrate, of verbs that can take it from there.
+  std::string motion{};
 
   /// What is given of an option that several verbs have, for what all verbs do alike.
   std::vector<std::string> values(std::string_view option) const;

@@ -44,12 +44,21 @@ Report run_identify(const Invocation& call, const IdentifyVerbOptions& asked) {
                                 .rotations = asked.rotations,
                                 .mass_weighted = asked.mass_weighted,
                                 .stiffened = asked.stiffened};
+  const auto tell = [&](const auto& motion, const Run& run) {
+    Report report = motion_report(call, model, run, station_summaries(run), "Identification");
+    if (file) write_run(*file, motion, model);
+    add_identification(model, run, options, report, file.get());
+    commit(call, file.get(), report);
+    return report;
+  };
+  if (!call.motion.empty()) {
+    const auto& integration = asked.integration;
+    const StoredRun stored = stored_run(call.motion, model, integration.stations.value_or(""),
+                                        integration.method.value_or(""));
+    return tell(stored, stored.run);
+  }
   const Run run = run_simulation(call, model, asked.integration);
-  Report report = motion_report(call, model, run, station_summaries(run), "Identification");
-  if (file) write_run(*file, run, model);
-  add_identification(model, run, options, report, file.get());
-  commit(call, file.get(), report);
-  return report;
+  return tell(run, run);
 }
 
 }  // namespace

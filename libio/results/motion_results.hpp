@@ -23,6 +23,20 @@ void write_end(ResultWriter& file, const Model& model, const Scene& scene, const
 /// Groups /trajectory and /contacts, and /spectra of the stations.
 void write_run(ResultWriter& file, const Run& run, const Model& model);
 
+/// The run of a result, with all that was recorded of it; how long it took is not known.
+struct StoredRun {
+  Run run;
+  MotionEnd end;  ///< which run.simulation.end is not
+};
+/// @param model     that it is the motion of
+/// @param stations  as RunOptions has them, and the method
+/// @throws FileError   if the file cannot be read
+/// @throws ModelError  if it holds no motion, or that of another rotor
+StoredRun stored_run(const std::string& path, const Model& model, const std::string& stations,
+                     const std::string& method);
+/// The same groups of it.
+void write_run(ResultWriter& file, const StoredRun& stored, const Model& model);
+
 /// Groups /campbell and /resonances; a motion that bounces is the end of the result, so that others
 /// begin there.
 void write_resonances(ResultWriter& file, const Model& model, const Assembler& assembler,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/export/matrices.hpp"
@@ -83,8 +84,12 @@ py::object ModelText::value(const std::string& path) const {
 
 py::dict ModelText::matrices() const {
   const Model& model = *made_;
-  const Assembler assembler(linear_structure(model));
-  const System system = assembler.uncondensed(model.speed);
+  auto [assembler, system] = [&] {
+    const py::gil_scoped_release others_run;
+    Assembler made(linear_structure(model));
+    System at_speed = made.uncondensed(model.speed);
+    return std::pair(std::move(made), std::move(at_speed));
+  }();
   py::dict all;
   all["M"] = compressed_columns(system.M);
   all["C"] = compressed_columns(system.C);

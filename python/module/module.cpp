@@ -65,7 +65,20 @@ PYBIND11_MODULE(_whirl, module) {
     return py::make_tuple(made.left_out, made.taken_differently);
   });
   module.def("verb_table", &verb_table);
-  module.def("run", &run_verb, py::arg("verb"), py::arg("model"), py::arg("given"),
-             py::arg("progress"));
+  module.def(
+      "run",
+      [](const std::string& verb, const ModelText& model, const GivenValues& given,
+         const py::object& progress, const std::string& motion,
+         const std::vector<std::string>& sets_before) {
+        return run_verb(verb, {.model = &model, .motion = motion, .sets_before = sets_before},
+                        given, progress);
+      },
+      py::arg("verb"), py::arg("model"), py::arg("given"), py::arg("progress"),
+      py::arg("motion") = "", py::arg("sets_before") = std::vector<std::string>{});
+  module.def(
+      "run_on_file",
+      [](const std::string& verb, const std::string& file, const GivenValues& given,
+         const py::object& progress) { return run_verb(verb, {.file = file}, given, progress); },
+      py::arg("verb"), py::arg("file"), py::arg("given"), py::arg("progress"));
   module.def("report_html", &report_html, py::arg("files"));
 }

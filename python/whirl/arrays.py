@@ -89,7 +89,7 @@ class Array(np.ndarray):
         for i, row in enumerate(np.atleast_2d(np.asarray(self))):
             label = None if self.ndim == 1 else str(i + 1 if names is None else names[i])
             axes.plot(over, row, label=label, **style)
-        if is_text:
+        if x is not None and is_text:
             axes.set_xticks(over, [str(text) for text in x])
         axes.set_xlabel(title_of(x) if x is not None else (self.dims[-1] if self.dims else ""))
         axes.set_ylabel(title_of(self))

@@ -1,4 +1,5 @@
-"""Methods of models that stand in no list of their own: verbs of the program, and tables of model files.
+"""Methods of models and results that stand in no list of their own: verbs of the program, and tables of model
+files.
 
 `tools/python-stubs` writes methods.pyi of it, for editors and type checkers.
 """
@@ -7,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any, Callable
 
-from .verbs import VERBS, method_of, python_name
+from .verbs import RESULT_VERBS, VERBS, method_of, python_name
 
 TABLES = {
     **dict.fromkeys(["operation", "bow", "damping", "reduction", "start"], "one"),
@@ -20,6 +21,10 @@ TABLES = {
 
 class Methods:
     """What Model has beside its own methods."""
+
+
+class ResultMethods:
+    """What Result has beside its own methods."""
 
 
 def _table_method(table: str) -> Callable:
@@ -42,3 +47,5 @@ for _table in TABLES:
 for _verb in VERBS.values():
     for _name in filter(None, (_verb.name, _verb.alias)):
         setattr(Methods, python_name(_name), method_of(_verb, _call))
+for _verb in RESULT_VERBS.values():
+    setattr(ResultMethods, python_name(_verb.name), method_of(_verb, _call, "Result"))

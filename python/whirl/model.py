@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import os
 import re
 import tempfile
 import tomllib
 import warnings
-from typing import Any, Mapping, NamedTuple, Optional, Union
+from typing import Any, Iterator, Mapping, Optional, Union
 
 import numpy as np
 
-from . import _whirl, progress as _progress
+from . import _whirl
 from .methods import TABLES, Methods
-from .results import Result
+from .results import Result, run_verb
 from .state_space import StateSpace, state_space
 from .verbs import Verb, given_values, text_of
 
@@ -26,13 +27,13 @@ def _toml(value: Any) -> str | None:
     if isinstance(value, str):
         return '"' + value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
     if isinstance(value, (list, tuple)) or (isinstance(value, np.ndarray) and value.ndim == 1):
-        items = [_toml(v) for v in value]
-        return None if None in items else f"[{', '.join(items)}]"
+        items = [text for text in map(_toml, value) if text is not None]
+        return f"[{', '.join(items)}]" if len(items) == len(value) else None
     if isinstance(value, Mapping):
-        items = [(key, _toml(v)) for key, v in value.items()]
-        if any(not isinstance(key, str) or text is None for key, text in items):
+        pairs = [(key, _toml(v)) for key, v in value.items()]
+        if any(not isinstance(key, str) or text is None for key, text in pairs):
             return None
-        return "{" + ", ".join(f"{_key(key)} = {text}" for key, text in items) + "}"
+        return "{" + ", ".join(f"{_key(key)} = {text}" for key, text in pairs) + "}"
     return text_of(value)
 
 
@@ -86,8 +87,12 @@ def _toml_of(tree: Mapping[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
-class Matrices(NamedTuple):
-    """M q'' + (C + speed G) q' + K q = f of the rotor, supports eliminated, nothing condensed."""
+@dataclasses.dataclass(frozen=True)
+class Matrices:
+    """M q'' + (C + speed G) q' + K q = f of the rotor, supports eliminated, nothing condensed.
+
+    They can be taken apart: M, C, G, K = m.matrices().
+    """
 
     M: Any
     """Mass, scipy.sparse.csc_array [kg, kg m^2]."""
@@ -103,6 +108,13 @@ class Matrices(NamedTuple):
     """Where each q is along the shaft [m]; NaN for bodies and internal shape functions."""
     speed: float
     """[rad/s]"""
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter((self.M, self.C, self.G, self.K))
+
+    def __repr__(self) -> str:
+        return (f"<whirl.Matrices M, C, G, K of {len(self.dofs)} coordinates ({self.dofs[0]}, ..., {self.dofs[-1]}) "
+                f"at {self.speed:.6g} rad/s>")
 
 
 class Model(Methods):
@@ -239,8 +251,8 @@ class Model(Methods):
             raise ImportError("matrices() gives sparse matrices of scipy: apt-get install python3-scipy") from error
         found = self._with(speed, None).matrices()
         n = len(found["names"])
-        made = (csc_array(found[name], shape=(n, n), copy=False) for name in "MCGK")
-        return Matrices(*made, found["names"], np.array(found["z"]), found["speed"])
+        M, C, G, K = (csc_array(found[name], shape=(n, n), copy=False) for name in "MCGK")
+        return Matrices(M, C, G, K, found["names"], np.array(found["z"]), found["speed"])
 
     def state_space(self, inputs: Any = None, outputs: Any = None, quantity: Any = "displacement",
                     modes: Optional[int] = None, speed: Any = None) -> StateSpace:
@@ -256,31 +268,14 @@ class Model(Methods):
         return state_space(self, inputs, outputs, quantity, modes, speed)
 
     def _call(self, verb: Verb, args: tuple, options: dict[str, Any]) -> Result:
-        model, show = self._text, None
+        model, wanted = self._text, None
         if options:
             speed, sets = options.pop("speed", None), options.pop("set", None)
             wanted = options.pop("progress", None)
             if speed is not None or sets is not None:
                 model = self._with(speed, sets)
-            show = wanted if callable(wanted) else None
-            is_shown = wanted is None or wanted is True
-        else:
-            is_shown = True
         given = given_values(verb, args, options)
-        bar = _progress.bar() if is_shown and show is None else None
-        try:
-            found = _whirl.run(verb.name, model, given, bar or show)
-        except BaseException as error:
-            if hasattr(error, "found"):  # stopped: what was found until then
-                error.result = Result._of(error.found, verb.name)  # type: ignore[attr-defined]
-                del error.found
-            raise
-        finally:
-            if bar:
-                bar.close()
-        if found.failure:
-            warnings.warn(f"{verb.name}: {found.failure}", RuntimeWarning, stacklevel=3)
-        return Result._of(found, verb.name)
+        return run_verb(verb.name, wanted, lambda progress: _whirl.run(verb.name, model, given, progress))
 
     def __repr__(self) -> str:
         title = f" {self.title!r}" if self.title else ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import Callable, Optional
+from typing import Any, Callable, Optional
 
 Progress = Callable[[str, int, int], None]
 """Called with what goes on, how much of it is done, and how much there is."""
@@ -21,7 +21,7 @@ class Bar:
 
     def __init__(self) -> None:
         self._begin = time.monotonic()
-        self._shown = None
+        self._shown: Any = None
         self._is_notebook = _is_notebook()
 
     def __call__(self, what: str, done: int, total: int) -> None:

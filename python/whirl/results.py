@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import hashlib
 import html
 import json
 import os
+import pathlib
 import re
 import shutil
 import tempfile
+import warnings
 import weakref
-from typing import Any, Iterator, Optional, Union
+from builtins import open as _open_file
+from typing import Any, Callable, Iterator, Optional, Union
 
 import numpy as np
 
-from . import _whirl
+from . import _whirl, progress as _progress
 from .arrays import Array, attributes_of, dimension_of, labelled, need, title_of
+from .errors import ModelError, Problem
+from .methods import ResultMethods
+from .verbs import VERBS, Verb, given_values
 
 
 class _Arrays:
@@ -95,12 +102,20 @@ class Group:
         return [*super().__dir__(), *self._paths, *self.attributes]
 
     def to_dataset(self) -> Any:
-        """All of it as xarray.Dataset with units, without a copy. Needs xarray."""
+        """All of it as xarray.Dataset with units, without a copy. Needs xarray.
+
+        Of dimensions without a name (dim_3) that are not as long as each other one is called after its array.
+        """
         xarray = need("xarray")
         arrays = {name: self[name] for name in self._paths}
         along = {dim: c for a in arrays.values() for dim, c in a.coords.items()}
         coords = {dim: ((dim,), np.asarray(c), attributes_of(c)) for dim, c in along.items()}
-        data = {name: (a.dims, np.asarray(a), attributes_of(a)) for name, a in arrays.items()
+        sizes = {dim: len(c) for dim, c in along.items()}
+
+        def dims_of(name: str, a: Array) -> tuple[str, ...]:
+            return tuple(d if sizes.setdefault(d, n) == n else f"{name}_{d}" for d, n in zip(a.dims, a.shape))
+
+        data = {name: (dims_of(name, a), np.asarray(a), attributes_of(a)) for name, a in arrays.items()
                 if not (a.dims == (name,) or (len(a.dims) == 1 and along.get(a.dims[0]) is a))}
         return xarray.Dataset(data, coords, attrs=dict(self.attributes))
 
@@ -141,7 +156,7 @@ class Group:
         return "\n".join(lines)
 
 
-class Result:
+class Result(ResultMethods):
     """What a verb found, or what a result file holds.
 
     Its groups are attributes (`run.trajectory`), and so are arrays and numbers whose name only one group has
@@ -156,6 +171,14 @@ class Result:
     """Why it ended early; empty: it did not."""
     is_whole: bool
     """Whether all was computed that was asked for: nothing failed, nobody stopped it."""
+    _store: Any
+    _found: Any
+    _record: Optional[dict[str, Any]]
+    _groups_known: Optional[dict[str, Group]]
+    _root: dict[str, Any]
+    _path: Optional[str]  # of a file with this result in it
+    _is_opened: bool
+    _drawn: Any
 
     def __init__(self) -> None:
         raise TypeError("results come from the methods of a model, and from whirl.open")
@@ -166,6 +189,7 @@ class Result:
         self._store, self.verb = store, verb
         self.text, self.notes, self.failure, self.is_whole = "", [], "", True
         self._found = self._record = self._groups_known = self._path = self._drawn = None
+        self._root, self._is_opened = {}, False
         return self
 
     @classmethod
@@ -191,7 +215,6 @@ class Result:
                 folder, _, name = path.rpartition("/")
                 if folder and folder != "/call":
                     group_of(folder)._paths[name] = path
-            self._root = {}
             for owner, name, value in self._store.attributes():
                 if owner == "/":
                     self._root[name] = value
@@ -251,9 +274,8 @@ class Result:
         Of an opened file its attributes, as a file does not hold that.
         """
         if self._record is None:
-            self._record = json.loads(self._found.json) if self._found else dict(self.attributes)
-            if self._found:
-                self._record["notes"] = list(self.notes)
+            self._record = ({**json.loads(self._found.json), "notes": list(self.notes)} if self._found
+                            else dict(self.attributes))
         return self._record
 
     def _main(self, name: Optional[str]) -> Group:
@@ -295,6 +317,39 @@ class Result:
             made["units"][_matlab_name(name)] = {key: a.unit for key, a in arrays.items()}
         need("scipy.io").savemat(path, made, appendmat=False, long_field_names=True, do_compression=True,
                                  oned_as="column")
+
+    def to_csv(self, name: Union[str, os.PathLike], **options: Any) -> list[str]:
+        """Writes its tables for spreadsheets, one file per group; their names.
+
+        The files are those of `whirl export --format csv`, NAME_trajectory.csv of to_csv("NAME"), and options are
+        those of `export`, such as revolutions=4 of a motion.
+        """
+        return self.export(format="csv", out=name, **options).files
+
+    def _call(self, verb: Verb, args: tuple, options: dict[str, Any]) -> Result:
+        wanted = options.pop("progress", None)
+        given = given_values(verb, args, options)
+        if verb.name == "identify":
+            return self._identified(given, wanted)
+        if "out" not in given:  # not beside a file that nobody knows of
+            given["out"] = [pathlib.Path(self._path).stem if self._path and self._is_opened else self.verb]
+        file = self._file()
+        return run_verb(verb.name, wanted, lambda progress: _whirl.run_on_file(verb.name, file, given, progress))
+
+    def _identified(self, given: dict[str, list[str]], wanted: Any) -> Result:
+        """As if the call of this result had been one of identify; its motion is taken from here."""
+        paths, call = self._store.paths(), {n: v for owner, n, v in self._store.attributes() if owner == "/call"}
+        if "/trajectory/coordinates" not in paths:
+            raise ModelError([Problem(self.verb, 0, 0, "", "holds no motion; simulate and identify record one")])
+        before, sets = (self._store.values(p) if p in paths else [] for p in ("/call/option", "/call/set"))
+        for option in before:
+            name, _, value = option.removeprefix("--").partition("=")
+            if name in _INTEGRATION:
+                given.setdefault(name, [value])
+        model = _whirl.ModelText(call["file"], self.model, [])
+        file = self._file()
+        return run_verb("identify", wanted, lambda progress: _whirl.run(
+            "identify", model, given, progress, file, sets))
 
     def save(self, path: Union[str, os.PathLike], force: bool = False) -> None:
         """Writes a result file, as --out of the command line does. With `force` over any file."""
@@ -346,16 +401,47 @@ class Result:
         return report(self)
 
     def _repr_svg_(self) -> Optional[str]:
-        return self.svg() if self._usual() else None
+        return _for_a_page(self.svg()) if self._usual() else None
 
     def _repr_html_(self) -> str:
         picture = self._repr_svg_() or ""
-        return f"{picture}<pre>{html.escape(self.text or repr(self))}</pre>"
+        # lines of tables are kept whole, whatever the page says of <pre>, and long ones can be scrolled
+        return (f'{picture}<pre style="white-space:pre;overflow:auto;max-height:40em">'
+                f"{html.escape(self.text or repr(self))}</pre>")
 
     def __repr__(self) -> str:
         groups = ", ".join(name for name, group in self.groups.items() if group.keys())
         ended = "" if self.is_whole else f"; {self.failure or 'stopped'}"
         return f"<whirl.Result of {self.verb}: {groups or 'no arrays'}{ended}>"
+
+
+_INTEGRATION = {o.name for o in VERBS["simulate"].options.values()} - {"out", "force", "threads"}
+
+
+def run_verb(verb: str, wanted: Any, start: Callable[[Any], Any]) -> Result:
+    """What a verb finds that `start` runs with a progress to tell; `wanted` is as methods have `progress`."""
+    show = wanted if callable(wanted) else None
+    bar = _progress.bar() if wanted is None or wanted is True else None
+    try:
+        found = start(bar or show)
+    except BaseException as error:
+        if hasattr(error, "found"):  # stopped: what was found until then
+            error.result = Result._of(error.found, verb)  # type: ignore[attr-defined]
+            del error.found
+        raise
+    finally:
+        if bar:
+            bar.close()
+    if found.failure:
+        warnings.warn(f"{verb}: {found.failure}", RuntimeWarning, stacklevel=5)
+    return Result._of(found, verb)
+
+
+def _for_a_page(svg: str) -> str:
+    """A figure beside others: names within it are those of the whole page, where the first of a name counts."""
+    of_its_own = f"whirl-{hashlib.sha256(svg.encode()).hexdigest()[:12]}-"
+    svg = re.sub(r'(\bid="|url\(#)', lambda found: found[1] + of_its_own, svg)
+    return svg[svg.index("<svg"):]
 
 
 def _matlab_name(name: str) -> str:
@@ -372,7 +458,7 @@ class Page:
         self.html = text
 
     def save(self, path: Union[str, os.PathLike]) -> None:
-        with builtin_open(path, "w", encoding="utf-8") as file:
+        with _open_file(path, "w", encoding="utf-8") as file:
             file.write(self.html)
 
     def _repr_html_(self) -> str:
@@ -387,9 +473,6 @@ def report(*results: Result) -> Page:
     return Page(_whirl.report_html([r._file() for r in results]))
 
 
-builtin_open = open
-
-
 def open(path: Union[str, os.PathLike]) -> Result:  # noqa: A001
     """Opens a result file of any verb; its arrays are read when they are asked for.
 
@@ -397,8 +480,8 @@ def open(path: Union[str, os.PathLike]) -> Result:  # noqa: A001
     """
     path = os.fspath(path)
     store = _whirl.Store(path)
-    verb = next((value for owner, name, value in store.attributes() if (owner, name) == ("/call", "verb")), "?")
+    verb = next((str(value) for owner, name, value in store.attributes() if (owner, name) == ("/call", "verb")), "?")
     self = Result._from(store, verb)
-    self._path = path
+    self._path, self._is_opened = path, True
     self.notes = [n for n in str(self.attributes.get("notes", "")).split("\n") if n]
     return self

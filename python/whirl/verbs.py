@@ -12,6 +12,7 @@ from typing import Any, Callable, Mapping, NamedTuple, Optional
 import numpy as np
 
 from . import _whirl
+from .errors import FileError, ModelError, NumericalError
 
 
 class Option(NamedTuple):
@@ -36,6 +37,8 @@ class Verb(NamedTuple):
     group: str
     summary: str
     example: str
+    takes_results: bool
+    """Beside models."""
     options: dict[str, Option]
     """By their keywords."""
     takes_speeds: bool
@@ -59,11 +62,11 @@ def python_name(name: str) -> str:
 
 
 def _verb(row: tuple) -> Verb:
-    *facts, rows = row
+    name, alias, group, summary, example, takes_results, rows = row
     options = [Option(*option) for option in rows]
     names = {option.name for option in options}
     return Verb(
-        *facts,
+        name, alias, group, summary, example, takes_results,
         {o.keyword: o for o in options if o.name not in _LEFT_OUT},
         "speeds" in names,
         "over" in names,
@@ -71,6 +74,18 @@ def _verb(row: tuple) -> Verb:
 
 
 VERBS = {verb.name: verb for verb in map(_verb, _whirl.verb_table())}
+"""Verbs that take a model."""
+
+
+def _of_a_motion() -> Verb:
+    """identify, where the motion is there: without the options of its integration."""
+    verb, integration = VERBS["identify"], VERBS["simulate"].options
+    kept = {k: o for k, o in verb.options.items() if k not in integration or k in ("out", "force")}
+    return verb._replace(options=kept)
+
+
+RESULT_VERBS = {"identify": _of_a_motion(), **{v.name: v for v in VERBS.values() if v.takes_results}}
+"""Verbs that take a result."""
 
 
 def text_of(value: Any) -> Optional[str]:
@@ -86,8 +101,8 @@ def text_of(value: Any) -> Optional[str]:
     if isinstance(value, os.PathLike):
         return os.fspath(value)
     if isinstance(value, (list, tuple, range)) or (isinstance(value, np.ndarray) and value.ndim == 1):
-        texts = [text_of(v) for v in value]
-        return None if None in texts or not texts else ",".join(texts)
+        texts = [text for text in map(text_of, value) if text is not None]
+        return ",".join(texts) if len(texts) == len(value) > 0 else None
     if hasattr(value, "_file"):  # a result that was found before
         return value._file()
     return None
@@ -158,24 +173,24 @@ def _example(verb: Verb) -> str:
 
 
 def _unknown(verb: Verb, name: str) -> TypeError:
-    known = [*verb.options, "speed", "set", "progress"]
+    known = [*verb.options, *(("speed", "set") if verb is VERBS[verb.name] else ()), "progress"]
     near = difflib.get_close_matches(name, known, 1)
     hint = f"did you mean {near[0]}?" if near else f"there are {', '.join(known)}"
     return TypeError(f"{python_name(verb.name)}() has no option {name}; {hint}")
 
 
-def _signature(verb: Verb) -> inspect.Signature:
+def _signature(verb: Verb, is_of_model: bool) -> inspect.Signature:
     P = inspect.Parameter
     parameters = [P("self", P.POSITIONAL_ONLY)]
     for option, is_first in verb.options_in_order:
         kind = P.POSITIONAL_OR_KEYWORD if is_first else P.KEYWORD_ONLY
         parameters.append(P(option.keyword, kind, default=False if option.is_flag else None))
-    for name in ("speed", "set", "progress"):
+    for name in (*(("speed", "set") if is_of_model else ()), "progress"):
         parameters.append(P(name, P.KEYWORD_ONLY, default=None))
     return inspect.Signature(parameters)
 
 
-def _doc(verb: Verb) -> str:
+def _doc(verb: Verb, is_of_model: bool) -> str:
     lines = [f"{verb.summary[0].upper()}{verb.summary[1:]}.", "", f"The command line: {verb.example}", "",
              "Parameters", "----------"]
 
@@ -186,8 +201,9 @@ def _doc(verb: Verb) -> str:
     for option in verb.options.values():
         meaning = option.meaning + (f" ({option.default})" if option.default else "")
         add(option.keyword, "bool" if option.is_flag else option.placeholder, meaning)
-    add("speed", "S", "operating speed, a text with its unit such as '3650 rpm', or a number in rad/s")
-    add("set", "dict", "values of the model by their paths, for this call only")
+    if is_of_model:
+        add("speed", "S", "operating speed, a text with its unit such as '3650 rpm', or a number in rad/s")
+        add("set", "dict", "values of the model by their paths, for this call only")
     add("progress", "bool or callable", "whether a bar is shown, or what is called with "
         "(what, done, total); left out: in notebooks and on terminals")
     lines += ["", "Numbers are in SI (speeds in rad/s); texts say their unit, as on the command line.", "",
@@ -198,14 +214,17 @@ def _doc(verb: Verb) -> str:
     return "\n".join(lines)
 
 
-def method_of(verb: Verb, call: Callable) -> Callable:
-    """The method of a verb."""
+def method_of(verb: Verb, call: Callable, of: str = "Model") -> Callable:
+    """The method of a verb, of a class Model or Result."""
 
     def method(self, /, *args, **options):
-        return call(self, verb, args, options)
+        try:
+            return call(self, verb, args, options)
+        except (ModelError, NumericalError, FileError) as error:
+            raise error.with_traceback(None)  # what is wrong is not in here
 
     method.__name__ = python_name(verb.name)
-    method.__qualname__ = f"Model.{method.__name__}"
-    method.__doc__ = _doc(verb)
-    method.__signature__ = _signature(verb)  # type: ignore[attr-defined]
+    method.__qualname__ = f"{of}.{method.__name__}"
+    method.__doc__ = _doc(verb, of == "Model")
+    method.__signature__ = _signature(verb, of == "Model")  # type: ignore[attr-defined]
     return method

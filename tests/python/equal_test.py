@@ -3,6 +3,7 @@ attribute of the result file; wrong input is told alike. What is not the same be
 program is left out: durations and dates."""
 
 import contextlib
+import importlib.util
 import json
 import unittest
 
@@ -10,7 +11,8 @@ import support
 from support import command_line, model, same_bits, whirl
 
 NAMES = sorted(path.stem for path in support.MODELS.glob("*.toml"))
-VERBS = set(whirl.verbs.VERBS)
+# those that write files for others are in results_test.py
+VERBS = {name for name, verb in whirl.verbs.VERBS.items() if not verb.takes_results}
 
 # (verb, options): of every bundled model
 ON_ALL = [
@@ -103,6 +105,9 @@ class Equal(unittest.TestCase):
         return "equal"
 
     def compare_files(self, found, opened, timed):
+        if importlib.util.find_spec("xarray"):
+            for name, dataset in opened.to_datasets().items():
+                self.assertTrue(set(opened.groups[name]) <= {*dataset.variables, *dataset.dims, *self.axes(opened.groups[name])})
         ours = [p for p in found._store.paths() if p not in TIMED_ARRAYS]
         theirs = [p for p in opened._store.paths() if p not in TIMED_ARRAYS]
         self.assertEqual(sorted(ours), sorted(theirs))
@@ -113,6 +118,10 @@ class Equal(unittest.TestCase):
         a, b = ({(o, n): v if isinstance(v, str) else repr(float(v)) for o, n, v in r._store.attributes()
                  if n not in TIMED_ATTRIBUTES} for r in (found, opened))
         self.assertEqual(a, b)
+
+    def axes(self, group):
+        """Those that stand along a dimension of another name."""
+        return {name for name in group if len(group[name].dims) == 1}
 
     def test_every_verb_of_a_model_is_tried(self):
         tried = {verb for verb, *_ in ON_ALL} | {verb for verb, *_ in ON_SOME}

@@ -59,6 +59,23 @@ class Running(unittest.TestCase):
             self.assertTrue(same_bits(found[i].x, alone[i % 2].x))
             self.assertTrue(same_bits(whirl.open(f"thread_{i}.h5").x, alone[i % 2].x))
 
+    def test_one_model_on_films_is_used_by_several_threads(self):
+        m = model("two_disk_oil_film")  # its equilibria are found once, whoever asks
+        found = []
+
+        def work(i):
+            for k in range(20):
+                speed = f"{1000 + 10 * k} rpm"
+                found.append(m.matrices(speed=speed).K.sum() if i % 2 else m.modes(modes=1, speed=speed).speed_rpm)
+                found.append(m.matrices().K.sum() if i % 2 else m.static().speed_rpm)
+
+        threads = [threading.Thread(target=work, args=(i,)) for i in range(4)]
+        for t in threads:
+            t.start()
+        for t in threads:
+            t.join(60.0)
+        self.assertEqual(len(found), 4 * 40)
+
     def test_one_model_runs_in_several_threads(self):
         m = model("two_disk_mac")
         alone = m.campbell("0:5000:500rpm").to_dict()
@@ -91,6 +108,24 @@ class Running(unittest.TestCase):
         self.assertGreater(done.sum(), 0)
         self.assertLess(done.sum(), done.size)
         self.assertTrue(same_bits(whirl.open("stopped.h5").done, done))
+
+    def test_linear_verbs_are_left_between_their_steps(self):
+        speeds = "100:12000:0.5rpm"  # minutes
+        for name, verb, options in [("compressor", "campbell", {"speeds": speeds}),
+                                    ("compressor", "unbalance", {"speeds": speeds}),
+                                    ("compressor", "modes", {"over": {"operation.speed": speeds}}),
+                                    ("compressor", "frf", {"from_": "1:x", "frequencies": "1:900:0.01Hz", "speed": "1 rpm"}),
+                                    ("two_disk_oil_film", "campbell", {"speeds": speeds})]:
+            with self.subTest(model=name, verb=verb):
+                m = model(name)
+                before = m.modes(modes=2, speed="4000 rpm").to_dict()["modes"]
+                threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+                begin = time.monotonic()
+                with self.assertRaises(KeyboardInterrupt) as raised:
+                    getattr(m, verb)(**options)
+                self.assertLess(time.monotonic() - begin, 5.0)
+                self.assertFalse(hasattr(raised.exception, "result"))
+                self.assertEqual(m.modes(modes=2, speed="4000 rpm").to_dict()["modes"], before)  # films, too
 
     def test_an_exception_of_progress_leaves(self):
         def fail(what, done, total):
