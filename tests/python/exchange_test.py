@@ -1,5 +1,6 @@
 """To and from other programs: state spaces for scipy.signal, files of MATLAB, rotors saved by ROSS."""
 
+import csv
 import json
 import os
 import unittest
@@ -26,13 +27,32 @@ def scaled(a, b):
 
 
 @needs("scipy")
+class Matrices(unittest.TestCase):
+    def test_are_those_of_the_export(self):
+        import scipy.io
+
+        m = model("two_disk_mac")
+        made = m.matrices(speed="3000 rpm")
+        m.export(format="mtx", out="rotor", speed="3000 rpm")
+        M, C, G, K = made
+        for name, matrix in zip("MCGK", (M, C, G, K)):
+            self.assertIs(getattr(made, name), matrix)
+            self.assertTrue(same_bits(matrix.toarray(), scipy.io.mmread(f"rotor_{name}.mtx").toarray()))
+        with open("rotor_dofs.csv") as file:
+            self.assertEqual([row[1] for row in list(csv.reader(file))[1:]], made.dofs)
+        self.assertEqual(len(made.z), len(made.dofs))
+        self.assertIn("of 52 coordinates (node 1 x, ", repr(made))
+
+
+@needs("scipy")
 class StateSpaces(unittest.TestCase):
-    def compare(self, m, inputs, outputs, speed, frequencies="1:200:3.7Hz"):
+    def compare(self, m, inputs, outputs, speed, only=None, frequencies="1:200:3.7Hz"):
         quantities = {"displacement": "receptance", "velocity": "mobility", "acceleration": "accelerance"}
+        quantities = {q: name for q, name in quantities.items() if q in (only or quantities)}
         found = m.frf(from_=inputs, to=outputs, frequencies=frequencies, speed=speed)
         made = m.state_space(inputs, outputs, quantity=list(quantities), speed=speed)
         H = made.response(found.frf.frequency)
-        k = len(made.outputs) // 3
+        k = len(made.outputs) // len(quantities)
         self.assertEqual(len(found.frf.to), k * len(made.inputs))
         self.assertEqual(list(found.frf.to)[:k], made.outputs[:k])
         self.assertEqual(list(found.frf["from"])[::k], made.inputs)
@@ -85,14 +105,40 @@ class StateSpaces(unittest.TestCase):
                  .shaft(material="steel", length="1 m", outer_diameter="30 mm", elements=20)
                  .disk(name="disk", at=0.3, mass=8.0, polar_inertia=0.1, diametral_inertia=0.05))
         # slower, rounding of the stiffness costs `frf` itself more: 2e-9 of the largest at 1 Hz
-        worst = self.compare(shaft, "disk:x,1:theta_y", "disk:x,disk:y,21:x", None, "50:400:13Hz")
+        worst = self.compare(shaft, "disk:x,1:theta_y", "disk:x,disk:y,21:x", None, frequencies="50:400:13Hz")
         self.assertLess(worst, 1e-10)
         free = whirl.Model("\n".join(["format = 1", "[[body]]", 'name = "ball"', "mass = 2", "spins = true"]))
         self.assertAlmostEqual(abs(free.state_space("ball:x").response(10.0)[0, 0, 0]), 1 / 200, places=15)
 
-    def test_coordinates_without_mass_are_named(self):
-        with self.assertRaisesRegex(whirl.NumericalError, "a mass of every coordinate; without: node 1 theta_x"):
-            model("blade_seal").state_space()
+    def test_coordinates_without_mass_follow_the_others(self):
+        m = model("blade_seal")  # a shaft without mass, whose damping is that of its stiffness
+        self.assertEqual(len(m.state_space().states), 2 * 6 + 6)
+        self.assertLess(self.compare(m, "labyrinth disk:x", "labyrinth disk:x,blade disk:y,1:theta_x", None), 1e-10)
+        undamped = whirl.Model(m.to_toml().replace("stiffness = 1e-4", "mass = 1.0"))
+        self.assertEqual(len(undamped.state_space().states), 2 * 6)
+        self.assertLess(self.compare(undamped, "blade disk:x", "labyrinth disk:x,blade disk:y,1:theta_x", None), 1e-10)
+        # a moment where nothing has inertia: the tilt has no velocity
+        self.assertLess(self.compare(undamped, "1:theta_x", "1:theta_x,blade disk:x", None, ["displacement"]), 1e-10)
+        with self.assertRaisesRegex(whirl.NumericalError, "1 left theta_x: without a mass there, .* its velocity"):
+            undamped.state_space("1:theta_x", quantity="velocity")
+
+    def test_pedestals_without_mass_may_have_springs_and_dampers(self):
+        # in series with the rotor's own: the state of each damper, or none
+        for below, between, dampers in [(50.0, 0.0, 2), (0.0, 20.0, 2), (50.0, 20.0, 2), (0.0, 0.0, 0)]:
+            with self.subTest(below=below, between=between):
+                m = (whirl.Model()
+                     .body(name="rotor", mass=2.0, spins=True)
+                     .body(name="pedestal", mass=0.0)
+                     .bearing(body="pedestal", stiffness=3e4, damping=below)
+                     .link(from_="rotor", to="pedestal", stiffness=2e4, damping=between))
+                made = m.state_space("rotor:x,pedestal:y", speed="30 rad/s")
+                self.assertEqual(len(made.states), 4 + dampers)
+                self.assertLess(self.compare(m, "rotor:x,pedestal:y", "rotor:x,pedestal:x,pedestal:y", "30 rad/s",
+                                             ["displacement"]), 1e-13)
+                self.assertLess(self.compare(m, "rotor:x", "rotor:x,pedestal:x", "30 rad/s"), 1e-13)
+        loose = whirl.Model().body(name="rotor", mass=1.0).bearing(body="rotor", stiffness=1e4).body(name="loose", mass=0.0)
+        with self.assertRaisesRegex(whirl.NumericalError, "neither mass nor stiffness: loose x, loose y"):
+            loose.state_space("rotor:x", speed=0.0)
 
 
 @needs("scipy")
