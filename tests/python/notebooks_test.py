@@ -67,6 +67,33 @@ class Notebooks(unittest.TestCase):
                     run(path, lambda number, text: plt.close("all"))
                 print(f"{path.name}: {time.process_time() - begin:.1f} s of processor")
 
+    @needs("nbclient", "nbformat", "ipykernel")
+    def test_a_kernel_of_jupyter_shows_figures_tables_and_progress(self):
+        import nbclient
+        import nbformat
+
+        cells = [f"import sys\nsys.path.insert(0, {support.PACKAGE!r})\nimport whirl\n"
+                 f"m = whirl.read({str(support.MODELS / 'jeffcott_stator.toml')!r})",
+                 "m.unbalance()", "m.check().report()", "m.unbalance().to_dataframe()",
+                 "import time\nm.simulate(revolutions=3, discard=0, progress=lambda *told: None)\n"
+                 "bar = whirl.progress.bar()\nbar('a', 1, 4)\nbar._begin -= 2\nbar('a', 2, 4)\nbar('a', 3, 4)",
+                 "bar.close()", "m.modes(modes=0)"]
+        book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(text) for text in cells])
+        client = nbclient.NotebookClient(book, timeout=60, kernel_name="python3", allow_errors=True)
+        client.execute()
+        outputs = [cell.outputs for cell in book.cells]
+        self.assertEqual(outputs[0], [])
+        figure, page, table = (outputs[i][0].data["text/html"] for i in (1, 2, 3))
+        self.assertTrue(figure.startswith("<svg") and "<pre" in figure, figure[:80])
+        self.assertIn("<iframe", page)
+        self.assertIn("<table", table)
+        # one line, rewritten in its place, and empty in the end
+        self.assertEqual([o.output_type for o in outputs[4]], ["display_data"])
+        self.assertEqual(outputs[4][0].data["text/html"], "")
+        error = outputs[6][0]
+        self.assertEqual((error.ename, error.evalue), ("ModelError", "--modes 0: expected a whole number of 1 or more"))
+        self.assertEqual(len(error.traceback), 5)  # a line, a head, the cell, the method, the message
+
     def test_are_kept_without_outputs(self):
         for path in NOTEBOOKS.glob("*.ipynb"):
             for cell in cells_of(path):
