@@ -438,10 +438,11 @@ def run_verb(verb: str, wanted: Any, start: Callable[[Any], Any]) -> Result:
 
 
 def _for_a_page(svg: str) -> str:
-    """A figure beside others: names within it are those of the whole page, where the first of a name counts."""
+    """A figure beside others, as wide as there is room: names within it are those of the whole page, where the
+    first of a name counts."""
     of_its_own = f"whirl-{hashlib.sha256(svg.encode()).hexdigest()[:12]}-"
     svg = re.sub(r'(\bid="|url\(#)', lambda found: found[1] + of_its_own, svg)
-    return svg[svg.index("<svg"):]
+    return svg[svg.index("<svg"):].replace("<svg", '<svg style="max-width:100%;height:auto"', 1)
 
 
 def _matlab_name(name: str) -> str:

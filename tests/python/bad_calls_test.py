@@ -95,6 +95,17 @@ CALLS = [
     (lambda m: m.check().nothing, AttributeError, "has no 'nothing'"),
     (lambda m: m.check()["/nothing"], KeyError, "there are"),
     (lambda m: m.check().save("no/such/folder/x.h5"), whirl.FileError, "no/such/folder"),
+    # what is made of results
+    (lambda m: m.check().identify(), ME, "holds no motion; simulate and identify record one"),
+    (lambda m: m.simulate(revolutions=2, discard=0).identify(modes=0), ME, "--modes 0: expected a whole number"),
+    (lambda m: m.simulate(revolutions=2, discard=0).identify(speed="3 rpm"), TE, "has no option speed"),
+    (lambda m: m.check().to_csv("no/such/folder/x"), whirl.FileError, "no/such/folder"),
+    (lambda m: m.check().to_csv(object()), TE, "expected a number or a text such as NAME"),
+    (lambda m: m.check().to_csv("x", revolutions=2), ME, "are of motions"),
+    (lambda m: m.check().export(outt="x"), TE, "did you mean out"),
+    (lambda m: m.check().export(format="nothing"), ME, "there are vtk, xdmf, csv"),
+    (lambda m: m.export(format="csv"), ME, "a model holds no tables"),
+    (lambda m: m.check().animate(), ME, "expected a video"),
 ]
 
 
