@@ -406,7 +406,7 @@ class Result(ResultMethods):
     def _repr_html_(self) -> str:
         picture = self._repr_svg_() or ""
         # lines of tables are kept whole, whatever the page says of <pre>, and long ones can be scrolled
-        return (f'{picture}<pre style="white-space:pre;overflow:auto;max-height:40em">'
+        return (f'{picture}<pre style="white-space:pre;overflow:auto;max-height:60em">'
                 f"{html.escape(self.text or repr(self))}</pre>")
 
     def __repr__(self) -> str:
