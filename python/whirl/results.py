@@ -321,8 +321,8 @@ class Result(ResultMethods):
     def to_csv(self, name: Union[str, os.PathLike], **options: Any) -> list[str]:
         """Writes its tables for spreadsheets, one file per group; their names.
 
-        The files are those of `whirl export --format csv`, NAME_trajectory.csv of to_csv("NAME"), and options are
-        those of `export`, such as revolutions=4 of a motion.
+        The files are those of `whirl export --format csv`, NAME_trajectory_time.csv of to_csv("NAME"), and
+        options are those of `export`, such as revolutions=4 of a motion.
         """
         return self.export(format="csv", out=name, **options).files
 
@@ -346,7 +346,7 @@ class Result(ResultMethods):
             name, _, value = option.removeprefix("--").partition("=")
             if name in _INTEGRATION:
                 given.setdefault(name, [value])
-        model = _whirl.ModelText(call["file"], self.model, [])
+        model = _whirl.ModelText(str(call.get("file", "model.toml")), self.model, [])
         file = self._file()
         return run_verb("identify", wanted, lambda progress: _whirl.run(
             "identify", model, given, progress, file, sets))
