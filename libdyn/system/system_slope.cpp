@@ -1,0 +1,48 @@
+#include "libdyn/system/system_slope.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "libbase/error.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+/// A rotor of a model in the shapes of another.
+ReducedSystem in_shapes(const System& system, const Mat& Phi) {
+  const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
+  return {Phi,         small(system.M), small(system.C), small(system.G), small(system.K),
+          system.dofs, system.Omega};
+}
+
+}  // namespace
+
+SystemSlope slope_of(std::string name, double value, double size,
+                     const std::function<ContactSystem(double)>& at) {
+  const double compared = size > 0.0 ? size : std::abs(value);
+  if (!(compared > 0.0) || !std::isfinite(compared)) {
+    throw ModelError({}, name, "a parameter that is zero needs a size to be compared with");
+  }
+  // a power of two, so that the places of the neighbors are hardly rounded
+  const double step = std::exp2(std::floor(std::log2(compared)) - 7.0);
+  SystemSlope slope{std::move(name), step, {}};
+  for (const double place : neighbor_places) slope.neighbors.push_back(at(value + place * step));
+  return slope;
+}
+
+SystemSlope slope_of(std::string name, const Scene& scene, double value, double size,
+                     const std::function<Model(double)>& model_at) {
+  return slope_of(std::move(name), value, size, [&](double p) {
+    const Model model = model_at(p);
+    const Assembler assembler(model.structure);
+    const System system = assembler.at(model.speed);
+    if (system.M.rows() != scene.reduced.Phi.rows()) {
+      throw NumericalError("the parameter changes the number of degrees of freedom");
+    }
+    return ContactSystem(assembler, in_shapes(system, scene.reduced.Phi), model.contacts,
+                         model.films);
+  });
+}
+
+}  // namespace whirl::inline dyn

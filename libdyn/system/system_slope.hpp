@@ -1,0 +1,56 @@
+#pragma once
+/// A system and its neighbors along a parameter, from which its coefficients get their slopes.
+
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libdyn/system/scene.hpp"
+
+namespace whirl::inline dyn {
+
+/// Where the neighbors are [steps], and what they weigh in the slope of a coefficient c:
+///
+///   dc/dp = sum_j weight_j c(p + place_j step) / step + O(step^8 c^(9) / 630)
+///
+/// @source [Fornberg1988], table 1
+inline constexpr std::array<double, 8> neighbor_places{1, -1, 2, -2, 3, -3, 4, -4};
+inline constexpr std::array<double, 8> neighbor_weights{4.0 / 5.0,    -4.0 / 5.0,  -1.0 / 5.0,
+                                                        1.0 / 5.0,    4.0 / 105.0, -4.0 / 105.0,
+                                                        -1.0 / 280.0, 1.0 / 280.0};
+
+/// A parameter p of a system: anything that its coefficients follow from smoothly, as stiffness,
+/// friction and clearance of a contact, viscosity of a film, unbalance, speed, mass of a body.
+///
+/// Only coefficients are compared, never motions: they are polynomials of p or nearly so, and their
+/// slopes come out to 1e-13. What a motion makes of these slopes is exact.
+struct SystemSlope {
+  std::string name;                      ///< of the parameter
+  double step = 0.0;                     ///< between neighbors [unit of p]
+  std::vector<ContactSystem> neighbors;  ///< at p + neighbor_places step
+};
+
+/// The slope of systems that are made by a function of p.
+///
+/// @param value  of p
+/// @param size   what p is compared with: steps are 1 / 128 of it; 0: of the value
+/// @param at     the system at p, in the same coordinates; asked up to 4 steps to either side
+/// @throws ModelError  without a size of p, if value and size are 0
+SystemSlope slope_of(std::string name, double value, double size,
+                     const std::function<ContactSystem(double)>& at);
+
+/// The slope of a scene by a parameter of its model.
+///
+/// The shapes Phi that the scene moves in are held: dM = Phi^T dM_full Phi, and so with C, G and K.
+/// What the parameter would change in the shapes themselves is left out. Of a scene that is not
+/// reduced this is nothing; of one with modes it is as small as the error of its reduction, for
+/// contacts, films and unbalances it is nothing again.
+///
+/// @param value, size  as above
+/// @param model_at     the model at p, with as many degrees of freedom
+/// @throws ModelError, NumericalError  as make_scene of the models
+SystemSlope slope_of(std::string name, const Scene& scene, double value, double size,
+                     const std::function<Model(double)>& model_at);
+
+}  // namespace whirl::inline dyn
