@@ -65,6 +65,7 @@ struct ContactLanes {
   bool is_evaluated = false;             // whether any lane needs the force
   bool any_has_tau = false;              // whether in any lane tau is more than a share of q
   bool is_ahead = false;                 // whether the force needs geometry one coefficient ahead
+  bool slip_is_known = false;            // whether `slip` is a series that was watched
   typename P::Mask evaluated, in_touch;  // lanes that need the force, lanes that feel it
   typename P::Mask has_tau;              // lanes that slide smoothly or stick
   P inverse_r{1.0}, share{0.0};
@@ -98,6 +99,20 @@ struct ContactLanes {
   HWY_ATTR void load(const ReducedContact& from, const ContactState& state, int l, double turn) {
     const uint64_t bit = uint64_t{1} << l;
     const Friction& f = from.friction;
+    load_numbers(from, l, turn);
+    put(continuous, bit, is_continuous(from.law));
+    put(exact, bit, f.is_exact());
+    put(smooth, bit, f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
+    set_state(state, l);
+    put(surface_distance, bit, false);
+    put(surface_force, bit, false);
+    put(surface_slip, bit, false);
+    put(level_slip, bit, false);
+    for (P* sum : {&duty, &stuck, &max_normal, &max_friction}) set_lane(*sum, l, 0.0);
+  }
+
+  HWY_ATTR void load_numbers(const ReducedContact& from, int l, double turn) {
+    const Friction& f = from.friction;
     const Number circle = Number(from.clearance) + Number(tip_radius_of(from.geometry));
     set_lane(clearance, l, circle);
     set_lane(clearance2, l, circle * circle);
@@ -122,15 +137,6 @@ struct ContactLanes {
     for (size_t i = 0; i < by.size(); ++i) set_lane(by[i], l, from.B(rows.pushed_by_y[i], 1));
     if (const auto n = direction_of(from.geometry)) load_plane(from, *n, l, turn);
     if (rub) rub->load(from, l);
-    put(continuous, bit, is_continuous(from.law));
-    put(exact, bit, f.is_exact());
-    put(smooth, bit, f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
-    set_state(state, l);
-    put(surface_distance, bit, false);
-    put(surface_force, bit, false);
-    put(surface_slip, bit, false);
-    put(level_slip, bit, false);
-    for (P* sum : {&duty, &stuck, &max_normal, &max_friction}) set_lane(*sum, l, 0.0);
   }
 
   /// A plane is compared with its clearance, and d and r do not have its unit.
@@ -165,6 +171,7 @@ struct ContactLanes {
   HWY_ATTR void begin(uint64_t active) {
     const uint64_t needed = (touching | receding) & active;
     is_evaluated = needed != 0;
+    slip_is_known = false;
     const uint64_t own = sticking | (smooth & touching);
     has_tau = mask_of<P>(own);
     any_has_tau = (own & active) != 0;

@@ -21,11 +21,16 @@
 #include "libdyn/taylor/equation_lanes-inl.h"
 #include "libdyn/taylor/events-inl.h"
 #include "libdyn/taylor/film_lanes-inl.h"
+#include "libdyn/taylor/slope_run.hpp"
 #include "libdyn/taylor/tangents-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
+
+/// What the engine keeps for numbers with slopes; else nothing.
+template <class P, bool = carries_slopes<P>>
+struct SlopeWork {};
 
 template <class P>
 class Engine {
@@ -54,18 +59,22 @@ class Engine {
     for (const Pattern::ContactRows& rows : pattern.contacts) {
       is_analytic_ = is_analytic_ && rows.is_analytic;
     }
-    const bool has_slopes = options.exponents || options.tangent;
+    const bool wants_tangents = options.exponents || options.tangent;
+    const bool has_slopes = wants_tangents || carries_slopes<P>;
     for (const Pattern::FilmRows& rows : pattern.films) {
       films_.push_back(std::make_unique<FilmLanes<P>>(rows, N, has_slopes));
       is_analytic_ = false;  // near the wall steps get as short as at a surface
     }
     trajectory_.assign(static_cast<size_t>(lanes_), nullptr);
     records_.resize(static_cast<size_t>(lanes_));
-    if (has_slopes) {
+    if (wants_tangents) {
       tangents_ = std::make_unique<Tangents<P>>();
       prepare_tangents();
     }
   }
+
+  /// From now on derivatives are carried along.
+  void carry_slopes(SlopeRun& run) { slopes_ = std::make_unique<SlopeWork<P>>(run); }
 
   /// Integrates trajectories, each in a lane of its own, refilled in order.
   HWY_ATTR void run(std::span<Trajectory> all, const Observer* observer) {
@@ -122,6 +131,7 @@ class Engine {
   };
 
   HWY_ATTR void load(int l, Trajectory& t);
+  HWY_ATTR void load_system(const ContactSystem& s, const MotionState& at, int l);
   HWY_ATTR void unload(int l);
   HWY_ATTR Vec state_of(int l) const;
   HWY_ATTR void set_state(int l, const Vec& y);
@@ -185,6 +195,18 @@ class Engine {
   HWY_ATTR inline void accelerate_columns(int k, const P* forces, P* to_a, P* to_b);
   HWY_ATTR void stick_column(typename Tangents<P>::Track& track, int k);
 
+  // engine_slopes-inl.h, of numbers with slopes; the motion is in lane 0
+  HWY_ATTR void load_slopes(const Trajectory& t);
+  HWY_ATTR void begin_revolution_of_neighbors(long revolution);
+  HWY_ATTR P limit_for_slopes(const P& h);
+  HWY_ATTR P to_fixed_phase(const P& h) const;
+  HWY_ATTR void take_samples(const P& h);
+  HWY_ATTR void jump_slopes(size_t i, EventKind kind, const Saltation& s);
+  HWY_ATTR void find_grazes(const P& h);
+  HWY_ATTR void find_graze(const P* g, const P& first, int degree, double sign, double scale,
+                           double h, size_t i, EventKind kind);
+  HWY_ATTR void tell_event(size_t i, EventKind kind, bool jumps);
+
   // engine_films-inl.h
   HWY_ATTR void fail_by_film(int l, const ReducedFilm& film);
   HWY_ATTR void find_film_slopes(const P& h, P& square, P& longest);
@@ -227,6 +249,7 @@ class Engine {
   std::vector<P> terms_, load_, influence_, work_;
   std::vector<EventMask> event_masks_;
   std::unique_ptr<Tangents<P>> tangents_;
+  std::unique_ptr<SlopeWork<P>> slopes_;
 };
 
 template <class P>
@@ -246,11 +269,7 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   if (t.state.contacts.size() != contacts_.size()) {
     t.state.contacts = s.classify(t.state.instant(), t.state.y.data());
   }
-  equations_.load(s, l);
-  for (int i = 0; i < n_; ++i) {
-    set_lane(scale_[static_cast<size_t>(i)], l, 1.0 / s.state_scale()(i));
-    set_lane(load_[static_cast<size_t>(i)], l, s.constant_load()(i));
-  }
+  load_system(s, t.state, l);
   set_state(l, t.state.y);
   if constexpr (!P::is_double) {
     for (int i = 0; i < t.lower_digits.size(); ++i) {
@@ -258,24 +277,35 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
       y = y + P(t.lower_digits(i));
     }
   }
-  // a revolution is 2 pi to the last digit of P; without spin it is one second
-  const Number turn = Number(2.0) * P::pi;
-  const Number rate = s.Omega() != 0.0 ? Number(s.phase_rate()) : turn;
-  set_lane(rate_, l, rate);
-  set_lane(period_, l, turn / rate);
-  set_lane(time_, l, Number(t.state.phase) / rate);
-  equations_.begin_revolution(s, rate, t.state.revolution, l);
   for (size_t c = 0; c < contacts_.size(); ++c) {
     contacts_[c].load(s.contacts()[c], t.state.contacts[c], l, s.phase_rate());
   }
   for (size_t p = 0; p < alike_.size(); ++p) {
     put(alike_[p], bit, s.slip_alike(pattern_.alike[p].first, pattern_.alike[p].second));
   }
-  for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
-  for (const auto& disk : disks_) disk->load(s.contacts()[disk->first], l, rate);
   if (has_tangents()) load_tangents(l, s);
+  if constexpr (carries_slopes<P>) load_slopes(t);
   active_ |= bit;
   if (t.revolutions <= 0) finished_ |= bit;
+}
+
+/// Numbers of a system, but for its contacts and where the motion is.
+template <class P>
+HWY_ATTR void Engine<P>::load_system(const ContactSystem& s, const MotionState& at, int l) {
+  equations_.load(s, l);
+  for (int i = 0; i < n_; ++i) {
+    set_lane(scale_[static_cast<size_t>(i)], l, 1.0 / s.state_scale()(i));
+    set_lane(load_[static_cast<size_t>(i)], l, s.constant_load()(i));
+  }
+  // a revolution is 2 pi to the last digit of P; without spin it is one second
+  const Number turn = Number(2.0) * P::pi;
+  const Number rate = s.Omega() != 0.0 ? Number(s.phase_rate()) : turn;
+  set_lane(rate_, l, rate);
+  set_lane(period_, l, turn / rate);
+  set_lane(time_, l, Number(at.phase) / rate);
+  equations_.begin_revolution(s, rate, at.revolution, l);
+  for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
+  for (const auto& disk : disks_) disk->load(s.contacts()[disk->first], l, rate);
 }
 
 template <class P>
@@ -327,7 +357,14 @@ HWY_ATTR Vec Engine<P>::state_of(int l) const {
 
 template <class P>
 HWY_ATTR void Engine<P>::set_state(int l, const Vec& y) {
-  for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, y(i));
+  for (int i = 0; i < 2 * n_; ++i) {
+    P& number = y_[static_cast<size_t>(i)];
+    if constexpr (carries_slopes<P>) {
+      number.x = typename P::Value(y(i));  // slopes stay
+    } else {
+      set_lane(number, l, y(i));
+    }
+  }
 }
 
 template <class P>

@@ -110,6 +110,7 @@ template <class P>
 HWY_ATTR void Engine<P>::note_slip(size_t i, uint64_t asked, P& h) {
   ContactLanes<P>& c = contacts_[i];
   P* g = c.slip;
+  c.slip_is_known = true;
   if (c.level_slip != 0) g[1] = select(mask_of<P>(c.level_slip), P(0.0), g[1]);
   note(i, &EventMask::slip,
        first_downward_zero(g, N, c.sign, c.slip_scale, h, mask_of<P>(asked),
@@ -184,7 +185,11 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
       LaneRecord& record = records_[static_cast<size_t>(l)];
       ++record.events;
       const bool was_touching = ((c.touching ^ (common & bit)) & bit) != 0;
-      if (!(common & bit)) apply_rare_event(l, i);
+      if (!(common & bit)) {
+        apply_rare_event(l, i);
+      } else if constexpr (carries_slopes<P>) {
+        tell_event(i, was_touching ? EventKind::release : EventKind::touch, false);
+      }
       if (!was_touching && (c.touching & bit)) record.impacts[i] += 1.0;
       record.instant_events = instant & bit ? record.instant_events + 1 : 0;
       if (record.instant_events > most_instant_events) {
@@ -243,9 +248,12 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
         t.system->set_group(states, index, {Touch::sticking, 1.0});
     }
   }
-  if (has_tangents()) {
-    if (const auto jump = saltation(*t.system, event, at, y, before, states)) {
-      jump_tangents(l, *jump);
+  if (carries_slopes<P> || has_tangents()) {
+    const auto jump = saltation(*t.system, event, at, y, before, states);
+    if (has_tangents() && jump) jump_tangents(l, *jump);
+    if constexpr (carries_slopes<P>) {
+      if (jump) jump_slopes(i, kind, *jump);
+      tell_event(i, kind, jump.has_value());
     }
   }
   t.system->remove_slip(y.data(), states);

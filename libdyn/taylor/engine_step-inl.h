@@ -78,6 +78,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   series();
   P h = step_length();
   if (has_tangents()) h = limit_for_tangents(h);
+  if constexpr (carries_slopes<P>) h = limit_for_slopes(h);
   if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
   for (const auto& film : films_) h = film->shortened(h, N);
   const P left = max(period_ - time_, P(0.0));
@@ -113,6 +114,11 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   }
   bool goes_on = true;
   if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
+  if constexpr (carries_slopes<P>) {
+    h = to_fixed_phase(h);
+    find_grazes(h);
+    take_samples(h);
+  }
   if (has_tangents()) move_tangents(h);
   if (pattern_.bodies == 2) {
     evaluate<2>(terms_.data(), h, y_.data());
@@ -140,17 +146,22 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     if (!equations_.oscillations.empty()) {
       equations_.begin_revolution(*trajectory_[static_cast<size_t>(l)]->system, lane(rate_, l),
                                   record.revolution, l);
+      if constexpr (carries_slopes<P>) begin_revolution_of_neighbors(record.revolution);
     }
     remove_slip(l);
     if (options_.sections) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
       for (const P& y : y_) sections.push_back(lane(y, l));
     }
-    if (P::is_double && !observer && !has_tangents() && films_.empty()) fly_on(l);
+    const bool is_alone = !observer && !has_tangents() && !carries_slopes<P>;
+    if (P::is_double && is_alone && films_.empty()) fly_on(l);
     if (record.revolution >= record.last) finished_ |= uint64_t{1} << l;
   }
   if (has_tangents() && options_.exponents) orthonormalize(due_lanes(ends));
   if (has_tangents() && options_.growths) keep_growths(ends);
+  if constexpr (carries_slopes<P>) {
+    if (slopes_->run->is_done()) finished_ |= 1;
+  }
   if (!goes_on) {
     trajectory_[0]->outcome = Outcome::stopped_by_observer;
     finished_ |= 1;

@@ -30,8 +30,10 @@ HWY_ATTR void start_revolution(const Oscillation& from, typename P::Number rate_
                                long revolution, int l, OscillationLanes<P>& to) {
   using Number = typename P::Number;
   if constexpr (P::is_double) {
+    const bool is_neighbor = carries_slopes<P> && l > 0;  // whose angle must not wrap
+    const double turned = 2.0 * P::pi * static_cast<double>(revolution);
     set_lane(to.rate, l, from.ratio * rate_of_phase);
-    set_lane(to.start, l, from.start_angle(revolution));
+    set_lane(to.start, l, is_neighbor ? from.ratio * turned : from.start_angle(revolution));
   } else {
     const Number ratio =
         from.order > 0.0 ? Number(from.order) : Number(from.frequency) / rate_of_phase;

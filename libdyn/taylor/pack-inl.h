@@ -62,6 +62,12 @@ struct alignas(8 * L) Pack {
   }
 };
 
+/// Whether numbers bring their slopes along (sloped-inl.h).
+template <class P>
+constexpr bool carries_slopes = requires {
+  typename P::Slopes;
+};
+
 #define WHIRL_UNARY(name, expression)                    \
   template <size_t L, int B>                             \
   HWY_ATTR inline Pack<L, B> name(const Pack<L, B>& x) { \

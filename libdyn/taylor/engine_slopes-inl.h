@@ -1,0 +1,280 @@
+// Slopes of the engine: a motion over numbers that carry derivatives, sampled at given times.
+
+#if defined(WHIRL_ENGINE_SLOPES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef WHIRL_ENGINE_SLOPES_INL_H
+#undef WHIRL_ENGINE_SLOPES_INL_H
+#else
+#define WHIRL_ENGINE_SLOPES_INL_H
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "libdyn/taylor/engine-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace whirl::inline dyn {
+namespace HWY_NAMESPACE {
+
+/// What the engine keeps of slopes.
+template <class P>
+struct SlopeWork<P, true> {
+  explicit SlopeWork(SlopeRun& of) : run(&of) {}
+
+  SlopeRun* run;
+  double fastest2 = 0.0;     ///< square of the fastest rate of the linear part [1/s^2]
+  double reach = 0.0;        ///< rate times step at which a slope is as exact as the tolerance
+  std::vector<double> gain;  ///< per contact, largest eigenvalue of U B [1/kg]
+  std::vector<typename Tangents<P>::FilmSlopes> film_slopes;
+  typename P::Slopes stretch;  ///< -rate' / rate of the phase: of times at fixed phase
+  std::vector<P> sample;
+  std::vector<double> passed;  ///< per contact, Graze::margin if its event happens
+};
+
+/// Gives the numbers of a loaded system the slopes that its neighbors tell, and states their own.
+template <class P>
+HWY_ATTR void Engine<P>::load_slopes(const Trajectory& t) {
+  auto& slopes = *slopes_;
+  const ContactSystem& s = *t.system;
+  for (size_t c = 0; c < slopes.run->columns.size(); ++c) {
+    const SlopeColumn& column = slopes.run->columns[c];
+    const int number = static_cast<int>(c);
+    if (!column.parameter) {
+      set_lane(y_[static_cast<size_t>(column.start)].s, number, 1.0);
+      continue;
+    }
+    for (size_t j = 0; j < column.parameter->neighbors.size(); ++j) {
+      const ContactSystem& neighbor = column.parameter->neighbors[j];
+      const int l = lane_of_neighbor(number, static_cast<int>(j));
+      load_system(neighbor, t.state, l);
+      for (size_t i = 0; i < contacts_.size(); ++i) {
+        contacts_[i].load_numbers(neighbor.contacts()[i], l, neighbor.phase_rate());
+      }
+    }
+  }
+  const double fastest = fastest_mode(s);
+  slopes.fastest2 = fastest * fastest;
+  slopes.gain.clear();
+  for (const ReducedContact& c : s.contacts()) slopes.gain.push_back(contact_gain(c));
+  slopes.film_slopes.resize(films_.size());
+  // as Tangents::reach
+  int sign = 1;
+  slopes.reach = std::exp((std::log(options_.tolerance) + ::lgamma_r(N + 4.0, &sign)) / (N + 3.0));
+  slopes.stretch = -(rate_.s * wide(typename P::Value(1.0) / rate_.x));
+}
+
+/// Tells the loads of other frequencies what a revolution begins with beside the system.
+template <class P>
+HWY_ATTR void Engine<P>::begin_revolution_of_neighbors(long revolution) {
+  const auto& columns = slopes_->run->columns;
+  for (size_t c = 0; c < columns.size(); ++c) {
+    if (!columns[c].parameter) continue;
+    const auto& neighbors = columns[c].parameter->neighbors;
+    for (size_t j = 0; j < neighbors.size(); ++j) {
+      equations_.begin_revolution(neighbors[j], neighbors[j].phase_rate(), revolution,
+                                  lane_of_neighbor(static_cast<int>(c), static_cast<int>(j)));
+    }
+  }
+}
+
+/// Limits the step where slopes move faster than the motion itself, whichever are asked for.
+template <class P>
+HWY_ATTR P Engine<P>::limit_for_slopes(const P& h) {
+  auto& slopes = *slopes_;
+  const double step = lane(h, 0);
+  double square = slopes.fastest2, longest = step;
+  const auto shorten = [&](double last) {
+    const double steep = (log2_tolerance_ - std::log2(std::max(last, 1e-280))) / (N + 1);
+    longest = std::min(longest, std::exp2(std::min(steep, 900.0)));
+  };
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactLanes<P>& c = contacts_[i];
+    if ((c.touching & active_) == 0) continue;
+    const double gain = slopes.gain[i], mu = 1.0 + lane(c.mu, 0), q = std::abs(lane(c.q[0], 0));
+    double by_depth[3], by_rate = 0.0;  // coefficients 0, 1 and N
+    with_alternative(c.law, [&](const auto& law) HWY_ATTR {
+      const auto force = law.normal(Leaf<P, 0>(), Leaf<P, 1>());
+      auto depth_slope = derivative<0>(force);
+      auto rate_slope = derivative<1>(force);
+      for (int k = 0; k <= N; ++k) {
+        const double now = std::abs(lane(depth_slope.at(k, c.depth(k), c.rate(k)), 0));
+        if (k < 2) by_depth[k] = now;
+        by_depth[2] = now;
+        if (k == 0 && c.rows.has_rate) {
+          by_rate = std::abs(lane(rate_slope.at(0, c.depth(0), c.rate(0)), 0));
+        }
+        if (k == 1 && c.rows.is_analytic) break;
+      }
+    });
+    const double smoothed =
+        c.smooth != 0 ? lane(c.mu, 0) * q * lane(c.r[0], 0) * lane(c.inverse_width, 0) : 0.0;
+    const double damping = gain * (by_rate * mu + smoothed);
+    square += gain * mu * (by_depth[0] + by_depth[1] * step + q) + damping * damping;
+    if (!c.rows.is_analytic) shorten(gain * by_depth[2] / (lane(rate_, 0) * (N + 1.0)));
+  }
+  for (size_t i = 0; i < films_.size(); ++i) {
+    auto& [J, H] = slopes.film_slopes[i];
+    films_[i]->find_slopes(J, H, N);
+    const double gain = lane(films_[i]->gain, 0);
+    const double damping = gain * (lane(H.size(0), 0) + lane(H.size(1), 0) * step);
+    square += damping * damping + gain * (lane(J.size(0), 0) + lane(J.size(1), 0) * step);
+    shorten(gain * lane(J.size(N), 0) / (lane(rate_, 0) * (N + 1.0)));
+  }
+  return P(std::min(longest, slopes.reach / std::sqrt(std::max(square, 1e-200))));
+}
+
+/// A step to a fixed phase: what changes the speed changes how long it takes,  h' = -h rate' / rate.
+/// Then slopes are those at fixed phase, the time of a state being a number with slopes, too.
+template <class P>
+HWY_ATTR P Engine<P>::to_fixed_phase(const P& h) const {
+  return {h.x, wide(h.x) * slopes_->stretch};
+}
+
+/// Takes the samples within a step of length h.
+template <class P>
+HWY_ATTR void Engine<P>::take_samples(const P& h) {
+  auto& slopes = *slopes_;
+  SlopeRun& run = *slopes.run;
+  const LaneRecord& record = records_[0];
+  const ContactSystem& s = *trajectory_[0]->system;
+  const double period = lane(period_, 0), length = lane(h, 0);
+  const double before = static_cast<double>(record.revolution - record.first_revolution) * period +
+                        (lane(time_, 0) - record.first_phase / s.phase_rate());
+  while (!run.is_done()) {
+    double into = run.times[run.states.size()] - before;
+    if (!(into <= length + 1e-14 * period)) return;
+    into = std::clamp(into, 0.0, length);
+    P place = to_fixed_phase(P(into));
+    if (run.held == HeldSample::time) {  // the time before this step, which stretched, is made up
+      place.s = -(wide(typename P::Value(before)) * slopes.stretch);
+    }
+    slopes.sample = y_;
+    evaluate<0>(terms_.data(), place, slopes.sample.data());
+    Vec y(2 * n_);
+    Mat by(2 * n_, static_cast<Eigen::Index>(run.columns.size()));
+    for (int i = 0; i < 2 * n_; ++i) {
+      const P& number = slopes.sample[static_cast<size_t>(i)];
+      y(i) = lane(number, 0);
+      for (int c = 0; c < by.cols(); ++c) by(i, c) = lane(number.s, c);
+    }
+    const double time = lane(time_, 0) + into;
+    const bool turns_over = time >= period * (1.0 - 1e-14);
+    run.end = {record.revolution + (turns_over ? 1 : 0), turns_over ? 0.0 : time * s.phase_rate(),
+               y, contacts_of(0)};
+    run.states.push_back(std::move(y));
+    run.slopes.push_back(std::move(by));
+  }
+}
+
+/// Lets slopes jump with the acceleration at an event of contact i, by how the function of the event
+/// changes at its phase: the depth, or the slip.
+template <class P>
+HWY_ATTR void Engine<P>::jump_slopes(size_t i, EventKind kind, const Saltation& s) {
+  const ContactLanes<P>& c = contacts_[i];
+  P x = c.dx[0], y = c.dy[0], r(1.0), u, v;
+  if (!c.rows.is_plane) {
+    c.displacement(y_.data(), x, y);
+    x = x - c.offset_x;
+    y = y - c.offset_y;
+    r = sqrt(fma(x, x, y * y));
+  }
+  P function;
+  if (kind == EventKind::touch) {
+    function = r - c.clearance;
+    if (c.rows.is_plane) {
+      c.displacement(y_.data(), u, v);
+      function = fma(x, u, y * v) - c.plane_at;
+    }
+  } else {
+    if (c.rub) {
+      c.rub->lateral(y_.data() + n_, u, v);
+    } else {
+      c.displacement(y_.data() + n_, u, v);
+    }
+    function = c.rim + fnma(y, u, x * v) / r;
+  }
+  for (int j = n_; j < 2 * n_; ++j) {
+    P& number = y_[static_cast<size_t>(j)];
+    number.s = fma(typename P::Slopes(s.jump(j)), function.s, number.s);
+  }
+}
+
+/// Notes an event of contact i, and whether the motion grazes there.
+template <class P>
+HWY_ATTR void Engine<P>::tell_event(size_t i, EventKind kind, bool jumps) {
+  SlopeRun& run = *slopes_->run;
+  const LaneRecord& record = records_[0];
+  const double time =
+      static_cast<double>(record.revolution - record.first_revolution) * lane(period_, 0) +
+      (lane(time_, 0) - record.first_phase / trajectory_[0]->system->phase_rate());
+  run.events.push_back({time, static_cast<int>(i), kind, jumps});
+  const double margin = slopes_->passed[i];
+  if (jumps && margin <= run.near) {
+    run.grazes.push_back({time, static_cast<int>(i), kind, true, margin});
+  }
+}
+
+/// Extreme of a function of an event within a step: how far it stays from zero, or goes beyond.
+///
+/// @param g      coefficients; sign times them is positive before the event
+/// @param scale  of the margin
+template <class P>
+HWY_ATTR void Engine<P>::find_graze(const P* g, const P& first, int degree, double sign,
+                                    double scale, double h, size_t i, EventKind kind) {
+  auto& slopes = *slopes_;
+  SlopeRun& run = *slopes.run;
+  const auto at = [&](double t, int derivatives) {
+    double sum = 0.0;
+    for (int k = degree; k >= derivatives; --k) {
+      double factor = sign;
+      for (int d = 0; d < derivatives; ++d) factor *= k - d;
+      sum = sum * t + factor * lane(k == 0 ? first : g[k], 0);
+    }
+    return sum;
+  };
+  // were the event not to happen, the function would bend back so far below zero
+  const double rate = at(h, 1), bend = at(h, 2);
+  slopes.passed[i] =
+      bend > 0.0 ? rate * rate / (2.0 * bend) / scale : std::numeric_limits<double>::infinity();
+  if (!(at(0.0, 1) < 0.0 && rate > 0.0)) return;  // one that begins flat has just ended sticking
+  double low = 0.0, high = h;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (at(middle, 1) <= 0.0 ? low : high) = middle;
+  }
+  const double margin = at(low, 0) / scale;
+  if (margin > run.near) return;
+  const LaneRecord& record = records_[0];
+  const double time =
+      static_cast<double>(record.revolution - record.first_revolution) * lane(period_, 0) +
+      (lane(time_, 0) + low - record.first_phase / trajectory_[0]->system->phase_rate());
+  run.grazes.push_back({time, static_cast<int>(i), kind, false, std::max(margin, 0.0)});
+}
+
+/// Looks for grazes in a step of length h: of surfaces where a damped law would begin to push, and of
+/// stops of slip.
+template <class P>
+HWY_ATTR void Engine<P>::find_grazes(const P& h) {
+  slopes_->passed.assign(contacts_.size(), std::numeric_limits<double>::infinity());
+  const double length = lane(h, 0);
+  if (!(length > 0.0)) return;
+  for (size_t i = 0; i < contacts_.size(); ++i) {
+    const ContactLanes<P>& c = contacts_[i];
+    const bool is_apart = ((c.touching | c.receding) & 1) == 0;
+    if (is_apart && (c.continuous & 1) == 0 && !c.disk) {
+      const double scale = lane(c.distance_scale, 0) * (c.rows.is_plane ? 1.0 : 2.0);
+      find_graze(c.s, c.beyond(), N + 2, -1.0, scale, length, i, EventKind::touch);
+    }
+    if ((c.touching & c.exact & ~c.sticking & 1) != 0 && c.slip_is_known) {
+      find_graze(c.slip, c.slip[0], N, lane(c.sign, 0), lane(c.slip_scale, 0), length, i,
+                 EventKind::slip_stop);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace whirl::inline dyn
+HWY_AFTER_NAMESPACE();
+
+#endif  // guard

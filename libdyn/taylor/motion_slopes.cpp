@@ -1,0 +1,94 @@
+#include "libdyn/taylor/motion_slopes.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "libdyn/taylor/slope_run.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+constexpr std::size_t columns_of_pass = 8;  ///< Sloped::columns
+
+/// What the systems of a pass have in common.
+Pattern pattern_of(const ContactSystem& system, std::span<const SlopeColumn> columns) {
+  std::vector<const ContactSystem*> all{&system};
+  for (const SlopeColumn& c : columns) {
+    if (!c.parameter) continue;
+    for (const ContactSystem& s : c.parameter->neighbors) all.push_back(&s);
+  }
+  return Pattern::of(all);
+}
+
+/// Moves the columns of a pass to where all columns are.
+void put(const SlopeRun& run, std::size_t first, Eigen::Index size, MotionSlopes& to) {
+  for (std::size_t k = 0; k < run.slopes.size(); ++k) {
+    for (std::size_t c = 0; c < run.columns.size(); ++c) {
+      const auto column = run.slopes[k].col(static_cast<Eigen::Index>(c));
+      const SlopeColumn& what = run.columns[c];
+      if (!what.parameter) {
+        to.by_start[k].col(what.start) = column;
+        continue;
+      }
+      const auto number = static_cast<Eigen::Index>(first + c) - (to.by_start.empty() ? 0 : size);
+      to.by_parameter[k].col(number) = column / what.parameter->step;
+    }
+  }
+}
+
+}  // namespace
+
+MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start,
+                           std::span<const double> times, std::span<const SystemSlope> parameters,
+                           const SlopeOptions& options) {
+  assert(std::is_sorted(times.begin(), times.end()) && (times.empty() || times.front() >= 0.0));
+  std::vector<SlopeColumn> columns;
+  for (int i = 0; options.by_start && i < system.size(); ++i) columns.push_back({.start = i});
+  for (const SystemSlope& p : parameters) columns.push_back({.parameter = &p});
+
+  MotionSlopes result;
+  result.end = start;
+  if (times.empty()) return result;
+  const long revolutions = static_cast<long>(std::ceil(times.back() / system.period())) + 2;
+  std::size_t first = 0;
+  do {  // without columns, the motion alone
+    const std::size_t count = std::min(columns_of_pass, columns.size() - first);
+    SlopeRun run{.columns = {columns.begin() + static_cast<long>(first),
+                             columns.begin() + static_cast<long>(first + count)},
+                 .times = times,
+                 .held = options.held,
+                 .near = options.near};
+    Trajectory t{.system = &system, .state = start, .revolutions = revolutions};
+    run_slopes(pattern_of(system, run.columns),
+               {.tolerance = options.tolerance, .order = options.order}, t, run);
+    if (first == 0) {
+      const auto samples = static_cast<Eigen::Index>(run.states.size());
+      result.states.resize(system.size(), samples);
+      for (Eigen::Index k = 0; k < samples; ++k) {
+        result.states.col(k) = run.states[static_cast<std::size_t>(k)];
+      }
+      const Mat none = Mat::Zero(system.size(), static_cast<Eigen::Index>(parameters.size()));
+      result.by_parameter.assign(run.states.size(), none);
+      if (options.by_start) {
+        result.by_start.assign(run.states.size(), Mat::Zero(system.size(), system.size()));
+      }
+      if (!run.states.empty()) result.end = std::move(run.end);
+      const auto is_later = [&](const auto& what) { return what.time > times.back(); };
+      std::erase_if(run.events, is_later);
+      std::erase_if(run.grazes, is_later);
+      result.events = std::move(run.events);
+      result.grazes = std::move(run.grazes);
+      result.outcome = t.outcome;
+      result.failure = std::move(t.failure);
+      result.cost = t.cost;
+    }
+    put(run, first, system.size(), result);
+    first += count;
+  } while (first < columns.size());
+  return result;
+}
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,39 @@
+#pragma once
+/// One pass of the engine over a motion with eight of its derivatives.
+
+#include <span>
+#include <vector>
+
+#include "libdyn/taylor/motion_slopes.hpp"
+#include "libdyn/taylor/pattern.hpp"
+
+namespace whirl::inline dyn {
+
+/// What a column is the derivative by.
+struct SlopeColumn {
+  int start = -1;                          ///< number of a state at the start
+  const SystemSlope* parameter = nullptr;  ///< or else a parameter
+};
+
+/// What a pass is asked for, and what it finds.
+struct SlopeRun {
+  std::vector<SlopeColumn> columns;  ///< eight or fewer
+  std::span<const double> times;     ///< as motion_slopes
+  HeldSample held = HeldSample::time;
+  double near = 0.0;
+
+  std::vector<Vec> states;  ///< of the samples so far
+  std::vector<Mat> slopes;  ///< per sample, 2 n x columns [per step of its parameter]
+  std::vector<MotionEvent> events;
+  std::vector<Graze> grazes;
+  MotionState end;
+
+  bool is_done() const { return states.size() == times.size(); }
+};
+
+/// Moves a trajectory until all samples are taken, by the best instruction set of the processor.
+/// @param pattern  of its system and all neighbors of it
+void run_slopes(const Pattern& pattern, const BatchOptions& options, Trajectory& trajectory,
+                SlopeRun& run);
+
+}  // namespace whirl::inline dyn
