@@ -25,8 +25,8 @@ struct ConvolutionTail {
   HWY_ATTR inline void square(const P* x, const P* y, int k) {
     if (k % 2 == 0) {
       const P &xm = x[k / 2], &ym = y[k / 2];
-      xx = P(0.5) * xm * xm;
-      yy = P(0.5) * ym * ym;
+      xx = 0.5 * xm * xm;
+      yy = 0.5 * ym * ym;
     }
     for (int i = (k - 1) / 2; i > 0; --i) {
       xx = fma(x[i], x[k - i], xx);
@@ -36,9 +36,9 @@ struct ConvolutionTail {
   HWY_ATTR inline void square(const P* x, const P* y, const P* r, int k) {
     if (k % 2 == 0) {
       const P &xm = x[k / 2], &ym = y[k / 2], &rm = r[k / 2];
-      xx = P(0.5) * xm * xm;
-      yy = P(0.5) * ym * ym;
-      rr = P(0.5) * rm * rm;
+      xx = 0.5 * xm * xm;
+      yy = 0.5 * ym * ym;
+      rr = 0.5 * rm * rm;
     }
     for (int i = (k - 1) / 2; i > 0; --i) {
       xx = fma(x[i], x[k - i], xx);
@@ -68,9 +68,9 @@ struct ConvolutionTail {
   HWY_ATTR inline void square_and_multiply(const P* x, const P* y, const P* r, const P* q, int k) {
     if (k % 2 == 0) {
       const P &xm = x[k / 2], &ym = y[k / 2], &rm = r[k / 2], &qm = q[k / 2];
-      xx = P(0.5) * xm * xm;
-      yy = P(0.5) * ym * ym;
-      rr = P(0.5) * rm * rm;
+      xx = 0.5 * xm * xm;
+      yy = 0.5 * ym * ym;
+      rr = 0.5 * rm * rm;
       xq = xm * qm;
       yq = ym * qm;
       rq = rm * qm;

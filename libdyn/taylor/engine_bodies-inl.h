@@ -90,7 +90,7 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
     } else if (k > 0) {
       s[k] = square_of<P>(dx, dy, k);
     }
-    const P scale(twice_integrated<P>(k));
+    const Number scale = twice_integrated<P>(k);
     P newest[n];
     each<n>(n, [&](int i) HWY_ATTR { next[i] = newest[i] = acceleration[i] * scale; });
     displacement<Bodies>(ux, uy, newest, dx[k + 2], dy[k + 2]);

@@ -70,13 +70,15 @@ struct MotionSlopes {
 /// derivatives fill the lanes of a register and take one pass; a column is the same, bit by bit,
 /// whichever others are asked for, and so is the motion.
 ///
-/// The start does not depend on parameters. One that sticks is taken to stick beside it, too.
+/// The start, its phase with it, does not depend on parameters. One that sticks is taken to stick beside
+/// it, too, and contacts that slip alike (ReducedContact::slip_group) to do so.
 ///
 /// @param system      size 2 n
 /// @param start       its contact states are found if they are not given
 /// @param times       of the samples since the start, ascending, >= 0 [s]
 /// @param parameters  of this system, any number
-/// @throws NumericalError  if a neighbor of the system is of another shape
+/// @throws NumericalError  if a neighbor of the system is of another shape, turns the other way, or
+///                         has friction that switches where the system has none
 /// @source [LeineNijmeijer2004], sec. 7.1 for the jumps; [GriewankWalther2008], ch. 13
 MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start,
                            std::span<const double> times, std::span<const SystemSlope> parameters,

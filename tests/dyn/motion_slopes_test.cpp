@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/error.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/scenes.hpp"
@@ -445,6 +446,24 @@ TEST(MotionSlopes, ByTheStartAreItsTangents) {
   EXPECT_LT(difference(found.by_start[0], t.tangent), 1e-11);
   EXPECT_EQ(found.end.revolution, t.state.revolution);
   EXPECT_EQ(found.end.phase, t.state.phase);
+}
+
+TEST(MotionSlopes, RefuseParametersWithoutADerivative) {
+  RotorStator p = test::P1;
+  const auto refuses = [&](Knob knob, double size) {
+    const Scene scene = p.scene();
+    knob.size = size;
+    const std::vector<SystemSlope> parameters{slope(scene, p.model(), knob)};
+    MotionState start;
+    start.y = Vec::Zero(8);
+    EXPECT_THROW(motion_slopes(scene.contacts, start, {{1e-3}}, parameters), NumericalError)
+        << knob.name;
+  };
+  p.mu = 0.0;
+  refuses(friction(), 0.1);
+  p = test::P1;
+  p.Omega = 0.0;
+  refuses(speed(), 1.0);
 }
 
 // x = a sin(omega t) turns back at omega t = pi / 2, short of a damped ring or just beyond.
