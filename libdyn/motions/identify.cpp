@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "libdyn/motions/motion_lines.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/forces.hpp"
@@ -140,41 +141,36 @@ System stiffened(const Model& model, const Scene& scene, System system) {
   return system;
 }
 
-Identification identify(const Model& model, const Scene& scene, const Recording& recording,
-                        const IdentifyOptions& options) {
-  Identification result;
+std::vector<Mode> compared_modes(const Model& model, const Scene& scene,
+                                 const IdentifyOptions& options) {
   const auto closed = [&](System at) {
     return options.stiffened ? stiffened(model, scene, std::move(at)) : at;
   };
   const System system = closed(linear_system(model, scene));
-  if (scene.assembler.depends_on_whirl()) {
-    const Assembler linear(linear_structure(model));
-    const SystemAtFrequency at_frequency = [&](double omega) {
-      return closed(linear.at(system.Omega, omega));
-    };
-    result.modes = own_frequency_modes(at_frequency, options.modes).oscillatory;
-  } else {
-    result.modes = complex_modes(system, options.modes).oscillatory;
+  if (!scene.assembler.depends_on_whirl()) {
+    return complex_modes(system, options.modes).oscillatory;
   }
+  const Assembler linear(linear_structure(model));
+  const SystemAtFrequency at_frequency = [&](double omega) {
+    return closed(linear.at(system.Omega, omega));
+  };
+  return own_frequency_modes(at_frequency, options.modes).oscillatory;
+}
 
-  const double length = scene.assembler.structure().length();
-  const double arm = !options.rotations ? 0.0 : length > 0.0 ? length : 1.0;
-  const Sparse weights = options.mass_weighted ? system.M : mac_weights(system.dofs, arm);
-
-  const ResponseSpectra spectra(scene, recording);
-  result.bin = spectra.bin();
-  const Vec total = spectra.total();
-  for (const Peak& peak : distinct_peaks(total, spectra.bin(), options)) {
+Identification identify(const MotionLines& lines, std::vector<Mode> modes, const CMat& shapes,
+                        const Sparse& weights, const std::vector<ForcedLine>& forced, double Omega,
+                        const IdentifyOptions& options) {
+  Identification result{.modes = std::move(modes), .bin = lines.bin};
+  for (const Peak& peak : distinct_peaks(lines.total, lines.bin, options)) {
     IdentifiedPeak found{.frequency = peak.frequency};
-    found.frequency_rotating = peak.frequency - scene.system.Omega;
-    for (const Point& p : system.dofs.points()) {
-      found.amplitude = std::max(found.amplitude, std::abs(spectra.line(p, peak.bin)));
-    }
-    const auto place = (peak.bin + total.size()) % total.size();
-    found.amplitude *= peak.amplitude / total(place);  // between the bins
+    found.frequency_rotating = peak.frequency - Omega;
+    const auto place = (peak.bin + lines.total.size()) % lines.total.size();
+    found.amplitude = lines.radius(peak.bin) * (peak.amplitude / lines.total(place));
 
-    const CVec shape = scene.reduced.Phi * spectra.amplitudes(peak.bin);
-    for (const Mode& mode : result.modes) found.mac.push_back(mac(mode.shape, shape, weights));
+    const CVec shape = lines.shape(peak.bin);
+    for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
+      found.mac.push_back(mac(shapes.col(i), shape, weights));
+    }
     const auto best = std::max_element(found.mac.begin(), found.mac.end());
     found.mode = static_cast<int>(best - found.mac.begin());
     if (best != found.mac.end()) {
@@ -183,9 +179,37 @@ Identification identify(const Model& model, const Scene& scene, const Recording&
     }
     result.peaks.push_back(std::move(found));
   }
-  find_causes(result.peaks, forced_lines(scene.assembler, system.Omega), spectra.bin());
+  find_causes(result.peaks, forced, lines.bin);
   result.resonance = resonance_of(result.peaks);
   return result;
+}
+
+Identification identify(const Model& model, const Scene& scene, const Recording& recording,
+                        const IdentifyOptions& options) {
+  const System system = linear_system(model, scene);
+  const double length = scene.assembler.structure().length();
+  const double arm = !options.rotations ? 0.0 : length > 0.0 ? length : 1.0;
+  const Sparse weights = options.mass_weighted ? system.M : mac_weights(system.dofs, arm);
+
+  const ResponseSpectra spectra(scene, recording);
+  MotionLines lines{.bin = spectra.bin(), .total = spectra.total()};
+  lines.radius = [&](Eigen::Index bin) {
+    double largest = 0.0;
+    for (const Point& p : system.dofs.points()) {
+      largest = std::max(largest, std::abs(spectra.line(p, bin)));
+    }
+    return largest;
+  };
+  lines.shape = [&](Eigen::Index bin) -> CVec {
+    return scene.reduced.Phi * spectra.amplitudes(bin);
+  };
+  std::vector<Mode> modes = compared_modes(model, scene, options);
+  CMat shapes(system.dofs.size(), std::ssize(modes));
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    shapes.col(static_cast<Eigen::Index>(i)) = modes[i].shape;
+  }
+  return identify(lines, std::move(modes), shapes, weights,
+                  forced_lines(scene.assembler, system.Omega), system.Omega, options);
 }
 
 }  // namespace whirl::inline dyn
