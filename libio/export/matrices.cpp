@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <matio.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 
 #include "libdyn/system/stations.hpp"
 #include "libio/results/csv_tables.hpp"
+#include "libio/results/matlab_variables.hpp"
 
 namespace whirl::inline io {
 
@@ -43,10 +42,8 @@ std::string market_text(const Sparse& A) {
   return text;
 }
 
-using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
-
 /// A sparse matrix as MATLAB has it: by columns, rows ascending.
-Variable sparse_variable(const char* name, Sparse A) {
+MatlabVariable sparse_variable(const char* name, Sparse A) {
   A.makeCompressed();
   std::vector<mat_uint32_t> rows(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
   std::vector<mat_uint32_t> columns(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
@@ -61,24 +58,6 @@ Variable sparse_variable(const char* name, Sparse A) {
   std::array<std::size_t, 2> size{static_cast<std::size_t>(A.rows()),
                                   static_cast<std::size_t>(A.cols())};
   return {Mat_VarCreate(name, MAT_C_SPARSE, MAT_T_DOUBLE, 2, size.data(), &data, 0), &Mat_VarFree};
-}
-
-/// Texts as rows of equally many characters.
-Variable text_variable(const char* name, const std::vector<std::string>& texts) {
-  std::size_t width = 1;
-  for (const std::string& t : texts) width = std::max(width, t.size());
-  std::string columns(texts.size() * width, ' ');  // characters column by column
-  for (std::size_t i = 0; i < texts.size(); ++i) {
-    for (std::size_t k = 0; k < texts[i].size(); ++k) columns[k * texts.size() + i] = texts[i][k];
-  }
-  std::array<std::size_t, 2> size{texts.size(), width};
-  return {Mat_VarCreate(name, MAT_C_CHAR, MAT_T_UINT8, 2, size.data(), columns.data(), 0),
-          &Mat_VarFree};
-}
-
-Variable number_variable(const char* name, double value) {
-  std::array<std::size_t, 2> size{1, 1};
-  return {Mat_VarCreate(name, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), &value, 0), &Mat_VarFree};
 }
 
 }  // namespace
@@ -147,15 +126,15 @@ std::vector<fs::path> write_matlab(const fs::path& stem, const Model& model,
   const fs::path place = stem.string() + ".mat";
   FileReplacement file(place, replaces_own(place, matlab_head, replaces));
   {
-    const std::unique_ptr<mat_t, decltype(&Mat_Close)> mat(
-        Mat_CreateVer(file.temporary().c_str(), matlab_head, MAT_FT_MAT5), &Mat_Close);
-    std::vector<Variable> variables;
+    const MatlabFile mat(Mat_CreateVer(file.temporary().c_str(), matlab_head, MAT_FT_MAT5),
+                         &Mat_Close);
+    std::vector<MatlabVariable> variables;
     for (const auto& [name, values] : matrices_of(system)) {
       variables.push_back(sparse_variable(name, *values));
     }
-    variables.push_back(number_variable("Omega", Omega));
-    variables.push_back(text_variable("dofs", coordinate_names(system.dofs, model)));
-    for (const Variable& v : variables) {
+    variables.push_back(matlab_numbers("Omega", {Omega}, 1, 1));
+    variables.push_back(matlab_texts("dofs", coordinate_names(system.dofs, model)));
+    for (const MatlabVariable& v : variables) {
       if (!mat || !v || Mat_VarWrite(mat.get(), v.get(), MAT_COMPRESSION_NONE) != 0) {
         throw FileError(place.string() + " cannot be written");
       }
