@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include "apps/verbs/common.hpp"
+#include "apps/verbs/measured.hpp"
 #include "apps/verbs/simulation.hpp"
+#include "libdyn/measured/measured_identification.hpp"
 #include "libio/texts/identification_text.hpp"
 
 namespace whirl::inline cli {
@@ -13,9 +15,19 @@ struct IdentifyVerbOptions {
   Flag rotations{"rotations", "let tilts count too, times the rotor's length"};
   Flag mass_weighted{"mass-weighted", "weight the MAC with the mass matrix"};
   Flag stiffened{"stiffened", "modes of the rotor with its contacts closed for good"};
+  MeasuredVerbOptions measured{};
   IntegrationVerbOptions integration{};
-  auto fields() { return std::tie(modes, rotations, mass_weighted, stiffened, integration); }
+  auto fields() {
+    return std::tie(modes, rotations, mass_weighted, stiffened, measured, integration);
+  }
 };
+
+std::string mac_heading(const Model& model, const IdentifyOptions& options) {
+  return fmt::format(
+      "MAC of deflection shapes (rows) against complex modes at {:.6g} rpm{} (columns: number, "
+      "whirl, rpm)\n\n",
+      model.speed / rpm, options.stiffened ? " with contacts closed" : "");
+}
 
 /// What a motion is made of; without a motion, nothing.
 void add_identification(const Model& model, const Run& run, const IdentifyOptions& options,
@@ -26,24 +38,68 @@ void add_identification(const Model& model, const Run& run, const IdentifyOption
   report.record.merge(record_of(id)).merge(record_of(modes));
   report.add_notes(film_notes(model));
   if (!run.has_motion()) return;
-  report.text += fmt::format(
-      "\nMAC of deflection shapes (rows) against complex modes at {:.6g} rpm{} (columns: number, "
-      "whirl, rpm)\n\n{}",
-      model.speed / rpm, options.stiffened ? " with contacts closed" : "",
-      text_of(id, model.speed));
+  report.text += "\n" + mac_heading(model, options) + text_of(id, model.speed);
   if (!file) return;
   write_result(*file, modes);
   write_result(*file, id);
 }
 
+/// Options of motions that are simulated mean nothing for measured ones, and the other way round.
+void require_one_source(IdentifyVerbOptions asked) {
+  if (!asked.measured.measured) {
+    for_each_option(asked.measured, [](const auto& option) {
+      if constexpr (requires { option.wrong(""); }) {
+        if (option.is_given) throw option.wrong("is for a record: give it by --measured");
+      }
+    });
+    return;
+  }
+  for_each_option(asked.integration, [](const auto& option) {
+    if constexpr (requires { option.wrong(""); }) {
+      if (option.is_given) throw option.wrong("is for simulations, and --measured is given");
+    }
+  });
+  for (const Flag& flag : {asked.rotations, asked.mass_weighted}) {
+    if (flag) throw flag.wrong("is for simulations: probes read displacements only");
+  }
+}
+
+/// What a measured motion is made of.
+Report identify_measured(const Invocation& call, const IdentifyVerbOptions& asked,
+                         const IdentifyOptions& options) {
+  const Measurement measurement = read_measurement(call, asked.measured);
+  const Model& model = measurement.model;
+  const Scene scene = make_scene(model, ReductionEstimate::no);
+  const MeasuredIdentification measured = identify(model, scene, measurement.readings, options);
+  const ModesAtPoints modes({.oscillatory = measured.found.modes}, scene.system.dofs);
+  Report report = begin_report(call, model, record_of(measured));
+  report.record.merge(record_of(measured.found)).merge(record_of(modes));
+  report.text = headline("Measured motion", model) + "\n" + text_of(measured) + "\n" +
+                mac_heading(model, options) + text_of(measured.found, model.speed) +
+                doubt_text(measured);
+  report.add_notes(measured.notes);
+  note_tables(call, model, report);
+  report.add_notes(film_notes(model));
+  write_file(call, model, report, [&](ResultWriter& file) {
+    file.attribute("/", "speed", model.speed);
+    write_points(file, model, scene.assembler);
+    write_result(file, modes);
+    write_result(file, measured.found);
+    write_result(file, measured);
+  });
+  return report;
+}
+
 Report run_identify(const Invocation& call, const IdentifyVerbOptions& asked) {
-  const Model model = call.model();
-  require_speed(model);
-  const auto file = call.result_file(model);
+  require_one_source(asked);
   const IdentifyOptions options{.modes = *asked.modes,
                                 .rotations = asked.rotations,
                                 .mass_weighted = asked.mass_weighted,
                                 .stiffened = asked.stiffened};
+  if (asked.measured.measured) return identify_measured(call, asked, options);
+  const Model model = call.model();
+  require_speed(model);
+  const auto file = call.result_file(model);
   const auto tell = [&](const auto& motion, const Run& run) {
     Report report = motion_report(call, model, run, station_summaries(run), "Identification");
     if (file) write_run(*file, motion, model);
@@ -68,7 +124,7 @@ Verb identify_verb() {
       .name = "identify",
       .alias = "modal-content",
       .group = "Contact",
-      .summary = "says which complex modes make up the motion (MAC)",
+      .summary = "says which complex modes make up the motion, simulated or measured (MAC)",
       .example = "whirl identify models/two_disk_mac.toml --out run.h5",
       .run = run_identify,
   };

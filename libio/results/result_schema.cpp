@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "libdyn/measured/measured_identification.hpp"
 #include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/motions/lateral_report.hpp"
@@ -51,6 +52,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<MotionRecord>());
   add(schema_of<StationSpectra>());
   add(schema_of<Identification>());
+  add(schema_of<MeasuredIdentification>());
   add(schema_of<StaticEquilibrium>());
   add(schema_of<RunningFilms>());
   add(schema_of<BendingLine>());

@@ -1,7 +1,9 @@
 #include "libio/texts/identification_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "libbase/constants.hpp"
@@ -53,6 +55,38 @@ std::string text_of(const Identification& found, double Omega) {
                         r->high / rpm, r->low / rpm, r->p, r->q, 100.0 * r->error);
   }
   return text;
+}
+
+std::string text_of(const MeasuredIdentification& measured) {
+  std::string probes;
+  for (const ProbeLabel& p : measured.probes) {
+    probes += fmt::format("{}{} ({:g} deg)", probes.empty() ? "" : ", ", p.name, p.angle_deg());
+  }
+  return fmt::format(
+      "  probes: {}\n  speed: {:.6g} rpm\n  transformed: {:.4g} s, lines {:.3g} rpm "
+      "apart\n",
+      probes, measured.speed / rpm, measured.duration, measured.found.bin / rpm);
+}
+
+std::string doubt_text(const MeasuredIdentification& measured) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  if (!measured.unseen.empty()) {
+    text += fmt::format("\n  no probe sees mode{} {}\n", measured.unseen.size() == 1 ? "" : "s",
+                        fmt::join(measured.unseen, ", "));
+  }
+  if (measured.indistinct.empty()) return text;
+  std::string pairs;
+  for (std::size_t i = 0; i < std::min(most, measured.indistinct.size()); ++i) {
+    const IndistinctModes& m = measured.indistinct[i];
+    pairs += fmt::format("{}{} and {} ({:.2f})", i == 0 ? "" : ", ", m.first, m.second, m.mac);
+  }
+  if (measured.indistinct.size() > most) {
+    pairs += fmt::format(" and {} more pairs", measured.indistinct.size() - most);
+  }
+  return text +
+         fmt::format("\n  the probes cannot tell apart modes {}: their MAC among themselves\n",
+                     pairs);
 }
 
 }  // namespace whirl::inline io

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "libdyn/measured/measured_identification.hpp"
 #include "libdyn/motions/identify.hpp"
 
 namespace whirl::inline io {
@@ -9,5 +10,11 @@ namespace whirl::inline io {
 /// Table of peaks against modes, the best mode of a peak beside it; the resonance below.
 /// @param Omega  speed of the rotor [rad/s]
 std::string text_of(const Identification& found, double Omega);
+
+/// What was measured: probes, speed and length of the record.
+std::string text_of(const MeasuredIdentification& measured);
+
+/// Modes that no probe sees, and those that look alike at the probes; empty: there are none.
+std::string doubt_text(const MeasuredIdentification& measured);
 
 }  // namespace whirl::inline io

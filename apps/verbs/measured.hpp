@@ -1,0 +1,64 @@
+#pragma once
+/// What verbs share that take or write records of measurements.
+
+#include <optional>
+#include <string>
+
+#include "apps/invocation.hpp"
+#include "libdyn/measured/probe_readings.hpp"
+#include "libdyn/motions/run_result.hpp"
+#include "libio/text/option.hpp"
+
+namespace whirl::inline cli {
+
+/// Options of verbs that take a record.
+struct MeasuredVerbOptions {
+  Option<std::string> measured{
+      "measured", "FILE",
+      "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .h5"};
+  Option<std::string> probes{"probes", "FILE.toml",
+                             "which channels of it are which probes; left out: those of the model, "
+                             "by their names"};
+  Option<double> rate{"rate", "R", "samples per second, where the record does not say it",
+                      parse_rate};
+  auto fields() { return std::tie(measured, probes, rate); }
+
+  static Parsed<double> parse_rate(const std::string& text);
+};
+
+/// A model at the speed of a record, and what its probes read.
+struct Measurement {
+  Model model;
+  ProbeReadings readings;
+};
+
+/// Reads the record and its probes. The speed is that of the key-phasor, or else the model's.
+/// @throws ModelError, FileError  for what is wrong in these files
+Measurement read_measurement(const Invocation& call, const MeasuredVerbOptions& options);
+
+/// Options of verbs that write what a measurement of their motion would have recorded.
+struct RecordingVerbOptions {
+  Option<std::string> measure{"measure", "FILE.toml",
+                              "probes whose readings of the motion --measured-out takes; left out: "
+                              "those of the model"};
+  Option<std::string> out{"measured-out", "FILE",
+                          "a record as a measurement would have it: .csv, .wav, .mat, .uff, .h5"};
+  Option<double> noise{"noise", "P",
+                       "of each of its channels, such as 1%: standard deviation, of "
+                       "the signal's",
+                       0.0, parse_noise};
+  Option<std::uint64_t> seed{"seed", "S", "of the noise", 1};
+  auto fields() { return std::tie(measure, out, noise, seed); }
+
+  static Parsed<double> parse_noise(const std::string& text);
+};
+
+/// The probes that a motion is recorded with; nothing: it is not recorded.
+/// @throws ModelError  for a wrong file of probes or ending, before the motion is computed
+std::optional<MeasurementSetup> recording_setup(const RecordingVerbOptions& options,
+                                                const Model& model);
+/// Writes the record.
+void write_recording(const Invocation& call, const RecordingVerbOptions& options,
+                     const MeasurementSetup& setup, const Run& run, Report& report);
+
+}  // namespace whirl::inline cli

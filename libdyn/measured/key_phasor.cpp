@@ -1,0 +1,111 @@
+#include "libdyn/measured/key_phasor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libbase/error.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+constexpr double back_by = 0.2;     ///< of a signal's range, before another pulse counts
+constexpr double uneven_by = 0.35;  ///< of an interval between pulses, against its neighbors
+
+}  // namespace
+
+std::vector<double> pulse_times(const Vec& samples, const MeasuredRecord& record,
+                                const KeyPhasor& key) {
+  std::vector<double> times;
+  if (samples.size() < 2) return times;
+  const double low = samples.minCoeff(), high = samples.maxCoeff();
+  const double sign = key.slope == PulseEdge::rising ? 1.0 : -1.0;
+  const double threshold = sign * key.threshold.value_or(0.5 * (low + high));
+  const double lowest = key.slope == PulseEdge::rising ? low : -high;
+  const double armed_below =
+      std::max(threshold - back_by * (high - low), 0.5 * (lowest + threshold));
+  bool is_armed = sign * samples(0) < threshold;
+  for (Eigen::Index j = 1; j < samples.size(); ++j) {
+    const double before = sign * samples(j - 1), here = sign * samples(j);
+    if (here < armed_below) is_armed = true;
+    if (!is_armed || here < threshold || before >= threshold) continue;
+    is_armed = false;
+    times.push_back(record.time(j - 1) + (threshold - before) / (here - before) / record.rate);
+  }
+  return times;
+}
+
+TurnClock::TurnClock(std::vector<double> pulses, const KeyPhasor& key,
+                     std::vector<std::string>& notes)
+    : pulses_(std::move(pulses)), per_turn_(key.pulses), angle_(key.angle) {
+  const std::size_t n = pulses_.size();
+  if (n < 3) {
+    throw OptionError(fmt::format(
+        "key-phasor \"{}\": found {} pulse{}, expected three or more: set its threshold "
+        "and slope, or give the speed by --speed and leave [keyphasor] out",
+        key.channel, n, n == 1 ? "" : "s"));
+  }
+  std::vector<double> sorted;
+  for (std::size_t i = 1; i < n; ++i) sorted.push_back(pulses_[i] - pulses_[i - 1]);
+  for (std::size_t i = 1; i + 1 < sorted.size(); ++i) {
+    const double expected = 0.5 * (sorted[i - 1] + sorted[i + 1]);
+    if (std::abs(sorted[i] / expected - 1.0) < uneven_by) continue;
+    notes.push_back(fmt::format(
+        "key-phasor \"{}\": the time between pulses jumps at {:.6g} s; one is missing or too many",
+        key.channel, pulses_[i]));
+    break;
+  }
+  slopes_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    // the parabola through three pulses, about the middle one
+    const std::size_t m = std::clamp<std::size_t>(i, 1, n - 2);
+    const double h0 = pulses_[m] - pulses_[m - 1], h1 = pulses_[m + 1] - pulses_[m];
+    const double middle = (h1 / h0 + h0 / h1) / (h0 + h1);
+    const double curvature = 2.0 * (1.0 / h1 - 1.0 / h0) / (h0 + h1);
+    slopes_[i] = middle + curvature * (pulses_[i] - pulses_[m]);
+  }
+}
+
+TurnClock::Piece TurnClock::piece_at(double t) const {
+  const auto above = std::upper_bound(pulses_.begin() + 1, pulses_.end() - 1, t);
+  const auto i = static_cast<std::size_t>(above - pulses_.begin()) - 1;
+  const double h = pulses_[i + 1] - pulses_[i];
+  return {h, (t - pulses_[i]) / h, slopes_[i] * h, slopes_[i + 1] * h, i};
+}
+
+double TurnClock::angle(double t) const {
+  const Piece p = piece_at(t);
+  // from 0 to 1 with these slopes
+  const double s = p.s;
+  const double part = s * s * (3.0 - 2.0 * s) + p.slope_0 * s * (1.0 - s) * (1.0 - s) -
+                      p.slope_1 * s * s * (1.0 - s);
+  return angle_ + turn * (static_cast<double>(p.number) + part) / per_turn_;
+}
+
+double TurnClock::speed(double t) const {
+  const Piece p = piece_at(t);
+  const double s = p.s;
+  const double rate = 6.0 * s * (1.0 - s) + p.slope_0 * (1.0 - s) * (1.0 - 3.0 * s) +
+                      p.slope_1 * s * (3.0 * s - 2.0);
+  return turn * rate / (p.h * per_turn_);
+}
+
+double TurnClock::mean_speed() const {
+  return turn * static_cast<double>(pulses_.size() - 1) / (per_turn_ * (last() - first()));
+}
+
+double TurnClock::variation() const {
+  const auto apart = static_cast<std::size_t>(per_turn_);
+  double least = mean_speed(), most = least;
+  for (std::size_t i = apart; i < pulses_.size(); ++i) {
+    const double speed = turn / (pulses_[i] - pulses_[i - apart]);
+    least = std::min(least, speed);
+    most = std::max(most, speed);
+  }
+  return (most - least) / mean_speed();
+}
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,196 @@
+#include "libdyn/measured/measured_identification.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libbase/error.hpp"
+#include "libdyn/measured/station_motion.hpp"
+#include "libdyn/motions/motion_lines.hpp"
+#include "libfe/campbell.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+constexpr double even_drift = 0.02;  ///< of a spectral line, that uneven revolutions may make
+constexpr Eigen::Index fewest_samples = 16;
+constexpr double turns_backward = 3.0;  ///< times the forward part of a line, from which it is said
+
+/// How many samples at the end of a record are transformed.
+Eigen::Index transformed_samples(const ProbeReadings& readings, double Omega) {
+  const Eigen::Index all = readings.displacement.rows();
+  const double per_turn = turn * readings.rate / Omega;
+  const double whole = std::round(per_turn);
+  const double turns = static_cast<double>(all) / whole;
+  if (Omega > 0.0 && turns >= 1.0 && std::abs(per_turn / whole - 1.0) * turns < even_drift) {
+    const auto samples = static_cast<Eigen::Index>(whole);
+    return smooth_length(all / samples) * samples;
+  }
+  return smooth_length(all);
+}
+
+/// Spectra of the readings of probes and of the motion of stations.
+struct MeasuredSpectra {
+  double bin = 0.0;
+  CMat probes;    ///< lines x probes
+  CMat stations;  ///< lines x stations, of x + i y
+
+  Eigen::Index row(Eigen::Index k) const {
+    return (k % probes.rows() + probes.rows()) % probes.rows();
+  }
+};
+
+MeasuredSpectra spectra_of(const ProbeReadings& readings,
+                           const std::vector<ProbedStation>& stations, double Omega) {
+  const Eigen::Index n = transformed_samples(readings, Omega);
+  MeasuredSpectra spectra;
+  spectra.probes.resize(n, readings.displacement.cols());
+  for (Eigen::Index i = 0; i < readings.displacement.cols(); ++i) {
+    const Vec samples = readings.displacement.col(i).tail(n);
+    const Spectrum s = hann_spectrum((samples.array() - samples.mean()).matrix().cast<Complex>(),
+                                     1.0 / readings.rate);
+    spectra.probes.col(i) = s.lines;
+    spectra.bin = s.bin;
+  }
+  spectra.stations.setZero(n, std::ssize(stations));
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    const Mat& to_plane = stations[s].to_plane;
+    for (std::size_t i = 0; i < stations[s].probes.size(); ++i) {
+      const auto c = static_cast<Eigen::Index>(i);
+      spectra.stations.col(static_cast<Eigen::Index>(s)) +=
+          Complex(to_plane(0, c), to_plane(1, c)) * spectra.probes.col(stations[s].probes[i]);
+    }
+  }
+  return spectra;
+}
+
+/// What the probes read of the modes, probes x modes.
+CMat readings_of(const std::vector<Mode>& modes, const std::vector<Probe>& probes,
+                 const Scene& scene) {
+  const DofMap& dofs = scene.system.dofs;
+  CMat readings(std::ssize(probes), std::ssize(modes));
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    const CVec full = dofs.T.cast<Complex>() * modes[m].shape;
+    for (std::size_t i = 0; i < probes.size(); ++i) {
+      const Point point = scene.assembler.point(probes[i].at);
+      readings(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(m)) =
+          probes[i].along(full(dofs.full_index(point, X)), full(dofs.full_index(point, Y)));
+    }
+  }
+  return readings;
+}
+
+void add_indistinct(MeasuredIdentification& result, const CMat& shapes, const Sparse& weights) {
+  const Eigen::Index modes = shapes.cols();
+  result.auto_mac.resize(modes, modes);
+  for (Eigen::Index i = 0; i < modes; ++i) {
+    const bool is_unseen = shapes.col(i).cwiseAbs().maxCoeff() < unseen_reading;
+    if (is_unseen) result.unseen.push_back(static_cast<int>(i) + 1);
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const double alike = mac(shapes.col(i), shapes.col(j), weights);
+      result.auto_mac(i, j) = result.auto_mac(j, i) = alike;
+      if (i == j || !(alike > indistinct_mac)) continue;
+      result.indistinct.push_back({static_cast<int>(j) + 1, static_cast<int>(i) + 1, alike});
+    }
+  }
+}
+
+/// Notes stations where the speed's own line turns backward: in most cases that is a mistake.
+void note_backward(const MeasuredSpectra& spectra, const std::vector<ProbedStation>& stations,
+                   double Omega, std::vector<std::string>& notes) {
+  const auto line = static_cast<Eigen::Index>(std::lround(Omega / spectra.bin));
+  if (line < 2) return;
+  std::string names;
+  std::size_t backward = 0, open = 0;
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    if (stations[s].is_planar) continue;
+    ++open;
+    const auto c = static_cast<Eigen::Index>(s);
+    const double f = std::abs(spectra.stations(spectra.row(line), c));
+    const double b = std::abs(spectra.stations(spectra.row(-line), c));
+    if (!(b > turns_backward * f)) continue;
+    ++backward;
+    names += (names.empty() ? "" : ", ") + stations[s].name;
+  }
+  if (backward == 0) return;
+  notes.push_back(fmt::format(
+      "1X turns backward at {}: {}", names,
+      backward == open
+          ? "probes are swapped, an angle or gain has the wrong sign, the rotor turns the other "
+            "way, "
+            "or the speed is between criticals of anisotropic supports"
+          : "and forward elsewhere: are probes swapped there, or has an angle or gain the wrong "
+            "sign?"));
+}
+
+void note_probes(const std::vector<ProbedStation>& stations, std::vector<std::string>& notes) {
+  std::string names;
+  for (const ProbedStation& s : stations) {
+    if (s.is_planar) names += (names.empty() ? "" : ", ") + s.name;
+  }
+  if (names.empty()) return;
+  notes.push_back(
+      fmt::format("at {} probes see one direction only: forward and backward motions "
+                  "look alike there",
+                  names));
+}
+
+}  // namespace
+
+MeasuredIdentification identify(const Model& model, const Scene& scene,
+                                const ProbeReadings& readings, const IdentifyOptions& options) {
+  if (readings.probes.empty()) {
+    throw OptionError("no probes: give --probes FILE.toml, or the model a [[probe]]");
+  }
+  if (readings.displacement.rows() < fewest_samples) {
+    throw OptionError(fmt::format("the record has {} samples, expected {} or more",
+                                  readings.displacement.rows(), fewest_samples));
+  }
+  MeasuredIdentification result{.speed = model.speed, .notes = readings.notes};
+  result.probes.assign(readings.probes.begin(), readings.probes.end());
+  const std::vector<ProbedStation> stations = probed_stations(readings.probes, scene.assembler);
+  const MeasuredSpectra spectra = spectra_of(readings, stations, model.speed);
+  const Eigen::Index n = spectra.probes.rows();
+  result.duration = static_cast<double>(n) / readings.rate;
+  note_probes(stations, result.notes);
+  note_backward(spectra, stations, model.speed, result.notes);
+
+  MotionLines lines{.bin = spectra.bin, .total = spectra.stations.rowwise().norm()};
+  lines.radius = [&](Eigen::Index k) {
+    return spectra.stations.row(spectra.row(k)).cwiseAbs().maxCoeff();
+  };
+  lines.shape = [&](Eigen::Index k) -> CVec {
+    return 2.0 * spectra.probes.row(spectra.row(std::abs(k))).transpose();
+  };
+  std::vector<Mode> modes = compared_modes(model, scene, options);
+  const CMat shapes = readings_of(modes, readings.probes, scene);
+  Sparse weights(shapes.rows(), shapes.rows());
+  weights.setIdentity();
+  result.found = identify(lines, std::move(modes), shapes, weights,
+                          forced_lines(scene.assembler, model.speed), model.speed, options);
+  result.mode_readings = shapes.transpose();
+  add_indistinct(result, shapes, weights);
+
+  result.deflection.resize(std::ssize(result.found.peaks), shapes.rows());
+  for (std::size_t i = 0; i < result.found.peaks.size(); ++i) {
+    const auto k = std::lround(result.found.peaks[i].frequency / spectra.bin);
+    result.deflection.row(static_cast<Eigen::Index>(i)) = lines.shape(k).transpose();
+  }
+  const Eigen::Index half = n / 2;  // backward to the left
+  result.frequency = spectra.bin * Vec::LinSpaced(n, -static_cast<double>(half),
+                                                  static_cast<double>(n - 1 - half));
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    Vec amplitude(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      amplitude(k) =
+          std::abs(spectra.stations(spectra.row(k - half), static_cast<Eigen::Index>(s)));
+    }
+    result.stations.push_back({stations[s].name, amplitude});
+  }
+  return result;
+}
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,109 @@
+#include "libdyn/measured/measured_record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "libbase/error.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+constexpr double most_missing = 0.05;  ///< share of the samples of a channel
+constexpr long clipped_run = 3;        ///< samples at the limit one after the other
+constexpr double clipped_step = 2.0;   ///< of the smallest step, beyond which a limit was met
+
+/// The smallest step between neighbors; 0: there is none.
+double smallest_step(const Vec& samples) {
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index j = 1; j < samples.size(); ++j) {
+    const double step = std::abs(samples(j) - samples(j - 1));
+    if (step > 0.0) least = std::min(least, step);
+  }
+  return std::isfinite(least) ? least : 0.0;
+}
+
+/// The mean step towards runs at a limit; 0: there are no runs.
+double step_to(const Vec& samples, double limit) {
+  double steps = 0.0;
+  long runs = 0, at_limit = 0;
+  for (Eigen::Index j = 0; j < samples.size(); ++j) {
+    if (samples(j) == limit) {
+      ++at_limit;
+      continue;
+    }
+    if (at_limit >= clipped_run) {
+      steps += std::abs(samples(j) - limit);
+      ++runs;
+    }
+    at_limit = 0;
+  }
+  return runs > 0 ? steps / static_cast<double>(runs) : 0.0;
+}
+
+}  // namespace
+
+std::string MeasuredRecord::channel_list() const {
+  std::string list;
+  for (const MeasuredChannel& c : channels) {
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", c.name,
+                        c.unit.empty() ? "" : fmt::format(" [{}]", c.unit));
+  }
+  return list;
+}
+
+std::optional<Eigen::Index> MeasuredRecord::channel(const std::string& name) const {
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i].name == name) return static_cast<Eigen::Index>(i);
+  }
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const bool is_number = error == std::errc() && end == name.data() + name.size();
+  if (!is_number || number < 1 || number > channels.size()) return std::nullopt;
+  return static_cast<Eigen::Index>(number - 1);
+}
+
+Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::string& name,
+                 std::vector<std::string>& notes) {
+  Vec filled = samples;
+  const Eigen::Index n = samples.size();
+  Eigen::Index missing = 0, first = -1, last_known = -1;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (!std::isfinite(samples(j))) {
+      if (first < 0) first = j;
+      ++missing;
+      continue;
+    }
+    for (Eigen::Index k = last_known + 1; k < j; ++k) {
+      const double share =
+          static_cast<double>(k - last_known) / static_cast<double>(j - last_known);
+      const double before = last_known < 0 ? samples(j) : samples(last_known);
+      filled(k) = before + share * (samples(j) - before);
+    }
+    last_known = j;
+  }
+  if (missing == 0) return filled;
+  const std::string what =
+      fmt::format("channel \"{}\": {} of {} samples are missing, the first at {:.6g} s", name,
+                  missing, n, record.time(first));
+  if (static_cast<double>(missing) > most_missing * static_cast<double>(n)) {
+    throw OptionError(fmt::format("{}; expected at most {:g} %", what, 100.0 * most_missing));
+  }
+  for (Eigen::Index k = last_known + 1; k < n; ++k) filled(k) = samples(last_known);
+  notes.push_back(what + "; straight lines are in their place");
+  return filled;
+}
+
+bool is_clipped(const Vec& samples) {
+  if (samples.size() < clipped_run) return false;
+  const double quantum = smallest_step(samples);
+  if (quantum == 0.0) return false;
+  return std::max(step_to(samples, samples.maxCoeff()), step_to(samples, samples.minCoeff())) >
+         clipped_step * quantum;
+}
+
+}  // namespace whirl::inline dyn

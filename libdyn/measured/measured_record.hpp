@@ -1,0 +1,45 @@
+#pragma once
+/// A record of a measurement: samples of channels at equal steps of time, and what is wrong with them.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libbase/linalg.hpp"
+
+namespace whirl::inline dyn {
+
+struct MeasuredChannel {
+  std::string name;
+  std::string unit{};  ///< of its samples: "m", "V" or any other; "": the file does not say it
+};
+
+/// What was measured.
+struct MeasuredRecord {
+  double rate = 0.0;   ///< samples per second [1/s]
+  double start = 0.0;  ///< time of the first one [s]
+  std::vector<MeasuredChannel> channels;
+  Mat samples;  ///< samples x channels; lengths in m, voltages in V; NaN: missing
+
+  double duration() const { return static_cast<double>(samples.rows()) / rate; }
+  double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }
+  /// Names of the channels, for messages: "x [m], y [m]".
+  std::string channel_list() const;
+  /// The channel of a name, or of a number from 1 where none has it as its name.
+  std::optional<Eigen::Index> channel(const std::string& name) const;
+};
+
+/// Fills missing samples of a channel by straight lines between their neighbors.
+///
+/// @param name   of the channel, for notes
+/// @param notes  receives how many were missing, and when first
+/// @throws OptionError  if more than a twentieth is missing
+Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::string& name,
+                 std::vector<std::string>& notes);
+
+/// Whether a signal was cut off: at its largest or smallest value it rests for three samples or more,
+/// and comes there by steps of more than two of the smallest that it makes. What was digitized coarsely
+/// rests at its crests, too, but comes there by the smallest steps.
+bool is_clipped(const Vec& samples);
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,86 @@
+#include "libdyn/measured/probe_readings.hpp"
+
+#include <fmt/format.h>
+
+#include "libbase/error.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+Eigen::Index channel_of(const MeasuredRecord& record, const std::string& channel,
+                        const std::string& who) {
+  if (const auto found = record.channel(channel)) return *found;
+  throw OptionError(fmt::format("{}: the record has no channel \"{}\"; it has {}", who, channel,
+                                record.channel_list()));
+}
+
+/// How many metres a unit of a channel's samples stands for.
+double metres_per_unit(const MeasuredChannel& channel, const MeasuredProbe& p) {
+  using Of = ProbeGain::Of;
+  const std::string who = fmt::format("probe \"{}\"", p.probe.name);
+  const auto wrong = [&](const char* expected) {
+    return OptionError(fmt::format("{}: channel \"{}\" is in {}, expected {}", who, channel.name,
+                                   channel.unit, expected));
+  };
+  switch (p.gain.of) {
+    case Of::voltage:
+      if (!channel.unit.empty() && channel.unit != "V") {
+        throw wrong("a voltage, as its gain is one per displacement");
+      }
+      return 1.0 / p.gain.value;
+    case Of::number:
+      if (!channel.unit.empty()) throw wrong("numbers without unit, as its gain is per length");
+      return 1.0 / p.gain.value;
+    default:
+      if (channel.unit.empty()) return p.unit_length / p.gain.value;
+      if (channel.unit == "V") throw wrong("a length; give the probe a gain such as \"7.87 V/mm\"");
+      if (channel.unit != "m")
+        throw wrong("a length or, with a gain such as \"7.87 V/mm\", a voltage");
+      return 1.0 / p.gain.value;
+  }
+}
+
+/// Notes that a channel says nothing, or less than it should.
+void note_channel(const Vec& samples, const std::string& name, std::vector<std::string>& notes) {
+  if (samples.size() > 0 && samples.maxCoeff() == samples.minCoeff()) {
+    notes.push_back(fmt::format("channel \"{}\" is constant: is its probe connected?", name));
+  } else if (is_clipped(samples)) {
+    notes.push_back(fmt::format(
+        "channel \"{}\" is clipped: it rests at its largest or smallest value; amplitudes are too "
+        "small and harmonics are not the motion's",
+        name));
+  }
+}
+
+}  // namespace
+
+ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup) {
+  ProbeReadings readings{.rate = record.rate, .start = record.start};
+  readings.displacement.resize(record.samples.rows(), std::ssize(setup.probes));
+  std::vector<Eigen::Index> channels;
+  for (std::size_t i = 0; i < setup.probes.size(); ++i) {
+    const MeasuredProbe& p = setup.probes[i];
+    const auto c = channel_of(record, p.channel, fmt::format("probe \"{}\"", p.probe.name));
+    const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(c)];
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec other = record.samples.col(channels[j]);
+      if (channels[j] != c && other != record.samples.col(c)) continue;
+      readings.notes.push_back(fmt::format("probes \"{}\" and \"{}\" read the same samples",
+                                           setup.probes[j].probe.name, p.probe.name));
+    }
+    channels.push_back(c);
+    const Vec samples = without_gaps(record.samples.col(c), record, channel.name, readings.notes);
+    note_channel(samples, channel.name, readings.notes);
+    readings.displacement.col(static_cast<Eigen::Index>(i)) = metres_per_unit(channel, p) * samples;
+    readings.probes.push_back(p.probe);
+  }
+  if (const auto& key = setup.key_phasor) {
+    const auto c = channel_of(record, key->channel, "key-phasor");
+    const Vec samples = without_gaps(record.samples.col(c), record, key->channel, readings.notes);
+    readings.clock.emplace(pulse_times(samples, record, *key), *key, readings.notes);
+  }
+  return readings;
+}
+
+}  // namespace whirl::inline dyn

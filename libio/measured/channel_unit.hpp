@@ -1,0 +1,26 @@
+#pragma once
+/// Units of channels, of which voltages are none of a model's.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "libdyn/measured/probe_readings.hpp"
+#include "libio/text/units.hpp"
+
+namespace whirl::inline io {
+
+/// A unit as records have it.
+struct ChannelUnit {
+  std::string name;     ///< "m", "V", any other as it is written, or ""
+  double factor = 1.0;  ///< from the unit as written
+};
+
+/// What a text means: lengths are in m, voltages in V; whatever else stays as it is.
+ChannelUnit channel_unit(std::string_view text);
+
+/// A gain: "7.87 V/mm", "-8 mV/um", "200 mV/mil"; "0.787 1/mm" of channels without unit; a plain number
+/// where channels are lengths.
+Parsed<ProbeGain> parse_gain(const std::string& text);
+
+}  // namespace whirl::inline io

@@ -1,0 +1,160 @@
+/// MATLAB files: vectors, or a matrix with a channel per column.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "libio/measured/record_formats.hpp"
+#include "libio/results/matlab_variables.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+constexpr const char* matlab_record_head = "MATLAB 5.0 MAT-file, measurement, written by whirl";
+
+std::size_t elements_of(const matvar_t& v) {
+  return v.dims[0] * v.dims[1];
+}
+
+template <class Number>
+std::vector<double> as_doubles(const matvar_t& v) {
+  const auto* values = static_cast<const Number*>(v.data);
+  return {values, values + elements_of(v)};
+}
+
+/// Numbers of a matrix, column by column; none: it is no matrix of real numbers.
+std::vector<double> numbers_of(const matvar_t& v) {
+  if (!v.data || v.rank != 2 || v.isComplex) return {};
+  switch (v.class_type) {
+    case MAT_C_DOUBLE:
+      return as_doubles<double>(v);
+    case MAT_C_SINGLE:
+      return as_doubles<float>(v);
+    case MAT_C_INT8:
+      return as_doubles<std::int8_t>(v);
+    case MAT_C_UINT8:
+      return as_doubles<std::uint8_t>(v);
+    case MAT_C_INT16:
+      return as_doubles<std::int16_t>(v);
+    case MAT_C_UINT16:
+      return as_doubles<std::uint16_t>(v);
+    case MAT_C_INT32:
+      return as_doubles<std::int32_t>(v);
+    case MAT_C_UINT32:
+      return as_doubles<std::uint32_t>(v);
+    default:
+      return {};
+  }
+}
+
+/// Rows of a matrix of characters, which stand column by column.
+std::vector<std::string> texts_of(const matvar_t& v) {
+  if (!v.data || v.class_type != MAT_C_CHAR || v.rank != 2) return {};
+  const auto* bytes = static_cast<const char*>(v.data);
+  const std::size_t count = elements_of(v), size = count > 0 ? v.nbytes / count : 0;
+  if (size < 1 || size > 2) return {};
+  std::vector<std::string> rows(v.dims[0]);
+  for (std::size_t k = 0; k < count; ++k) rows[k % v.dims[0]] += bytes[k * size];
+  for (std::string& row : rows) row.erase(row.find_last_not_of(' ') + 1);
+  return rows;
+}
+
+/// The channels of a matrix: its columns, or rows where these are longer.
+void add_channels(RawRecord& raw, const matvar_t& v, const std::vector<double>& numbers) {
+  const bool is_upright = v.dims[0] >= v.dims[1];
+  const std::size_t count = std::min(v.dims[0], v.dims[1]), n = std::max(v.dims[0], v.dims[1]);
+  for (std::size_t c = 0; c < count; ++c) {
+    RawChannel& channel = raw.channels.emplace_back();
+    channel.name = count == 1 ? v.name : fmt::format("{}({})", v.name, c + 1);
+    channel.where = {raw.file};
+    channel.samples.resize(n);
+    for (std::size_t j = 0; j < n; ++j) {
+      channel.samples[j] = numbers[is_upright ? c * n + j : j * count + c];
+    }
+  }
+}
+
+/// Whether a file can hold a variable: compressed a number takes some thousandths of its bytes.
+bool is_possible(const matvar_t& v, std::size_t file_size) {
+  constexpr double most_compressed = 2000.0;
+  double bytes = static_cast<double>(std::max(1, v.data_size));
+  for (int i = 0; i < v.rank; ++i) bytes *= static_cast<double>(v.dims[i]);
+  return bytes <= most_compressed * static_cast<double>(file_size);
+}
+
+}  // namespace
+
+RawRecord read_matlab_record(const std::filesystem::path& path) {
+  const std::size_t file_size = record_bytes(path).size();
+  RawRecord raw{.file = path.string()};
+  const MatlabFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close);
+  if (!file) throw ModelError({raw.file}, "", "is no MATLAB file, or a damaged one");
+  std::vector<std::string> names, units;
+  std::string others;
+  while (true) {
+    const MatlabVariable v(Mat_VarReadNextInfo(file.get()), &Mat_VarFree);
+    if (!v) break;
+    const std::string name = v->name ? v->name : "";
+    if (!is_possible(*v, file_size)) {
+      throw ModelError({raw.file}, name, "is larger than the file can hold: it is damaged");
+    }
+    if (v->rank == 2 && Mat_VarReadDataAll(file.get(), v.get()) != 0) {
+      throw ModelError({raw.file}, name, "cannot be read: the file is damaged");
+    }
+    const std::vector<double> numbers = numbers_of(*v);
+    if (numbers.size() == 1 && names_rate(name)) {
+      raw.rate = numbers.front();
+    } else if (numbers.size() == 1 && name == "start") {
+      raw.start = numbers.front();
+    } else if (numbers.size() > 1) {
+      add_channels(raw, *v, numbers);
+    } else if (name == "channels" || name == "units") {
+      (name == "units" ? units : names) = texts_of(*v);
+    } else {
+      others += (others.empty() ? "" : ", ") + name;
+    }
+  }
+  if (raw.channels.empty()) {
+    throw ModelError({raw.file}, "",
+                     fmt::format("has no vector or matrix of real numbers, and a damaged file has "
+                                 "none either; it has {}",
+                                 others.empty() ? "nothing" : others));
+  }
+  for (std::size_t i = 0; i < raw.channels.size(); ++i) {
+    if (names.size() == raw.channels.size()) raw.channels[i].name = names[i];
+    if (units.size() == raw.channels.size()) raw.channels[i].unit = units[i];
+  }
+  return raw;
+}
+
+void write_matlab_record(const std::filesystem::path& path, const MeasuredRecord& record,
+                         Replaces replaces) {
+  std::vector<std::string> names, units;
+  for (const MeasuredChannel& c : record.channels) {
+    names.push_back(c.name);
+    units.push_back(c.unit);
+  }
+  FileReplacement file(path, replaces_own(path, matlab_record_head, replaces));
+  {
+    const MatlabFile mat(Mat_CreateVer(file.temporary().c_str(), matlab_record_head, MAT_FT_MAT5),
+                         &Mat_Close);
+    std::vector<MatlabVariable> variables;
+    const Mat& samples = record.samples;
+    variables.push_back(matlab_numbers("fs", {record.rate}, 1, 1));
+    variables.push_back(matlab_numbers("start", {record.start}, 1, 1));
+    variables.push_back(matlab_texts("channels", names));
+    variables.push_back(matlab_texts("units", units));
+    variables.push_back(matlab_numbers("data", {samples.data(), samples.data() + samples.size()},
+                                       static_cast<std::size_t>(samples.rows()),
+                                       static_cast<std::size_t>(samples.cols())));
+    for (const MatlabVariable& v : variables) {
+      if (!mat || !v || Mat_VarWrite(mat.get(), v.get(), MAT_COMPRESSION_NONE) != 0) {
+        throw FileError(path.string() + " cannot be written");
+      }
+    }
+  }
+  file.commit();
+}
+
+}  // namespace whirl::inline io

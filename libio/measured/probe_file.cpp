@@ -1,0 +1,140 @@
+#include "libio/measured/probe_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "libio/measured/channel_unit.hpp"
+#include "libio/model/config.hpp"
+#include "libio/model/file_text.hpp"
+#include "libio/model/model_builder.hpp"
+#include "libio/model/read_fields.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// What a probe has beside what it has in a model.
+struct ProbeKeys {
+  std::string channel;
+  ProbeGain gain{};
+};
+
+/// Name or number of a channel; empty: it is left out or wrong.
+std::string channel_in(TableReader& table) {
+  const ConfigNode* node = table.node("channel");
+  if (!node) return "";
+  if (node->kind == ConfigNode::Kind::integer && node->number >= 1.0) {
+    return fmt::format("{:.0f}", node->number);
+  }
+  if (node->kind == ConfigNode::Kind::string && !node->text.empty()) return node->text;
+  table.problem("channel", fmt::format("found {}, expected the name of a channel or its number "
+                                       "from 1",
+                                       node->as_written()));
+  return "";
+}
+
+ProbeGain gain_in(TableReader& table) {
+  const ConfigNode* node = table.node("gain");
+  if (!node) return {};
+  const bool is_text = node->kind == ConfigNode::Kind::string;
+  const auto gain = parse_gain(is_text ? node->text : node->as_written());
+  if (!gain) table.problem("gain", gain.problem);
+  return gain ? *gain : ProbeGain{};
+}
+
+/// Takes the keys off a probe that models do not have.
+ProbeKeys take_probe_keys(ConfigNode& item, std::size_t number, std::vector<Problem>& problems) {
+  TableReader table(&item, fmt::format("probe.{}", number), problems);
+  ProbeKeys keys{channel_in(table), gain_in(table)};
+  std::erase_if(item.entries,
+                [](const ConfigNode::Entry& e) { return e.key == "channel" || e.key == "gain"; });
+  return keys;
+}
+
+std::optional<KeyPhasor> read_key_phasor(const ConfigNode& root, std::vector<Problem>& problems) {
+  const ConfigNode* node = root.find("keyphasor");
+  if (!node) return std::nullopt;
+  KeyPhasor key;
+  TableReader table(node, "keyphasor", problems);
+  table.read(key);
+  key.channel = channel_in(table);
+  if (!table.has("channel")) table.missing("channel", "the name or number of its channel");
+  if (const ConfigNode* threshold = table.node("threshold")) {
+    const bool is_text = threshold->kind == ConfigNode::Kind::string;
+    const std::string text = is_text ? threshold->text : threshold->as_written();
+    const auto letter = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
+    const ChannelUnit unit = channel_unit(text.substr(letter));
+    const auto number = parse_as(text.substr(0, letter), "");
+    if (number && (unit.name.empty() || unit.name == "V" || unit.name == "m")) {
+      key.threshold = *number * unit.factor;
+    } else {
+      table.problem("threshold", fmt::format("found {}, expected a voltage such as \"-5 V\", or a "
+                                             "number as the channel has it",
+                                             threshold->as_written()));
+    }
+  }
+  table.finish();
+  return key;
+}
+
+/// The model with these probes and no others: its builder checks them.
+/// @param probes  the array of a file
+Model model_with(const ConfigNode& probes, const Model& model) {
+  ConfigNode root = parse_toml(model.source, model.path);
+  std::erase_if(root.entries, [](const ConfigNode::Entry& e) { return e.key == "probe"; });
+  root.entries.push_back({"probe", probes});
+  return ModelBuilder(root, std::filesystem::path(model.path).parent_path()).build();
+}
+
+}  // namespace
+
+MeasurementSetup parse_probe_file(const std::string& text, const std::string& name,
+                                  const Model& model) {
+  ConfigNode root = parse_toml(text, name);
+  std::vector<Problem> problems;
+  MeasurementSetup setup;
+  {
+    TableReader top(&root, "", problems);
+    top.node("probe");
+    top.node("keyphasor");
+    top.finish();
+  }
+  setup.key_phasor = read_key_phasor(root, problems);
+  ConfigNode* list = root.find("probe");
+  if (!list) {
+    problems.push_back({root.where, "probe", "missing, expected one [[probe]] or more"});
+    throw ModelError(std::move(problems));
+  }
+  std::vector<ProbeKeys> keys;
+  for (std::size_t i = 0; i < list->items.size(); ++i) {
+    keys.push_back(take_probe_keys(list->items[i], i + 1, problems));
+  }
+  std::vector<Probe> probes;
+  try {
+    probes = model_with(*list, model).structure.probes;
+  } catch (const ModelError& error) {
+    problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  }
+  if (!problems.empty()) throw ModelError(std::move(problems));
+  for (std::size_t i = 0; i < probes.size(); ++i) {
+    const std::string channel = keys[i].channel.empty() ? probes[i].name : keys[i].channel;
+    setup.probes.push_back(
+        {probes[i], channel, keys[i].gain, *parse_as("1 " + probes[i].unit, "m")});
+  }
+  return setup;
+}
+
+MeasurementSetup read_probe_file(const std::filesystem::path& path, const Model& model) {
+  return parse_probe_file(file_text(path), path.string(), model);
+}
+
+MeasurementSetup model_probes(const Model& model) {
+  MeasurementSetup setup;
+  for (const Probe& probe : model.structure.probes) {
+    setup.probes.push_back({probe, probe.name, {}, *parse_as("1 " + probe.unit, "m")});
+  }
+  return setup;
+}
+
+}  // namespace whirl::inline io

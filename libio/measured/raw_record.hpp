@@ -1,0 +1,42 @@
+#pragma once
+/// What formats of records have in common: channels as they stand in a file become a record.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libbase/error.hpp"
+#include "libdyn/measured/measured_record.hpp"
+
+namespace whirl::inline io {
+
+/// A channel as it stands in a file.
+struct RawChannel {
+  std::string name;
+  std::string unit{};  ///< as it is written
+  std::vector<double> samples;
+  Where where{};  ///< for messages
+};
+
+struct RawRecord {
+  std::string file;
+  std::vector<RawChannel> channels;
+  std::optional<double> rate{};  ///< where the file says it [1/s]
+  double start = 0.0;            ///< [s]
+};
+
+/// Makes a record of channels of equal length: lengths in m, voltages in V. Without a rate the channel
+/// named time, or t, says it, whose steps must be even to a tenth.
+///
+/// @param rate  for files that say neither; nothing: nobody knows [1/s]
+/// @throws ModelError  for times that do not ascend evenly, for channels of different lengths, without
+///                     any, or where nothing says the rate
+MeasuredRecord finished(RawRecord raw, std::optional<double> rate);
+
+/// Whether a name is that of times.
+bool names_time(const std::string& name);
+/// Whether a name is that of a number of samples per second.
+bool names_rate(const std::string& name);
+
+}  // namespace whirl::inline io

@@ -1,0 +1,74 @@
+#include "libio/measured/record_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "libio/measured/record_formats.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RecordFormat {
+  std::string_view endings;  ///< each between blanks
+  RawRecord (*read)(const fs::path&);
+  void (*write)(const fs::path&, const MeasuredRecord&, Replaces);
+};
+
+constexpr std::array<RecordFormat, 5> record_formats{{
+    {" .csv .txt .tsv .dat .asc ", read_csv_record, write_csv_record},
+    {" .wav ", read_wav_record, write_wav_record},
+    {" .mat ", read_matlab_record, write_matlab_record},
+    {" .uff .unv .ufb ", read_universal_record, write_universal_record},
+    {" .h5 .hdf5 ", read_hdf5_record, write_hdf5_record},
+}};
+
+const RecordFormat& format_of(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const RecordFormat& format : record_formats) {
+    if (ending.empty()) break;
+    if (format.endings.find(" " + ending + " ") != std::string_view::npos) return format;
+  }
+  throw ModelError({path.string()}, "",
+                   "expected a record of a measurement, whose ending says its format: .csv .txt "
+                   ".tsv .dat .asc, .wav, .mat, .uff .unv .ufb, .h5 .hdf5");
+}
+
+}  // namespace
+
+std::string record_bytes(const fs::path& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw FileError(path.string() + " is a directory");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw FileError(
+        fmt::format("{}: cannot read the file: {}", path.string(), std::strerror(errno)));
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  return std::move(text).str();
+}
+
+MeasuredRecord read_record(const fs::path& path, std::optional<double> rate) {
+  return finished(format_of(path).read(path), rate);
+}
+
+void write_record(const fs::path& path, const MeasuredRecord& record, Replaces replaces) {
+  format_of(path).write(path, record, replaces);
+}
+
+void require_record_ending(const fs::path& path) {
+  format_of(path);
+}
+
+}  // namespace whirl::inline io

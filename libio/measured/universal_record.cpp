@@ -1,0 +1,388 @@
+/// Universal files: datasets 58 (text) and 58b (numbers as a processor has them) of responses over time.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#include "libio/measured/record_formats.hpp"
+#include "libio/text/delimited.hpp"
+#include "libio/text/units.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+constexpr std::string_view universal_record_head = "    -1\n   164\n         1whirl: SI (m, N)";
+constexpr std::string_view block_mark = "    -1";
+
+/// Numbers of the format.
+struct RecordCode {
+  static constexpr long real_single = 2, real_double = 4, complex_single = 5, complex_double = 6;
+  static constexpr long time_response = 1, displacement = 8, time = 17;
+  static constexpr long little_endian = 1, ieee = 2;
+};
+
+/// Goes through the lines of a file.
+class UniversalText {
+ public:
+  UniversalText(std::string_view text, std::string file) : text_(text), file_(std::move(file)) {}
+
+  bool is_at_end() const { return at_ >= text_.size(); }
+  Where where() const { return {file_, line_, 1}; }
+  /// The next line, without its end.
+  std::string_view line() {
+    const auto end = std::min(text_.find('\n', at_), text_.size());
+    std::string_view found = text_.substr(at_, end - at_);
+    at_ = std::min(end + 1, text_.size());
+    ++line_;
+    if (found.ends_with('\r')) found.remove_suffix(1);
+    return found;
+  }
+  /// Bytes as they are; fewer at the end of the file.
+  std::string_view bytes(std::size_t count) {
+    const std::string_view found = text_.substr(at_, count);
+    at_ += found.size();
+    return found;
+  }
+  std::size_t left() const { return text_.size() - at_; }
+  [[noreturn]] void fail(const std::string& key, const std::string& message) const {
+    throw ModelError(where(), key, message);
+  }
+
+ private:
+  std::string_view text_;
+  std::string file_;
+  std::size_t at_ = 0;
+  int line_ = 0;
+};
+
+/// Columns of a record, without blanks around them.
+std::string columns_of(std::string_view record, std::size_t from, std::size_t size) {
+  return from < record.size() ? trimmed(record.substr(from, size)) : "";
+}
+
+bool is_mark(std::string_view line) {
+  return trimmed(line) == "-1" && line.size() <= 80;
+}
+
+/// One dataset 58.
+class ResponseDataset {
+ public:
+  ResponseDataset(UniversalText& text, std::string_view head, long number, double length_factor)
+      : text_(text), key_(fmt::format("dataset {}", number)) {
+    is_binary_ = head.size() > 6 && (head[6] == 'b' || head[6] == 'B');
+    if (is_binary_) {
+      is_little_ = whole(head, 7, 6, "byte order") == RecordCode::little_endian;
+      if (whole(head, 13, 6, "form of numbers") != RecordCode::ieee) {
+        text_.fail(key_, "its numbers are those of DEC or IBM, expected IEEE 754 (2)");
+      }
+      byte_count_ = whole(head, 31, 12, "number of bytes");
+    }
+    for (std::string_view& record : records_) {
+      if (text_.is_at_end()) text_.fail(key_, "is cut off, expected 11 records before its values");
+      record = text_.line();
+    }
+    read_records(length_factor);
+  }
+
+  /// Reads its values.
+  RawChannel channel(RawRecord& raw) {
+    RawChannel found{name(), unit_, {}, text_.where()};
+    const std::size_t wide = is_even_ ? 1 : 2;
+    require_size(wide);
+    std::vector<double> values = is_binary_ ? binary_values(wide) : text_values(wide);
+    if (is_even_) {
+      found.samples = std::move(values);
+    } else {
+      std::vector<double> times;
+      for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
+        times.push_back(values[i]);
+        found.samples.push_back(values[i + 1]);
+      }
+      take_step(times);
+    }
+    for (double& sample : found.samples) sample *= factor_;
+    if (!(step_ > 0.0)) text_.fail(key_, fmt::format("has steps of {} s of time", step_));
+    if (raw.rate && std::abs(*raw.rate * step_ - 1.0) > 1e-5) {
+      text_.fail(key_, fmt::format("has {} samples per second, those before have {}", 1.0 / step_,
+                                   *raw.rate));
+    }
+    raw.rate = 1.0 / step_;
+    raw.start = start_;
+    return found;
+  }
+  bool is_over_time() const { return is_over_time_; }
+
+ private:
+  long whole(std::string_view record, std::size_t from, std::size_t size, const char* what) const {
+    const std::string cell = columns_of(record, from, size);
+    const auto value = parse_as(cell, "");
+    if (!value || *value != std::floor(*value) || std::abs(*value) > 1e12) {
+      text_.fail(key_,
+                 fmt::format("found {}, expected a whole number: its {}", in_quotes(cell), what));
+    }
+    return static_cast<long>(*value);
+  }
+  double real(std::string_view record, std::size_t from, const char* what) const {
+    const std::string cell = columns_of(record, from, 13);
+    const auto value = number_in(cell);
+    if (!value) {
+      text_.fail(key_, fmt::format("found {}, expected a number: its {}", in_quotes(cell), what));
+    }
+    return *value;
+  }
+  /// A number as Fortran may write it.
+  static std::optional<double> number_in(std::string cell) {
+    for (char& c : cell) {
+      if (c == 'D' || c == 'd') c = 'E';
+    }
+    const auto value = parse_as(cell, "");
+    if (value) return *value;
+    return std::nullopt;
+  }
+
+  void read_records(double length_factor) {
+    const std::string_view form = records_[6], time = records_[7], response = records_[8];
+    is_over_time_ = whole(time, 0, 10, "kind of abscissa") == RecordCode::time ||
+                    whole(records_[5], 0, 5, "kind of function") == RecordCode::time_response;
+    type_ = whole(form, 0, 10, "type of values");
+    count_ = whole(form, 10, 10, "number of values");
+    is_even_ = whole(form, 20, 10, "spacing of values") != 0;
+    start_ = real(form, 30, "first time");
+    step_ = real(form, 43, "step of time");
+    if (!is_over_time_) return;
+    if (type_ == RecordCode::complex_single || type_ == RecordCode::complex_double) {
+      text_.fail(key_, "has complex values, expected samples over time");
+    }
+    if (type_ != RecordCode::real_single && type_ != RecordCode::real_double) {
+      text_.fail(key_,
+                 fmt::format("has values of type {}, expected 2 (single) or 4 (double)", type_));
+    }
+    if (count_ < 1) text_.fail(key_, fmt::format("has {} values, expected one or more", count_));
+    unit_ = columns_of(response, 47, 20);
+    if (unit_ == "NONE") unit_.clear();
+    const bool is_displacement =
+        whole(response, 0, 10, "kind of ordinate") == RecordCode::displacement;
+    if (unit_.empty() && is_displacement) {
+      unit_ = "m";
+      factor_ = 1.0 / length_factor;
+    }
+  }
+
+  /// Its first identification line, or the name, node and direction of its response.
+  std::string name() const {
+    const std::string id = trimmed(records_[0]);
+    if (!id.empty() && id != "NONE") return id;
+    std::string entity = columns_of(records_[5], 31, 10);
+    if (entity == "NONE") entity.clear();
+    static constexpr std::array<const char*, 7> directions{"",     " +x",  " +y", " +z",
+                                                           " +rx", " +ry", " +rz"};
+    const long direction = whole(records_[5], 51, 4, "direction of the response");
+    const auto along = static_cast<std::size_t>(std::abs(direction));
+    std::string way = along < directions.size() ? directions[along] : "";
+    if (direction < 0 && !way.empty()) way[1] = '-';
+    return fmt::format("{}{}{}{}", entity, entity.empty() ? "" : " ",
+                       whole(records_[5], 41, 10, "node of the response"), way);
+  }
+
+  std::size_t number_size() const { return type_ == RecordCode::real_double ? 8 : 4; }
+
+  /// Nothing is made room for that the file cannot hold.
+  void require_size(std::size_t wide) const {
+    const auto count = static_cast<std::size_t>(count_);
+    constexpr std::size_t least_text = 2;
+    const std::size_t least = !is_binary_ ? least_text * wide
+                              : wide == 2 ? 4 + number_size()
+                                          : number_size();
+    if (count > text_.left() / least) {
+      text_.fail(key_,
+                 fmt::format("is cut off: its {} values do not fit into the {} bytes that are "
+                             "left",
+                             count, text_.left()));
+    }
+    if (is_binary_ && (byte_count_ < 0 || static_cast<std::size_t>(byte_count_) < count * least)) {
+      text_.fail(key_, fmt::format("says that its {} values take {} bytes", count, byte_count_));
+    }
+  }
+
+  std::vector<double> binary_values(std::size_t wide) {
+    const std::string_view bytes = text_.bytes(static_cast<std::size_t>(byte_count_));
+    const std::size_t numbers = static_cast<std::size_t>(count_) * wide;
+    // times of values of type double may be single
+    const bool has_single_times = wide == 2 && bytes.size() < numbers * number_size();
+    std::vector<double> values;
+    values.reserve(numbers);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < numbers; ++i) {
+      const std::size_t size = has_single_times && i % 2 == 0 ? 4 : number_size();
+      if (at + size > bytes.size()) text_.fail(key_, "is cut off within its values");
+      values.push_back(binary_value(bytes.substr(at, size)));
+      at += size;
+    }
+    return values;
+  }
+  double binary_value(std::string_view bytes) const {
+    std::array<char, 8> turned{};
+    const bool is_native = is_little_ == (std::endian::native == std::endian::little);
+    if (is_native) {
+      std::copy(bytes.begin(), bytes.end(), turned.begin());
+    } else {
+      std::reverse_copy(bytes.begin(), bytes.end(), turned.begin());
+    }
+    if (bytes.size() == 4) {
+      float single = 0.0F;
+      std::memcpy(&single, turned.data(), sizeof single);
+      return single;
+    }
+    double value = 0.0;
+    std::memcpy(&value, turned.data(), sizeof value);
+    return value;
+  }
+
+  /// Values in columns of 13 or 20 characters: 20 for those of type double, not for times.
+  std::vector<double> text_values(std::size_t wide) {
+    const std::size_t numbers = static_cast<std::size_t>(count_) * wide;
+    std::vector<double> values;
+    values.reserve(numbers);
+    while (values.size() < numbers) {
+      if (text_.is_at_end()) text_.fail(key_, "is cut off within its values");
+      const std::string_view line = text_.line();
+      if (is_mark(line)) {
+        text_.fail(key_, fmt::format("ends after {} numbers, expected {}", values.size(), numbers));
+      }
+      std::size_t at = 0;
+      while (at < line.size() && values.size() < numbers) {
+        const bool is_time = wide == 2 && values.size() % 2 == 0;
+        const std::size_t size = type_ == RecordCode::real_double && !is_time ? 20 : 13;
+        const std::string cell = columns_of(line, at, size);
+        at += size;
+        if (cell.empty()) break;
+        values.push_back(text_value(cell));
+      }
+    }
+    return values;
+  }
+  double text_value(const std::string& cell) const {
+    if (const auto value = number_in(cell)) return *value;
+    if (plain_name(cell) == "nan") return std::nan("");
+    text_.fail(key_, fmt::format("found {}, expected a number in columns of {}", in_quotes(cell),
+                                 type_ == RecordCode::real_double ? 20 : 13));
+  }
+
+  void take_step(const std::vector<double>& times) {
+    const std::size_t n = times.size();
+    if (n < 2) text_.fail(key_, "has one time, expected two or more");
+    start_ = times.front();
+    step_ = (times.back() - times.front()) / static_cast<double>(n - 1);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (std::abs(times[i] - start_ - step_ * static_cast<double>(i)) <= 0.1 * step_) continue;
+      text_.fail(key_,
+                 fmt::format("value {} is at {} s: steps of time must be even", i + 1, times[i]));
+    }
+  }
+
+  UniversalText& text_;
+  std::string key_, unit_;
+  std::array<std::string_view, 11> records_;
+  bool is_binary_ = false, is_little_ = true, is_even_ = true, is_over_time_ = false;
+  long type_ = 0, count_ = 0, byte_count_ = 0;
+  double start_ = 0.0, step_ = 0.0, factor_ = 1.0;
+};
+
+/// Skips what is left of a dataset.
+void skip_dataset(UniversalText& text) {
+  while (!text.is_at_end() && !is_mark(text.line())) {
+  }
+}
+
+/// How many of a file's lengths are a metre, by a dataset 164.
+double length_factor_in(UniversalText& text) {
+  text.line();
+  std::string factors(text.line());
+  for (char& c : factors) {
+    if (c == 'D' || c == 'd') c = 'E';
+  }
+  const auto length = parse_as(columns_of(factors, 0, 25), "");
+  return length && *length > 0.0 ? *length : 1.0;
+}
+
+}  // namespace
+
+RawRecord read_universal_record(const std::filesystem::path& path) {
+  const std::string bytes = record_bytes(path);
+  RawRecord raw{.file = path.string()};
+  UniversalText text(bytes, raw.file);
+  double length_factor = 1.0;
+  long number = 0;
+  std::string others;
+  while (!text.is_at_end()) {
+    if (!is_mark(text.line())) continue;
+    if (text.is_at_end()) break;
+    const std::string_view head = text.line();
+    const std::string kind = columns_of(head, 0, 6);
+    ++number;
+    if (kind == "164") {
+      length_factor = length_factor_in(text);
+    } else if (kind == "58") {
+      ResponseDataset dataset(text, head, number, length_factor);
+      if (dataset.is_over_time()) {
+        raw.channels.push_back(dataset.channel(raw));
+      } else {
+        others +=
+            fmt::format("{}dataset {} (58, not over time)", others.empty() ? "" : ", ", number);
+      }
+    } else {
+      others += fmt::format("{}dataset {} ({})", others.empty() ? "" : ", ", number, kind);
+    }
+    skip_dataset(text);
+  }
+  if (raw.channels.empty()) {
+    throw ModelError({raw.file}, "",
+                     fmt::format("has no dataset 58 of a response over time; it has {}",
+                                 others.empty() ? "none at all" : others));
+  }
+  return raw;
+}
+
+void write_universal_record(const std::filesystem::path& path, const MeasuredRecord& record,
+                            Replaces replaces) {
+  std::string text = fmt::format("{}{:>14}\n", universal_record_head, 2);
+  const auto add = [&](const std::string& line) { text += fmt::format("{:<80.80}\n", line); };
+  add(fmt::format("{:25.17E}{:25.17E}{:25.17E}", 1.0, 1.0, 1.0));
+  add(fmt::format("{:25.17E}", 273.15));
+  text += fmt::format("{}\n", block_mark);
+  const auto axis = [](long kind, const char* label, const std::string& unit) {
+    return fmt::format("{:10}{:5}{:5}{:5} {:<20.20} {:<20.20}", kind, 0, 0, 0, label,
+                       unit.empty() ? "NONE" : unit);
+  };
+  for (Eigen::Index c = 0; c < record.samples.cols(); ++c) {
+    const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(c)];
+    text += fmt::format("{}\n{:6}\n", block_mark, 58);
+    add(channel.name);
+    for (int i = 0; i < 4; ++i) add("NONE");
+    add(fmt::format("{:5}{:10}{:5}{:10} {:<10}{:10}{:4} {:<10}{:10}{:4}", RecordCode::time_response,
+                    c + 1, 0, 0, "NONE", 0, 0, "NONE", 0, 0));
+    add(fmt::format("{:10}{:10}{:10}{:13.5E}{:13.5E}{:13.5E}", RecordCode::real_double,
+                    record.samples.rows(), 1, record.start, 1.0 / record.rate, 0.0));
+    add(axis(RecordCode::time, "Time", "s"));
+    add(axis(channel.unit == "m" ? RecordCode::displacement : 0, "Signal", channel.unit));
+    add(axis(0, "NONE", ""));
+    add(axis(0, "NONE", ""));
+    std::string line;
+    for (Eigen::Index j = 0; j < record.samples.rows(); ++j) {
+      line += fmt::format("{:20.12E}", record.samples(j, c));
+      if (line.size() < 80 && j + 1 < record.samples.rows()) continue;
+      add(line);
+      line.clear();
+    }
+    text += fmt::format("{}\n", block_mark);
+  }
+  replace_file(path, text, replaces_own(path, universal_record_head, replaces));
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,116 @@
+// Records of measurements: written by simulate, read back by identify.
+
+#include <cmath>
+
+#include "tests/cli/program.hpp"
+
+namespace whirl::test {
+namespace measured_test {
+
+class Measured : public Program {
+ protected:
+  /// Two probes at right angles at each of some nodes.
+  static std::string probes_at(int first, int last) {
+    std::string text;
+    for (int node = first; node <= last; ++node) {
+      for (const auto& [letter, angle] : {std::pair{'x', 0}, {'y', 90}}) {
+        text += "[[probe]]\nname = \"" + std::to_string(node) + letter +
+                "\"\nnode = " + std::to_string(node) + "\nangle = \"" + std::to_string(angle) +
+                " deg\"\n";
+      }
+    }
+    return text;
+  }
+  const std::string model = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  const std::vector<std::string> motion{"--revolutions", "60", "--discard", "20"};
+
+  std::vector<std::string> words(std::vector<std::string> first) const {
+    first.insert(first.end(), motion.begin(), motion.end());
+    return first;
+  }
+  json found(const std::vector<std::string>& more) const {
+    std::vector<std::string> all{"identify", model, "--json", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    return whirl(all).tree();
+  }
+  static bool has_note(const json& tree, const std::string& part) {
+    for (const json& note : tree.at("notes")) {
+      if (has(note.get<std::string>(), part)) return true;
+    }
+    return false;
+  }
+};
+
+// The MAC of a motion is over x and y of every node: probes there read all that it takes.
+TEST_F(Measured, GivesTheSameMacTableAsTheMotionItself) {
+  write("probes.toml", probes_at(1, 13));
+  ASSERT_EQ(
+      whirl(words({"simulate", model, "--measure", "probes.toml", "--measured-out", "run.csv"}))
+          .status,
+      0);
+  const json motion_itself = found(words({}));
+  const json measured =
+      found({"--measured", "run.csv", "--probes", "probes.toml", "--speed", "4430rpm"});
+  ASSERT_GT(motion_itself.at("peaks").size(), 2u);
+  ASSERT_EQ(measured.at("peaks").size(), motion_itself.at("peaks").size());
+  for (std::size_t i = 0; i < measured.at("peaks").size(); ++i) {
+    const json &a = measured.at("peaks")[i], &b = motion_itself.at("peaks")[i];
+    for (const char* key : {"frequency_rpm", "amplitude_m", "shift"}) {
+      EXPECT_NEAR(a.at(key).get<double>(), b.at(key).get<double>(),
+                  1e-9 * std::abs(b.at(key).get<double>()))
+          << key;
+    }
+    EXPECT_EQ(a.at("mode"), b.at("mode"));
+    for (std::size_t m = 0; m < b.at("mac").size(); ++m) {
+      EXPECT_NEAR(a.at("mac")[m].get<double>(), b.at("mac")[m].get<double>(), 1e-9);
+    }
+  }
+}
+
+TEST_F(Measured, TakesSpeedFromTheKeyPhasor) {
+  write("probes.toml", probes_at(4, 7) + "[keyphasor]\nchannel = \"key\"\nangle = \"30 deg\"\n");
+  for (const std::string record : {"run.csv", "run.mat", "run.h5", "run.uff"}) {
+    ASSERT_EQ(whirl(words({"simulate", model, "--measure", "probes.toml", "--noise", "1%",
+                           "--measured-out", record}))
+                  .status,
+              0);
+    const json measured = found({"--measured", record, "--probes", "probes.toml"});
+    EXPECT_NEAR(measured.at("speed_rpm").get<double>(), 4430.0, 0.01) << record;
+    EXPECT_EQ(measured.at("probes").size(), 8u);
+    EXPECT_FALSE(has_note(measured, "key-phasor")) << record;
+  }
+  const json without =
+      found({"--measured", "run.csv", "--probes", "probes.toml", "--speed", "4000rpm"});
+  EXPECT_NEAR(without.at("speed_rpm").get<double>(), 4430.0, 0.01);
+  EXPECT_TRUE(has_note(without, "--speed says 4000 rpm, the key-phasor"));
+  write("no_key.toml", probes_at(4, 7));
+  EXPECT_TRUE(has_note(found({"--measured", "run.csv", "--probes", "no_key.toml"}),
+                       "no key-phasor and no --speed"));
+}
+
+TEST_F(Measured, SaysWhatIsWrongInAFileOfProbes) {
+  write("run.csv", "time [s],a [um]\n0,1\n0.1,2\n0.2,1\n");
+  const auto problem = [&](const std::string& probes) {
+    write("probes.toml", probes);
+    return whirl({"identify", model, "--measured", "run.csv", "--probes", "probes.toml"}).err;
+  };
+  EXPECT_TRUE(has(problem("[[probe]]\nname = \"a\"\nnode = 40\nangle = 0\n"), "probes.toml:3:8:"));
+  EXPECT_TRUE(has(problem("[[probe]]\nname = \"a\"\nnode = 4\nangel = 0\n"), "did you mean"));
+  EXPECT_TRUE(has(problem("[[probe]]\nname = \"a\"\nnode = 4\nangle = 0\ngain = \"7 V\"\n"),
+                  "probes.toml:5:8:"));
+  EXPECT_TRUE(has(problem("[keyphasor]\nslope = \"up\"\n"), "falling"));
+  EXPECT_TRUE(has(problem("[[probe]]\nname = \"b\"\nnode = 4\nangle = 0\n"),
+                  "no channel \"b\"; it has a [m]"));
+}
+
+TEST_F(Measured, RefusesOptionsOfTheOtherSource) {
+  write("run.csv", "time [s],a [um]\n0,1\n0.1,2\n0.2,1\n");
+  EXPECT_TRUE(has(whirl({"identify", model, "--measured", "run.csv", "--discard", "3"}).err,
+                  "is for simulations"));
+  EXPECT_TRUE(has(whirl({"identify", model, "--rate", "300"}).err, "is for a record"));
+  EXPECT_TRUE(has(whirl({"simulate", model, "--noise", "1%"}).err, "--measured-out"));
+  EXPECT_TRUE(has(whirl({"simulate", model, "--measured-out", "run.xyz"}).err, ".csv"));
+}
+
+}  // namespace measured_test
+}  // namespace whirl::test

@@ -1,0 +1,205 @@
+// Measured motions: pulses and phase of a key-phasor, stations from probes at any angles, what is noticed
+// of bad records, and modes that few probes cannot tell apart.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "libbase/error.hpp"
+#include "libdyn/measured/measured_identification.hpp"
+#include "libdyn/measured/station_motion.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace whirl::measured_test {
+
+constexpr double pi = std::numbers::pi;
+constexpr double degree = pi / 180.0;
+
+bool has_note(const std::vector<std::string>& notes, const std::string& part) {
+  return std::any_of(notes.begin(), notes.end(),
+                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
+}
+
+// ---- key-phasor ---------------------------------------------------------------------------------
+
+// A straight edge between two samples crosses the threshold where the line does, at any offset.
+TEST(KeyPhasor, LocatesPulsesBetweenSamples) {
+  MeasuredRecord record{.rate = 1000.0, .start = 2.0};
+  constexpr double first = 0.01234, apart = 0.05071;  // [s] after the start
+  Vec samples = Vec::Zero(1000);
+  for (Eigen::Index j = 0; j < samples.size(); ++j) {
+    const double t = static_cast<double>(j) / record.rate;
+    const double since = std::fmod(t - first + apart / 2 + apart, apart) - apart / 2;
+    samples(j) =
+        std::clamp(0.5 + since / 0.004, 0.0, 1.0) - std::clamp((since - 0.01) / 0.004, 0.0, 1.0);
+  }
+  const std::vector<double> times = pulse_times(samples, record, {});
+  ASSERT_EQ(times.size(), 20u);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    EXPECT_NEAR(times[i], 2.0 + first + apart * static_cast<double>(i), 1e-12);
+  }
+}
+
+TEST(KeyPhasor, CountsNoPulseTwiceBecauseOfNoise) {
+  const MeasuredRecord record{.rate = 100.0};
+  Vec samples(12);
+  samples << 0.0, 0.49, 0.51, 0.49, 0.52, 1.0, 1.0, 0.0, 0.0, 0.6, 1.0, 0.0;
+  EXPECT_EQ(pulse_times(samples, record, {}).size(), 2u);
+}
+
+// Phase 2 pi (f t + r t^2 / 2) of a rotor that speeds up evenly: exact between any pulses.
+TEST(TurnClock, IsExactWhereSpeedChangesEvenly) {
+  constexpr double f = 10.0, r = 8.0;  // [1/s], [1/s^2]
+  std::vector<double> pulses, quiet;
+  for (int i = 0; i < 30; ++i) {
+    pulses.push_back((-f + std::sqrt(f * f + 2.0 * r * i)) / r);
+    quiet.push_back(0.1 * i);
+  }
+  std::vector<std::string> notes;
+  const TurnClock clock(pulses, {.angle = 0.3}, notes);
+  // the cubic takes its slopes from parabolas of pulses over time, which these are
+  for (const double t : {0.03, 0.5, 1.0, 1.63}) {
+    EXPECT_NEAR(clock.angle(t), 0.3 + 2.0 * pi * (f * t + 0.5 * r * t * t), 1e-9);
+    EXPECT_NEAR(clock.speed(t), 2.0 * pi * (f + r * t), 1e-8);
+  }
+  EXPECT_TRUE(notes.empty());
+  EXPECT_NEAR(TurnClock(quiet, {.pulses = 2}, notes).mean_speed(), 2.0 * pi * 5.0, 1e-9);
+}
+
+TEST(TurnClock, NotesAMissingPulse) {
+  std::vector<std::string> notes;
+  const TurnClock clock({0.0, 0.1, 0.2, 0.4, 0.5, 0.6}, {}, notes);
+  EXPECT_TRUE(has_note(notes, "pulses jumps"));
+  EXPECT_THROW(TurnClock({0.0, 0.1}, {.channel = "key"}, notes), OptionError);
+}
+
+// ---- records ------------------------------------------------------------------------------------
+
+TEST(MeasuredRecord, FillsGapsByStraightLines) {
+  const MeasuredRecord record{.rate = 10.0};
+  Vec samples = Vec::LinSpaced(101, 0.0, 100.0);
+  samples(0) = samples(40) = samples(41) = samples(100) = std::nan("");
+  std::vector<std::string> notes;
+  const Vec filled = without_gaps(samples, record, "x", notes);
+  EXPECT_EQ(filled(0), 1.0);
+  EXPECT_DOUBLE_EQ(filled(40), 40.0);
+  EXPECT_DOUBLE_EQ(filled(41), 41.0);
+  EXPECT_EQ(filled(100), 99.0);
+  EXPECT_TRUE(has_note(notes, "4 of 101 samples are missing, the first at 0 s"));
+  samples.head(10).setConstant(std::nan(""));
+  EXPECT_THROW(without_gaps(samples, record, "x", notes), OptionError);
+}
+
+TEST(MeasuredRecord, TellsClippedSignalsFromCoarseOnes) {
+  const Vec t = Vec::LinSpaced(4000, 0.0, 100.0);
+  const Vec signal = t.array().sin();
+  EXPECT_FALSE(is_clipped(signal));
+  EXPECT_TRUE(is_clipped(signal.cwiseMin(0.9)));
+  EXPECT_TRUE(is_clipped(signal.cwiseMax(-0.7)));
+  EXPECT_FALSE(is_clipped((64.0 * signal.array()).round() / 64.0)) << "digitized in 128 steps";
+}
+
+// ---- probes -------------------------------------------------------------------------------------
+
+/// A forward ellipse of a rotor on springs, seen by probes at two angles.
+struct SeenEllipse {
+  double first = 0.0, second = 90.0;  ///< angles [deg]
+  double forward = 2e-5, backward = 5e-6;
+  bool is_swapped = false;
+  double share_of_first = 1.0;  ///< samples of the first probe are cut off there
+
+  const test::RotorStator rotor{};
+
+  ProbeReadings readings() const {
+    constexpr int samples = 64, turns = 20;
+    ProbeReadings r{.rate = samples * rotor.Omega / (2.0 * pi)};
+    r.probes = {{"a", test::body("rotor"), first * degree},
+                {"b", test::body("rotor"), second * degree}};
+    r.displacement.resize(samples * turns, 2);
+    for (Eigen::Index j = 0; j < r.displacement.rows(); ++j) {
+      const double angle = 2.0 * pi * static_cast<double>(j) / samples;
+      const Complex z = forward * std::polar(1.0, angle) + backward * std::polar(1.0, 0.4 - angle);
+      for (Eigen::Index i = 0; i < 2; ++i) {
+        r.displacement(j, is_swapped ? 1 - i : i) =
+            r.probes[static_cast<std::size_t>(i)].along(z.real(), z.imag());
+      }
+    }
+    return r;
+  }
+  MeasuredIdentification found() const {
+    const Model model = rotor.model();
+    return identify(model, make_scene(model), readings(), {.modes = 4});
+  }
+};
+
+// Full spectrum: the circles of an ellipse, whatever the angles of the probes.
+TEST(MeasuredIdentification, FindsForwardAndBackwardCirclesByProbesAtAnyAngles) {
+  for (const auto& [first, second] :
+       {std::pair{0.0, 90.0}, {45.0, 135.0}, {10.0, 50.0}, {30.0, 200.0}}) {
+    const SeenEllipse ellipse{.first = first, .second = second};
+    const MeasuredIdentification found = ellipse.found();
+    ASSERT_EQ(found.stations.size(), 1u);
+    const auto at = [&](double frequency) {
+      Eigen::Index line = 0;
+      (found.frequency.array() - frequency).abs().minCoeff(&line);
+      return found.stations[0].amplitude(line);
+    };
+    EXPECT_NEAR(at(ellipse.rotor.Omega), ellipse.forward, 1e-12) << first;
+    EXPECT_NEAR(at(-ellipse.rotor.Omega), ellipse.backward, 1e-12) << first;
+    ASSERT_FALSE(found.found.peaks.empty());
+    EXPECT_NEAR(found.found.peaks[0].frequency, ellipse.rotor.Omega, 1e-6);
+    EXPECT_EQ(found.found.peaks[0].forced, "1X");
+    EXPECT_FALSE(has_note(found.notes, "backward"));
+  }
+}
+
+TEST(MeasuredIdentification, NotesProbesThatSeeTheRotorTurnBackward) {
+  EXPECT_TRUE(
+      has_note(SeenEllipse{.is_swapped = true}.found().notes, "1X turns backward at a + b"));
+  // read at +90, said to be at -90
+  SeenEllipse ellipse;
+  ProbeReadings readings = ellipse.readings();
+  readings.probes[1].angle = -90.0 * degree;
+  const Model model = ellipse.rotor.model();
+  EXPECT_TRUE(has_note(identify(model, make_scene(model), readings, {}).notes, "an angle or gain"));
+}
+
+// Probes at the rotor see nothing of a stator that it does not touch. Along one direction a backward and
+// a forward mode look alike.
+TEST(MeasuredIdentification, SaysWhichModesTheProbesCannotTellApart) {
+  const MeasuredIdentification found = SeenEllipse{}.found();
+  ASSERT_EQ(found.auto_mac.rows(), 4);
+  EXPECT_EQ(found.auto_mac, Mat(found.auto_mac.transpose()));
+  EXPECT_EQ(found.unseen, (std::vector<int>{3, 4}));
+  EXPECT_NEAR(found.auto_mac(0, 0), 1.0, 1e-12);
+  const SeenEllipse along_one{.first = 30.0, .second = 210.0};
+  const MeasuredIdentification planar = along_one.found();
+  EXPECT_TRUE(has_note(planar.notes, "one direction only"));
+  ASSERT_EQ(planar.indistinct.size(), 1u);
+  EXPECT_EQ(planar.indistinct[0].first, 1);
+  EXPECT_EQ(planar.indistinct[0].second, 2);
+}
+
+TEST(ProbeReadings, TakesChannelsByGainAndUnit) {
+  MeasuredRecord record{.rate = 100.0};
+  record.channels = {{"x", "V"}, {"y", "m"}, {"3", ""}};
+  record.samples = Mat::Ones(20, 3) * 2.0;
+  record.samples.row(7) *= 1.5;
+  MeasurementSetup setup;
+  setup.probes = {{{"px", test::node(1)}, "x", {ProbeGain::Of::voltage, -8000.0}},
+                  {{"py", test::node(1)}, "2", {ProbeGain::Of::length, -1.0}},
+                  {{"pz", test::node(1)}, "3", {}, 1e-6}};
+  const ProbeReadings readings = probe_readings(record, setup);
+  EXPECT_DOUBLE_EQ(readings.displacement(0, 0), -2.0 / 8000.0);
+  EXPECT_DOUBLE_EQ(readings.displacement(7, 1), -3.0);
+  EXPECT_DOUBLE_EQ(readings.displacement(0, 2), 2e-6);
+  EXPECT_TRUE(has_note(readings.notes, "read the same samples"));
+  setup.probes = {{{"px", test::node(1)}, "w"}};
+  EXPECT_THROW(probe_readings(record, setup), OptionError);
+  setup.probes = {{{"px", test::node(1)}, "x"}};
+  EXPECT_THROW(probe_readings(record, setup), OptionError) << "a voltage without a gain";
+}
+
+}  // namespace whirl::measured_test
