@@ -4,6 +4,7 @@
 #include "apps/verbs/measured.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/measured/measured_identification.hpp"
+#include "libdyn/measured/station_motion.hpp"
 #include "libio/texts/identification_text.hpp"
 
 namespace whirl::inline cli {
@@ -72,11 +73,16 @@ Report identify_measured(const Invocation& call, const IdentifyVerbOptions& aske
   const Scene scene = make_scene(model, ReductionEstimate::no);
   const MeasuredIdentification measured = identify(model, scene, measurement.readings, options);
   const ModesAtPoints modes({.oscillatory = measured.found.modes}, scene.system.dofs);
+  const std::optional<OrderTracking> orders = tracked_orders(asked.measured, measurement.readings);
   Report report = begin_report(call, model, record_of(measured));
   report.record.merge(record_of(measured.found)).merge(record_of(modes));
   report.text = headline("Measured motion", model) + "\n" + text_of(measured) + "\n" +
                 mac_heading(model, options) + text_of(measured.found, model.speed) +
                 doubt_text(measured);
+  if (orders) {
+    report.record.set("orders", record_of(*orders));
+    report.text += "\n" + text_of(*orders);
+  }
   report.add_notes(measured.notes);
   note_tables(call, model, report);
   report.add_notes(film_notes(model));
@@ -86,6 +92,8 @@ Report identify_measured(const Invocation& call, const IdentifyVerbOptions& aske
     write_result(file, modes);
     write_result(file, measured.found);
     write_result(file, measured);
+    if (orders) write_result(file, *orders);
+    write_result(file, station_record(measurement.readings, scene.assembler));
   });
   return report;
 }

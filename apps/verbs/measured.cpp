@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "libbase/constants.hpp"
 #include "libdyn/measured/simulated_record.hpp"
@@ -55,6 +57,20 @@ Parsed<double> MeasuredVerbOptions::parse_rate(const std::string& text) {
   return Parsed<double>::failed("expected samples per second, such as 5000 or 5 kHz");
 }
 
+Parsed<std::vector<double>> MeasuredVerbOptions::parse_orders(const std::string& text) {
+  std::vector<double> orders;
+  std::istringstream list(text);
+  for (std::string one; std::getline(list, one, ',');) {
+    const auto order = parse_as(one, "");
+    if (!order || *order <= 0.0) {
+      return Parsed<std::vector<double>>::failed("expected orders above zero, such as 1,2 or 0.5");
+    }
+    if (std::find(orders.begin(), orders.end(), *order) == orders.end()) orders.push_back(*order);
+  }
+  if (orders.empty()) return Parsed<std::vector<double>>::failed("expected orders, such as 1,2");
+  return orders;
+}
+
 Parsed<double> RecordingVerbOptions::parse_noise(const std::string& text) {
   const bool is_percent = text.ends_with('%');
   const auto number = parse_as(is_percent ? text.substr(0, text.size() - 1) : text, "");
@@ -71,6 +87,18 @@ Measurement read_measurement(const Invocation& call, const MeasuredVerbOptions& 
   found.readings = probe_readings(read_record(*options.measured, options.rate.value), setup);
   take_speed(call, found.model, found.readings);
   return found;
+}
+
+std::optional<OrderTracking> tracked_orders(const MeasuredVerbOptions& options,
+                                            const ProbeReadings& readings) {
+  if (!options.orders) {
+    if (options.slow_roll) throw options.slow_roll.wrong("is for the orders that --orders names");
+    return std::nullopt;
+  }
+  if (!readings.clock) {
+    throw options.orders.wrong("needs a key-phasor: give the file of --probes a [keyphasor]");
+  }
+  return track_orders(readings, {.orders = *options.orders, .slow_roll = options.slow_roll.value});
 }
 
 std::optional<MeasurementSetup> recording_setup(const RecordingVerbOptions& options,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/invocation.hpp"
+#include "libdyn/measured/order_tracking.hpp"
 #include "libdyn/measured/probe_readings.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libio/text/option.hpp"
@@ -21,9 +22,16 @@ struct MeasuredVerbOptions {
                              "by their names"};
   Option<double> rate{"rate", "R", "samples per second, where the record does not say it",
                       parse_rate};
-  auto fields() { return std::tie(measured, probes, rate); }
+  Option<std::vector<double>> orders{
+      "orders", "Q,...", "multiples of the speed that are tracked along it, such as 1,2",
+      parse_orders};
+  Option<double> slow_roll{"slow-roll", "S",
+                           "speed of the record whose readings are taken off these orders",
+                           [](const std::string& text) { return parse_as(text, "rad/s"); }};
+  auto fields() { return std::tie(measured, probes, rate, orders, slow_roll); }
 
   static Parsed<double> parse_rate(const std::string& text);
+  static Parsed<std::vector<double>> parse_orders(const std::string& text);
 };
 
 /// A model at the speed of a record, and what its probes read.
@@ -35,6 +43,12 @@ struct Measurement {
 /// Reads the record and its probes. The speed is that of the key-phasor, or else the model's.
 /// @throws ModelError, FileError  for what is wrong in these files
 Measurement read_measurement(const Invocation& call, const MeasuredVerbOptions& options);
+
+/// The orders that a call asks for; nothing: it asks for none.
+/// @throws ModelError   for a slow roll without orders, and for orders without a key-phasor
+/// @throws OptionError  as track_orders
+std::optional<OrderTracking> tracked_orders(const MeasuredVerbOptions& options,
+                                            const ProbeReadings& readings);
 
 /// Options of verbs that write what a measurement of their motion would have recorded.
 struct RecordingVerbOptions {

@@ -76,6 +76,14 @@ TurnClock::Piece TurnClock::piece_at(double t) const {
   return {h, (t - pulses_[i]) / h, slopes_[i] * h, slopes_[i + 1] * h, i};
 }
 
+std::vector<double> TurnClock::turns() const {
+  std::vector<double> times;
+  for (std::size_t i = 0; i < pulses_.size(); i += static_cast<std::size_t>(per_turn_)) {
+    times.push_back(pulses_[i]);
+  }
+  return times;
+}
+
 double TurnClock::angle(double t) const {
   const Piece p = piece_at(t);
   // from 0 to 1 with these slopes

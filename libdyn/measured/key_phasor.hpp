@@ -51,6 +51,8 @@ class TurnClock {
   /// @throws OptionError  for fewer than three pulses
   TurnClock(std::vector<double> pulses, const KeyPhasor& key, std::vector<std::string>& notes);
 
+  /// Times of every revolution's first pulse [s].
+  std::vector<double> turns() const;
   double first() const { return pulses_.front(); }  ///< [s]
   double last() const { return pulses_.back(); }    ///< [s]
   /// Angle of the rotor from +x towards +y, which goes on growing [rad]; first() <= t <= last().

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double even_drift = 0.02;  ///< of a spectral line, that uneven revolutions may make
 constexpr Eigen::Index fewest_samples = 16;
+constexpr double hardly_there = 0.02;   ///< of the largest line, below which one may be noise
 constexpr double turns_backward = 3.0;  ///< times the forward part of a line, from which it is said
 
 /// How many samples at the end of a record are transformed.
@@ -83,16 +84,21 @@ CMat readings_of(const std::vector<Mode>& modes, const std::vector<Probe>& probe
   return readings;
 }
 
-void add_indistinct(MeasuredIdentification& result, const CMat& shapes, const Sparse& weights) {
+/// What the probes cannot tell of modes.
+void add_doubts(MeasuredIdentification& result, const CMat& shapes, const Sparse& weights) {
   const Eigen::Index modes = shapes.cols();
+  std::vector<bool> is_seen;
+  for (Eigen::Index i = 0; i < modes; ++i) {
+    is_seen.push_back(shapes.col(i).cwiseAbs().maxCoeff() >= unseen_reading);
+    if (!is_seen.back()) result.unseen.push_back(static_cast<int>(i) + 1);
+  }
   result.auto_mac.resize(modes, modes);
   for (Eigen::Index i = 0; i < modes; ++i) {
-    const bool is_unseen = shapes.col(i).cwiseAbs().maxCoeff() < unseen_reading;
-    if (is_unseen) result.unseen.push_back(static_cast<int>(i) + 1);
     for (Eigen::Index j = 0; j <= i; ++j) {
       const double alike = mac(shapes.col(i), shapes.col(j), weights);
       result.auto_mac(i, j) = result.auto_mac(j, i) = alike;
-      if (i == j || !(alike > indistinct_mac)) continue;
+      const auto first = static_cast<std::size_t>(j), second = static_cast<std::size_t>(i);
+      if (i == j || !(alike > indistinct_mac) || !is_seen[first] || !is_seen[second]) continue;
       result.indistinct.push_back({static_cast<int>(j) + 1, static_cast<int>(i) + 1, alike});
     }
   }
@@ -111,7 +117,8 @@ void note_backward(const MeasuredSpectra& spectra, const std::vector<ProbedStati
     const auto c = static_cast<Eigen::Index>(s);
     const double f = std::abs(spectra.stations(spectra.row(line), c));
     const double b = std::abs(spectra.stations(spectra.row(-line), c));
-    if (!(b > turns_backward * f)) continue;
+    const double largest = spectra.stations.col(c).cwiseAbs().maxCoeff();
+    if (!(b > turns_backward * f) || b < hardly_there * largest) continue;
     ++backward;
     names += (names.empty() ? "" : ", ") + stations[s].name;
   }
@@ -120,8 +127,7 @@ void note_backward(const MeasuredSpectra& spectra, const std::vector<ProbedStati
       "1X turns backward at {}: {}", names,
       backward == open
           ? "probes are swapped, an angle or gain has the wrong sign, the rotor turns the other "
-            "way, "
-            "or the speed is between criticals of anisotropic supports"
+            "way, or the speed is between criticals of anisotropic supports"
           : "and forward elsewhere: are probes swapped there, or has an angle or gain the wrong "
             "sign?"));
 }
@@ -172,7 +178,7 @@ MeasuredIdentification identify(const Model& model, const Scene& scene,
   result.found = identify(lines, std::move(modes), shapes, weights,
                           forced_lines(scene.assembler, model.speed), model.speed, options);
   result.mode_readings = shapes.transpose();
-  add_indistinct(result, shapes, weights);
+  add_doubts(result, shapes, weights);
 
   result.deflection.resize(std::ssize(result.found.peaks), shapes.rows());
   for (std::size_t i = 0; i < result.found.peaks.size(); ++i) {

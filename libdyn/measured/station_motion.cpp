@@ -54,4 +54,22 @@ std::vector<ProbedStation> probed_stations(const std::vector<Probe>& probes,
   return stations;
 }
 
+StationRecord station_record(const ProbeReadings& readings, const Assembler& assembler) {
+  StationRecord record;
+  const Eigen::Index n = readings.displacement.rows();
+  record.time.resize(n);
+  for (Eigen::Index j = 0; j < n; ++j) record.time(j) = readings.time(j);
+  for (const ProbedStation& s : probed_stations(readings.probes, assembler)) {
+    StationMotion motion{s.name, Vec::Zero(n), Vec::Zero(n)};
+    for (std::size_t i = 0; i < s.probes.size(); ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      motion.x += s.to_plane(0, column) * readings.displacement.col(s.probes[i]);
+      motion.y += s.to_plane(1, column) * readings.displacement.col(s.probes[i]);
+    }
+    record.stations.push_back(std::move(motion));
+  }
+  if (readings.clock) record.turns = readings.clock->turns();
+  return record;
+}
+
 }  // namespace whirl::inline dyn

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/linalg.hpp"
-#include "libfe/assemble.hpp"
-#include "libfe/structure.hpp"
+#include "libdyn/measured/probe_readings.hpp"
+#include "libdyn/motions/run_result.hpp"
 
 namespace whirl::inline dyn {
 
@@ -25,5 +24,25 @@ struct ProbedStation {
 /// @throws ModelError  for a probe at a station that there is not
 std::vector<ProbedStation> probed_stations(const std::vector<Probe>& probes,
                                            const Assembler& assembler);
+
+/// Motion of the stations of probes along a record; group /record.
+struct StationRecord {
+  Vec time;                             ///< of the samples [s]
+  std::vector<StationMotion> stations;  ///< named by their probes
+  std::vector<double> turns;            ///< times of the key-phasor, one a revolution [s]
+
+  static constexpr std::string_view group = "/record";
+  static constexpr auto columns() {
+    using S = StationRecord;
+    return ColumnList{
+        column("time", &S::time, "s", "time of the samples").axis("samples+").within(valid::finite),
+        rows(&S::stations, "stations+"),
+        column("turn_time", &S::turns, "s", "times of the key-phasor, one a revolution")
+            .along("turns")
+            .within(valid::finite)
+            .maybe()};
+  }
+};
+StationRecord station_record(const ProbeReadings& readings, const Assembler& assembler);
 
 }  // namespace whirl::inline dyn

@@ -19,6 +19,7 @@ constexpr int largest_number = 9;     ///< in a ratio p:q
 constexpr double good_enough = 0.01;  ///< error of a ratio from which smaller numbers are preferred
 constexpr double located = 0.25;      ///< error of a peak's place, in bins
 constexpr double wide = 1.5;          ///< distance of one line from another, in bins
+constexpr double same_mac = 1e-6;     ///< difference of values that nothing tells apart
 
 /// The two strongest lines that turn in the rotating frame.
 std::optional<FrequencyRatio> resonance_of(const std::vector<IdentifiedPeak>& peaks) {
@@ -171,7 +172,10 @@ Identification identify(const MotionLines& lines, std::vector<Mode> modes, const
     for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
       found.mac.push_back(mac(shapes.col(i), shape, weights));
     }
-    const auto best = std::max_element(found.mac.begin(), found.mac.end());
+    // of modes that look the same, as probes of one place may see them, the first
+    const auto most = std::max_element(found.mac.begin(), found.mac.end());
+    const auto best = std::find_if(found.mac.begin(), found.mac.end(),
+                                   [&](double mac) { return mac >= *most - same_mac; });
     found.mode = static_cast<int>(best - found.mac.begin());
     if (best != found.mac.end()) {
       const Mode& mode = result.modes[static_cast<std::size_t>(found.mode)];

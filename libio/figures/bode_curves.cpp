@@ -1,5 +1,7 @@
 #include "libio/figures/bode_curves.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -110,6 +112,51 @@ Figure bode_figure(const ResultView& result, const std::vector<double>& speed,
   }
   show_quarters(phase);
   f.panels = {amplitude, phase};
+  return f;
+}
+
+Figure polar_figure(const std::vector<double>& speed, const std::string& name, const CVec& a,
+                    const DisplayUnit& unit) {
+  Figure f{.variant = name, .width = 560.0, .height = 560.0};
+  const double largest = 2.0 * a.cwiseAbs().maxCoeff();
+  Panel p;
+  p.has_equal_scales = true;
+  p.x.title = with_unit("in phase", unit);
+  p.y.title = with_unit("90° ahead", unit);
+  Curve c{.paint = Paint::forward};
+  c.width = 1.8;
+  for (Eigen::Index k = 0; k < a.size(); ++k) {
+    c.x.push_back(2.0 * unit.factor * a(k).real());
+    c.y.push_back(2.0 * unit.factor * a(k).imag());
+    c.hover.push_back(
+        fmt::format("{:.5g} rpm: {:.4g} {}, {:.1f}°", speed[static_cast<std::size_t>(k)],
+                    2.0 * unit.factor * std::abs(a(k)), unit.name, std::arg(a(k)) / degree));
+  }
+  c.along = speed;
+  c.along_title = "speed";
+  // round speeds, where the loop has gone on by a twelfth of its size
+  Curve marks{.paint = Paint::ink, .has_line = false};
+  marks.has_marker = true;
+  marks.size = 5.0;
+  double x = 1e300, y = 1e300;
+  for (std::size_t k = 0; k < c.x.size(); ++k) {
+    if (std::hypot(c.x[k] - x, c.y[k] - y) < largest * unit.factor / 6.0) continue;
+    x = c.x[k];
+    y = c.y[k];
+    marks.x.push_back(x);
+    marks.y.push_back(y);
+    const double angle = std::atan2(y, x);
+    p.labels.push_back({x, y, fmt::format("{:.0f}", speed[k]),
+                        std::cos(angle) < -0.3  ? Anchor::end
+                        : std::cos(angle) > 0.3 ? Anchor::start
+                                                : Anchor::middle,
+                        8.0 * std::cos(angle), 4.0 - 13.0 * std::sin(angle)});
+  }
+  p.rules = {{Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::solid},
+             {Rule::Kind::vertical, 0.0, "", Paint::gray, Dash::solid}};
+  p.curves = {c, marks};
+  f.panels.push_back(p);
+  f.notes = {"Numbers along the loop are speeds [rpm]."};
   return f;
 }
 

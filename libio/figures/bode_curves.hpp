@@ -1,5 +1,6 @@
 #pragma once
-/// Amplitude over phase, of unbalance responses and of those to forces of other frequencies.
+/// Amplitude over phase, and loops, of unbalance responses, of those to forces of other frequencies and of
+/// orders of measurements.
 
 #include "libio/figures/common.hpp"
 
@@ -23,5 +24,10 @@ std::vector<Eigen::Index> named_rows(const std::vector<std::string>& stations);
 /// @param speed  ascending [rpm]
 Figure bode_figure(const ResultView& result, const std::vector<double>& speed,
                    const BodeCurves& shown);
+
+/// The complex amplitude of one curve in its plane, peak to peak, with speeds along the loop.
+/// @param speed  [rpm]
+Figure polar_figure(const std::vector<double>& speed, const std::string& name, const CVec& a,
+                    const DisplayUnit& unit);
 
 }  // namespace whirl::inline io::figures

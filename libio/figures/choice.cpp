@@ -129,11 +129,10 @@ Figure chosen_figure(const ResultView& result, const FigureChoice& choice) {
 
 std::string verb_for(std::string_view kind) {
   // results have a group by the name of the verb, with these exceptions
-  static const std::map<std::string_view, std::string_view> others{{"trajectory", "simulate"},
-                                                                   {"spectra", "simulate"},
-                                                                   {"mac", "identify"},
-                                                                   {"branch", "continue"},
-                                                                   {"border", "continue"}};
+  static const std::map<std::string_view, std::string_view> others{
+      {"trajectory", "simulate"}, {"spectra", "simulate"}, {"mac", "identify"},
+      {"measured", "identify"},   {"orders", "identify"},  {"record", "identify"},
+      {"branch", "continue"},     {"border", "continue"}};
   for (const FigureKind& k : figure_kinds()) {
     if (k.name != kind || k.needs.empty()) continue;
     const std::string_view path = k.needs.front();

@@ -34,6 +34,11 @@
   time_history_kind(),   \
   spectrum_kind(),       \
   waterfall_kind(),      \
+  measured_orbit_kind(), \
+  measured_spectrum_kind(), \
+  measured_waterfall_kind(), \
+  order_bode_kind(),     \
+  order_polar_kind(),    \
   poincare_kind(),       \
   contact_forces_kind(), \
   contact_angles_kind(), \

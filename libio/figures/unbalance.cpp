@@ -172,58 +172,13 @@ std::vector<Figure> bode_figures(const ResultView& result) {
   return figures;
 }
 
-/// The complex amplitude of one curve in its plane, with speeds along the loop.
-Figure polar(const Response& r, const std::string& name, const CVec& a, const DisplayUnit& unit) {
-  Figure f{.variant = name, .width = 560.0, .height = 560.0};
-  const double largest = 2.0 * a.cwiseAbs().maxCoeff();
-  Panel p;
-  p.has_equal_scales = true;
-  p.x.title = with_unit("in phase", unit);
-  p.y.title = with_unit("90° ahead", unit);
-  Curve c{.paint = Paint::forward};
-  c.width = 1.8;
-  for (Eigen::Index k = 0; k < a.size(); ++k) {
-    c.x.push_back(2.0 * unit.factor * a(k).real());
-    c.y.push_back(2.0 * unit.factor * a(k).imag());
-    c.hover.push_back(
-        fmt::format("{:.5g} rpm: {:.4g} {}, {:.1f}°", r.speed[static_cast<std::size_t>(k)],
-                    2.0 * unit.factor * std::abs(a(k)), unit.name, std::arg(a(k)) / degree));
-  }
-  c.along = r.speed;
-  c.along_title = "speed";
-  // round speeds, where the loop has gone on by a twelfth of its size
-  Curve marks{.paint = Paint::ink, .has_line = false};
-  marks.has_marker = true;
-  marks.size = 5.0;
-  double x = 1e300, y = 1e300;
-  for (std::size_t k = 0; k < c.x.size(); ++k) {
-    if (std::hypot(c.x[k] - x, c.y[k] - y) < largest * unit.factor / 6.0) continue;
-    x = c.x[k];
-    y = c.y[k];
-    marks.x.push_back(x);
-    marks.y.push_back(y);
-    const double angle = std::atan2(y, x);
-    p.labels.push_back({x, y, fmt::format("{:.0f}", r.speed[k]),
-                        std::cos(angle) < -0.3  ? Anchor::end
-                        : std::cos(angle) > 0.3 ? Anchor::start
-                                                : Anchor::middle,
-                        8.0 * std::cos(angle), 4.0 - 13.0 * std::sin(angle)});
-  }
-  p.rules = {{Rule::Kind::horizontal, 0.0, "", Paint::gray, Dash::solid},
-             {Rule::Kind::vertical, 0.0, "", Paint::gray, Dash::solid}};
-  p.curves = {c, marks};
-  f.panels.push_back(p);
-  f.notes = {"Numbers along the loop are speeds [rpm]."};
-  return f;
-}
-
 std::vector<Figure> polar_figures(const ResultView& result) {
   const Response r(result);
   std::vector<Figure> figures;
   for (const BodeCurves& shown : probe_curves(result, r)) {
     for (std::size_t i = 0; i < shown.names.size(); ++i) {
       const CVec a = shown.a.row(static_cast<Eigen::Index>(i)).transpose();
-      figures.push_back(polar(r, shown.names[i], a, shown.unit));
+      figures.push_back(polar_figure(r.speed, shown.names[i], a, shown.unit));
       figures.back().probes = {shown.probes[i]};
       figures.back().subtitle =
           shown.names[i] + ": complex amplitude, peak to peak, speeds along the loop";
@@ -237,7 +192,7 @@ std::vector<Figure> polar_figures(const ResultView& result) {
   for (const Eigen::Index i : stations) {
     const std::string name = r.stations[static_cast<std::size_t>(i)];
     const CVec a = r.x.row(i).transpose();
-    figures.push_back(polar(r, name, a, unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m")));
+    figures.push_back(polar_figure(r.speed, name, a, unit_for(2.0 * a.cwiseAbs().maxCoeff(), "m")));
     figures.back().subtitle =
         name + ": complex amplitude along x, peak to peak, speeds along the loop";
     constexpr std::size_t most = 8;

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "libbase/constants.hpp"
 #include "libbase/spectrum.hpp"
+#include "libdyn/measured/station_motion.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 
@@ -32,17 +33,18 @@ struct ShortTimeSpectra {
 };
 
 /// Of a station, or nothing if the motion is too short for spectra to tell something.
-ShortTimeSpectra short_time_spectra(const Motion& m, const Vec& x, const Vec& y) {
+ShortTimeSpectra short_time_spectra(const RecordedMotion& m, const Vec& x, const Vec& y) {
   ShortTimeSpectra s;
-  const Eigen::Index window = std::clamp(m.size() / windows, least_window * m.per_revolution,
+  const Eigen::Index window = std::clamp(m.time.size() / windows, least_window * m.per_revolution,
                                          most_window * m.per_revolution);
-  if (m.size() < 2 * window) return s;
+  if (m.time.size() < 2 * window) return s;
   s.count = static_cast<Eigen::Index>(smooth_length(static_cast<long>(window)) / 2 * 2);
   while (s.count > 2 && smooth_length(static_cast<long>(s.count)) != s.count) s.count -= 2;
-  const Eigen::Index room = m.size() - s.count;
+  const Eigen::Index room = m.time.size() - s.count;
   const Eigen::Index lines = std::min(most_lines, 1 + 4 * room / s.count);
   s.amplitude.resize(lines, s.count);
-  const double spacing = (m.time(m.size() - 1) - m.time(0)) / static_cast<double>(m.size() - 1);
+  const double spacing =
+      (m.time(m.time.size() - 1) - m.time(0)) / static_cast<double>(m.time.size() - 1);
   for (Eigen::Index i = 0; i < lines; ++i) {
     const Eigen::Index from = lines > 1 ? i * room / (lines - 1) : 0;
     CVec z(s.count);
@@ -103,7 +105,7 @@ void add_spectra(const ShortTimeSpectra& s, const DisplayUnit& in, const Display
 }
 
 /// One place's spectra; nothing if there is nothing to be seen.
-std::optional<Figure> waterfall(const ResultView& result, const Motion& m,
+std::optional<Figure> waterfall(const ResultView& result, const RecordedMotion& m,
                                 const WaterfallPlace& place, const Vec& x, const Vec& y) {
   const DisplayUnit in = result.frequency;
   const ShortTimeSpectra s = short_time_spectra(m, x, y);
@@ -141,7 +143,7 @@ std::optional<Figure> waterfall(const ResultView& result, const Motion& m,
       fmt::format("Each spectrum is of {:.3g} s, around its time. Heights are "
                   "logarithmic: from {:.3g} {}, the largest {}, down to a thousandth "
                   "of it.",
-                  2.0 * std::numbers::pi / s.bin, place.factor * unit.factor * largest, unit.name,
+                  turn / s.bin, place.factor * unit.factor * largest, unit.name,
                   place.is_probe() ? "reading, peak to peak" : "radius")};
   return f;
 }
@@ -171,7 +173,54 @@ std::vector<Figure> waterfall_figures(const ResultView& result) {
   return figures;
 }
 
+/// A speed that changes: instead of straight rules its own course, either way.
+void follow_speed(const std::vector<double>& turns, const DisplayUnit& in, Panel& p) {
+  p.rules.resize(1);
+  for (const double sense : {-1.0, 1.0}) {
+    Curve c{.name = "1X", .paint = Paint::gray};
+    c.dash = Dash::dotted;
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+      c.x.push_back(sense * in.factor * turn / (turns[i + 1] - turns[i]));
+      c.y.push_back(0.5 * (turns[i] + turns[i + 1]));
+    }
+    p.curves.push_back(std::move(c));
+  }
+}
+
+std::vector<Figure> measured_waterfall_figures(const ResultView& result) {
+  const auto& record = result_of<StationRecord>(result);
+  const double speed = speed_of(result);
+  RecordedMotion m{.time = record.time};
+  if (m.time.size() < 2) return {};
+  const double spacing =
+      (m.time(m.time.size() - 1) - m.time(0)) / static_cast<double>(m.time.size() - 1);
+  m.spins = speed > 0.0;
+  m.period = m.spins ? turn / speed : 1.0;
+  m.per_revolution = std::max<Eigen::Index>(1, std::lround(m.period / spacing));
+  std::vector<Figure> figures;
+  for (const StationMotion& s : record.stations) {
+    if (s.x.size() != m.time.size() || s.y.size() != m.time.size()) {
+      throw FileError("the measured motion is not of its times");
+    }
+    auto f = waterfall(result, m, {s.station}, s.x, s.y);
+    if (!f) continue;
+    if (!record.turns.empty()) follow_speed(record.turns, result.frequency, f->panels.front());
+    figures.push_back(std::move(*f));
+  }
+  return figures;
+}
+
 }  // namespace
+
+FigureKind measured_waterfall_kind() {
+  return {
+      .name = "measured_waterfall",
+      .title = "Measured waterfall",
+      .summary = "full spectra of a record one after another in time, with the course of the speed",
+      .needs = {dataset_of<StationRecord>(&StationMotion::x)},
+      .make = measured_waterfall_figures,
+  };
+}
 
 FigureKind waterfall_kind() {
   return {

@@ -3,6 +3,8 @@
 #include <string>
 
 #include "libdyn/measured/measured_identification.hpp"
+#include "libdyn/measured/order_tracking.hpp"
+#include "libdyn/measured/station_motion.hpp"
 #include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/motions/lateral_report.hpp"
@@ -53,6 +55,8 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<StationSpectra>());
   add(schema_of<Identification>());
   add(schema_of<MeasuredIdentification>());
+  add(schema_of<OrderTracking>());
+  add(schema_of<StationRecord>());
   add(schema_of<StaticEquilibrium>());
   add(schema_of<RunningFilms>());
   add(schema_of<BendingLine>());

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
+#include "libio/text/format.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -66,6 +67,32 @@ std::string text_of(const MeasuredIdentification& measured) {
       "  probes: {}\n  speed: {:.6g} rpm\n  transformed: {:.4g} s, lines {:.3g} rpm "
       "apart\n",
       probes, measured.speed / rpm, measured.duration, measured.found.bin / rpm);
+}
+
+std::string text_of(const OrderTracking& tracking) {
+  const auto largest = [](const OrderCurve& c) {
+    Eigen::Index at = 0;
+    c.response.cwiseAbs().maxCoeff(&at);
+    return at;
+  };
+  const TableColumns<OrderCurve> columns{
+      shown("name").as("probe"),
+      {"order", [](const OrderCurve& c) { return fmt::format("{:g}X", c.order); }},
+      {"largest p-p",
+       [&](const OrderCurve& c) { return format_engineering(c.peak_to_peak()(largest(c)), "m"); }},
+      {"at [rpm]",
+       [&](const OrderCurve& c) {
+         return texts::number_text(tracking.speed(largest(c)) / rpm, ".1f");
+       }},
+      {"phase [deg]", [&](const OrderCurve& c) {
+         return texts::number_text(std::arg(c.response(largest(c))) / degree, "+.1f");
+       }}};
+  const std::string off = tracking.slow_roll ? fmt::format(", readings at {:.6g} rpm taken off",
+                                                           *tracking.slow_roll / rpm)
+                                             : "";
+  return fmt::format("Orders from {:.6g} to {:.6g} rpm, {} points{}\n\n{}",
+                     tracking.speed.minCoeff() / rpm, tracking.speed.maxCoeff() / rpm,
+                     tracking.speed.size(), off, table_of(tracking.curves, columns));
 }
 
 std::string doubt_text(const MeasuredIdentification& measured) {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "libdyn/measured/measured_identification.hpp"
+#include "libdyn/measured/order_tracking.hpp"
 #include "libdyn/motions/identify.hpp"
 
 namespace whirl::inline io {
@@ -13,6 +14,9 @@ std::string text_of(const Identification& found, double Omega);
 
 /// What was measured: probes, speed and length of the record.
 std::string text_of(const MeasuredIdentification& measured);
+
+/// Orders along a record: where each is largest.
+std::string text_of(const OrderTracking& tracking);
 
 /// Modes that no probe sees, and those that look alike at the probes; empty: there are none.
 std::string doubt_text(const MeasuredIdentification& measured);

@@ -88,6 +88,29 @@ TEST_F(Measured, TakesSpeedFromTheKeyPhasor) {
                        "no key-phasor and no --speed"));
 }
 
+// A curve per probe and order; what is missing for them is said.
+TEST_F(Measured, TracksOrders) {
+  write("probes.toml", probes_at(7, 7) + "[keyphasor]\nchannel = \"key\"\n");
+  ASSERT_EQ(
+      whirl(words({"simulate", model, "--measure", "probes.toml", "--measured-out", "run.csv"}))
+          .status,
+      0);
+  const json measured = found({"--measured", "run.csv", "--probes", "probes.toml", "--orders",
+                               "1,2.5", "--slow-roll", "4430rpm"});
+  const json& curves = measured.at("orders").at("order_curves");
+  ASSERT_EQ(curves.size(), 4u);
+  EXPECT_EQ(curves[1].at("order"), 2.5);
+  EXPECT_EQ(curves[0].at("response_m").size(), measured.at("orders").at("speed_rpm").size());
+  EXPECT_NEAR(measured.at("orders").at("slow_roll_rpm").get<double>(), 4430.0, 1e-3);
+  write("no_key.toml", probes_at(7, 7));
+  EXPECT_TRUE(has(whirl({"identify", model, "--measured", "run.csv", "--probes", "no_key.toml",
+                         "--orders", "1"})
+                      .err,
+                  "[keyphasor]"));
+  EXPECT_TRUE(has(whirl({"identify", model, "--measured", "run.csv", "--orders", "0"}).err,
+                  "orders above zero"));
+}
+
 TEST_F(Measured, SaysWhatIsWrongInAFileOfProbes) {
   write("run.csv", "time [s],a [um]\n0,1\n0.1,2\n0.2,1\n");
   const auto problem = [&](const std::string& probes) {

@@ -113,6 +113,9 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"identify", disks, "--revolutions", "64"},
        {"layout", "modes", "orbit", "time_history", "spectrum", "waterfall", "poincare",
         "contact_forces", "contact_angles", "mac"}},
+      {{"identify", disks, "--measured", "run.csv", "--probes", "probes.toml", "--orders", "1"},
+       {"layout", "modes", "measured_orbit", "measured_spectrum", "measured_waterfall",
+        "order_bode", "order_polar", "mac"}},
       {{"classify", "rub.toml", "--discard", "20"}, {"layout", "exponents"}},
       {{"sweep", "rub.toml"}, {"layout", "bifurcation", "spectral_map", "cascade"}},
       {{"continue", "rub.toml"}, {"layout", "branches"}},
@@ -123,6 +126,13 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"bench", "rub.toml"}, {"layout", "work_precision"}}};
   write("shaken.toml",
         std::string(jeffcott) + "[[force]]\nbody = \"rotor\"\nforce = \"3 N\"\norder = 2\n");
+  write("probes.toml",
+        "[[probe]]\nname = \"x\"\nnode = 7\nangle = 0\n[[probe]]\nname = \"y\"\nnode = 7\n"
+        "angle = \"90 deg\"\n[keyphasor]\nchannel = \"key\"\n");
+  ASSERT_EQ(whirl({"simulate", disks, "--measure", "probes.toml", "--measured-out", "run.csv",
+                   "--revolutions", "64"})
+                .status,
+            0);
   std::vector<std::string> drawn;
   for (const auto& [words, expected] : cases) {
     SCOPED_TRACE(words[0]);

@@ -434,7 +434,12 @@ def results(whirl, repository, folder):
     models = repository / "models"
     probed = folder / "probed.toml"
     probed.write_text((models / "two_disk_mac.toml").read_text() + PROBED)
+    rig, measured_by = models / "two_disk_mac.toml", folder / "probes.toml"
+    measured_by.write_text(PROBED[PROBED.index("[[probe]]"):] + '[keyphasor]\nchannel = "key"\n')
     for name, *words in (
+        ("rig", "simulate", rig, "--discard", "20", "--revolutions", "64", "--measure", measured_by,
+         "--measured-out", folder / "run.csv"),
+        ("measured", "identify", rig, "--measured", folder / "run.csv", "--probes", measured_by, "--orders", "1,2"),
         ("bench", "bench", models / "jeffcott_stator.toml", "--methods", "dop853,rk4", "--tolerances", "1e-4,1e-6",
          "--discard", "2", "--revolutions", "2"),
         ("long", "simulate", models / "dropped_rotor.toml", "--discard", "0", "--revolutions", "128"),

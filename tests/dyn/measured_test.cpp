@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "libbase/error.hpp"
 #include "libdyn/measured/measured_identification.hpp"
+#include "libdyn/measured/order_tracking.hpp"
 #include "libdyn/measured/station_motion.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -200,6 +202,86 @@ TEST(ProbeReadings, TakesChannelsByGainAndUnit) {
   EXPECT_THROW(probe_readings(record, setup), OptionError);
   setup.probes = {{{"px", test::node(1)}, "x"}};
   EXPECT_THROW(probe_readings(record, setup), OptionError) << "a voltage without a gain";
+}
+
+// ---- orders -------------------------------------------------------------------------------------
+
+/// Readings of a run-up whose orders are known: a quadratic phase, sampled without regard to it.
+struct RunUp {
+  double rate = 2000.0, length = 20.0;  ///< [1/s], [s]
+  double slow = 5.0, rise = 2.0;        ///< [1/s], [1/s^2]
+
+  double angle(double t) const { return 2.0 * pi * (slow * t + 0.5 * rise * t * t); }
+  ProbeReadings readings(const std::function<double(double)>& reading) const {
+    ProbeReadings r{.rate = rate};
+    r.probes = {{"a", test::node(1)}};
+    r.displacement.resize(static_cast<Eigen::Index>(rate * length), 1);
+    for (Eigen::Index j = 0; j < r.displacement.rows(); ++j) {
+      r.displacement(j, 0) = reading(angle(r.time(j)));
+    }
+    std::vector<double> pulses;
+    for (int i = 0;; ++i) {
+      const double t = (-slow + std::sqrt(slow * slow + 2.0 * rise * i)) / rise;
+      if (t > length) break;
+      pulses.push_back(t);
+    }
+    r.clock.emplace(pulses, KeyPhasor{}, r.notes);
+    return r;
+  }
+};
+
+// Orders that do not change along a run-up are found exactly, whatever their number, as the least squares
+// know them all.
+TEST(OrderTracking, FindsConstantOrdersOfARunUpExactly) {
+  const Complex first = std::polar(3e-5, 0.7), second = std::polar(1e-5, -2.0),
+                half = std::polar(2e-5, 1.1);
+  const ProbeReadings readings = RunUp{}.readings([&](double a) {
+    const auto turned = [&](const Complex& c, double q) {
+      return (c * std::polar(1.0, q * a)).real();
+    };
+    return 4e-4 + turned(first, 1.0) + turned(second, 2.0) + turned(half, 0.5);
+  });
+  const OrderTracking found = track_orders(readings, {.orders = {1.0, 2.0, 0.5}});
+  ASSERT_EQ(found.curves.size(), 3u);
+  EXPECT_GT(found.speed.size(), 50);
+  for (const auto& [curve, expected] : {std::pair{0, first}, {1, second}, {2, half}}) {
+    for (const Complex& c : found.curves[static_cast<std::size_t>(curve)].response) {
+      EXPECT_NEAR(std::abs(c - expected), 0.0, 1e-14);
+    }
+  }
+  EXPECT_NEAR(found.speed(0), 2.0 * pi * (5.0 + 2.0 * found.time(0)), 1e-6);
+}
+
+// The resonance of a Jeffcott rotor, passed slowly, with runout that the slow roll takes off:
+// r^2 / (1 - r^2 + 2 i zeta r).
+TEST(OrderTracking, TakesTheSlowRollOffAResonance) {
+  constexpr double zeta = 0.1, omega = 2.0 * pi * 20.0;
+  const RunUp run{.length = 60.0, .slow = 1.0, .rise = 1.0};
+  const Complex runout = std::polar(0.5, 2.0);
+  const auto response = [&](double speed) {
+    const double r = speed / omega;
+    return r * r / Complex(1.0 - r * r, 2.0 * zeta * r);
+  };
+  const ProbeReadings readings = run.readings([&](double a) {
+    const double speed = 2.0 * pi * std::sqrt(run.slow * run.slow + run.rise * a / pi);
+    return ((response(speed) + runout) * std::polar(1.0, a)).real();
+  });
+  const OrderTracking found =
+      track_orders(readings, {.orders = {1.0}, .slow_roll = 2.0 * pi * 2.0});
+  ASSERT_TRUE(found.slow_roll.has_value());
+  const CVec& c = found.curves[0].response;
+  constexpr double window = 0.02;  // of the peak of 5: what eight revolutions average
+  for (Eigen::Index k = 0; k < c.size(); ++k) {
+    const Complex expected = response(found.speed(k)) - response(*found.slow_roll);
+    EXPECT_NEAR(std::abs(c(k) - expected), 0.0, window * 5.0) << found.speed(k) / (2.0 * pi);
+  }
+}
+
+TEST(OrderTracking, SaysWhatIsTooShort) {
+  const RunUp run;
+  ProbeReadings readings = run.readings([](double) { return 0.0; });
+  EXPECT_THROW(track_orders(readings, {.revolutions = 1e6}), OptionError);
+  EXPECT_THROW(track_orders(readings, {.orders = {300.0}}), OptionError);
 }
 
 }  // namespace whirl::measured_test
