@@ -43,6 +43,7 @@
   contact_forces_kind(), \
   contact_angles_kind(), \
   mac_kind(),            \
+  stabilization_kind(),  \
   exponents_kind(),      \
   bifurcation_kind(),    \
   spectral_map_kind(),   \

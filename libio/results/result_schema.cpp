@@ -4,6 +4,7 @@
 
 #include "libdyn/measured/measured_identification.hpp"
 #include "libdyn/measured/order_tracking.hpp"
+#include "libdyn/measured/running_modes.hpp"
 #include "libdyn/measured/station_motion.hpp"
 #include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/identify.hpp"
@@ -57,6 +58,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<MeasuredIdentification>());
   add(schema_of<OrderTracking>());
   add(schema_of<StationRecord>());
+  add(schema_of<RunningModes>());
   add(schema_of<StaticEquilibrium>());
   add(schema_of<RunningFilms>());
   add(schema_of<BendingLine>());

@@ -1,0 +1,77 @@
+#include "libio/texts/running_modes_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/constants.hpp"
+#include "libio/text/table.hpp"
+#include "libio/texts/row_table.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+/// "2.598 ± 0.003".
+std::string with_deviation(double value, double deviation, double unit, const char* format) {
+  const std::string text = texts::number_text(value / unit, format);
+  if (!std::isfinite(deviation)) return text;
+  return text + " ± " + texts::number_text(deviation / unit, format);
+}
+
+}  // namespace
+
+std::string text_of(const RunningModes& found) {
+  std::string text = fmt::format(
+      "Running modes from {} channel{}, {:.4g} s at {:.5g} samples per second: models up to order "
+      "{}",
+      found.channels.size(), found.channels.size() == 1 ? "" : "s", found.duration, found.rate,
+      found.most_order);
+  if (found.harmonics > 0) {
+    text += fmt::format(", {} harmonics of {:.5g} rpm {}", found.harmonics, found.speed / rpm,
+                        found.are_harmonics_removed ? "removed" : "marked");
+  }
+  text += "\n\n";
+  if (found.modes.empty()) {
+    return text +
+           "  none: no pole is stable over enough model orders. A longer record, more block rows "
+           "or "
+           "wider limits may show some.\n";
+  }
+  using Mode = RunningMode;
+  text +=
+      table_of(found.modes,
+               TableColumns<Mode>{
+                   row_number("mode"),
+                   {"frequency [Hz]",
+                    [](const Mode& m) {
+                      return with_deviation(m.frequency(), m.frequency_deviation, hertz, ".4f");
+                    }},
+                   shown("frequency", "rpm", ".1f").as("frequency"),
+                   {"damping ratio [%]",
+                    [](const Mode& m) {
+                      return with_deviation(m.damping_ratio(), m.damping_deviation, 0.01, ".2f");
+                    }},
+                   shown("log_decrement", "", ".3f").as("log decrement"),
+                   {"decomposition [Hz]",
+                    [&](const Mode& m) {
+                      const DecomposedMode* peak = found.peak_of(m);
+                      return peak ? texts::number_text(peak->frequency() / hertz, ".4f") : "-";
+                    }},
+                   {"its damping [%]",
+                    [&](const Mode& m) {
+                      const DecomposedMode* peak = found.peak_of(m);
+                      return peak ? texts::number_text(100.0 * peak->damping_ratio(), ".2f") : "-";
+                    }},
+                   {"orders", [&](const Mode& m) {
+                      return fmt::format("{} of {}", m.orders, found.most_order / 2);
+                    }}});
+  if (std::any_of(found.modes.begin(), found.modes.end(),
+                  [](const Mode& m) { return std::isfinite(m.frequency_deviation); })) {
+    text += "\n  ±: standard deviation, from stretches of the record\n";
+  }
+  return text;
+}
+
+}  // namespace whirl::inline io

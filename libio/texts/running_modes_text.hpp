@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "libdyn/measured/running_modes.hpp"
+
+namespace whirl::inline io {
+
+/// Table of the modes, frequency-domain decomposition beside them, and what they were found from.
+std::string text_of(const RunningModes& found);
+
+}  // namespace whirl::inline io
