@@ -2,10 +2,12 @@
 
 #include "apps/verbs/common.hpp"
 #include "apps/verbs/measured.hpp"
+#include "apps/verbs/running_modes.hpp"
 #include "apps/verbs/simulation.hpp"
 #include "libdyn/measured/measured_identification.hpp"
 #include "libdyn/measured/station_motion.hpp"
 #include "libio/texts/identification_text.hpp"
+#include "libio/texts/running_modes_text.hpp"
 
 namespace whirl::inline cli {
 
@@ -17,9 +19,10 @@ struct IdentifyVerbOptions {
   Flag mass_weighted{"mass-weighted", "weight the MAC with the mass matrix"};
   Flag stiffened{"stiffened", "modes of the rotor with its contacts closed for good"};
   MeasuredVerbOptions measured{};
+  RunningModesVerbOptions running{};
   IntegrationVerbOptions integration{};
   auto fields() {
-    return std::tie(modes, rotations, mass_weighted, stiffened, measured, integration);
+    return std::tie(modes, rotations, mass_weighted, stiffened, measured, running, integration);
   }
 };
 
@@ -48,11 +51,13 @@ void add_identification(const Model& model, const Run& run, const IdentifyOption
 /// Options of motions that are simulated mean nothing for measured ones, and the other way round.
 void require_one_source(IdentifyVerbOptions asked) {
   if (!asked.measured.measured) {
-    for_each_option(asked.measured, [](const auto& option) {
+    const auto refuse = [](const auto& option) {
       if constexpr (requires { option.wrong(""); }) {
         if (option.is_given) throw option.wrong("is for a record: give it by --measured");
       }
-    });
+    };
+    for_each_option(asked.measured, refuse);
+    for_each_option(asked.running, refuse);
     return;
   }
   for_each_option(asked.integration, [](const auto& option) {
@@ -74,6 +79,8 @@ Report identify_measured(const Invocation& call, const IdentifyVerbOptions& aske
   const MeasuredIdentification measured = identify(model, scene, measurement.readings, options);
   const ModesAtPoints modes({.oscillatory = measured.found.modes}, scene.system.dofs);
   const std::optional<OrderTracking> orders = tracked_orders(asked.measured, measurement.readings);
+  const std::optional<RunningModes> running =
+      find_running_modes(asked.running, measurement, measured, scene.assembler);
   Report report = begin_report(call, model, record_of(measured));
   report.record.merge(record_of(measured.found)).merge(record_of(modes));
   report.text = headline("Measured motion", model) + "\n" + text_of(measured) + "\n" +
@@ -82,6 +89,10 @@ Report identify_measured(const Invocation& call, const IdentifyVerbOptions& aske
   if (orders) {
     report.record.set("orders", record_of(*orders));
     report.text += "\n" + text_of(*orders);
+  }
+  if (running) {
+    report.record.set("running", record_of(*running));
+    report.text += "\n" + text_of(*running);
   }
   report.add_notes(measured.notes);
   note_tables(call, model, report);
@@ -94,6 +105,7 @@ Report identify_measured(const Invocation& call, const IdentifyVerbOptions& aske
     write_result(file, measured);
     if (orders) write_result(file, *orders);
     write_result(file, station_record(measurement.readings, scene.assembler));
+    if (running) write_result(file, *running);
   });
   return report;
 }

@@ -37,6 +37,11 @@ struct RunningMode : Pole {
   double frequency_scatter = 0.0, damping_scatter = 0.0;              ///< standard, over orders
   int order = 0;                                                      ///< that the shape is of
   int orders = 0;                                                     ///< with this mode
+  // where there is a model to compare with: see compare()
+  std::string whirl{};        ///< sense of whirl; "": no station shows it
+  std::vector<double> mac{};  ///< against each of its modes, by what the probes read
+  int model_mode = -1;        ///< the one that it is most like, from 0; -1: none
+  double shift = unknown;     ///< frequency over that mode's, less one
 
   static constexpr auto columns() {
     return ColumnList{
@@ -57,7 +62,15 @@ struct RunningMode : Pole {
         column("order", &RunningMode::order, "", "model order that the shape is of"),
         column("orders", &RunningMode::orders, "", "model orders in which the mode is stable"),
         column("shape", &RunningMode::shape, "", "complex shape, the largest entry one")
-            .along("channels")};
+            .along("channels"),
+        column("whirl", &RunningMode::whirl, "", "sense of whirl").maybe(),
+        column("mac", &RunningMode::mac, "", "modal assurance criterion")
+            .along("/modes/number")
+            .maybe(),
+        column("model_mode", &RunningMode::model_mode, "", "the mode it is most like; 0: none")
+            .from_one(),
+        column("shift", &RunningMode::shift, "", "frequency over that mode's, less one")
+            .only(Written::in_json)};
   }
 };
 

@@ -20,6 +20,33 @@ std::string with_deviation(double value, double deviation, double unit, const ch
   return text + " ± " + texts::number_text(deviation / unit, format);
 }
 
+/// The modes of the model that running modes are most like.
+std::string comparison(const std::vector<RunningMode>& modes) {
+  using Mode = RunningMode;
+  constexpr double seen = 0.005;  // MAC that is told
+  const auto second = [](const Mode& m) -> std::string {
+    int next = -1;
+    for (int i = 0; i < static_cast<int>(m.mac.size()); ++i) {
+      const auto mac = [&](int k) { return m.mac[static_cast<std::size_t>(k)]; };
+      if (i != m.model_mode && (next < 0 || mac(i) > mac(next))) next = i;
+    }
+    if (next < 0 || m.mac[static_cast<std::size_t>(next)] < seen) return "-";
+    return fmt::format("mode {} ({:.2f})", next + 1, m.mac[static_cast<std::size_t>(next)]);
+  };
+  return table_of(
+      modes,
+      TableColumns<Mode>{
+          row_number("running mode"),
+          shown("whirl"),
+          {"most like", [](const Mode& m) { return fmt::format("mode {}", m.model_mode + 1); }},
+          {"MAC",
+           [](const Mode& m) {
+             return fmt::format("{:.2f}", m.mac[static_cast<std::size_t>(m.model_mode)]);
+           }},
+          {"shift", [](const Mode& m) { return fmt::format("{:+.1f} %", 100.0 * m.shift); }},
+          {"next", second}});
+}
+
 }  // namespace
 
 std::string text_of(const RunningModes& found) {
@@ -70,6 +97,9 @@ std::string text_of(const RunningModes& found) {
   if (std::any_of(found.modes.begin(), found.modes.end(),
                   [](const Mode& m) { return std::isfinite(m.frequency_deviation); })) {
     text += "\n  ±: standard deviation, from stretches of the record\n";
+  }
+  if (!found.modes.front().mac.empty()) {
+    text += "\nThe modes of the model that probes see them most like\n\n" + comparison(found.modes);
   }
   return text;
 }

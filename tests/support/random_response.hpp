@@ -55,6 +55,29 @@ inline Mat random_response(const Mat& M, const Mat& C, const Mat& K, double spac
   return record;
 }
 
+/// What channels read of modes that noise drives, each by itself: y(t) = Re sum shape z(t),
+///
+///   z(t + dt) = e^(lambda dt) z(t) + sqrt(1 - |e^(lambda dt)|^2) w(t),   w complex, of variance one
+///
+/// so that covariances at the samples are those of the eigenvalues, exactly.
+///
+/// @param shapes  channels x modes
+/// @return        times x channels
+inline Mat modal_response(const CVec& eigenvalues, const CMat& shapes, double spacing,
+                          Eigen::Index samples, std::mt19937_64& random, Eigen::Index warm = 2000) {
+  const CVec step = (spacing * eigenvalues).array().exp();
+  const Vec size = (0.5 * (1.0 - step.cwiseAbs2().array())).sqrt();
+  Mat record(samples, shapes.rows());
+  CVec z = CVec::Zero(step.size());
+  for (Eigen::Index t = -warm; t < samples; ++t) {
+    if (t >= 0) record.row(t) = (shapes * z).real().transpose();
+    const Mat w = normal_numbers(random, z.size(), 2);
+    z = step.cwiseProduct(z) +
+        size.cast<Complex>().cwiseProduct(w.col(0) + Complex(0, 1) * w.col(1));
+  }
+  return record;
+}
+
 /// Noise of sensors: a share of each channel's standard deviation.
 inline Mat with_noise(const Mat& record, double share, std::mt19937_64& random) {
   const Eigen::RowVectorXd deviation =

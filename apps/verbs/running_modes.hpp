@@ -1,0 +1,35 @@
+#pragma once
+/// Options of verbs that find the modes of a running machine in a record.
+
+#include <optional>
+
+#include "apps/verb.hpp"
+#include "apps/verbs/measured.hpp"
+#include "libdyn/measured/running_comparison.hpp"
+
+namespace whirl::inline cli {
+
+struct RunningModesVerbOptions {
+  Flag running_modes{"running-modes",
+                     "find the modes that the rotor shows in the record, whatever drives it"};
+  Option<int> order{"order", "N", "largest order of their models, two for each mode; left out: 60"};
+  Option<int> block_rows{"block-rows", "N",
+                         "of the covariances they come from; left out: by what the record has"};
+  Option<double> highest{"highest", "F", "frequency of interest, for which samples are thinned out",
+                         [](const std::string& text) { return parse_as(text, "rad/s"); }};
+  Option<int> speed_harmonics{"speed-harmonics", "N", "of the speed that are taken out before", 10,
+                              Whole{0}};
+  Flag keep_harmonics{"keep-harmonics", "mark these, and leave them in the record"};
+  auto fields() {
+    return std::tie(running_modes, order, block_rows, highest, speed_harmonics, keep_harmonics);
+  }
+};
+
+/// Running modes beside those of the model; nothing: they are not asked for.
+/// @throws ModelError  for their options without --running-modes, and as running_modes
+std::optional<RunningModes> find_running_modes(RunningModesVerbOptions asked,
+                                               const Measurement& measurement,
+                                               const MeasuredIdentification& measured,
+                                               const Assembler& assembler);
+
+}  // namespace whirl::inline cli
