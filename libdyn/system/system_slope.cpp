@@ -7,16 +7,19 @@
 
 namespace whirl::inline dyn {
 
-namespace {
-
-/// A rotor of a model in the shapes of another.
-ReducedSystem in_shapes(const System& system, const Mat& Phi) {
+ContactSystem in_shapes_of(const Scene& scene, const Model& model) {
+  const Assembler assembler(model.structure);
+  const System system = assembler.at(model.speed);
+  const Mat& Phi = scene.reduced.Phi;
+  if (system.M.rows() != Phi.rows()) {
+    throw NumericalError("the parameter changes the number of degrees of freedom");
+  }
   const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
-  return {Phi,         small(system.M), small(system.C), small(system.G), small(system.K),
-          system.dofs, system.Omega};
+  const ReducedSystem reduced{
+      Phi,         small(system.M), small(system.C), small(system.G), small(system.K),
+      system.dofs, system.Omega};
+  return ContactSystem(assembler, reduced, model.contacts, model.films);
 }
-
-}  // namespace
 
 SystemSlope slope_of(std::string name, double value, double size,
                      const std::function<ContactSystem(double)>& at) {
@@ -33,16 +36,8 @@ SystemSlope slope_of(std::string name, double value, double size,
 
 SystemSlope slope_of(std::string name, const Scene& scene, double value, double size,
                      const std::function<Model(double)>& model_at) {
-  return slope_of(std::move(name), value, size, [&](double p) {
-    const Model model = model_at(p);
-    const Assembler assembler(model.structure);
-    const System system = assembler.at(model.speed);
-    if (system.M.rows() != scene.reduced.Phi.rows()) {
-      throw NumericalError("the parameter changes the number of degrees of freedom");
-    }
-    return ContactSystem(assembler, in_shapes(system, scene.reduced.Phi), model.contacts,
-                         model.films);
-  });
+  return slope_of(std::move(name), value, size,
+                  [&](double p) { return in_shapes_of(scene, model_at(p)); });
 }
 
 }  // namespace whirl::inline dyn

@@ -40,6 +40,11 @@ struct SystemSlope {
 SystemSlope slope_of(std::string name, double value, double size,
                      const std::function<ContactSystem(double)>& at);
 
+/// The system of a model in the shapes Phi that a scene of another one moves in.
+///
+/// @throws ModelError, NumericalError  as make_scene, and for another number of degrees of freedom
+ContactSystem in_shapes_of(const Scene& scene, const Model& model);
+
 /// The slope of a scene by a parameter of its model.
 ///
 /// The shapes Phi that the scene moves in are held: dM = Phi^T dM_full Phi, and so with C, G and K.
