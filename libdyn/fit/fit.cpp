@@ -1,0 +1,374 @@
+#include "libdyn/fit/fit.hpp"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "libbase/constants.hpp"
+#include "libbase/error.hpp"
+#include "libbase/sparse_lu.hpp"
+#include "libdyn/fit/shooting_windows.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+/// What may be left between windows, in noises: at first it hardly counts, at last it has to be nothing.
+constexpr std::array<double, 9> gaps{100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01};
+constexpr int rough_iterations = 60;  ///< of all but the last of these
+/// Standard deviations of the sum of squares beyond which chance does not leave so much.
+constexpr double improbable = 6.0;
+constexpr double confidence = 1.959963985;  ///< standard deviations to either side of 95 %
+
+/// A record during the search.
+struct Shooting {
+  const FitSource* source;
+  std::vector<ShootingWindow> windows;
+  std::vector<Vec> starts;  ///< of windows, over scale
+  Vec scale;                ///< of states
+  Vec gap;                  ///< of the state between windows that counts as one noise
+  std::optional<FitSystem>
+      system;  ///< at the parameters that are looked at; nothing: there is none
+
+  double noise() const { return source->record.noise.mean(); }
+};
+
+/// The search: what Ceres asks for.
+class Search : public ceres::EvaluationCallback {
+ public:
+  Search(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
+         const FitOptions& options);
+
+  void PrepareForEvaluation(bool, bool is_new) override {
+    if (is_new) make_systems();
+  }
+
+  /// Values of the parameters that are looked at.
+  Vec values() const { return x_.cwiseProduct(sizes_); }
+  void make_systems();
+
+  const std::vector<FreeParameter>& parameters_;
+  const FitOptions& options_;
+  Vec x_;      ///< parameters over their sizes
+  Vec sizes_;  ///< of parameters
+  std::vector<Shooting> shootings_;
+  double between_ = gaps[0];  ///< see gaps
+};
+
+/// Residuals of a window.
+class WindowCost : public ceres::CostFunction {
+ public:
+  WindowCost(const Search& search, std::size_t shooting, std::size_t window)
+      : search_(search),
+        shooting_(search.shootings_[shooting]),
+        window_(shooting_.windows[window]) {
+    set_num_residuals(static_cast<int>(window_.residuals()));
+    auto& sizes = *mutable_parameter_block_sizes();
+    sizes.push_back(static_cast<int>(search.x_.size()));
+    sizes.push_back(static_cast<int>(window_.states()));
+    if (!window_.is_last()) sizes.push_back(static_cast<int>(window_.states()));
+  }
+
+  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
+    if (!shooting_.system) return false;
+    const Eigen::Index n = window_.states(), m = window_.readings(), all = window_.residuals();
+    const Vec& scale = shooting_.scale;
+    const Vec start = Vec::Map(blocks[1], n).cwiseProduct(scale);
+    const bool slopes = jacobians && (jacobians[0] || jacobians[1]);
+    const auto found = window_.compare(*shooting_.system, start, slopes);
+    if (!found.is_good) return false;
+    Eigen::Map<Vec> r(residuals, all);
+    r.head(m) = found.readings;
+    const Vec per_gap = (shooting_.gap * search_.between_).cwiseInverse();
+    if (!window_.is_last()) {
+      const Vec next = Vec::Map(blocks[2], n).cwiseProduct(scale);
+      r.tail(n) = (found.end - next).cwiseProduct(per_gap);
+    }
+    if (!jacobians) return true;
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const auto fill = [&](int block, const Mat& top, const Mat& bottom, const Vec& per) {
+      if (!jacobians[block]) return;
+      Eigen::Map<Rows> J(jacobians[block], all, per.size());
+      J.topRows(m) = top * per.asDiagonal();
+      if (!window_.is_last()) J.bottomRows(n) = per_gap.asDiagonal() * bottom * per.asDiagonal();
+    };
+    if (slopes) {
+      fill(0, found.readings_by_parameter, found.end_by_parameter, search_.sizes_);
+      fill(1, found.readings_by_start, found.end_by_start, scale);
+    }
+    if (!window_.is_last()) fill(2, Mat::Zero(m, n), -Mat::Identity(n, n), scale);
+    return true;
+  }
+
+ private:
+  const Search& search_;
+  const Shooting& shooting_;
+  const ShootingWindow& window_;
+};
+
+void require_fit(const std::vector<FitSource>& sources,
+                 const std::vector<FreeParameter>& parameters) {
+  for (const FreeParameter& p : parameters) {
+    if (!(p.size > 0.0)) {
+      throw ModelError({}, p.path,
+                       "a free parameter that is zero needs bounds, such as PATH=0:0.4");
+    }
+    if (p.start >= p.lower && p.start <= p.upper) continue;
+    throw ModelError({}, p.path,
+                     fmt::format("begins at {:.6g}, which is outside of {:.6g} to {:.6g}", p.start,
+                                 p.lower, p.upper));
+  }
+  for (const FitSource& source : sources) {
+    const FitRecord& record = source.record;
+    if (record.times.size() < 2 || !record.readings.array().isFinite().any()) {
+      throw ModelError({}, record.name, "has no readings to fit to");
+    }
+    if (!(record.noise.array() > 0.0).all()) {
+      throw ModelError({}, record.name, "needs the noise of every probe, > 0");
+    }
+  }
+}
+
+Search::Search(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
+               const FitOptions& options)
+    : parameters_(parameters), options_(options) {
+  const auto count = std::ssize(parameters);
+  x_.resize(count);
+  sizes_.resize(count);
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+    sizes_(p) = parameter.size;
+    x_(p) = parameter.start / parameter.size;
+  }
+  for (const FitSource& source : sources) shootings_.push_back({&source, {}, {}, {}, {}, {}});
+  make_systems();
+  for (Shooting& shooting : shootings_) {
+    if (!shooting.system) {  // says why
+      shooting.source->system_at(values());
+    }
+    const ContactSystem& system = shooting.system->system;
+    const Eigen::Index n = system.coordinates();
+    const double duration = options.window > 0.0 ? options.window : system.period();
+    shooting.windows = shooting_windows(*shooting.source, duration);
+    shooting.scale = system.state_scale();
+    // coordinates that move the probes by their noise, and the rates that do so within a radian
+    const double per = shooting.noise() / system.length_scale();
+    shooting.gap = shooting.scale * per;
+    shooting.gap.tail(n) = shooting.gap.head(n) * system.phase_rate();
+    for (const ShootingWindow& window : shooting.windows) {
+      shooting.starts.push_back(window.guess().cwiseQuotient(shooting.scale));
+    }
+  }
+}
+
+void Search::make_systems() {
+  for (Shooting& shooting : shootings_) {
+    try {
+      shooting.system = shooting.source->system_at(values());
+    } catch (const std::runtime_error&) {
+      shooting.system.reset();
+    }
+  }
+}
+
+ceres::Problem::Options owned_elsewhere(Search& search) {
+  ceres::Problem::Options options;
+  options.evaluation_callback = &search;
+  return options;
+}
+
+/// Stops Ceres where somebody asks for it.
+class Stop : public ceres::IterationCallback {
+ public:
+  explicit Stop(const FitOptions& options) : options_(options) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return options_.is_stopped && options_.is_stopped() ? ceres::SOLVER_ABORT
+                                                        : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const FitOptions& options_;
+};
+
+/// The least squares of a search, for Ceres.
+class LeastSquares {
+ public:
+  explicit LeastSquares(Search& search)
+      : search_(search), problem_(owned_elsewhere(search)), stop_(search.options_) {
+    problem_.AddParameterBlock(search.x_.data(), static_cast<int>(search.x_.size()));
+    for (std::size_t p = 0; p < search.parameters_.size(); ++p) {
+      const FreeParameter& parameter = search.parameters_[p];
+      const int i = static_cast<int>(p);
+      if (std::isfinite(parameter.lower)) {
+        problem_.SetParameterLowerBound(search.x_.data(), i, parameter.lower / parameter.size);
+      }
+      if (std::isfinite(parameter.upper)) {
+        problem_.SetParameterUpperBound(search.x_.data(), i, parameter.upper / parameter.size);
+      }
+    }
+    for (std::size_t s = 0; s < search.shootings_.size(); ++s) {
+      Shooting& shooting = search.shootings_[s];
+      for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
+        std::vector<double*> blocks{search.x_.data(), shooting.starts[w].data()};
+        if (!shooting.windows[w].is_last()) blocks.push_back(shooting.starts[w + 1].data());
+        problem_.AddResidualBlock(new WindowCost(search, s, w), nullptr, blocks);
+      }
+    }
+  }
+
+  /// Powell's dogleg, whose steps may make things worse for a while: the valleys of motions that must be
+  /// one are narrow and bent. Levenberg and Marquardt's way gets stuck in them in a fifth of the twin
+  /// experiments of chaos (bench/fit_twins.cpp).
+  /// @param between  as gaps
+  ceres::Solver::Summary solve(double between, int most_iterations, double tolerance) {
+    search_.between_ = between;
+    ceres::Solver::Options options;
+    options.trust_region_strategy_type = ceres::DOGLEG;
+    options.use_nonmonotonic_steps = true;
+    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+    options.max_num_iterations = most_iterations;
+    options.function_tolerance = tolerance;
+    options.parameter_tolerance = 1e-9;
+    options.logging_type = ceres::SILENT;
+    options.callbacks.push_back(&stop_);
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return summary;
+  }
+
+  void hold_parameters() { problem_.SetParameterBlockConstant(search_.x_.data()); }
+  void free_parameters() { problem_.SetParameterBlockVariable(search_.x_.data()); }
+
+  /// Derivatives of all residuals, the parameters first.
+  Sparse jacobian() {
+    ceres::Problem::EvaluateOptions options;
+    options.parameter_blocks.push_back(search_.x_.data());
+    for (Shooting& shooting : search_.shootings_) {
+      for (Vec& start : shooting.starts) options.parameter_blocks.push_back(start.data());
+    }
+    ceres::CRSMatrix found;
+    problem_.Evaluate(options, nullptr, nullptr, nullptr, &found);
+    return Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+        found.num_rows, found.num_cols, static_cast<Eigen::Index>(found.values.size()),
+        found.rows.data(), found.cols.data(), found.values.data());
+  }
+
+ private:
+  Search& search_;
+  ceres::Problem problem_;
+  Stop stop_;
+};
+
+/// Covariance of the parameters: their part of the inverse of J^T J. Infinite where it has none.
+Mat covariance(const Sparse& J, Eigen::Index parameters) {
+  const Mat none = Mat::Constant(parameters, parameters, std::numeric_limits<double>::infinity());
+  const Sparse normal = J.transpose() * J;
+  const SparseLu factor(normal);
+  if (!factor.is_regular()) return none;
+  Mat units = Mat::Zero(J.cols(), parameters);
+  units.topRows(parameters).setIdentity();
+  const Mat columns = factor.solve(units);
+  const Mat found = columns.topRows(parameters);
+  return found.allFinite() && (found.diagonal().array() > 0.0).all() ? found : none;
+}
+
+/// What is left, and what the motions that were found read.
+void add_residuals(Fit& fit, const Search& search) {
+  double squares = 0.0, logarithms = 0.0;
+  for (const Shooting& shooting : search.shootings_) {
+    const FitRecord& record = shooting.source->record;
+    FitResidual left{record.name, {}, Mat(record.readings.rows(), record.readings.cols())};
+    for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
+      const ShootingWindow& window = shooting.windows[w];
+      const Vec start = shooting.starts[w].cwiseProduct(shooting.scale);
+      const Mat read = window.predict(*shooting.system, start);
+      left.predicted.middleCols(window.first_sample(), read.cols()) = read;
+    }
+    const Mat off = left.predicted - record.readings;
+    left.of_probe.resize(off.rows());
+    for (Eigen::Index probe = 0; probe < off.rows(); ++probe) {
+      double sum = 0.0, count = 0.0;
+      for (const double e : off.row(probe)) {
+        if (!std::isfinite(e)) continue;
+        sum += e * e;
+        count += 1.0;
+      }
+      left.of_probe(probe) = std::sqrt(sum / count);
+      const double noise = record.noise(probe);
+      squares += sum / (noise * noise);
+      logarithms += count * std::log(turn * noise * noise);
+      fit.readings += static_cast<long>(count);
+    }
+    fit.windows += std::ssize(shooting.windows);
+    fit.records.push_back(std::move(left));
+  }
+  fit.residual = std::sqrt(squares / static_cast<double>(fit.readings));
+  fit.log_likelihood = -0.5 * (squares + logarithms);
+}
+
+/// The parameters with their errors.
+void add_parameters(Fit& fit, const Search& search, const Sparse& J) {
+  const Eigen::Index count = search.x_.size();
+  Mat C = covariance(J, count);
+  if (!search.options_.is_noise_known) C *= fit.residual * fit.residual;
+  const Vec deviation = C.diagonal().cwiseSqrt(), values = search.values();
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const FreeParameter& parameter = search.parameters_[static_cast<std::size_t>(p)];
+    const double value = values(p), off = deviation(p) * parameter.size;
+    const double near = 1e-9 * parameter.size;
+    fit.parameters.push_back(
+        {.path = parameter.path,
+         .value = value,
+         .standard_deviation = off,
+         .lower = value - confidence * off,
+         .upper = value + confidence * off,
+         .is_told = confidence * off < std::abs(value),
+         .is_at_bound = value - parameter.lower < near || parameter.upper - value < near});
+  }
+  fit.correlation =
+      deviation.cwiseInverse().asDiagonal() * C * deviation.cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
+Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
+        const FitOptions& options) {
+  require_fit(sources, parameters);
+  Search search(sources, parameters, options);
+  LeastSquares squares(search);
+  Fit fit;
+  squares.hold_parameters();
+  squares.solve(gaps[0], 10, 1e-2);
+  squares.free_parameters();
+  for (const double between : gaps) {
+    const bool is_last = between == gaps.back();
+    const auto summary = squares.solve(
+        between, is_last ? options.most_iterations : rough_iterations, is_last ? 1e-9 : 1e-4);
+    fit.iterations += static_cast<int>(summary.iterations.size());
+    fit.has_converged = summary.termination_type == ceres::CONVERGENCE;
+    if (!fit.has_converged) fit.why_not = summary.message;
+    if (!fit.has_converged && summary.termination_type != ceres::NO_CONVERGENCE) break;
+  }
+  search.make_systems();
+  add_residuals(fit, search);
+  add_parameters(fit, search, squares.jacobian());
+  if (!fit.has_converged) return fit;
+  fit.why_not.clear();
+  const double most =
+      std::sqrt(1.0 + improbable * std::sqrt(2.0 / static_cast<double>(fit.readings)));
+  if (options.is_noise_known && fit.residual > most) {
+    fit.has_converged = false;
+    fit.why_not = fmt::format(
+        "what is left is {:.4g} times the noise: the model does not explain the records, or "
+        "another "
+        "start finds more",
+        fit.residual);
+  }
+  return fit;
+}
+
+}  // namespace whirl::inline dyn

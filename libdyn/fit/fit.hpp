@@ -1,0 +1,63 @@
+#pragma once
+/// Parameters of a model that explain measured motions, and how sure they are.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libdyn/fit/fit_problem.hpp"
+
+namespace whirl::inline dyn {
+
+struct FitOptions {
+  double window = 0.0;         ///< of multiple shooting [s]; 0: a revolution
+  int most_iterations = 300;   ///< once motions are to be one
+  bool is_noise_known = true;  ///< else its size is taken from what is left
+  std::function<bool()> is_stopped{};
+};
+
+struct FittedParameter {
+  std::string path;
+  double value = 0.0;
+  double standard_deviation = 0.0;  ///< infinite: the records cannot tell
+  double lower = 0.0, upper = 0.0;  ///< of the interval of 95 %
+  bool is_told =
+      false;  ///< whether the interval is narrower than the value; else the records hardly tell
+  bool is_at_bound = false;
+};
+
+/// What is left of a record.
+struct FitResidual {
+  std::string record;
+  Vec of_probe;   ///< root mean square of reading less measurement, per probe [m]
+  Mat predicted;  ///< probes x times [m]
+};
+
+struct Fit {
+  /// Whether the search has ended and, if the noise is known, what is left is no more than that.
+  bool has_converged = false;
+  std::string why_not;  ///< if it has not
+  std::vector<FittedParameter> parameters;
+  Mat correlation;  ///< of their errors
+  double residual =
+      0.0;  ///< root mean square of all residuals over their noise: 1 where the model explains all
+  double log_likelihood = 0.0;  ///< of the records, Gaussian noise
+  long readings = 0;
+  long windows = 0;
+  int iterations = 0;
+  long grazes = 0;  ///< of the motions that were found, where derivatives are one-sided
+  std::vector<FitResidual> records;
+};
+
+/// Finds parameters by multiple shooting: least squares over the parameters and the state at the start of
+/// each window, with exact derivatives through touches, releases and slip.
+///
+/// What is left between windows is weighted more and more, until it is small beside the noise: at the
+/// end the motions of a record are one, and parameters have the errors of maximum likelihood.
+///
+/// @throws ModelError  for records without readings, parameters without a size or outside their bounds
+/// @source [Bock1983]; covariance as [Seber2003], sec. 2.1
+Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
+        const FitOptions& options = {});
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,47 @@
+#pragma once
+/// What a fit compares: measured records, the systems that could have made them, free parameters.
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "libbase/linalg.hpp"
+#include "libdyn/system/contact_system.hpp"
+#include "libdyn/system/system_slope.hpp"
+
+namespace whirl::inline dyn {
+
+/// Readings of displacement probes while the rotor turned at a constant speed.
+struct FitRecord {
+  std::string name;    ///< for messages
+  Vec times;           ///< ascending [s]
+  Mat readings;        ///< probes x times [m]; NaN: missing
+  Vec noise;           ///< standard deviation per probe [m]
+  double phase = 0.0;  ///< of the rotor at the first time [rad]
+};
+
+/// A parameter that is found.
+struct FreeParameter {
+  std::string path;
+  double start = 0.0;  ///< where the search begins
+  double size = 0.0;   ///< what it is compared with, > 0
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+};
+
+/// A system at some values of the parameters, with its slopes by them.
+struct FitSystem {
+  ContactSystem system;
+  std::vector<SystemSlope> slopes;
+};
+
+/// A record and the systems that it is compared with, all in the same n coordinates.
+struct FitSource {
+  FitRecord record;
+  Mat rows;  ///< what the probes read of the coordinates, probes x n
+  /// @throws ModelError, NumericalError  for values that make no system
+  std::function<FitSystem(const Vec& values)> system_at;
+};
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,41 @@
+#include "libdyn/fit/model_source.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "libbase/error.hpp"
+
+namespace whirl::inline dyn {
+
+FitSource model_source(FitRecord record, std::shared_ptr<const Scene> scene, Mat rows,
+                       const std::vector<FreeParameter>& parameters,
+                       std::function<Model(const Vec& values)> model_at) {
+  Vec starts(std::ssize(parameters));
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    starts(static_cast<Eigen::Index>(p)) = parameters[p].start;
+  }
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    Vec other = starts;
+    other(static_cast<Eigen::Index>(p)) += parameters[p].size / 128.0;
+    if (model_at(other).speed == model_at(starts).speed) continue;
+    throw ModelError({}, parameters[p].path,
+                     fmt::format("changes the speed, which {} was measured at", record.name));
+  }
+  const auto system_at = [scene, parameters, model_at = std::move(model_at)](const Vec& values) {
+    FitSystem found{in_shapes_of(*scene, model_at(values)), {}};
+    for (Eigen::Index p = 0; p < values.size(); ++p) {
+      const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+      found.slopes.push_back(
+          slope_of(parameter.path, *scene, values(p), parameter.size, [&](double value) {
+            Vec other = values;
+            other(p) = value;
+            return model_at(other);
+          }));
+    }
+    return found;
+  };
+  return {std::move(record), std::move(rows), system_at};
+}
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,225 @@
+// Parameters that are found in motions with noise, and how sure they are.
+
+#include "libdyn/fit/fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "libbase/dense.hpp"
+#include "libbase/error.hpp"
+#include "libbase/random.hpp"
+#include "libdyn/fit/model_source.hpp"
+#include "libdyn/taylor/motion_slopes.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace whirl::fit_test {
+
+using test::RotorStator;
+
+constexpr int per_revolution = 32;
+constexpr double noise = 2e-5;  // [m], half a percent of the rotor's motion
+
+/// A rotor in a stator, touched twice a revolution, whose displacements were measured.
+struct Rig {
+  RotorStator truth = test::P2;
+  int revolutions = 8;
+  std::shared_ptr<const Scene> scene = std::make_shared<const Scene>(truth.scene());
+  MotionState start = settled();
+  Mat rows = scene->displacement_map();
+
+  MotionState settled() const {
+    MotionState state = test::start_of(truth.model(), *scene);
+    test::run(*scene, state, 40, {});
+    return state;
+  }
+  std::vector<double> times() const {
+    std::vector<double> all;
+    for (int i = 0; i <= revolutions * per_revolution; ++i) {
+      all.push_back(scene->contacts.period() * i / per_revolution);
+    }
+    return all;
+  }
+  FitRecord record(unsigned seed) const {
+    const std::vector<double> at = times();
+    const MotionSlopes motion = motion_slopes(scene->contacts, start, at, {}, {.by_start = false});
+    FitRecord record{.name = "rig",
+                     .times = Vec::Map(at.data(), std::ssize(at)),
+                     .readings = rows * motion.states.topRows(rows.cols()),
+                     .noise = Vec::Constant(rows.rows(), noise),
+                     .phase = start.phase};
+    std::mt19937_64 random(seed);
+    for (double& reading : record.readings.reshaped()) reading += noise * random_normal(random);
+    return record;
+  }
+  /// Of stiffness and friction of the ring, in this order.
+  static Model model(RotorStator rotor, const Vec& values) {
+    rotor.kC = values(0);
+    rotor.mu = values(1);
+    return rotor.model();
+  }
+  std::vector<FreeParameter> free(double share) const {
+    return {{.path = "stiffness", .start = share * truth.kC, .size = truth.kC},
+            {.path = "friction", .start = share * truth.mu, .size = truth.mu}};
+  }
+  FitSource source(FitRecord record, const std::vector<FreeParameter>& parameters) const {
+    return model_source(std::move(record), scene, rows, parameters,
+                        [rotor = truth](const Vec& values) { return model(rotor, values); });
+  }
+};
+
+TEST(Fit, FindsStiffnessAndFrictionInNoise) {
+  const Rig rig;
+  for (const double share : {0.6, 1.4}) {
+    const auto free = rig.free(share);
+    const Fit found = fit({rig.source(rig.record(1), free)}, free);
+    ASSERT_TRUE(found.has_converged) << found.why_not;
+    EXPECT_NEAR(found.residual, 1.0, 0.05);
+    const double truth[]{rig.truth.kC, rig.truth.mu};
+    for (std::size_t p = 0; p < 2; ++p) {
+      const FittedParameter& parameter = found.parameters[p];
+      EXPECT_NEAR(parameter.value, truth[p], 3.0 * parameter.standard_deviation) << parameter.path;
+      EXPECT_LT(parameter.standard_deviation, 0.02 * truth[p]) << parameter.path;
+      EXPECT_TRUE(parameter.is_told);
+      EXPECT_FALSE(parameter.is_at_bound);
+    }
+  }
+}
+
+// The bound of Cramer and Rao: the inverse of the information that one motion through the whole record
+// has of its start and the parameters. Windows that are tied together keep nothing back.
+TEST(Fit, IsAsSureAsTheNoiseLetsItBe) {
+  const Rig rig;
+  const auto free = rig.free(1.0);
+  const FitSource source = rig.source(rig.record(2), free);
+  const Fit found = fit({source}, free);
+  ASSERT_TRUE(found.has_converged) << found.why_not;
+
+  const FitSystem exact = source.system_at(Vec{{rig.truth.kC, rig.truth.mu}});
+  const std::vector<double> times = rig.times();
+  const MotionSlopes motion = motion_slopes(exact.system, rig.start, times, exact.slopes);
+  const Eigen::Index n = rig.rows.cols();
+  Mat information = Mat::Zero(2 * n + 2, 2 * n + 2);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    Mat by(rig.rows.rows(), 2 * n + 2);
+    by << rig.rows * motion.by_start[i].topRows(n), rig.rows * motion.by_parameter[i].topRows(n);
+    information += by.transpose() * by / (noise * noise);
+  }
+  const Mat bound = DenseLu<Mat>(information).solve(Mat::Identity(2 * n + 2, 2 * n + 2));
+  for (Eigen::Index p = 0; p < 2; ++p) {
+    const double least = std::sqrt(bound(2 * n + p, 2 * n + p));
+    EXPECT_NEAR(found.parameters[static_cast<std::size_t>(p)].standard_deviation, least,
+                0.02 * least);
+  }
+  const double together =
+      bound(2 * n, 2 * n + 1) / std::sqrt(bound(2 * n, 2 * n) * bound(2 * n + 1, 2 * n + 1));
+  EXPECT_NEAR(found.correlation(0, 1), together, 0.02);
+}
+
+TEST(Fit, LeavesMissingSamplesOut) {
+  const Rig rig;
+  const auto free = rig.free(0.8);
+  FitRecord record = rig.record(3);
+  record.readings.middleCols(20, 30).setConstant(std::nan(""));
+  record.readings(1, 100) = std::nan("");
+  const Fit found = fit({rig.source(record, free)}, free);
+  ASSERT_TRUE(found.has_converged) << found.why_not;
+  EXPECT_EQ(found.readings, 4 * (8 * per_revolution + 1) - 4 * 30 - 1);
+  EXPECT_NEAR(found.parameters[1].value, rig.truth.mu,
+              3.0 * found.parameters[1].standard_deviation);
+}
+
+// Two records of one rotor tell more than each of them.
+TEST(Fit, TakesSeveralRecords) {
+  const Rig rig;
+  const auto free = rig.free(0.9);
+  const Fit one = fit({rig.source(rig.record(4), free)}, free);
+  const Fit both = fit({rig.source(rig.record(4), free), rig.source(rig.record(5), free)}, free);
+  ASSERT_TRUE(one.has_converged && both.has_converged);
+  ASSERT_EQ(both.records.size(), 2u);
+  for (std::size_t p = 0; p < 2; ++p) {
+    EXPECT_NEAR(both.parameters[p].standard_deviation,
+                one.parameters[p].standard_deviation / std::sqrt(2.0),
+                0.05 * one.parameters[p].standard_deviation);
+  }
+}
+
+TEST(Fit, SaysWhereAParameterIsHeldByItsBound) {
+  const Rig rig;
+  auto free = rig.free(0.8);
+  free[1].upper = 0.9 * rig.truth.mu;
+  const Fit found = fit({rig.source(rig.record(6), free)}, free);
+  EXPECT_TRUE(found.parameters[1].is_at_bound);
+  EXPECT_DOUBLE_EQ(found.parameters[1].value, free[1].upper);
+}
+
+// Another mass is not what stiffness and friction make up for.
+TEST(Fit, SaysThatAModelDoesNotExplainARecord) {
+  Rig rig;
+  const FitRecord record = rig.record(7);
+  rig.truth.ms *= 1.5;
+  rig.scene = std::make_shared<const Scene>(rig.truth.scene());
+  const auto free = rig.free(1.0);
+  const Fit found = fit({rig.source(record, free)}, free);
+  EXPECT_FALSE(found.has_converged);
+  EXPECT_GT(found.residual, 1.5);
+  EXPECT_FALSE(found.why_not.empty());
+}
+
+// A ring that is never touched says nothing of its friction.
+TEST(Fit, SaysWhatARecordCannotTell) {
+  Rig rig;
+  rig.truth.gap = 1.0;
+  rig.scene = std::make_shared<const Scene>(rig.truth.scene());
+  rig.start = rig.settled();
+  const auto free = rig.free(1.0);
+  const Fit found = fit({rig.source(rig.record(8), free)}, free);
+  for (const FittedParameter& parameter : found.parameters) {
+    EXPECT_FALSE(parameter.is_told);
+    EXPECT_GT(parameter.standard_deviation, 1e3 * parameter.value);
+  }
+}
+
+TEST(Fit, RefusesWhatCannotBeFitted) {
+  const Rig rig;
+  const auto free = rig.free(1.0);
+  const auto problem = [&](FitRecord record, std::vector<FreeParameter> parameters) -> std::string {
+    try {
+      fit({rig.source(std::move(record), free)}, parameters);
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  FitRecord record = rig.record(9);
+  auto outside = free;
+  outside[0].lower = 2.0 * outside[0].start;
+  EXPECT_NE(problem(record, outside).find("outside of"), std::string::npos);
+  auto zero = free;
+  zero[1].size = 0.0;
+  EXPECT_NE(problem(record, zero).find("needs bounds"), std::string::npos);
+  record.noise(0) = 0.0;
+  EXPECT_NE(problem(record, free).find("noise of every probe"), std::string::npos);
+  record.noise(0) = noise;
+  record.readings.setConstant(std::nan(""));
+  EXPECT_NE(problem(record, free).find("no readings"), std::string::npos);
+}
+
+// The speed is what a record was measured at.
+TEST(Fit, RefusesToFitTheSpeed) {
+  const Rig rig;
+  const std::vector<FreeParameter> speed{
+      {.path = "operation.speed", .start = rig.truth.Omega, .size = rig.truth.Omega}};
+  EXPECT_THROW(model_source(rig.record(1), rig.scene, rig.rows, speed,
+                            [rotor = rig.truth](const Vec& values) {
+                              RotorStator other = rotor;
+                              other.Omega = values(0);
+                              return other.model();
+                            }),
+               ModelError);
+}
+
+}  // namespace whirl::fit_test
