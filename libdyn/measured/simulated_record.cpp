@@ -18,30 +18,15 @@ namespace {
 constexpr double edge_samples = 4.0;   ///< that an edge of a pulse takes
 constexpr double pulse_samples = 4.0;  ///< between its edges
 
-/// Two normally distributed numbers from two of equal distribution.
-/// @source [BoxMuller1958]
-class NormalNumbers {
- public:
-  NormalNumbers(std::uint64_t seed, std::size_t channel) {
-    std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
-                           static_cast<std::uint32_t>(channel)};
-    random_.seed(sequence);
-  }
-  double next() {
-    const double radius = std::sqrt(-2.0 * std::log(1.0 - random_share(random_)));
-    return radius * std::cos(turn * random_share(random_));
-  }
-
- private:
-  std::mt19937_64 random_;
-};
-
 void add_noise(Vec& samples, const ChannelNoise& noise, std::size_t channel) {
   if (noise.share == 0.0) return;
   const double size = static_cast<double>(samples.size());
   const double deviation = std::sqrt((samples.array() - samples.mean()).square().sum() / size);
-  NormalNumbers numbers(noise.seed, channel);
-  for (double& sample : samples) sample += noise.share * deviation * numbers.next();
+  std::seed_seq sequence{static_cast<std::uint32_t>(noise.seed),
+                         static_cast<std::uint32_t>(noise.seed >> 32),
+                         static_cast<std::uint32_t>(channel)};
+  std::mt19937_64 random(sequence);
+  for (double& sample : samples) sample += noise.share * deviation * random_normal(random);
 }
 
 Vec pulses_of(const Recording& recording, const KeyPhasor& key) {

@@ -13,10 +13,8 @@ namespace whirl::test {
 
 /// Numbers of the normal distribution, the same on every machine.
 inline Mat normal_numbers(std::mt19937_64& random, Eigen::Index rows, Eigen::Index columns) {
-  return Mat::NullaryExpr(rows, columns, [&](Eigen::Index, Eigen::Index) {
-    const double r = std::sqrt(-2.0 * std::log(1.0 - random_share(random)));
-    return r * std::cos(2.0 * std::numbers::pi * random_share(random));
-  });
+  return Mat::NullaryExpr(rows, columns,
+                          [&](Eigen::Index, Eigen::Index) { return random_normal(random); });
 }
 
 /// e^A, by scaling, Taylor series and squaring.
