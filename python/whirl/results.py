@@ -415,7 +415,8 @@ class Result(ResultMethods):
         return f"<whirl.Result of {self.verb}: {groups or 'no arrays'}{ended}>"
 
 
-_INTEGRATION = {o.name for o in VERBS["simulate"].options.values()} - {"out", "force", "threads"}
+_INTEGRATION = {o.name for keyword, o in VERBS["simulate"].options.items()
+                if keyword in VERBS["identify"].options} - {"out", "force", "threads"}
 
 
 def run_verb(verb: str, wanted: Any, start: Callable[[Any], Any]) -> Result:

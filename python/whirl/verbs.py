@@ -78,10 +78,10 @@ VERBS = {verb.name: verb for verb in map(_verb, _whirl.verb_table())}
 
 
 def _of_a_motion() -> Verb:
-    """identify, where the motion is there: without the options of its integration."""
-    verb, integration = VERBS["identify"], VERBS["simulate"].options
-    kept = {k: o for k, o in verb.options.items() if k not in integration or k in ("out", "force")}
-    return verb._replace(options=kept)
+    """identify, where the motion is there: without the options of its integration, and of records."""
+    kept = ("modes", "rotations", "mass_weighted", "stiffened", "out", "force")
+    verb = VERBS["identify"]
+    return verb._replace(options={k: o for k, o in verb.options.items() if k in kept})
 
 
 RESULT_VERBS = {"identify": _of_a_motion(), **{v.name: v for v in VERBS.values() if v.takes_results}}
