@@ -111,6 +111,7 @@ struct ContactLanes {
     for (P* sum : {&duty, &stuck, &max_normal, &max_friction}) set_lane(*sum, l, 0.0);
   }
 
+  /// What a contact is made of, without its kind of law and its state.
   HWY_ATTR void load_numbers(const ReducedContact& from, int l, double turn) {
     const Friction& f = from.friction;
     const Number circle = Number(from.clearance) + Number(tip_radius_of(from.geometry));

@@ -141,6 +141,7 @@ class Engine {
 
   // engine_step-inl.h
   HWY_ATTR void step(const Observer* observer);
+  HWY_ATTR void fail_steps(uint64_t bad);
   HWY_ATTR P step_length();
   template <int Bodies>
   HWY_ATTR void evaluate(const P* terms, const P& h, P* y) const;
@@ -200,6 +201,7 @@ class Engine {
   HWY_ATTR void begin_revolution_of_neighbors(long revolution);
   HWY_ATTR P limit_for_slopes(const P& h);
   HWY_ATTR P to_fixed_phase(const P& h) const;
+  HWY_ATTR double elapsed() const;
   HWY_ATTR void take_samples(const P& h);
   HWY_ATTR void jump_slopes(size_t i, EventKind kind, const Saltation& s);
   HWY_ATTR void find_grazes(const P& h);

@@ -131,6 +131,14 @@ HWY_ATTR P Engine<P>::to_fixed_phase(const P& h) const {
   return {h.x, wide(h.x) * slopes_->stretch};
 }
 
+/// Time since the start [s].
+template <class P>
+HWY_ATTR double Engine<P>::elapsed() const {
+  const LaneRecord& record = records_[0];
+  return static_cast<double>(record.revolution - record.first_revolution) * lane(period_, 0) +
+         (lane(time_, 0) - record.first_phase / trajectory_[0]->system->phase_rate());
+}
+
 /// Takes the samples within a step of length h.
 template <class P>
 HWY_ATTR void Engine<P>::take_samples(const P& h) {
@@ -139,8 +147,7 @@ HWY_ATTR void Engine<P>::take_samples(const P& h) {
   const LaneRecord& record = records_[0];
   const ContactSystem& s = *trajectory_[0]->system;
   const double period = lane(period_, 0), length = lane(h, 0);
-  const double before = static_cast<double>(record.revolution - record.first_revolution) * period +
-                        (lane(time_, 0) - record.first_phase / s.phase_rate());
+  const double before = elapsed();
   while (!run.is_done()) {
     double into = run.times[run.states.size()] - before;
     if (!(into <= length + 1e-14 * period)) return;
@@ -204,10 +211,7 @@ HWY_ATTR void Engine<P>::jump_slopes(size_t i, EventKind kind, const Saltation& 
 template <class P>
 HWY_ATTR void Engine<P>::tell_event(size_t i, EventKind kind, bool jumps) {
   SlopeRun& run = *slopes_->run;
-  const LaneRecord& record = records_[0];
-  const double time =
-      static_cast<double>(record.revolution - record.first_revolution) * lane(period_, 0) +
-      (lane(time_, 0) - record.first_phase / trajectory_[0]->system->phase_rate());
+  const double time = elapsed();
   run.events.push_back({time, static_cast<int>(i), kind, jumps});
   const double margin = slopes_->passed[i];
   if (jumps && margin <= run.near) {
@@ -218,6 +222,7 @@ HWY_ATTR void Engine<P>::tell_event(size_t i, EventKind kind, bool jumps) {
 /// Extreme of a function of an event within a step: how far it stays from zero, or goes beyond.
 ///
 /// @param g      coefficients; sign times them is positive before the event
+/// @param first  number 0 of them, which may stand elsewhere
 /// @param scale  of the margin
 template <class P>
 HWY_ATTR void Engine<P>::find_graze(const P* g, const P& first, int degree, double sign,
@@ -245,11 +250,7 @@ HWY_ATTR void Engine<P>::find_graze(const P* g, const P& first, int degree, doub
   }
   const double margin = at(low, 0) / scale;
   if (margin > run.near) return;
-  const LaneRecord& record = records_[0];
-  const double time =
-      static_cast<double>(record.revolution - record.first_revolution) * lane(period_, 0) +
-      (lane(time_, 0) + low - record.first_phase / trajectory_[0]->system->phase_rate());
-  run.grazes.push_back({time, static_cast<int>(i), kind, false, std::max(margin, 0.0)});
+  run.grazes.push_back({elapsed() + low, static_cast<int>(i), kind, false, std::max(margin, 0.0)});
 }
 
 /// Looks for grazes in a step of length h: of surfaces where a damped law would begin to push, and of

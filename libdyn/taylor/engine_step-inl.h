@@ -71,6 +71,24 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
   }
 }
 
+/// Ends the trajectories of lanes that cannot make a step.
+template <class P>
+HWY_ATTR void Engine<P>::fail_steps(uint64_t bad) {
+  const uint64_t numbers = bits(time_, finite_), bounded = bits(time_, bounded_);
+  for (uint64_t rest = bad; rest != 0; rest &= rest - 1) {
+    const int l = __builtin_ctzll(rest);
+    if (const auto* film =
+            trajectory_[static_cast<size_t>(l)]->system->left_bearing(state_of(l).data())) {
+      fail_by_film(l, *film);
+    } else if ((numbers >> l & 1) == 0) {
+      fail(l, Outcome::not_finite, "the state is not finite");
+    } else {
+      fail(l, Outcome::step_too_small,
+           (bounded >> l & 1) != 0 ? "the step underflowed" : "the motion grows without bound");
+    }
+  }
+}
+
 template <class P>
 HWY_ATTR void Engine<P>::step(const Observer* observer) {
   constexpr Number too_small = 10.0 * P::rounding;  // of a revolution
@@ -89,19 +107,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   h = select(reaches, left, h);
   const uint64_t bad = active_ & ~good;
   if (bad != 0) {
-    const uint64_t numbers = bits(h, finite_), bounded = bits(h, bounded_);
-    for (uint64_t rest = bad; rest != 0; rest &= rest - 1) {
-      const int l = __builtin_ctzll(rest);
-      if (const auto* film =
-              trajectory_[static_cast<size_t>(l)]->system->left_bearing(state_of(l).data())) {
-        fail_by_film(l, *film);
-      } else if ((numbers >> l & 1) == 0) {
-        fail(l, Outcome::not_finite, "the state is not finite");
-      } else {
-        fail(l, Outcome::step_too_small,
-             (bounded >> l & 1) != 0 ? "the step underflowed" : "the motion grows without bound");
-      }
-    }
+    fail_steps(bad);
     return;  // the others begin this step again
   }
   h = select(mask_of<P>(active_), h, P(0.0));
