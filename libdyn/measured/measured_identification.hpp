@@ -60,7 +60,7 @@ struct MeasuredIdentification {
         column("speed", &M::speed, "rad/s", "speed of the rotor in the record").only(in_file),
         column("duration", &M::duration, "s", "length of the record that was transformed"),
         rows(&M::probes, "probes").prefixed("probe_"),
-        column("frequency", &M::frequency, "rad/s", "signed frequency, forward > 0")
+        column("spectrum_frequency", &M::frequency, "rad/s", "signed frequency, forward > 0")
             .axis("measured_lines+")
             .within(valid::finite)
             .only(in_file),

@@ -102,6 +102,11 @@ TEST_F(Measured, TracksOrders) {
   EXPECT_EQ(curves[1].at("order"), 2.5);
   EXPECT_EQ(curves[0].at("response_m").size(), measured.at("orders").at("speed_rpm").size());
   EXPECT_NEAR(measured.at("orders").at("slow_roll_rpm").get<double>(), 4430.0, 1e-3);
+  ASSERT_EQ(whirl({"identify", model, "--measured", "run.csv", "--probes", "probes.toml",
+                   "--orders", "1", "--out", "measured.h5"})
+                .status,
+            0);
+  EXPECT_EQ(whirl({"export", "measured.h5", "--format", "csv", "--out", "tables"}).err, "");
   write("no_key.toml", probes_at(7, 7));
   EXPECT_TRUE(has(whirl({"identify", model, "--measured", "run.csv", "--probes", "no_key.toml",
                          "--orders", "1"})
