@@ -25,6 +25,21 @@ std::string sense_of(const CVec& readings, const std::vector<ProbedStation>& sta
   return orbits.empty() ? "" : std::string(name_of(whirl_of(orbits)));
 }
 
+/// The mode with the largest MAC; of several that probes cannot tell from it, the nearest in frequency.
+int most_like(const RunningMode& running, const std::vector<Mode>& modes) {
+  constexpr double same = 0.05;  // difference of MACs
+  const double largest = *std::max_element(running.mac.begin(), running.mac.end());
+  int nearest = -1;
+  double least = HUGE_VAL;
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    const double away = std::abs(std::log(modes[m].frequency() / running.frequency()));
+    if (running.mac[m] < largest - same || away >= least) continue;
+    least = away;
+    nearest = static_cast<int>(m);
+  }
+  return nearest;
+}
+
 }  // namespace
 
 RunningModes running_modes(const ProbeReadings& readings, RunningModesOptions options) {
@@ -51,8 +66,7 @@ void compare(RunningModes& found, const MeasuredIdentification& measured,
       mode.mac.push_back(channel_mac(mode.shape, measured.mode_readings.row(m).transpose()));
     }
     if (mode.mac.empty()) continue;
-    const auto best = std::max_element(mode.mac.begin(), mode.mac.end());
-    mode.model_mode = static_cast<int>(best - mode.mac.begin());
+    mode.model_mode = most_like(mode, measured.found.modes);
     const Mode& like = measured.found.modes[static_cast<std::size_t>(mode.model_mode)];
     mode.shift = mode.frequency() / like.frequency() - 1.0;
   }

@@ -75,19 +75,22 @@ bool is_of_interest(double frequency, const RunningModesOptions& o) {
   return o.most_frequency == 0.0 || frequency <= o.most_frequency;
 }
 
-/// Block rows whose lags go as far as the covariances do, to where they stay below 0.3 of the first
+/// Block rows whose lags go as far as the covariances do, to where they stay below 0.3 of the largest
 /// one for half as long again: farther there is noise alone, of which models of high order split modes.
 void shorten_block_rows(const RunningModesOptions& o, const OutputProducts& all,
                         RunningModes& found) {
   constexpr double small = 0.3;
   constexpr int least = 20, few = 5;
   if (o.block_rows > 0) return;
-  const double limit = small * all.sums[1].norm();
   const auto lags = static_cast<int>(all.sums.size());
+  double largest = 0.0;  // the first ones may be small: forward and backward motion go through zero
+  for (int k = 1; k < lags; ++k) {
+    largest = std::max(largest, all.sums[static_cast<std::size_t>(k)].norm());
+  }
   int below = 0, last = 1;  // lags in a row, as covariances oscillate; the last large one
   const auto have_fallen = [&] { return below >= few && 2 * below >= last; };
   for (int k = 1; k < lags && !have_fallen(); ++k) {
-    const bool is_large = all.sums[static_cast<std::size_t>(k)].norm() >= limit;
+    const bool is_large = all.sums[static_cast<std::size_t>(k)].norm() >= small * largest;
     below = is_large ? 0 : below + 1;
     if (is_large) last = k;
   }

@@ -37,9 +37,9 @@ class RunningModesVerb : public Program {
       }
     }
     std::mt19937_64 random(11);
-    const double rate = 500.0;
+    const double rate = 250.0;
     const Mat motion =
-        with_noise(modal_response(eigenvalues, shapes, 1.0 / rate, 30000, random), 0.05, random);
+        with_noise(modal_response(eigenvalues, shapes, 1.0 / rate, 60000, random), 0.05, random);
     const double size = 2.0 * motion.norm() / std::sqrt(static_cast<double>(motion.size()));
     std::string text = "time [s],disk x [um],disk y [um]\n";
     for (Eigen::Index t = 0; t < motion.rows(); ++t) {
@@ -93,7 +93,7 @@ TEST_F(RunningModesVerb, SaysWhatItsOptionsNeed) {
   EXPECT_TRUE(has(identify({"--running-modes", "--order", "400", "--block-rows", "50"}).err,
                   "50 block rows allow 98 at most"));
   EXPECT_TRUE(has(identify({"--running-modes", "--highest", "300 Hz"}).err,
-                  "show those below 250 Hz only"));
+                  "show those below 125 Hz only"));
 }
 
 }  // namespace running_modes_test
