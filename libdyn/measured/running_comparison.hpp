@@ -14,7 +14,8 @@ namespace whirl::inline dyn {
 RunningModes running_modes(const ProbeReadings& readings, RunningModesOptions options);
 
 /// Says of each running mode which mode of the model it is most like, by what the probes read of
-/// both (of modes that they cannot tell apart the nearest in frequency), and its sense of whirl where a station has probes in two directions.
+/// both (of modes that they cannot tell apart the nearest in frequency), and its sense of whirl
+/// where a station has probes in two directions.
 void compare(RunningModes& found, const MeasuredIdentification& measured,
              const ProbeReadings& readings, const Assembler& assembler);
 

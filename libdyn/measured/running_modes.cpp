@@ -75,11 +75,11 @@ bool is_of_interest(double frequency, const RunningModesOptions& o) {
   return o.most_frequency == 0.0 || frequency <= o.most_frequency;
 }
 
-/// Block rows whose lags go as far as the covariances do, to where they stay below 0.3 of the largest
+/// Block rows whose lags go as far as the covariances do, to where they stay below half of the largest
 /// one for half as long again: farther there is noise alone, of which models of high order split modes.
 void shorten_block_rows(const RunningModesOptions& o, const OutputProducts& all,
                         RunningModes& found) {
-  constexpr double small = 0.3;
+  constexpr double small = 0.5;
   constexpr int least = 20, few = 5;
   if (o.block_rows > 0) return;
   const auto lags = static_cast<int>(all.sums.size());

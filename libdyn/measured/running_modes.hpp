@@ -140,7 +140,7 @@ struct RunningModes {
 RunningModes running_modes(const Mat& samples, double spacing, const RunningModesOptions& options);
 
 /// Block rows so that the covariance matrix has about 240 rows: 20 to 100. Fewer are taken, 20 at
-/// least, where covariances fall below 0.3 of the largest one before.
+/// least, where covariances fall below half of the largest one before.
 int usual_block_rows(Eigen::Index channels);
 
 }  // namespace whirl::inline dyn

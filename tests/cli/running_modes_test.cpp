@@ -68,17 +68,19 @@ TEST_F(RunningModesVerb, FindsTheModesOfTheModelBesideTheSpeed) {
     const json found = outcome.tree();
     const json& running = found.at("running");
     EXPECT_EQ(running.at("harmonics_removed").get<bool>(), !are_kept);
+    // a line that is left in asks for long lags, which cost accuracy
+    const double error = are_kept ? 0.01 : 0.005, damping_error = are_kept ? 0.4 : 0.2;
     const json& modes = running.at("running_modes");
     ASSERT_EQ(modes.size(), 2u) << running.dump();
     for (std::size_t j = 0; j < 2; ++j) {
       const json& of_model = found.at("modes").at(j);
       const double frequency = of_model.at("frequency_rpm"), damping = of_model.at("damping_ratio");
-      EXPECT_NEAR(modes[j].at("frequency_rpm").get<double>(), frequency, 0.005 * frequency);
-      EXPECT_NEAR(modes[j].at("damping_ratio").get<double>(), damping, 0.2 * damping);
+      EXPECT_NEAR(modes[j].at("frequency_rpm").get<double>(), frequency, error * frequency);
+      EXPECT_NEAR(modes[j].at("damping_ratio").get<double>(), damping, damping_error * damping);
       EXPECT_EQ(modes[j].at("whirl"), j == 0 ? "backward" : "forward");
       EXPECT_EQ(modes[j].at("model_mode").get<std::size_t>(), j + 1);
       EXPECT_GT(modes[j].at("mac").at(j).get<double>(), 0.95);
-      EXPECT_NEAR(modes[j].at("shift").get<double>(), 0.0, 0.005);
+      EXPECT_NEAR(modes[j].at("shift").get<double>(), 0.0, error);
     }
   }
   EXPECT_EQ(whirl({"plot", "run.h5", "stabilization", "--out", "s.svg"}).status, 0);
