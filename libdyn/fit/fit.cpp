@@ -263,17 +263,30 @@ class LeastSquares {
   Stop stop_;
 };
 
-/// Covariance of the parameters: their part of the inverse of J^T J. Infinite where it has none.
-Mat covariance(const Sparse& J, Eigen::Index parameters) {
-  const Mat none = Mat::Constant(parameters, parameters, std::numeric_limits<double>::infinity());
-  const Sparse normal = J.transpose() * J;
+/// Covariance of those parameters that are free to move, over their sizes: their part of the inverse of
+/// J^T J. NaN of those that a bound holds; infinite where there is no inverse.
+Mat covariance(const Sparse& J, const std::vector<bool>& is_held) {
+  const auto parameters = std::ssize(is_held);
+  std::vector<Triplet> entries;  // 1 from an unknown to its column among the free ones
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < J.cols(); ++i) {
+    if (i < parameters && is_held[static_cast<std::size_t>(i)]) continue;
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(entries.size()), 1.0);
+    if (i < parameters) free.push_back(i);
+  }
+  Sparse choice(J.cols(), std::ssize(entries));
+  choice.setFromTriplets(entries.begin(), entries.end());
+  const Sparse J_free = J * choice;
+  const Sparse normal = J_free.transpose() * J_free;
+  Mat found = Mat::Constant(parameters, parameters, std::nan(""));
+  found(free, free).setConstant(std::numeric_limits<double>::infinity());
   const SparseLu factor(normal);
-  if (!factor.is_regular()) return none;
-  Mat units = Mat::Zero(J.cols(), parameters);
-  units.topRows(parameters).setIdentity();
-  const Mat columns = factor.solve(units);
-  const Mat found = columns.topRows(parameters);
-  return found.allFinite() && (found.diagonal().array() > 0.0).all() ? found : none;
+  if (!factor.is_regular()) return found;
+  const auto count = std::ssize(free);
+  const Mat columns = factor.solve(Mat::Identity(normal.rows(), count));
+  const Mat inverse = columns.topRows(count);
+  if (inverse.allFinite() && (inverse.diagonal().array() > 0.0).all()) found(free, free) = inverse;
+  return found;
 }
 
 /// What is left, and what the motions that were found read.
@@ -312,25 +325,29 @@ void add_residuals(Fit& fit, const Search& search) {
 
 /// The parameters with their errors.
 void add_parameters(Fit& fit, const Search& search, const Sparse& J) {
-  const Eigen::Index count = search.x_.size();
-  Mat C = covariance(J, count);
-  if (!search.options_.is_noise_known) C *= fit.residual * fit.residual;
-  const Vec deviation = C.diagonal().cwiseSqrt(), values = search.values();
-  for (Eigen::Index p = 0; p < count; ++p) {
+  const Vec values = search.values();
+  std::vector<bool> is_held;
+  for (Eigen::Index p = 0; p < values.size(); ++p) {
     const FreeParameter& parameter = search.parameters_[static_cast<std::size_t>(p)];
-    const double value = values(p), off = deviation(p) * parameter.size;
     const double near = 1e-9 * parameter.size;
-    fit.parameters.push_back(
-        {.path = parameter.path,
-         .value = value,
-         .standard_deviation = off,
-         .lower = value - confidence * off,
-         .upper = value + confidence * off,
-         .is_told = confidence * off < std::abs(value),
-         .is_at_bound = value - parameter.lower < near || parameter.upper - value < near});
+    is_held.push_back(values(p) - parameter.lower < near || parameter.upper - values(p) < near);
   }
-  fit.correlation =
-      deviation.cwiseInverse().asDiagonal() * C * deviation.cwiseInverse().asDiagonal();
+  Mat C = covariance(J, is_held);
+  if (!search.options_.is_noise_known) C *= fit.residual * fit.residual;
+  const Vec deviation = C.diagonal().cwiseSqrt();
+  for (Eigen::Index p = 0; p < values.size(); ++p) {
+    const FreeParameter& parameter = search.parameters_[static_cast<std::size_t>(p)];
+    const double off = deviation(p) * parameter.size;
+    fit.parameters.push_back({.path = parameter.path,
+                              .value = values(p),
+                              .standard_deviation = off,
+                              .lower = values(p) - confidence * off,
+                              .upper = values(p) + confidence * off,
+                              .is_told = confidence * off < std::abs(values(p)),
+                              .is_at_bound = is_held[static_cast<std::size_t>(p)]});
+  }
+  const Vec per = deviation.cwiseInverse();
+  fit.correlation = per.asDiagonal() * C * per.asDiagonal();
 }
 
 }  // namespace

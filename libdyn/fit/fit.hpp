@@ -19,7 +19,7 @@ struct FitOptions {
 struct FittedParameter {
   std::string path;
   double value = 0.0;
-  double standard_deviation = 0.0;  ///< infinite: the records cannot tell
+  double standard_deviation = 0.0;  ///< infinite: the records cannot tell; NaN: its bound holds it
   double lower = 0.0, upper = 0.0;  ///< of the interval of 95 %
   bool is_told =
       false;  ///< whether the interval is narrower than the value; else the records hardly tell

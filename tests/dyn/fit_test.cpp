@@ -157,6 +157,9 @@ TEST(Fit, SaysWhereAParameterIsHeldByItsBound) {
   const Fit found = fit({rig.source(rig.record(6), free)}, free);
   EXPECT_TRUE(found.parameters[1].is_at_bound);
   EXPECT_DOUBLE_EQ(found.parameters[1].value, free[1].upper);
+  EXPECT_TRUE(std::isnan(found.parameters[1].standard_deviation));
+  EXPECT_FALSE(found.parameters[0].is_at_bound);
+  EXPECT_TRUE(std::isfinite(found.parameters[0].standard_deviation));
 }
 
 // Another mass is not what stiffness and friction make up for.
