@@ -182,9 +182,9 @@ ceres::Problem::Options owned_elsewhere(Search& search) {
 }
 
 /// Stops Ceres where somebody asks for it.
-class Stop : public ceres::IterationCallback {
+class Interruption : public ceres::IterationCallback {
  public:
-  explicit Stop(const FitOptions& options) : options_(options) {}
+  explicit Interruption(const FitOptions& options) : options_(options) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
     return options_.is_stopped && options_.is_stopped() ? ceres::SOLVER_ABORT
                                                         : ceres::SOLVER_CONTINUE;
@@ -260,7 +260,7 @@ class LeastSquares {
  private:
   Search& search_;
   ceres::Problem problem_;
-  Stop stop_;
+  Interruption stop_;
 };
 
 /// Covariance of those parameters that are free to move, over their sizes: their part of the inverse of

@@ -439,7 +439,8 @@ def results(whirl, repository, folder):
     for name, *words in (
         ("rig", "simulate", rig, "--discard", "20", "--revolutions", "64", "--measure", measured_by,
          "--measured-out", folder / "run.csv"),
-        ("measured", "identify", rig, "--measured", folder / "run.csv", "--probes", measured_by, "--orders", "1,2"),
+        ("measured", "identify", rig, "--measured", folder / "run.csv", "--probes", measured_by, "--orders", "1,2",
+         "--running-modes"),
         ("bench", "bench", models / "jeffcott_stator.toml", "--methods", "dop853,rk4", "--tolerances", "1e-4,1e-6",
          "--discard", "2", "--revolutions", "2"),
         ("long", "simulate", models / "dropped_rotor.toml", "--discard", "0", "--revolutions", "128"),
