@@ -31,44 +31,39 @@ struct Shooting {
   std::vector<Vec> starts;  ///< of windows, over scale
   Vec scale;                ///< of states
   Vec gap;                  ///< of the state between windows that counts as one noise
-  std::optional<FitSystem>
-      system;  ///< at the parameters that are looked at; nothing: there is none
-
-  double noise() const { return source->record.noise.mean(); }
+  /// At the parameters that are looked at; nothing: there is none.
+  std::optional<FitSystem> system;
 };
 
-/// The search: what Ceres asks for.
-class Search : public ceres::EvaluationCallback {
- public:
-  Search(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
-         const FitOptions& options);
+/// What is searched for, and the systems at the parameters that Ceres looks at.
+struct Search : ceres::EvaluationCallback {
+  Search(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& free,
+         const FitOptions& asked);
 
   void PrepareForEvaluation(bool, bool is_new) override {
     if (is_new) make_systems();
   }
 
   /// Values of the parameters that are looked at.
-  Vec values() const { return x_.cwiseProduct(sizes_); }
+  Vec values() const { return x.cwiseProduct(sizes); }
   void make_systems();
 
-  const std::vector<FreeParameter>& parameters_;
-  const FitOptions& options_;
-  Vec x_;      ///< parameters over their sizes
-  Vec sizes_;  ///< of parameters
-  std::vector<Shooting> shootings_;
-  double between_ = gaps[0];  ///< see gaps
+  const std::vector<FreeParameter>& parameters;
+  const FitOptions& options;
+  Vec x;      ///< parameters over their sizes
+  Vec sizes;  ///< of parameters
+  std::vector<Shooting> shootings;
+  double between = gaps[0];  ///< see gaps
 };
 
 /// Residuals of a window.
 class WindowCost : public ceres::CostFunction {
  public:
   WindowCost(const Search& search, std::size_t shooting, std::size_t window)
-      : search_(search),
-        shooting_(search.shootings_[shooting]),
-        window_(shooting_.windows[window]) {
+      : search_(search), shooting_(search.shootings[shooting]), window_(shooting_.windows[window]) {
     set_num_residuals(static_cast<int>(window_.residuals()));
     auto& sizes = *mutable_parameter_block_sizes();
-    sizes.push_back(static_cast<int>(search.x_.size()));
+    sizes.push_back(static_cast<int>(search.x.size()));
     sizes.push_back(static_cast<int>(window_.states()));
     if (!window_.is_last()) sizes.push_back(static_cast<int>(window_.states()));
   }
@@ -83,7 +78,7 @@ class WindowCost : public ceres::CostFunction {
     if (!found.is_good) return false;
     Eigen::Map<Vec> r(residuals, all);
     r.head(m) = found.readings;
-    const Vec per_gap = (shooting_.gap * search_.between_).cwiseInverse();
+    const Vec per_gap = (shooting_.gap * search_.between).cwiseInverse();
     if (!window_.is_last()) {
       const Vec next = Vec::Map(blocks[2], n).cwiseProduct(scale);
       r.tail(n) = (found.end - next).cwiseProduct(per_gap);
@@ -97,7 +92,7 @@ class WindowCost : public ceres::CostFunction {
       if (!window_.is_last()) J.bottomRows(n) = per_gap.asDiagonal() * bottom * per.asDiagonal();
     };
     if (slopes) {
-      fill(0, found.readings_by_parameter, found.end_by_parameter, search_.sizes_);
+      fill(0, found.readings_by_parameter, found.end_by_parameter, search_.sizes);
       fill(1, found.readings_by_start, found.end_by_start, scale);
     }
     if (!window_.is_last()) fill(2, Mat::Zero(m, n), -Mat::Identity(n, n), scale);
@@ -133,49 +128,46 @@ void require_fit(const std::vector<FitSource>& sources,
   }
 }
 
-Search::Search(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
-               const FitOptions& options)
-    : parameters_(parameters), options_(options) {
-  const auto count = std::ssize(parameters);
-  x_.resize(count);
-  sizes_.resize(count);
+Search::Search(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& free,
+               const FitOptions& asked)
+    : parameters(free), options(asked) {
+  const auto count = std::ssize(free);
+  x.resize(count);
+  sizes.resize(count);
   for (Eigen::Index p = 0; p < count; ++p) {
-    const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
-    sizes_(p) = parameter.size;
-    x_(p) = parameter.start / parameter.size;
+    const FreeParameter& parameter = free[static_cast<std::size_t>(p)];
+    sizes(p) = parameter.size;
+    x(p) = parameter.start / parameter.size;
   }
-  for (const FitSource& source : sources) shootings_.push_back({&source, {}, {}, {}, {}, {}});
-  make_systems();
-  for (Shooting& shooting : shootings_) {
-    if (!shooting.system) {  // says why
-      shooting.source->system_at(values());
-    }
+  for (const FitSource& source : sources) {
+    Shooting shooting{&source, {}, {}, {}, {}, source.system_at(values())};
     const ContactSystem& system = shooting.system->system;
     const Eigen::Index n = system.coordinates();
     const double duration = options.window > 0.0 ? options.window : system.period();
-    shooting.windows = shooting_windows(*shooting.source, duration);
+    shooting.windows = shooting_windows(source, duration);
     shooting.scale = system.state_scale();
     // coordinates that move the probes by their noise, and the rates that do so within a radian
-    const double per = shooting.noise() / system.length_scale();
-    shooting.gap = shooting.scale * per;
+    shooting.gap = shooting.scale * (source.record.noise.mean() / system.length_scale());
     shooting.gap.tail(n) = shooting.gap.head(n) * system.phase_rate();
     for (const ShootingWindow& window : shooting.windows) {
       shooting.starts.push_back(window.guess().cwiseQuotient(shooting.scale));
     }
+    shootings.push_back(std::move(shooting));
   }
 }
 
 void Search::make_systems() {
-  for (Shooting& shooting : shootings_) {
+  for (Shooting& shooting : shootings) {
     try {
       shooting.system = shooting.source->system_at(values());
-    } catch (const std::runtime_error&) {
+    } catch (const std::runtime_error&) {  // values that make no system: Ceres takes a shorter step
       shooting.system.reset();
     }
   }
 }
 
-ceres::Problem::Options owned_elsewhere(Search& search) {
+/// With a search that is told what Ceres looks at next.
+ceres::Problem::Options telling(Search& search) {
   ceres::Problem::Options options;
   options.evaluation_callback = &search;
   return options;
@@ -198,22 +190,22 @@ class Interruption : public ceres::IterationCallback {
 class LeastSquares {
  public:
   explicit LeastSquares(Search& search)
-      : search_(search), problem_(owned_elsewhere(search)), stop_(search.options_) {
-    problem_.AddParameterBlock(search.x_.data(), static_cast<int>(search.x_.size()));
-    for (std::size_t p = 0; p < search.parameters_.size(); ++p) {
-      const FreeParameter& parameter = search.parameters_[p];
+      : search_(search), problem_(telling(search)), stop_(search.options) {
+    problem_.AddParameterBlock(search.x.data(), static_cast<int>(search.x.size()));
+    for (std::size_t p = 0; p < search.parameters.size(); ++p) {
+      const FreeParameter& parameter = search.parameters[p];
       const int i = static_cast<int>(p);
       if (std::isfinite(parameter.lower)) {
-        problem_.SetParameterLowerBound(search.x_.data(), i, parameter.lower / parameter.size);
+        problem_.SetParameterLowerBound(search.x.data(), i, parameter.lower / parameter.size);
       }
       if (std::isfinite(parameter.upper)) {
-        problem_.SetParameterUpperBound(search.x_.data(), i, parameter.upper / parameter.size);
+        problem_.SetParameterUpperBound(search.x.data(), i, parameter.upper / parameter.size);
       }
     }
-    for (std::size_t s = 0; s < search.shootings_.size(); ++s) {
-      Shooting& shooting = search.shootings_[s];
+    for (std::size_t s = 0; s < search.shootings.size(); ++s) {
+      Shooting& shooting = search.shootings[s];
       for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
-        std::vector<double*> blocks{search.x_.data(), shooting.starts[w].data()};
+        std::vector<double*> blocks{search.x.data(), shooting.starts[w].data()};
         if (!shooting.windows[w].is_last()) blocks.push_back(shooting.starts[w + 1].data());
         problem_.AddResidualBlock(new WindowCost(search, s, w), nullptr, blocks);
       }
@@ -225,7 +217,7 @@ class LeastSquares {
   /// experiments of chaos (bench/fit_twins.cpp).
   /// @param between  as gaps
   ceres::Solver::Summary solve(double between, int most_iterations, double tolerance) {
-    search_.between_ = between;
+    search_.between = between;
     ceres::Solver::Options options;
     options.trust_region_strategy_type = ceres::DOGLEG;
     options.use_nonmonotonic_steps = true;
@@ -240,18 +232,18 @@ class LeastSquares {
     return summary;
   }
 
-  void hold_parameters() { problem_.SetParameterBlockConstant(search_.x_.data()); }
-  void free_parameters() { problem_.SetParameterBlockVariable(search_.x_.data()); }
+  void hold_parameters() { problem_.SetParameterBlockConstant(search_.x.data()); }
+  void free_parameters() { problem_.SetParameterBlockVariable(search_.x.data()); }
 
-  /// Derivatives of all residuals, the parameters first.
+  /// Derivatives of all residuals, the parameters first; empty where a motion does not get through.
   Sparse jacobian() {
     ceres::Problem::EvaluateOptions options;
-    options.parameter_blocks.push_back(search_.x_.data());
-    for (Shooting& shooting : search_.shootings_) {
+    options.parameter_blocks.push_back(search_.x.data());
+    for (Shooting& shooting : search_.shootings) {
       for (Vec& start : shooting.starts) options.parameter_blocks.push_back(start.data());
     }
     ceres::CRSMatrix found;
-    problem_.Evaluate(options, nullptr, nullptr, nullptr, &found);
+    if (!problem_.Evaluate(options, nullptr, nullptr, nullptr, &found)) return {};
     return Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
         found.num_rows, found.num_cols, static_cast<Eigen::Index>(found.values.size()),
         found.rows.data(), found.cols.data(), found.values.data());
@@ -267,19 +259,23 @@ class LeastSquares {
 /// J^T J. NaN of those that a bound holds; infinite where there is no inverse.
 Mat covariance(const Sparse& J, const std::vector<bool>& is_held) {
   const auto parameters = std::ssize(is_held);
-  std::vector<Triplet> entries;  // 1 from an unknown to its column among the free ones
   std::vector<Eigen::Index> free;
+  for (std::size_t p = 0; p < is_held.size(); ++p) {
+    if (!is_held[p]) free.push_back(static_cast<Eigen::Index>(p));
+  }
+  Mat found = Mat::Constant(parameters, parameters, std::nan(""));
+  found(free, free).setConstant(std::numeric_limits<double>::infinity());
+  if (J.cols() == 0) return found;
+
+  std::vector<Triplet> entries;  // 1 from an unknown to its column among the free ones
   for (Eigen::Index i = 0; i < J.cols(); ++i) {
     if (i < parameters && is_held[static_cast<std::size_t>(i)]) continue;
     entries.emplace_back(static_cast<int>(i), static_cast<int>(entries.size()), 1.0);
-    if (i < parameters) free.push_back(i);
   }
   Sparse choice(J.cols(), std::ssize(entries));
   choice.setFromTriplets(entries.begin(), entries.end());
   const Sparse J_free = J * choice;
   const Sparse normal = J_free.transpose() * J_free;
-  Mat found = Mat::Constant(parameters, parameters, std::nan(""));
-  found(free, free).setConstant(std::numeric_limits<double>::infinity());
   const SparseLu factor(normal);
   if (!factor.is_regular()) return found;
   const auto count = std::ssize(free);
@@ -292,7 +288,7 @@ Mat covariance(const Sparse& J, const std::vector<bool>& is_held) {
 /// What is left, and what the motions that were found read.
 void add_residuals(Fit& fit, const Search& search) {
   double squares = 0.0, logarithms = 0.0;
-  for (const Shooting& shooting : search.shootings_) {
+  for (const Shooting& shooting : search.shootings) {
     const FitRecord& record = shooting.source->record;
     FitResidual left{record.name, {}, Mat(record.readings.rows(), record.readings.cols())};
     for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
@@ -328,15 +324,15 @@ void add_parameters(Fit& fit, const Search& search, const Sparse& J) {
   const Vec values = search.values();
   std::vector<bool> is_held;
   for (Eigen::Index p = 0; p < values.size(); ++p) {
-    const FreeParameter& parameter = search.parameters_[static_cast<std::size_t>(p)];
+    const FreeParameter& parameter = search.parameters[static_cast<std::size_t>(p)];
     const double near = 1e-9 * parameter.size;
     is_held.push_back(values(p) - parameter.lower < near || parameter.upper - values(p) < near);
   }
   Mat C = covariance(J, is_held);
-  if (!search.options_.is_noise_known) C *= fit.residual * fit.residual;
+  if (!search.options.is_noise_known) C *= fit.residual * fit.residual;
   const Vec deviation = C.diagonal().cwiseSqrt();
   for (Eigen::Index p = 0; p < values.size(); ++p) {
-    const FreeParameter& parameter = search.parameters_[static_cast<std::size_t>(p)];
+    const FreeParameter& parameter = search.parameters[static_cast<std::size_t>(p)];
     const double off = deviation(p) * parameter.size;
     fit.parameters.push_back({.path = parameter.path,
                               .value = values(p),
