@@ -18,6 +18,7 @@
 #include "libfe/unbalance.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/oil_films.hpp"
+#include "tests/support/overhung_disk.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::harmonic_balance_test {
@@ -298,31 +299,6 @@ Model with_blades() {
                                  .k = 1e10};
   return m;
 }
-/// Set T of models/overhung_face_rub.toml: period 3, a ring and a face.
-Model with_face() {
-  Model m;
-  m.speed = 230.0;
-  m.has_speed = true;
-  Segment shaft = test::massless_cylinder(0.11723, 0.01, 1);
-  shaft.material.E *= 20.37971 / test::EI(shaft);
-  const Station end = test::node(2);
-  m.structure = test::cantilever(shaft);
-  m.structure.disks = {{.name = "disk", .at = end, .m = 0.573, .Id = 3.85e-4, .Ip = 7.06e-4}};
-  m.structure.unbalances = {{.at = end, .moment = 0.573 * 4.0669e-4}};
-  m.structure.damping.stiffness = 2.421527e-4;
-  m.structure.gravity = 9.81;
-  m.contacts = {{.name = "ring",
-                 .at = end,
-                 .clearance = 7.1502e-4,
-                 .friction = {.mu = 0.10086, .slip = Slip::forward},
-                 .law = Radial<>{.k = 451975.33}},
-                {.name = "face",
-                 .at = end,
-                 .clearance = 3.9672e-4,
-                 .friction = {.mu = 0.074972, .slip = Slip::forward},
-                 .law = Face<>{.k = 91260.308, .radius = 0.05}}};
-  return m;
-}
 /// Friction turns round twice a revolution, without sticking: the unbalance is stronger.
 Model with_reversals() {
   Model m =
@@ -341,7 +317,7 @@ std::vector<Rub> rubs() {
           {"damped contact", stator(20e6, 20e3, 0.0), 1, {10, 20, 40, 80}, 2.7, 3.2, 3e-7, 1e-5},
           {"hertz", stator(0.0, 0.0, 3e8), 1, {10, 20, 40, 80}, 5.0, 5.0, 1e-10, 1e-9},
           {"blades", with_blades(), 1, {20, 40, 80}, 4.5, 5.5, 5e-7, 1e-6},
-          {"ring and face", with_face(), 3, {7, 14, 28}, 3.5, 4.0, 5e-5, 2e-3},
+          {"ring and face", test::overhung_disk(), 3, {7, 14, 28}, 3.5, 4.0, 5e-5, 2e-3},
           {"reversals of slip", with_reversals(), 1, {10, 20, 40, 80}, 0.8, 0.7, 1e-4, 1e-3}};
 }
 

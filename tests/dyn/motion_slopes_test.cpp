@@ -13,6 +13,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/oil_films.hpp"
+#include "tests/support/overhung_disk.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::motion_slopes_test {
@@ -243,29 +244,11 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesAtAStop) {
   EXPECT_GE(found.events.size(), 50u);
 }
 
-/// A disk at the end of a cantilever between a ring and a face.
+/// Its friction on the face is smoothed.
 Model overhung_disk() {
-  Model m;
-  m.speed = 230.0;
-  m.has_speed = true;
-  Segment shaft = test::massless_cylinder(0.11723, 0.01, 1);
-  shaft.material.E *= 20.37971 / test::EI(shaft);
-  const Station end = test::node(2);
-  m.structure = test::cantilever(shaft);
-  m.structure.disks = {{.name = "disk", .at = end, .m = 0.573, .Id = 3.85e-4, .Ip = 7.06e-4}};
-  m.structure.unbalances = {{.at = end, .moment = 0.573 * 4.0669e-4}};
-  m.structure.damping.stiffness = 2.421527e-4;
-  m.structure.gravity = 9.81;
-  m.contacts = {{.name = "ring",
-                 .at = end,
-                 .clearance = 7.1502e-4,
-                 .friction = {.mu = 0.10086, .slip = Slip::forward},
-                 .law = Radial<>{.k = 451975.33}},
-                {.name = "face",
-                 .at = end,
-                 .clearance = 3.9672e-4,
-                 .friction = {.mu = 0.074972, .tolerance = 1.0},
-                 .law = Face<>{.k = 91260.308, .radius = 0.05}}};
+  Model m = test::overhung_disk();
+  m.contacts[1].friction.slip = Slip::actual;
+  m.contacts[1].friction.tolerance = 1.0;
   return m;
 }
 
