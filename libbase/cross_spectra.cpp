@@ -1,8 +1,8 @@
 #include "libbase/cross_spectra.hpp"
 
 #include <algorithm>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/spectrum.hpp"
 
 namespace whirl::inline base {
@@ -15,7 +15,7 @@ CrossSpectra cross_spectra(const Mat& samples, double spacing, long length) {
   const Eigen::RowVectorXd mean = samples.colwise().mean();
 
   CrossSpectra found;
-  found.bin = 2.0 * std::numbers::pi / (static_cast<double>(n) * spacing);
+  found.bin = turn / (static_cast<double>(n) * spacing);
   found.matrix.assign(static_cast<std::size_t>(lines), CMat::Zero(channels, channels));
   CMat of_segment(channels, lines);
   for (Eigen::Index first = 0; first + n <= samples.rows(); first += step) {
@@ -29,7 +29,7 @@ CrossSpectra cross_spectra(const Mat& samples, double spacing, long length) {
     }
     ++found.segments;
   }
-  const double df = found.bin / (2.0 * std::numbers::pi);
+  const double df = found.bin / turn;
   for (CMat& G : found.matrix) G *= 2.0 / (noise_bandwidth * df * found.segments);
   found.matrix.front() *= 0.5;  // zero, and the highest of an even number, have no negative partner
   if (n % 2 == 0) found.matrix.back() *= 0.5;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/dense.hpp"
 
 namespace whirl::inline dyn {
@@ -72,7 +73,7 @@ Complex eigenvalue_of(const Bell& bell, double bin) {
   constexpr int least = 6;                // points of a straight line
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   if (bell.values.size() < few) return {nan, nan};
-  const double window = 2.0 * std::numbers::pi / bin;  // its length
+  const double window = turn / bin;  // its length
   const double step = window / (4.0 * static_cast<double>(bell.values.size()));
   Slope size, angle;
   double before = 0.0, turned = 0.0;
@@ -82,7 +83,7 @@ Complex eigenvalue_of(const Bell& bell, double bin) {
       r += std::polar(bell.values(k), static_cast<double>(bell.first + k - bell.peak) * bin * t);
     }
     r /= bell.values.sum() * hann_correlation(t / window);
-    turned += std::remainder(std::arg(r) - before, 2.0 * std::numbers::pi);
+    turned += std::remainder(std::arg(r) - before, turn);
     before = std::arg(r);
     if (std::abs(r) < to) break;
     if (std::abs(r) > from) continue;

@@ -2,8 +2,8 @@
 /// A pole of a model that was identified from measured signals.
 
 #include <cmath>
-#include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/linalg.hpp"
 
 namespace whirl::inline dyn {
@@ -16,7 +16,7 @@ struct Pole {
   double frequency() const { return lambda.imag(); }  ///< damped natural frequency [rad/s]
   double damping_ratio() const { return -lambda.real() / std::abs(lambda); }
   /// 2 pi zeta / sqrt(1 - zeta^2); positive: stable.
-  double log_decrement() const { return -2.0 * std::numbers::pi * lambda.real() / lambda.imag(); }
+  double log_decrement() const { return -turn * lambda.real() / lambda.imag(); }
 };
 
 /// Modal assurance criterion |a* b|^2 / (a* a  b* b) of shapes at the same channels, 0 to 1; 0 of

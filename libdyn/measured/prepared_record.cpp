@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/measured/decimation.hpp"
 #include "libdyn/measured/speed_harmonics.hpp"
@@ -69,7 +70,7 @@ PreparedRecord prepared(const Mat& samples, double spacing, const RunningModesOp
     if (o.most_frequency >= highest) {
       throw OptionError(fmt::format(
           "frequencies up to {:g} Hz, but {:g} samples per second show those below {:g} Hz only",
-          o.most_frequency / (2.0 * std::numbers::pi), 1.0 / spacing, 0.5 / spacing));
+          o.most_frequency / turn, 1.0 / spacing, 0.5 / spacing));
     }
     const int factor = static_cast<int>(0.8 * highest / o.most_frequency);
     if (factor > 1 && kept.rows() > 40L * factor) {
