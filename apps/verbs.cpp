@@ -16,6 +16,7 @@
   lateral_verb(),    \
   simulate_verb(),   \
   identify_verb(),   \
+  fit_verb(),        \
   classify_verb(),   \
   orbit_verb(),      \
   continue_verb(),   \

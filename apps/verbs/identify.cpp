@@ -50,7 +50,7 @@ void add_identification(const Model& model, const Run& run, const IdentifyOption
 
 /// Options of motions that are simulated mean nothing for measured ones, and the other way round.
 void require_one_source(IdentifyVerbOptions asked) {
-  if (!asked.measured.measured) {
+  if (!asked.measured.record.measured) {
     const auto refuse = [](const auto& option) {
       if constexpr (requires { option.wrong(""); }) {
         if (option.is_given) throw option.wrong("is for a record: give it by --measured");
@@ -73,7 +73,8 @@ void require_one_source(IdentifyVerbOptions asked) {
 /// What a measured motion is made of.
 Report identify_measured(const Invocation& call, const IdentifyVerbOptions& asked,
                          const IdentifyOptions& options) {
-  const Measurement measurement = read_measurement(call, asked.measured);
+  const Measurement measurement =
+      read_measurement(call.model(), source_of(call, asked.measured.record));
   const Model& model = measurement.model;
   const Scene scene = make_scene(model, ReductionEstimate::no);
   const MeasuredIdentification measured = identify(model, scene, measurement.readings, options);
@@ -116,7 +117,7 @@ Report run_identify(const Invocation& call, const IdentifyVerbOptions& asked) {
                                 .rotations = asked.rotations,
                                 .mass_weighted = asked.mass_weighted,
                                 .stiffened = asked.stiffened};
-  if (asked.measured.measured) return identify_measured(call, asked, options);
+  if (asked.measured.record.measured) return identify_measured(call, asked, options);
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);

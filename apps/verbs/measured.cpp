@@ -3,54 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "libbase/constants.hpp"
 #include "libdyn/measured/simulated_record.hpp"
 #include "libio/measured/probe_file.hpp"
 #include "libio/measured/record_file.hpp"
-#include "libio/model/model_file.hpp"
 
 namespace whirl::inline cli {
 
-namespace {
-
-constexpr double other_speed = 0.01;   ///< of the key-phasor against the one that is given
-constexpr double uneven_speed = 0.02;  ///< change of speed that smears lines of the speed
-
-/// Gives the model the speed of the record, and says what is odd about it.
-void take_speed(const Invocation& call, Model& model, ProbeReadings& readings) {
-  const bool is_given = !call.text("speed").empty();
-  if (!readings.clock) {
-    require_speed(model);
-    if (!is_given) {
-      readings.notes.push_back(fmt::format(
-          "no key-phasor and no --speed: the record is taken to be at the model's {:.6g} "
-          "rpm",
-          model.speed / rpm));
-    }
-    return;
-  }
-  const double speed = readings.clock->mean_speed();
-  if (is_given && std::abs(model.speed / speed - 1.0) > other_speed) {
-    readings.notes.push_back(
-        fmt::format("--speed says {:.6g} rpm, the key-phasor {:.6g} rpm, which is taken",
-                    model.speed / rpm, speed / rpm));
-  }
-  if (readings.clock->variation() > uneven_speed) {
-    readings.notes.push_back(fmt::format(
-        "the speed changes by {:.2g} % in the record: lines of the spectrum are smeared, "
-        "and modes are those at its mean",
-        100.0 * readings.clock->variation()));
-  }
-  model.speed = speed;
-  model.has_speed = true;
+RecordSource source_of(const Invocation& call, const RecordVerbOptions& options) {
+  return {.file = *options.measured,
+          .probes = options.probes.value_or(""),
+          .rate = options.rate.value,
+          .has_speed = !call.text("speed").empty()};
 }
 
-}  // namespace
-
-Parsed<double> MeasuredVerbOptions::parse_rate(const std::string& text) {
+Parsed<double> RecordVerbOptions::parse_rate(const std::string& text) {
   if (const auto number = parse_as(text, ""); number && *number > 0.0) return number;
   const auto frequency = parse_as(text, "rad/s");
   if (frequency && *frequency > 0.0) return *frequency / hertz;
@@ -78,15 +47,6 @@ Parsed<double> RecordingVerbOptions::parse_noise(const std::string& text) {
     return Parsed<double>::failed("expected a share of the signal, such as 1% or 0.01");
   }
   return is_percent ? 0.01 * *number : *number;
-}
-
-Measurement read_measurement(const Invocation& call, const MeasuredVerbOptions& options) {
-  Measurement found{call.model(), {}};
-  const MeasurementSetup setup =
-      options.probes ? read_probe_file(*options.probes, found.model) : model_probes(found.model);
-  found.readings = probe_readings(read_record(*options.measured, options.rate.value), setup);
-  take_speed(call, found.model, found.readings);
-  return found;
 }
 
 std::optional<OrderTracking> tracked_orders(const MeasuredVerbOptions& options,

@@ -6,14 +6,14 @@
 
 #include "apps/invocation.hpp"
 #include "libdyn/measured/order_tracking.hpp"
-#include "libdyn/measured/probe_readings.hpp"
 #include "libdyn/motions/run_result.hpp"
+#include "libio/measured/measurement.hpp"
 #include "libio/text/option.hpp"
 
 namespace whirl::inline cli {
 
-/// Options of verbs that take a record.
-struct MeasuredVerbOptions {
+/// Options that say which record a verb takes.
+struct RecordVerbOptions {
   Option<std::string> measured{
       "measured", "FILE",
       "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .h5"};
@@ -22,27 +22,27 @@ struct MeasuredVerbOptions {
                              "by their names"};
   Option<double> rate{"rate", "R", "samples per second, where the record does not say it",
                       parse_rate};
+  auto fields() { return std::tie(measured, probes, rate); }
+
+  static Parsed<double> parse_rate(const std::string& text);
+};
+
+/// The record of a call.
+RecordSource source_of(const Invocation& call, const RecordVerbOptions& options);
+
+/// Options of verbs that take a record and track orders along it.
+struct MeasuredVerbOptions {
+  RecordVerbOptions record{};
   Option<std::vector<double>> orders{
       "orders", "Q,...", "multiples of the speed that are tracked along it, such as 1,2",
       parse_orders};
   Option<double> slow_roll{"slow-roll", "S",
                            "speed of the record whose readings are taken off these orders",
                            [](const std::string& text) { return parse_as(text, "rad/s"); }};
-  auto fields() { return std::tie(measured, probes, rate, orders, slow_roll); }
+  auto fields() { return std::tie(record, orders, slow_roll); }
 
-  static Parsed<double> parse_rate(const std::string& text);
   static Parsed<std::vector<double>> parse_orders(const std::string& text);
 };
-
-/// A model at the speed of a record, and what its probes read.
-struct Measurement {
-  Model model;
-  ProbeReadings readings;
-};
-
-/// Reads the record and its probes. The speed is that of the key-phasor, or else the model's.
-/// @throws ModelError, FileError  for what is wrong in these files
-Measurement read_measurement(const Invocation& call, const MeasuredVerbOptions& options);
 
 /// The orders that a call asks for; nothing: it asks for none.
 /// @throws ModelError   for a slow roll without orders, and for orders without a key-phasor

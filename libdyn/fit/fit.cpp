@@ -20,6 +20,11 @@ namespace {
 /// What may be left between windows, in noises: at first it hardly counts, at last it has to be nothing.
 constexpr std::array<double, 9> gaps{100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01};
 constexpr int rough_iterations = 60;  ///< of all but the last of these
+constexpr double rough_change =
+    1e-4;  ///< of the sum of squares, in an iteration that is the last of them
+/// The same of the last one, in squares of what is left of a reading: parameters move by less than a
+/// thirtieth of their deviations then. States that no probe sees may go on moving for long.
+constexpr double last_change = 1e-3;
 /// Standard deviations of the sum of squares beyond which chance does not leave so much.
 constexpr double improbable = 6.0;
 constexpr double confidence = 1.959963985;  ///< standard deviations to either side of 95 %
@@ -44,6 +49,7 @@ struct Search : ceres::EvaluationCallback {
     if (is_new) make_systems();
   }
 
+  long readings() const;
   /// Values of the parameters that are looked at.
   Vec values() const { return x.cwiseProduct(sizes); }
   void make_systems();
@@ -154,6 +160,14 @@ Search::Search(const std::vector<FitSource>& sources, const std::vector<FreePara
     }
     shootings.push_back(std::move(shooting));
   }
+}
+
+long Search::readings() const {
+  long all = 0;
+  for (const Shooting& shooting : shootings) {
+    for (const ShootingWindow& window : shooting.windows) all += window.readings();
+  }
+  return all;
 }
 
 void Search::make_systems() {
@@ -335,6 +349,8 @@ void add_parameters(Fit& fit, const Search& search, const Sparse& J) {
     const FreeParameter& parameter = search.parameters[static_cast<std::size_t>(p)];
     const double off = deviation(p) * parameter.size;
     fit.parameters.push_back({.path = parameter.path,
+                              .unit = parameter.unit,
+                              .start = parameter.start,
                               .value = values(p),
                               .standard_deviation = off,
                               .lower = values(p) - confidence * off,
@@ -357,14 +373,17 @@ Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>&
   squares.hold_parameters();
   squares.solve(gaps[0], 10, 1e-2);
   squares.free_parameters();
-  for (const double between : gaps) {
-    const bool is_last = between == gaps.back();
-    const auto summary = squares.solve(
-        between, is_last ? options.most_iterations : rough_iterations, is_last ? 1e-9 : 1e-4);
+  const double enough = last_change / static_cast<double>(search.readings());
+  for (std::size_t stage = 0; stage < gaps.size(); ++stage) {
+    const bool is_last = stage + 1 == gaps.size();
+    const auto summary =
+        squares.solve(gaps[stage], is_last ? options.most_iterations : rough_iterations,
+                      is_last ? enough : rough_change);
     fit.iterations += static_cast<int>(summary.iterations.size());
     fit.has_converged = summary.termination_type == ceres::CONVERGENCE;
     if (!fit.has_converged) fit.why_not = summary.message;
     if (!fit.has_converged && summary.termination_type != ceres::NO_CONVERGENCE) break;
+    if (options.progress) options.progress(static_cast<long>(stage) + 1, std::ssize(gaps));
   }
   search.make_systems();
   add_residuals(fit, search);

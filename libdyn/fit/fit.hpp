@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libdyn/fit/fit_problem.hpp"
 
 namespace whirl::inline dyn {
@@ -14,16 +15,34 @@ struct FitOptions {
   int most_iterations = 300;   ///< once motions are to be one
   bool is_noise_known = true;  ///< else its size is taken from what is left
   std::function<bool()> is_stopped{};
+  std::function<void(long done, long total)> progress{};
 };
 
 struct FittedParameter {
   std::string path;
+  std::string unit;    ///< of its values
+  double start = 0.0;  ///< where the search began
   double value = 0.0;
   double standard_deviation = 0.0;  ///< infinite: the records cannot tell; NaN: its bound holds it
   double lower = 0.0, upper = 0.0;  ///< of the interval of 95 %
-  bool is_told =
-      false;  ///< whether the interval is narrower than the value; else the records hardly tell
+  /// Whether half the interval is narrower than the value; else the records hardly tell.
+  bool is_told = false;
   bool is_at_bound = false;
+
+  static constexpr auto columns() {
+    using P = FittedParameter;
+    return ColumnList{
+        column("path", &P::path, "", "value of the model, as --set names it").axis(),
+        column("value", &P::value, "", "that explains the records, in its SI unit"),
+        column("standard_deviation", &P::standard_deviation, "",
+               "of the value; infinite: the records cannot tell it; NaN: its bound holds it"),
+        column("unit", &P::unit, "", "SI unit of the value"),
+        column("start", &P::start, "", "where the search began"),
+        column("lower", &P::lower, "", "lower end of the interval of 95 %"),
+        column("upper", &P::upper, "", "upper end of the interval of 95 %"),
+        column("told", &P::is_told, "", "1: half the interval is narrower than the value"),
+        column("at_bound", &P::is_at_bound, "", "1: a bound holds it")};
+  }
 };
 
 /// What is left of a record.

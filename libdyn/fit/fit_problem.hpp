@@ -24,6 +24,7 @@ struct FitRecord {
 /// A parameter that is found.
 struct FreeParameter {
   std::string path;
+  std::string unit{};  ///< of its values, for people
   double start = 0.0;  ///< where the search begins
   double size = 0.0;   ///< what it is compared with, > 0
   double lower = -std::numeric_limits<double>::infinity();

@@ -31,7 +31,10 @@ const std::vector<Probe>& probes_of(const Scene& scene) {
 }
 
 Mat probe_rows(const Scene& scene, const Mat& map) {
-  const std::vector<Probe>& probes = probes_of(scene);
+  return probe_rows(probes_of(scene), scene, map);
+}
+
+Mat probe_rows(const std::vector<Probe>& probes, const Scene& scene, const Mat& map) {
   Mat rows(std::ssize(probes), map.cols());
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const Point point = scene.assembler.point(probes[i].at);

@@ -74,8 +74,11 @@ constexpr auto probe_label_columns() {
 /// Those of a scene's model.
 const std::vector<Probe>& probes_of(const Scene& scene);
 
-/// What they read of reduced coordinates, probes x coordinates.
+/// What probes read of reduced coordinates, probes x coordinates.
 /// @param map  the displacement_map() of the scene
+/// @throws ModelError  for a probe at a station that there is not
+Mat probe_rows(const std::vector<Probe>& probes, const Scene& scene, const Mat& map);
+/// The same of those of its model.
 Mat probe_rows(const Scene& scene, const Mat& map);
 
 /// Peak to peak of what a probe reads of a motion x + i y = f e^(i w t) + b e^(-i w t) [m]:

@@ -44,6 +44,7 @@
   contact_angles_kind(), \
   mac_kind(),            \
   stabilization_kind(),  \
+  fit_kind(),            \
   exponents_kind(),      \
   bifurcation_kind(),    \
   spectral_map_kind(),   \

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "libdyn/fit/measured_fit.hpp"
 #include "libdyn/measured/measured_identification.hpp"
 #include "libdyn/measured/order_tracking.hpp"
 #include "libdyn/measured/running_modes.hpp"
@@ -59,6 +60,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<OrderTracking>());
   add(schema_of<StationRecord>());
   add(schema_of<RunningModes>());
+  add(schema_of<MeasuredFit>());
   add(schema_of<StaticEquilibrium>());
   add(schema_of<RunningFilms>());
   add(schema_of<BendingLine>());

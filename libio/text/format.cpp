@@ -44,28 +44,28 @@ std::vector<Rung> ladder(std::string_view si_unit) {
   return rungs;
 }
 
-double to_four_digits(double value) {
-  const std::string rounded = fmt::format("{:.3e}", value);
+double rounded_to(int digits, double value) {
+  const std::string rounded = fmt::format("{:.{}e}", value, digits - 1);
   std::from_chars(rounded.data(), rounded.data() + rounded.size(), value);
   return value;
 }
 
-std::string number_and_unit(double value, const std::string& unit) {
-  const std::string number = fmt::format("{:.10g}", to_four_digits(value));
+std::string number_and_unit(double value, const std::string& unit, int digits = 4) {
+  const std::string number = fmt::format("{:.10g}", rounded_to(digits, value));
   return unit.empty() ? number : number + ' ' + unit;
 }
 
 }  // namespace
 
-std::string format_engineering(double value, std::string_view si_unit) {
-  const double size = std::abs(to_four_digits(value));  // rounded first: 999.96 N is 1 kN
+std::string format_engineering(double value, std::string_view si_unit, int digits) {
+  const double size = std::abs(rounded_to(digits, value));  // rounded first: 999.96 N is 1 kN
   if (size == 0.0 || !std::isfinite(value)) return number_and_unit(value, std::string(si_unit));
   const std::vector<Rung> rungs = ladder(si_unit);
   const Rung* rung = &rungs.front();
   for (const Rung& candidate : rungs) {
     if (size >= candidate.size * (1.0 - 1e-12)) rung = &candidate;
   }
-  return number_and_unit(value / rung->size, rung->unit);
+  return number_and_unit(value / rung->size, rung->unit, digits);
 }
 
 std::string format_length(double value) {

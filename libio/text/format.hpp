@@ -6,7 +6,7 @@
 
 namespace whirl::inline io {
 
-/// A value with an engineer's prefix, to four significant digits.
+/// A value with an engineer's prefix, to four significant digits or as many as are asked for.
 ///
 ///   format_engineering(4e6, "N/m") = "4 MN/m",   format_engineering(5e-4, "m") = "500 um"
 ///
@@ -15,7 +15,8 @@ namespace whirl::inline io {
 ///
 /// @param value    [si_unit]; NaN and infinity are written as such
 /// @param si_unit  as in dimension_of; empty for a plain number
-std::string format_engineering(double value, std::string_view si_unit);
+/// @param digits   1 to 10
+std::string format_engineering(double value, std::string_view si_unit, int digits = 4);
 
 /// A length [m]: "500 um", "20 mm", "1.2 m".
 std::string format_length(double value);

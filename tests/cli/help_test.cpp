@@ -16,6 +16,19 @@ std::vector<std::string> all_verbs() {
   return names;
 }
 
+/// Of a rig, by which its record is written and read.
+constexpr const char* probes = R"([[probe]]
+name = "x"
+node = 7
+angle = 0
+[[probe]]
+name = "y"
+node = 7
+angle = "90 deg"
+[keyphasor]
+channel = "key"
+)";
+
 using Help = Program;
 
 TEST_F(Help, OverviewNamesEveryVerbWithAnExample) {
@@ -124,6 +137,11 @@ TEST_F(Help, OfOtherVerbsSaysHowTheyAreUsed) {
 
 TEST_F(Help, EveryExampleRuns) {
   std::filesystem::create_symlink(WHIRL_SOURCE_DIR "/models", folder / "models");
+  write("probes.toml", probes);  // and a record, which the example of fit takes
+  ASSERT_EQ(whirl({"simulate", "models/two_disk_mac.toml", "--revolutions", "25", "--measure",
+                   "probes.toml", "--measured-out", "run.csv", "--noise", "1%"})
+                .status,
+            0);
   for (const std::string& verb : all_verbs()) {
     if (verb == "animate" && !can_animate()) continue;
     const std::string help = whirl({verb, "--help"}).out;

@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include "apps/verb.hpp"
+#include "apps/verbs/common.hpp"
+#include "apps/verbs/measured.hpp"
+#include "apps/verbs/options.hpp"
+#include "apps/verbs/study.hpp"
+#include "libio/measured/fit_setup.hpp"
+#include "libio/model/model_file.hpp"
+#include "libio/results/columns.hpp"
+#include "libio/text/parameter_axis.hpp"
+#include "libio/texts/fit_text.hpp"
+
+namespace whirl::inline cli {
+
+namespace {
+
+struct FitVerbOptions {
+  RecordVerbOptions record{};
+  Option<std::string> free{"free", "PATH[=LO:HI],...",
+                           "values of the model that are found, with bounds if they have any"};
+  Option<double> from{"from-revolution", "N", "revolutions of a record before those that count",
+                      0.0, parse_revolutions};
+  Option<double> revolutions{"revolutions", "N", "of a record that count; 0: all", 20.0,
+                             parse_revolutions};
+  Option<ProbeNoise> noise{"noise", "S",
+                           "standard deviation of the probes' noise, such as 2um, or 1% of what "
+                           "each reads; left out: what is left is noise",
+                           parse_noise};
+  Option<std::string> against{"against", "FILE,...",
+                              "other models, told by their likelihood beside this one"};
+  Option<int> starts{"starts", "N", "of the search, the first one at the model's values", 1};
+  Option<std::uint64_t> seed = seed_option();
+  auto fields() { return std::tie(record, free, from, revolutions, noise, against, starts, seed); }
+
+  static Parsed<double> parse_revolutions(const std::string& text) {
+    const auto number = parse_as(text, "");
+    if (number && *number >= 0.0) return number;
+    return Parsed<double>::failed("expected a number of revolutions, such as 20");
+  }
+  static Parsed<ProbeNoise> parse_noise(const std::string& text) {
+    const bool is_share = text.ends_with('%');
+    const auto number =
+        is_share ? parse_as(text.substr(0, text.size() - 1), "") : parse_as(text, "m");
+    if (!number || !(*number > 0.0)) {
+      return Parsed<ProbeNoise>::failed("expected a length such as 2um, or a share such as 1%");
+    }
+    return ProbeNoise{is_share ? 0.01 * *number : *number, is_share};
+  }
+};
+
+std::vector<RecordSource> sources_of(const Invocation& call, const RecordVerbOptions& asked) {
+  const RecordSource one = source_of(call, asked);
+  return is_record_list(one.file) ? read_record_list(one.file, one) : std::vector{one};
+}
+
+/// The models that are fitted, the call's own first.
+std::vector<Model> models_of(const Invocation& call, const FitVerbOptions& asked) {
+  std::vector<Model> models{call.model()};
+  if (!asked.against) return models;
+  for (const std::string& file : split(*asked.against, ',')) {
+    models.push_back(read_model(file, call.sets));
+  }
+  return models;
+}
+
+/// What is found for one of the models.
+MeasuredFit fit_of(const Invocation& call, const FitVerbOptions& asked, const Model& model,
+                   const FreeParameters& free) {
+  std::vector<std::string> notes;
+  const auto measurements =
+      fit_measurements(model, free, sources_of(call, asked.record),
+                       {.from = *asked.from, .revolutions = *asked.revolutions}, notes);
+  MeasuredFit found =
+      fit(measurements, free.parameters,
+          {.noise = asked.noise.value,
+           .starts = *asked.starts,
+           .seed = *asked.seed,
+           .threads = study_threads(call),
+           .search = {.is_stopped = call.stop_asked(), .progress = progress_of(call, "fitting")}});
+  found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
+  return found;
+}
+
+Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
+  if (!asked.record.measured) {
+    throw ModelError({"--measured"}, "", "missing, expected a record: --measured run.csv");
+  }
+  if (!asked.free) {
+    throw ModelError(
+        {"--free"}, "",
+        "missing, expected values of the model: --free contact.ring.friction=0.05:0.4");
+  }
+  const std::vector<Model> models = models_of(call, asked);
+  const Model& model = models.front();
+  std::vector<MeasuredFit> fits{fit_of(call, asked, model, free_parameters(model, *asked.free))};
+  std::vector<std::string> names{model.path};
+  for (std::size_t i = 1; i < models.size(); ++i) {
+    fits.push_back(fit_of(call, asked, models[i], known_parameters(models[i], *asked.free)));
+    names.push_back(models[i].path);
+  }
+  MeasuredFit found = fits.front();
+  if (fits.size() > 1) found.candidates = compared(fits, names);
+  Report report = begin_report(call, model, record_of(found));
+  report.text = headline("Fit to measured motions", model) + "\n" + text_of(found, model.path);
+  report.add_notes(found.notes);
+  if (!found.has_converged) {
+    const bool is_stopped = call.stop_asked()();
+    report.failure = is_stopped ? "stopped" : "the fit did not converge: " + found.why_not;
+    report.status = is_stopped ? 130 : 3;
+  }
+  write_file(call, model, report, [&](ResultWriter& file) {
+    if (!found.files.empty()) file.attribute("/", "speed", found.files.front().speed);
+    write_result(file, found);
+  });
+  return report;
+}
+
+}  // namespace
+
+Verb fit_verb() {
+  return {
+      .name = "fit",
+      .alias = "",
+      .group = "Contact",
+      .summary = "finds values of the model in measured motions, and how sure they are",
+      .example =
+          "whirl fit models/two_disk_mac.toml --measured run.csv --probes probes.toml --free "
+          "contact.ring.stiffness,contact.ring.friction=0:0.3 --out fit.h5",
+      .run = run_fit,
+  };
+}
+
+}  // namespace whirl::inline cli

@@ -1,0 +1,62 @@
+#include "libio/measured/fit_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "libbase/error.hpp"
+#include "libio/model/model_family.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+std::vector<double> starts_of(const FreeParameters& free) {
+  std::vector<double> starts;
+  for (const FreeParameter& p : free.parameters) starts.push_back(p.start);
+  return starts;
+}
+
+FitMeasurement measurement_of(const Model& model, const FreeParameters& free,
+                              const RecordSource& source, const FitWindow& window,
+                              std::vector<std::string>& notes) {
+  Measurement m = read_measurement(with_values(model, source.sets), source);
+  FitMeasurement found;
+  found.name = std::filesystem::path(source.file).filename().string();
+  notes.insert(notes.end(), m.readings.notes.begin(), m.readings.notes.end());
+  found.span = fit_span(m.readings, m.model.speed, window.from, window.revolutions, notes);
+  found.readings = std::move(m.readings);
+  const std::string speed = fmt::format("operation.speed={:.17g} rad/s", found.span.speed);
+  const auto family = std::make_shared<const ModelFamily>(with_values(m.model, {speed}), free.axes);
+  found.scene = family->scene(starts_of(free));
+  found.model_at = [family](const Vec& values) {
+    return family->model({values.data(), static_cast<std::size_t>(values.size())});
+  };
+  return found;
+}
+
+}  // namespace
+
+std::vector<FitMeasurement> fit_measurements(const Model& model, const FreeParameters& free,
+                                             const std::vector<RecordSource>& sources,
+                                             const FitWindow& window,
+                                             std::vector<std::string>& notes) {
+  std::vector<FitMeasurement> all;
+  for (const RecordSource& source : sources) {
+    std::vector<std::string> own;
+    try {
+      all.push_back(measurement_of(model, free, source, window, own));
+    } catch (const OptionError& error) {
+      throw OptionError(source.file + ": " + error.what());
+    }
+    for (std::string& note : own) {
+      if (sources.size() > 1) note = all.back().name + ": " + note;
+      if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    }
+  }
+  return all;
+}
+
+}  // namespace whirl::inline io
