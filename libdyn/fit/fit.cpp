@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -10,8 +11,9 @@
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libdyn/fit/fit_covariance.hpp"
 #include "libdyn/fit/shooting_windows.hpp"
+#include "libdyn/motions/equilibrium.hpp"
 
 namespace whirl::inline dyn {
 
@@ -19,12 +21,19 @@ namespace {
 
 /// What may be left between windows, in noises: at first it hardly counts, at last it has to be nothing.
 constexpr std::array<double, 9> gaps{100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01};
+/// And then of steady motions, which close: what a gap lets through of a motion that does not seems to
+/// tell parameters that the steady one does not (as the stiffness in a full annular rub).
+constexpr std::array<double, 2> closing{1e-3, 1e-4};
 constexpr int rough_iterations = 60;  ///< of all but the last of these
-constexpr double rough_change =
-    1e-4;  ///< of the sum of squares, in an iteration that is the last of them
-/// The same of the last one, in squares of what is left of a reading: parameters move by less than a
-/// thirtieth of their deviations then. States that no probe sees may go on moving for long.
-constexpr double last_change = 1e-3;
+/// Change of the sum of squares in an iteration that ends one of them.
+constexpr double rough_change = 1e-4;
+/// Change in an iteration that ends the search, in mean squares of a reading: parameters move by a
+/// hundredth of their deviations then.
+constexpr double last_change = 1e-4;
+/// Windows a revolution of a steady motion: a period is little to guess states from, and the shorter windows
+/// are the nearer they follow it whatever the parameters are. Where the first number leads nowhere the
+/// others may.
+constexpr std::array<int, 3> steady_windows{8, 16, 4};
 /// Standard deviations of the sum of squares beyond which chance does not leave so much.
 constexpr double improbable = 6.0;
 constexpr double confidence = 1.959963985;  ///< standard deviations to either side of 95 %
@@ -32,18 +41,22 @@ constexpr double confidence = 1.959963985;  ///< standard deviations to either s
 /// A record during the search.
 struct Shooting {
   const FitSource* source;
-  std::vector<ShootingWindow> windows;
-  std::vector<Vec> starts;  ///< of windows, over scale
-  Vec scale;                ///< of states
-  Vec gap;                  ///< of the state between windows that counts as one noise
+  std::vector<ShootingWindow> windows{};
+  std::vector<Vec> starts{};  ///< of windows, over scale
+  Vec scale{};                ///< of states
+  Vec gap{};                  ///< of the state between windows that counts as one noise
+  Vec offset{};               ///< of readings, over length, per probe; zero where it is known
+  double length = 1.0;        ///< scale of displacements [m]
   /// At the parameters that are looked at; nothing: there is none.
   std::optional<FitSystem> system;
+
+  bool has_offset() const { return !source->record.is_offset_known; }
 };
 
 /// What is searched for, and the systems at the parameters that Ceres looks at.
 struct Search : ceres::EvaluationCallback {
   Search(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& free,
-         const FitOptions& asked);
+         const FitOptions& asked, int steady_windows_per_revolution);
 
   void PrepareForEvaluation(bool, bool is_new) override {
     if (is_new) make_systems();
@@ -53,6 +66,10 @@ struct Search : ceres::EvaluationCallback {
   /// Values of the parameters that are looked at.
   Vec values() const { return x.cwiseProduct(sizes); }
   void make_systems();
+  bool has_steady() const {
+    return std::any_of(shootings.begin(), shootings.end(),
+                       [](const Shooting& s) { return s.source->record.period > 0; });
+  }
 
   const std::vector<FreeParameter>& parameters;
   const FitOptions& options;
@@ -71,7 +88,8 @@ class WindowCost : public ceres::CostFunction {
     auto& sizes = *mutable_parameter_block_sizes();
     sizes.push_back(static_cast<int>(search.x.size()));
     sizes.push_back(static_cast<int>(window_.states()));
-    if (!window_.is_last()) sizes.push_back(static_cast<int>(window_.states()));
+    if (window_.has_next()) sizes.push_back(static_cast<int>(window_.states()));
+    if (shooting_.has_offset()) sizes.push_back(static_cast<int>(shooting_.offset.size()));
   }
 
   bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
@@ -80,12 +98,16 @@ class WindowCost : public ceres::CostFunction {
     const Vec& scale = shooting_.scale;
     const Vec start = Vec::Map(blocks[1], n).cwiseProduct(scale);
     const bool slopes = jacobians && (jacobians[0] || jacobians[1]);
-    const auto found = window_.compare(*shooting_.system, start, slopes);
+    const Eigen::Index probes = shooting_.offset.size();
+    const int last = window_.has_next() ? 3 : 2;
+    const double* offset = shooting_.has_offset() ? blocks[last] : shooting_.offset.data();
+    const auto found = window_.compare(*shooting_.system, start,
+                                       Vec::Map(offset, probes) * shooting_.length, slopes);
     if (!found.is_good) return false;
     Eigen::Map<Vec> r(residuals, all);
     r.head(m) = found.readings;
     const Vec per_gap = (shooting_.gap * search_.between).cwiseInverse();
-    if (!window_.is_last()) {
+    if (window_.has_next()) {
       const Vec next = Vec::Map(blocks[2], n).cwiseProduct(scale);
       r.tail(n) = (found.end - next).cwiseProduct(per_gap);
     }
@@ -95,13 +117,17 @@ class WindowCost : public ceres::CostFunction {
       if (!jacobians[block]) return;
       Eigen::Map<Rows> J(jacobians[block], all, per.size());
       J.topRows(m) = top * per.asDiagonal();
-      if (!window_.is_last()) J.bottomRows(n) = per_gap.asDiagonal() * bottom * per.asDiagonal();
+      if (window_.has_next()) J.bottomRows(n) = per_gap.asDiagonal() * bottom * per.asDiagonal();
     };
     if (slopes) {
       fill(0, found.readings_by_parameter, found.end_by_parameter, search_.sizes);
       fill(1, found.readings_by_start, found.end_by_start, scale);
     }
-    if (!window_.is_last()) fill(2, Mat::Zero(m, n), -Mat::Identity(n, n), scale);
+    if (window_.has_next()) fill(2, Mat::Zero(m, n), -Mat::Identity(n, n), scale);
+    if (shooting_.has_offset()) {
+      fill(last, window_.readings_by_offset(), Mat::Zero(n, probes),
+           Vec::Constant(probes, shooting_.length));
+    }
     return true;
   }
 
@@ -134,8 +160,24 @@ void require_fit(const std::vector<FitSource>& sources,
   }
 }
 
+/// As if the motion was about where the rotor rests.
+Vec likely_offset(const FitSource& source, const ContactSystem& system) {
+  const Mat& readings = source.record.readings;
+  Vec offset = Vec::Zero(readings.rows());
+  for (Eigen::Index probe = 0; probe < offset.size(); ++probe) {
+    const auto is_there = readings.row(probe).array().isFinite();
+    offset(probe) = is_there.select(readings.row(probe).array(), 0.0).sum() /
+                    std::max(1.0, is_there.cast<double>().sum());
+  }
+  try {
+    return offset - source.rows * equilibrium(system);
+  } catch (const NumericalError&) {  // it rests nowhere
+    return offset;
+  }
+}
+
 Search::Search(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& free,
-               const FitOptions& asked)
+               const FitOptions& asked, int steady_windows_per_revolution)
     : parameters(free), options(asked) {
   const auto count = std::ssize(free);
   x.resize(count);
@@ -146,17 +188,22 @@ Search::Search(const std::vector<FitSource>& sources, const std::vector<FreePara
     x(p) = parameter.start / parameter.size;
   }
   for (const FitSource& source : sources) {
-    Shooting shooting{&source, {}, {}, {}, {}, source.system_at(values())};
+    Shooting shooting{.source = &source, .system = source.system_at(values())};
     const ContactSystem& system = shooting.system->system;
     const Eigen::Index n = system.coordinates();
-    const double duration = options.window > 0.0 ? options.window : system.period();
-    shooting.windows = shooting_windows(source, duration);
+    const int share = source.record.period > 0 ? steady_windows_per_revolution : 1;
+    const double duration = options.window > 0.0 ? options.window : system.period() / share;
+    shooting.windows = shooting_windows(source, duration, system);
+    shooting.length = system.length_scale();
+    shooting.offset = Vec::Zero(source.rows.rows());
+    if (shooting.has_offset()) shooting.offset = likely_offset(source, system) / shooting.length;
     shooting.scale = system.state_scale();
     // coordinates that move the probes by their noise, and the rates that do so within a radian
-    shooting.gap = shooting.scale * (source.record.noise.mean() / system.length_scale());
+    shooting.gap = shooting.scale * (source.record.noise.mean() / shooting.length);
     shooting.gap.tail(n) = shooting.gap.head(n) * system.phase_rate();
     for (const ShootingWindow& window : shooting.windows) {
-      shooting.starts.push_back(window.guess().cwiseQuotient(shooting.scale));
+      const Vec guess = window.guess(shooting.offset * shooting.length);
+      shooting.starts.push_back(guess.cwiseQuotient(shooting.scale));
     }
     shootings.push_back(std::move(shooting));
   }
@@ -220,7 +267,10 @@ class LeastSquares {
       Shooting& shooting = search.shootings[s];
       for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
         std::vector<double*> blocks{search.x.data(), shooting.starts[w].data()};
-        if (!shooting.windows[w].is_last()) blocks.push_back(shooting.starts[w + 1].data());
+        if (shooting.windows[w].has_next()) {
+          blocks.push_back(shooting.starts[(w + 1) % shooting.starts.size()].data());
+        }
+        if (shooting.has_offset()) blocks.push_back(shooting.offset.data());
         problem_.AddResidualBlock(new WindowCost(search, s, w), nullptr, blocks);
       }
     }
@@ -243,16 +293,37 @@ class LeastSquares {
     options.callbacks.push_back(&stop_);
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
+    iterations_ += static_cast<int>(summary.iterations.size());
     return summary;
   }
+
+  /// The last solve. Where the model does not explain the records, steps shrink by nearly the same factor
+  /// each, and hardly: after some of them what they sum up to is gone at once.
+  ceres::Solver::Summary finish(double between, int most_iterations, double tolerance) {
+    constexpr int before_leap = 15;
+    const int begun = iterations_;
+    for (;;) {
+      const int left = most_iterations - (iterations_ - begun);
+      auto summary = solve(between, std::min(before_leap, left), tolerance);
+      const bool goes_on = summary.termination_type == ceres::NO_CONVERGENCE;
+      if (!goes_on || left <= before_leap) return summary;
+      leap(between);
+    }
+  }
+
+  int iterations() const { return iterations_; }
 
   void hold_parameters() { problem_.SetParameterBlockConstant(search_.x.data()); }
   void free_parameters() { problem_.SetParameterBlockVariable(search_.x.data()); }
 
-  /// Derivatives of all residuals, the parameters first; empty where a motion does not get through.
+  /// Derivatives of all residuals, the parameters first, then unknown offsets; empty where a motion does
+  /// not get through.
   Sparse jacobian() {
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks.push_back(search_.x.data());
+    for (Shooting& shooting : search_.shootings) {
+      if (shooting.has_offset()) options.parameter_blocks.push_back(shooting.offset.data());
+    }
     for (Shooting& shooting : search_.shootings) {
       for (Vec& start : shooting.starts) options.parameter_blocks.push_back(start.data());
     }
@@ -264,55 +335,77 @@ class LeastSquares {
   }
 
  private:
+  /// All that is searched for, in its scales.
+  std::vector<Eigen::Map<Vec>> unknowns() {
+    const auto map = [](Vec& v) { return Eigen::Map<Vec>(v.data(), v.size()); };
+    std::vector<Eigen::Map<Vec>> all{map(search_.x)};
+    for (Shooting& shooting : search_.shootings) {
+      if (shooting.has_offset()) all.push_back(map(shooting.offset));
+      for (Vec& start : shooting.starts) all.push_back(map(start));
+    }
+    return all;
+  }
+  Vec place() {
+    std::vector<double> all;
+    for (const auto& one : unknowns()) all.insert(all.end(), one.begin(), one.end());
+    return Vec::Map(all.data(), std::ssize(all));
+  }
+  /// @return  the sum of squares there; infinite outside of bounds, and where motions do not get through
+  double go_to(const Vec& place) {
+    Eigen::Index at = 0;
+    for (auto& one : unknowns()) {
+      one = place.segment(at, one.size());
+      at += one.size();
+    }
+    const Vec values = search_.values();
+    for (std::size_t p = 0; p < search_.parameters.size(); ++p) {
+      const FreeParameter& parameter = search_.parameters[p];
+      const double value = values(static_cast<Eigen::Index>(p));
+      if (value < parameter.lower || value > parameter.upper) return HUGE_VAL;
+    }
+    double cost = HUGE_VAL;
+    return problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr) ? cost : HUGE_VAL;
+  }
+
+  /// From two steps b and c with c = q b nearly: c q / (1 - q) further on, or less where that is worse.
+  void leap(double between) {
+    constexpr double along = 0.9, furthest = 100.0;  // cosine of two such steps; times the last one
+    const Vec first = place();
+    solve(between, 1, 0.0);
+    const Vec second = place();
+    const double cost = solve(between, 1, 0.0).final_cost;
+    const Vec third = place(), b = second - first, c = third - second;
+    const double q = c.dot(b) / b.squaredNorm();
+    if (!(c.dot(b) > along * c.norm() * b.norm()) || !(q < 1.0)) return;
+    for (double far = std::min(q / (1.0 - q), furthest); far > 1.0; far *= 0.5) {
+      if (go_to(third + far * c) < cost) return;
+    }
+    go_to(third);
+  }
+
   Search& search_;
   ceres::Problem problem_;
   Interruption stop_;
+  int iterations_ = 0;
 };
-
-/// Covariance of those parameters that are free to move, over their sizes: their part of the inverse of
-/// J^T J. NaN of those that a bound holds; infinite where there is no inverse.
-Mat covariance(const Sparse& J, const std::vector<bool>& is_held) {
-  const auto parameters = std::ssize(is_held);
-  std::vector<Eigen::Index> free;
-  for (std::size_t p = 0; p < is_held.size(); ++p) {
-    if (!is_held[p]) free.push_back(static_cast<Eigen::Index>(p));
-  }
-  Mat found = Mat::Constant(parameters, parameters, std::nan(""));
-  found(free, free).setConstant(std::numeric_limits<double>::infinity());
-  if (J.cols() == 0) return found;
-
-  std::vector<Triplet> entries;  // 1 from an unknown to its column among the free ones
-  for (Eigen::Index i = 0; i < J.cols(); ++i) {
-    if (i < parameters && is_held[static_cast<std::size_t>(i)]) continue;
-    entries.emplace_back(static_cast<int>(i), static_cast<int>(entries.size()), 1.0);
-  }
-  Sparse choice(J.cols(), std::ssize(entries));
-  choice.setFromTriplets(entries.begin(), entries.end());
-  const Sparse J_free = J * choice;
-  const Sparse normal = J_free.transpose() * J_free;
-  const SparseLu factor(normal);
-  if (!factor.is_regular()) return found;
-  const auto count = std::ssize(free);
-  const Mat columns = factor.solve(Mat::Identity(normal.rows(), count));
-  const Mat inverse = columns.topRows(count);
-  if (inverse.allFinite() && (inverse.diagonal().array() > 0.0).all()) found(free, free) = inverse;
-  return found;
-}
 
 /// What is left, and what the motions that were found read.
 void add_residuals(Fit& fit, const Search& search) {
   double squares = 0.0, logarithms = 0.0;
   for (const Shooting& shooting : search.shootings) {
     const FitRecord& record = shooting.source->record;
-    FitResidual left{record.name, {}, Mat(record.readings.rows(), record.readings.cols())};
+    FitResidual left{.record = record.name,
+                     .of_probe = Vec(record.readings.rows()),
+                     .predicted = Mat(record.readings.rows(), record.readings.cols()),
+                     .offset = shooting.offset * shooting.length,
+                     .offset_deviation = {}};
     for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
       const ShootingWindow& window = shooting.windows[w];
       const Vec start = shooting.starts[w].cwiseProduct(shooting.scale);
       const Mat read = window.predict(*shooting.system, start);
-      left.predicted.middleCols(window.first_sample(), read.cols()) = read;
+      left.predicted.middleCols(window.first_sample(), read.cols()) = read.colwise() + left.offset;
     }
     const Mat off = left.predicted - record.readings;
-    left.of_probe.resize(off.rows());
     for (Eigen::Index probe = 0; probe < off.rows(); ++probe) {
       double sum = 0.0, count = 0.0;
       for (const double e : off.row(probe)) {
@@ -333,8 +426,8 @@ void add_residuals(Fit& fit, const Search& search) {
   fit.log_likelihood = -0.5 * (squares + logarithms);
 }
 
-/// The parameters with their errors.
-void add_parameters(Fit& fit, const Search& search, const Sparse& J) {
+/// The parameters with their errors, and those of offsets.
+void add_errors(Fit& fit, const Search& search, const Sparse& J) {
   const Vec values = search.values();
   std::vector<bool> is_held;
   for (Eigen::Index p = 0; p < values.size(); ++p) {
@@ -342,7 +435,10 @@ void add_parameters(Fit& fit, const Search& search, const Sparse& J) {
     const double near = 1e-9 * parameter.size;
     is_held.push_back(values(p) - parameter.lower < near || parameter.upper - values(p) < near);
   }
-  Mat C = covariance(J, is_held);
+  for (const Shooting& shooting : search.shootings) {
+    if (shooting.has_offset()) is_held.resize(is_held.size() + shooting.offset.size(), false);
+  }
+  Mat C = fit_covariance(J, is_held);
   if (!search.options.is_noise_known) C *= fit.residual * fit.residual;
   const Vec deviation = C.diagonal().cwiseSqrt();
   for (Eigen::Index p = 0; p < values.size(); ++p) {
@@ -358,36 +454,42 @@ void add_parameters(Fit& fit, const Search& search, const Sparse& J) {
                               .is_told = confidence * off < std::abs(values(p)),
                               .is_at_bound = is_held[static_cast<std::size_t>(p)]});
   }
-  const Vec per = deviation.cwiseInverse();
-  fit.correlation = per.asDiagonal() * C * per.asDiagonal();
+  const Vec per = deviation.head(values.size()).cwiseInverse();
+  fit.correlation = per.asDiagonal() * C.topLeftCorner(per.size(), per.size()) * per.asDiagonal();
+  Eigen::Index at = values.size();
+  for (std::size_t s = 0; s < search.shootings.size(); ++s) {
+    const Shooting& shooting = search.shootings[s];
+    Vec& off = fit.records[s].offset_deviation = Vec::Zero(shooting.offset.size());
+    if (!shooting.has_offset()) continue;
+    off = deviation.segment(at, off.size()) * shooting.length;
+    at += off.size();
+  }
 }
 
-}  // namespace
-
-Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
-        const FitOptions& options) {
-  require_fit(sources, parameters);
-  Search search(sources, parameters, options);
+/// One search.
+Fit fit_from(Search& search, const FitOptions& options) {
   LeastSquares squares(search);
   Fit fit;
   squares.hold_parameters();
   squares.solve(gaps[0], 10, 1e-2);
   squares.free_parameters();
+  std::vector<double> stages(gaps.begin(), gaps.end());
+  if (search.has_steady()) stages.insert(stages.end(), closing.begin(), closing.end());
+  long done = 0;
   const double enough = last_change / static_cast<double>(search.readings());
-  for (std::size_t stage = 0; stage < gaps.size(); ++stage) {
-    const bool is_last = stage + 1 == gaps.size();
-    const auto summary =
-        squares.solve(gaps[stage], is_last ? options.most_iterations : rough_iterations,
-                      is_last ? enough : rough_change);
-    fit.iterations += static_cast<int>(summary.iterations.size());
+  for (const double between : stages) {
+    const bool is_last = between == stages.back();
+    const auto summary = is_last ? squares.finish(between, options.most_iterations, enough)
+                                 : squares.solve(between, rough_iterations, rough_change);
+    fit.iterations = squares.iterations();
     fit.has_converged = summary.termination_type == ceres::CONVERGENCE;
     if (!fit.has_converged) fit.why_not = summary.message;
     if (!fit.has_converged && summary.termination_type != ceres::NO_CONVERGENCE) break;
-    if (options.progress) options.progress(static_cast<long>(stage) + 1, std::ssize(gaps));
+    if (options.progress) options.progress(++done, std::ssize(stages));
   }
   search.make_systems();
   add_residuals(fit, search);
-  add_parameters(fit, search, squares.jacobian());
+  add_errors(fit, search, squares.jacobian());
   if (!fit.has_converged) return fit;
   fit.why_not.clear();
   const double most =
@@ -396,11 +498,29 @@ Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>&
     fit.has_converged = false;
     fit.why_not = fmt::format(
         "what is left is {:.4g} times the noise: the model does not explain the records, or "
-        "another "
-        "start finds more",
+        "another start finds more",
         fit.residual);
   }
   return fit;
+}
+
+}  // namespace
+
+Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
+        const FitOptions& options) {
+  require_fit(sources, parameters);
+  Fit best;
+  for (const int windows : steady_windows) {
+    Search search(sources, parameters, options, windows);
+    Fit found = fit_from(search, options);
+    if (windows == steady_windows[0] || found.has_converged || found.residual < best.residual) {
+      best = std::move(found);
+    }
+    const bool is_stopped = options.is_stopped && options.is_stopped();
+    const bool has_choice = search.has_steady() && options.window == 0.0;
+    if (best.has_converged || !has_choice || is_stopped) break;
+  }
+  return best;
 }
 
 }  // namespace whirl::inline dyn

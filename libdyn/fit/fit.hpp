@@ -48,8 +48,10 @@ struct FittedParameter {
 /// What is left of a record.
 struct FitResidual {
   std::string record;
-  Vec of_probe;   ///< root mean square of reading less measurement, per probe [m]
-  Mat predicted;  ///< probes x times [m]
+  Vec of_probe;          ///< root mean square of reading less measurement, per probe [m]
+  Mat predicted;         ///< probes x times, offsets included [m]
+  Vec offset;            ///< that was found, per probe; zero where it was known [m]
+  Vec offset_deviation;  ///< its standard deviation, likewise [m]
 };
 
 struct Fit {

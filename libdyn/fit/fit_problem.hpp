@@ -19,6 +19,12 @@ struct FitRecord {
   Mat readings;        ///< probes x times [m]; NaN: missing
   Vec noise;           ///< standard deviation per probe [m]
   double phase = 0.0;  ///< of the rotor at the first time [rad]
+  /// Revolutions after which the motion repeats, if the times are within one such period: a steady
+  /// motion, see steady_record. 0: any motion.
+  int period = 0;
+  /// Whether the readings are displacements; else each probe adds a constant that is found with the
+  /// parameters, as the voltage of its gap.
+  bool is_offset_known = true;
 };
 
 /// A parameter that is found.

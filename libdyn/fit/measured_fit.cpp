@@ -13,6 +13,7 @@
 #include "libbase/spectrum.hpp"
 #include "libbase/work_queue.hpp"
 #include "libdyn/fit/model_source.hpp"
+#include "libdyn/fit/steady_record.hpp"
 #include "libdyn/measured/station_motion.hpp"
 
 namespace whirl::inline dyn {
@@ -23,7 +24,7 @@ constexpr double fewest_revolutions = 2.0;
 constexpr Eigen::Index fewest_samples = 2;    ///< of a revolution
 constexpr double changed_phase = 0.02;        ///< of the rotor against an even speed [rad]
 constexpr double least_floor = 1e-4;          ///< of the deviation of what a probe reads
-constexpr double even_weights = 1.2;          ///< ratio of noises up to which they count as known
+constexpr double even_weights = 1.3;          ///< ratio of noises up to which they count as known
 constexpr double unexplained = 3.0;           ///< noise floors, from which what is left is told
 constexpr double hardly_apart = 0.98;         ///< correlation that is told
 constexpr double range_without_bounds = 0.5;  ///< of a value, to either side
@@ -37,12 +38,14 @@ Mat readings_in(const FitMeasurement& m) {
   return m.readings.displacement.middleRows(m.span.first, m.span.samples).transpose();
 }
 
-FitRecord fit_record(const FitMeasurement& m, const std::optional<ProbeNoise>& noise) {
+FitRecord fit_record(const FitMeasurement& m, const MeasuredFitOptions& options) {
+  const auto& noise = options.noise;
   const FitSpan& span = m.span;
   FitRecord record;
   record.name = m.name;
   record.readings = readings_in(m);
   record.phase = span.phase;
+  record.is_offset_known = !options.finds_offsets;
   record.times =
       Vec::LinSpaced(span.samples, 0.0, static_cast<double>(span.samples - 1)) / m.readings.rate;
   record.noise.resize(record.readings.rows());
@@ -57,7 +60,8 @@ FitRecord fit_record(const FitMeasurement& m, const std::optional<ProbeNoise>& n
     throw OptionError(fmt::format("{}: probe \"{}\" reads one value all the time: take it out",
                                   m.name, m.readings.probes[static_cast<std::size_t>(probe)].name));
   }
-  return record;
+  if (options.period == 0) return record;
+  return steady_record(record, span.speed, {.revolutions = options.period}).period;
 }
 
 /// Starts of a search: those of the parameters, then some between their bounds.
@@ -167,17 +171,18 @@ StationRecord stations_of(const FitMeasurement& m, Mat displacement) {
 void add_motions(MeasuredFit& found, const std::vector<FitMeasurement>& measurements,
                  const std::vector<FitSource>& sources) {
   Eigen::Index samples = 0;
-  for (const FitMeasurement& m : measurements) samples = std::max(samples, m.span.samples);
+  for (const FitSource& source : sources) samples = std::max(samples, source.record.times.size());
   double left = 0.0, all = 0.0, over_floors = 0.0;
   for (std::size_t i = 0; i < measurements.size(); ++i) {
     const FitMeasurement& m = measurements[i];
     const FitRecord& record = sources[i].record;
     const int number = static_cast<int>(i);
     const double duration = static_cast<double>(m.span.samples - 1) / m.readings.rate;
-    const double from = m.readings.time(m.span.first);
+    const double from = record.period > 0 ? 0.0 : m.readings.time(m.span.first);
     found.files.push_back({.file = m.name,
                            .speed = m.span.speed,
                            .revolutions = duration * m.span.speed / turn,
+                           .period = record.period,
                            .time = padded((record.times.array() + from).matrix(), samples)});
     const Mat& predicted = found.records[i].predicted;
     for (std::size_t p = 0; p < m.readings.probes.size(); ++p) {
@@ -187,6 +192,8 @@ void add_motions(MeasuredFit& found, const std::vector<FitMeasurement>& measurem
       probe.residual = found.records[i].of_probe(row);
       const Vec measured = record.readings.row(row).transpose();
       probe.floor = noise_floor(measured);
+      probe.offset = found.records[i].offset(row);
+      probe.offset_deviation = found.records[i].offset_deviation(row);
       probe.measured = padded(measured, samples);
       probe.predicted = padded(predicted.row(row).transpose(), samples);
       const double squares = probe.residual * probe.residual * static_cast<double>(measured.size());
@@ -316,15 +323,15 @@ MeasuredFit fit(const std::vector<FitMeasurement>& measurements,
   std::vector<FitSource> sources;
   for (const FitMeasurement& m : measurements) {
     const Mat rows = probe_rows(m.readings.probes, *m.scene, m.scene->displacement_map());
-    sources.push_back(
-        model_source(fit_record(m, options.noise), m.scene, rows, parameters, m.model_at));
+    sources.push_back(model_source(fit_record(m, options), m.scene, rows, parameters, m.model_at));
   }
   MeasuredFitOptions search = options;
-  search.search.is_noise_known = options.noise.has_value();
+  search.search.is_noise_known = options.noise || options.period > 0;
   MeasuredFit found;
   found.starts = options.starts;
   static_cast<Fit&>(found) = best_fit(sources, parameters, search, found.same_end);
-  if (!options.noise && found.has_converged) {
+  found.is_noise_known = search.search.is_noise_known;
+  if (!found.is_noise_known && found.has_converged) {
     if (take_noise(found, sources)) {
       std::vector<FreeParameter> nearer = parameters;
       for (std::size_t p = 0; p < nearer.size(); ++p) nearer[p].start = found.parameters[p].value;
@@ -335,7 +342,6 @@ MeasuredFit fit(const std::vector<FitMeasurement>& measurements,
     }
     found.log_likelihood = concentrated_likelihood(sources, found);
   }
-  found.is_noise_known = options.noise.has_value();
   add_motions(found, measurements, sources);
   add_notes(found);
   return found;

@@ -51,7 +51,11 @@ struct ProbeNoise {
 
 struct MeasuredFitOptions {
   std::optional<ProbeNoise> noise{};
-  int starts = 1;  ///< the model's own values, and others drawn between the bounds
+  /// Revolutions after which the motions repeat: records are averaged over these periods, and the noise
+  /// is what is left between them, see steady_record. 0: they need not repeat.
+  int period = 0;
+  bool finds_offsets = false;  ///< of the probes, see FitRecord::is_offset_known
+  int starts = 1;              ///< the model's own values, and others drawn between the bounds
   std::uint64_t seed = 1;
   int threads = 1;  ///< that take starts
   FitOptions search{};
@@ -66,7 +70,8 @@ struct FittedProbe : ProbeLabel {
   double noise = 0.0;     ///< standard deviation that it was weighted with [m]
   double residual = 0.0;  ///< root mean square of reading less measurement [m]
   double floor = 0.0;     ///< noise that the upper half of its spectrum shows, see noise_floor [m]
-  Vec measured, predicted;  ///< per sample [m]
+  double offset = 0.0, offset_deviation = 0.0;  ///< if they are found; standard deviation [m]
+  Vec measured, predicted;                      ///< per sample [m]
 
   static constexpr auto columns() {
     using enum Written;
@@ -78,6 +83,8 @@ struct FittedProbe : ProbeLabel {
             column("noise", &P::noise, "m", "standard deviation that it was weighted with"),
             column("residual", &P::residual, "m", "root mean square of reading less measurement"),
             column("noise_floor", &P::floor, "m", "noise that its upper frequencies show"),
+            column("offset", &P::offset, "m", "that it adds to displacements, if it was found"),
+            column("offset_deviation", &P::offset_deviation, "m", "standard deviation of that"),
             column("measured", &P::measured, "m", "what it read")
                 .along("fit_samples")
                 .only(in_file),
@@ -111,7 +118,8 @@ struct FittedRecord {
   std::string file;
   double speed = 0.0;        ///< of the rotor [rad/s]
   double revolutions = 0.0;  ///< of it that were fitted to
-  Vec time;                  ///< per sample [s]
+  int period = 0;            ///< that it was averaged to [revolutions]; 0: it was not
+  Vec time;                  ///< per sample; of an average since the period began [s]
 
   static constexpr auto columns() {
     using enum Written;
@@ -120,6 +128,7 @@ struct FittedRecord {
         column("file", &R::file, "", "a record").axis(),
         column("speed", &R::speed, "rad/s", "speed of the rotor in it"),
         column("revolutions", &R::revolutions, "", "of it that were fitted to"),
+        column("period", &R::period, "", "revolutions that it was averaged to; 0: it was not"),
         column("time", &R::time, "s", "time of its samples").along("fit_samples").only(in_file)};
   }
 };

@@ -2,6 +2,7 @@
 /// A record in windows, each with a motion of its own: multiple shooting.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "libdyn/fit/fit_problem.hpp"
@@ -13,25 +14,29 @@ namespace whirl::inline dyn {
 ///
 /// Deviations of a motion grow: over a whole record so much that no search gets along. In a window they
 /// have no time to. Each begins at a state of its own, and what is left between the end of one and the
-/// beginning of the next is a residual like all others, of a weight that grows during the search.
+/// beginning of the next is a residual like all others, of a weight that grows during the search. Of a
+/// steady motion the first window is the next of the last one.
 ///
 /// @source [Bock1983]
 class ShootingWindow {
  public:
-  /// @param source  must live as long
-  /// @param first   sample that it begins at
-  /// @param last    sample that the next one begins at; with is_last the last sample
-  ShootingWindow(const FitSource& source, Eigen::Index first, Eigen::Index last, bool is_last);
+  /// @param source   must live as long
+  /// @param first    sample that it begins at
+  /// @param samples  that it has, at least 1
+  /// @param end      time at which the next one begins [s]; nothing: none does
+  ShootingWindow(const FitSource& source, Eigen::Index first, Eigen::Index samples,
+                 std::optional<double> end);
 
   Eigen::Index readings() const { return static_cast<Eigen::Index>(read_.size()); }
-  /// Residuals: of its readings, then, unless it is the last one, of the state at its end.
-  Eigen::Index residuals() const { return readings() + (is_last_ ? 0 : states()); }
+  /// Residuals: of its readings, then, if one follows, of the state at its end.
+  Eigen::Index residuals() const { return readings() + (has_next_ ? states() : 0); }
   Eigen::Index states() const { return 2 * source_->rows.cols(); }
-  bool is_last() const { return is_last_; }
+  bool has_next() const { return has_next_; }
 
   /// State at its beginning that its readings suggest: the motion nearest to zero that has them, and
   /// the rate at which they change.
-  Vec guess() const;
+  /// @param offset  that readings have, per probe [m]
+  Vec guess(const Vec& offset) const;
 
   /// What is known of the motion from a state.
   struct Comparison {
@@ -41,10 +46,14 @@ class ShootingWindow {
     Mat readings_by_start, readings_by_parameter, end_by_start, end_by_parameter;
     long grazes = 0;
   };
+  /// @param offset  as of guess
   /// @param slopes  whether derivatives are wanted
-  Comparison compare(const FitSystem& system, const Vec& start, bool slopes) const;
+  Comparison compare(const FitSystem& system, const Vec& start, const Vec& offset,
+                     bool slopes) const;
+  /// Derivatives of Comparison::readings by the offsets.
+  Mat readings_by_offset() const;
 
-  /// What the motion from a state reads, probes x its samples [m].
+  /// What the motion from a state reads, without offsets, probes x its samples [m].
   Mat predict(const FitSystem& system, const Vec& start) const;
 
   Eigen::Index first_sample() const { return first_; }
@@ -56,13 +65,18 @@ class ShootingWindow {
   MotionState state(const ContactSystem& system, const Vec& start) const;
 
   const FitSource* source_;
-  Eigen::Index first_, last_;
-  bool is_last_;
-  std::vector<double> times_;  ///< of its samples, and of its end, since it begins [s]
+  Eigen::Index first_, samples_;
+  bool has_next_;
+  std::vector<double>
+      times_;  ///< of its samples, and of its end if one follows, since it begins [s]
   std::vector<Reading> read_;
 };
 
-/// Windows of a record of about a duration each [s], at least one.
-std::vector<ShootingWindow> shooting_windows(const FitSource& source, double duration);
+/// Windows of a record of about a duration each [s], at least one, of a steady motion at least two.
+/// @param system  that is compared, for its speed and loads
+/// @throws ModelError  for a steady motion whose readings are not within its period and in both halves of
+///                     it, or whose loads repeat later
+std::vector<ShootingWindow> shooting_windows(const FitSource& source, double duration,
+                                             const ContactSystem& system);
 
 }  // namespace whirl::inline dyn

@@ -149,6 +149,26 @@ TEST(Fit, TakesSeveralRecords) {
   }
 }
 
+// Gaps of probes add constants that nobody knows.
+TEST(Fit, FindsOffsets) {
+  const Rig rig;
+  const auto free = rig.free(0.9);
+  FitRecord record = rig.record(10);
+  const Vec offset{{1e-3, -2e-3, 5e-4, 0.0}};
+  record.readings.colwise() += offset;
+  record.is_offset_known = false;
+  const Fit found = fit({rig.source(record, free)}, free);
+  ASSERT_TRUE(found.has_converged) << found.why_not;
+  const FitResidual& left = found.records[0];
+  EXPECT_NEAR(left.of_probe.norm(), 2.0 * noise, 0.1 * noise);
+  for (Eigen::Index probe = 0; probe < offset.size(); ++probe) {
+    EXPECT_NEAR(left.offset(probe), offset(probe), chance * left.offset_deviation(probe));
+    EXPECT_LT(left.offset_deviation(probe), noise);
+  }
+  EXPECT_NEAR(found.parameters[0].value, rig.truth.kC,
+              chance * found.parameters[0].standard_deviation);
+}
+
 TEST(Fit, SaysWhereAParameterIsHeldByItsBound) {
   Rig rig;
   rig.revolutions = 3;
