@@ -21,17 +21,24 @@ struct FitVerbOptions {
                            "values of the model that are found, with bounds if they have any"};
   Option<double> from{"from-revolution", "N", "revolutions of a record before those that count",
                       0.0, parse_revolutions};
-  Option<double> revolutions{"revolutions", "N", "of a record that count; 0: all", 20.0,
+  Option<double> revolutions{"revolutions", "N",
+                             "of a record that count; 0: all, as with --steady if left out", 20.0,
                              parse_revolutions};
   Option<ProbeNoise> noise{"noise", "S",
                            "standard deviation of the probes' noise, such as 2um, or 1% of what "
                            "each reads; left out: what is left is noise",
                            parse_noise};
+  Option<int> steady{"steady", "N",
+                     "the motion repeats after N revolutions: its average over all that count is "
+                     "fitted to, as one that closes"};
+  Flag offsets{"offsets", "find a constant that each probe adds, too, such as its gap"};
   Option<std::string> against{"against", "FILE,...",
                               "other models, told by their likelihood beside this one"};
   Option<int> starts{"starts", "N", "of the search, the first one at the model's values", 1};
   Option<std::uint64_t> seed = seed_option();
-  auto fields() { return std::tie(record, free, from, revolutions, noise, against, starts, seed); }
+  auto fields() {
+    return std::tie(record, free, from, revolutions, noise, steady, offsets, against, starts, seed);
+  }
 
   static Parsed<double> parse_revolutions(const std::string& text) {
     const auto number = parse_as(text, "");
@@ -67,13 +74,16 @@ std::vector<Model> models_of(const Invocation& call, const FitVerbOptions& asked
 /// What is found for one of the models.
 MeasuredFit fit_of(const Invocation& call, const FitVerbOptions& asked, const Model& model,
                    const FreeParameters& free) {
+  const bool is_all = asked.steady && !asked.revolutions.is_given;
   std::vector<std::string> notes;
-  const auto measurements =
-      fit_measurements(model, free, sources_of(call, asked.record),
-                       {.from = *asked.from, .revolutions = *asked.revolutions}, notes);
+  const auto measurements = fit_measurements(
+      model, free, sources_of(call, asked.record),
+      {.from = *asked.from, .revolutions = is_all ? 0.0 : *asked.revolutions}, notes);
   MeasuredFit found =
       fit(measurements, free.parameters,
           {.noise = asked.noise.value,
+           .period = asked.steady.value_or(0),
+           .finds_offsets = asked.offsets,
            .starts = *asked.starts,
            .seed = *asked.seed,
            .threads = study_threads(call),

@@ -75,6 +75,12 @@ std::string probe_table(const MeasuredFit& found) {
                        }});
   }
   columns.push_back(shown("residual").as("left, rms"));
+  const bool has_offsets = std::any_of(found.probes.begin(), found.probes.end(),
+                                       [](const P& p) { return p.offset_deviation > 0.0; });
+  if (has_offsets) {
+    columns.push_back(shown("offset"));
+    columns.push_back(shown("offset_deviation").as("±"));
+  }
   columns.push_back(found.is_noise_known ? shown("noise") : shown("noise_floor").as("noise floor"));
   return "\n" + table_of(found.probes, columns);
 }
@@ -102,8 +108,12 @@ std::string candidate_table(const MeasuredFit& found) {
 std::string text_of(const MeasuredFit& found, const std::string& model) {
   std::string text;
   for (const FittedRecord& r : found.files) {
-    text += fmt::format("  record: {}, {:.4g} revolutions at {:.6g} rpm\n", r.file, r.revolutions,
-                        r.speed / rpm);
+    const std::string average = r.period == 0 ? ""
+                                : r.period == 1
+                                    ? ", their average"
+                                    : fmt::format(", averaged to {} revolutions", r.period);
+    text += fmt::format("  record: {}, {:.4g} revolutions at {:.6g} rpm{}\n", r.file, r.revolutions,
+                        r.speed / rpm, average);
   }
   text += fmt::format("  readings: {} of {} probes, {:.5g} % of their variance explained\n",
                       found.readings, found.probes.size(), 100.0 * found.explained);
