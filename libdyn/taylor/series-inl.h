@@ -176,6 +176,8 @@ template <Series A>
 HWY_ATTR inline auto operator*(const typename A::Number& f, const A& a) {
   if constexpr (is_zero<A>) {
     return a;
+  } else if constexpr (is_constant<A>) {
+    return Constant<typename A::Number>(f * a.value);
   } else {
     return Scaled<A>(a, f);
   }
@@ -219,6 +221,8 @@ HWY_ATTR inline auto operator*(const A& a, const B& b) {
     return a;
   } else if constexpr (is_zero<B>) {
     return b;
+  } else if constexpr (is_constant<A>) {
+    return a.value * b;
   } else if constexpr (is_constant<B>) {
     return a * b.value;
   } else {
