@@ -9,6 +9,11 @@
 ///   bool is_continuous() const;                  normal(0, d_rate) = 0 for every rate
 ///   static constexpr bool is_analytic;           `normal` has a Taylor series at d = 0
 ///
+/// of one whose damping is a factor of its force, N(d, d') = N(d, 0) f(d'),
+///
+///   bool has_rate_factor() const;                whether that is another number than one
+///   auto rate_factor(d_rate) const;              f; beyond the surface N would pull where f < 0
+///
 /// and, of a geometry that no other law is for,
 ///
 ///   auto own_geometry() const;                   a member of libcontact/geometries.hpp

@@ -29,6 +29,24 @@ inline bool is_continuous(const AnyContactLaw<>& law) {
   return std::visit([](const auto& l) { return l.is_continuous(); }, law);
 }
 
+/// The factor that a rate [m/s] gives a force which vanishes with the depth, below zero where it would
+/// pull; nothing of a law that is not damped like this.
+inline std::optional<double> rate_factor(const AnyContactLaw<>& law, double rate) {
+  return std::visit(
+      [&](const auto& l) -> std::optional<double> {
+        if constexpr (requires { l.rate_factor(rate); }) {
+          if (l.has_rate_factor()) return l.rate_factor(rate);
+        }
+        return std::nullopt;
+      },
+      law);
+}
+
+/// Whether the force depends on the rate, so that it may vanish before the depth does.
+inline bool is_damped(const AnyContactLaw<>& law) {
+  return !is_continuous(law) || rate_factor(law, 0.0).has_value();
+}
+
 inline bool is_analytic(const AnyContactLaw<>& law) {
   return std::visit([](const auto& l) { return std::remove_cvref_t<decltype(l)>::is_analytic; },
                     law);

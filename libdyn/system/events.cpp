@@ -59,20 +59,24 @@ std::span<const EventKind> EventWatcher::kinds(int contact, const ContactStates&
   using enum EventKind;
   const auto i = static_cast<std::size_t>(contact);
   static constexpr EventKind of_apart[] = {touch}, of_receding[] = {retouch, part},
-                             of_sticking[] = {release, stick_limit},
-                             of_sliding[] = {release, slip_stop};
+                             of_sticking[] = {pull, release, stick_limit},
+                             of_sliding[] = {pull, release, slip_stop};
+  const ReducedContact& c = system_.contacts()[i];
+  const auto in_touch = [&](std::span<const EventKind> all, bool slip_may_change) {
+    if (!slip_may_change) all = all.first(2);
+    return rate_factor(c.law, 0.0) ? all : all.subspan(1);
+  };
   switch (states[i].touch) {
     case Touch::apart:
       return of_apart;
     case Touch::receding:
       return of_receding;
     case Touch::sticking:
-      return std::span<const EventKind>(of_sticking).first(system_.leads(states, i) ? 2 : 1);
+      return in_touch(of_sticking, system_.leads(states, i));
     case Touch::sliding:
       break;
   }
-  const auto& friction = system_.contacts()[i].friction;
-  return std::span<const EventKind>(of_sliding).first(friction.is_exact() ? 2 : 1);
+  return in_touch(of_sliding, c.friction.is_exact());
 }
 
 bool EventWatcher::on_surface(int contact, EventKind kind) const {
@@ -111,8 +115,10 @@ double EventWatcher::value(const Event& event, const ContactForces& f,
       return beyond;
     case EventKind::release:
       return is_continuous(c.law) ? beyond : f.normal / force_scale_[i];
+    case EventKind::pull:
+      return *rate_factor(c.law, f.rate);
     case EventKind::retouch:
-      return -f.normal / force_scale_[i];
+      return -rate_factor(c.law, f.rate).value_or(f.normal / force_scale_[i]);
     case EventKind::slip_stop:
       return state.sign * f.slip / speed_scale_[i];
     case EventKind::stick_limit:
@@ -210,7 +216,7 @@ void EventWatcher::apply(const Event& event, const Instant& at, const double* y,
       enter_touch(event.contact, at, y, states);
       break;
     case EventKind::retouch:
-      surface = bit(EventKind::release);
+      surface = bit(is_continuous(c.law) ? EventKind::pull : EventKind::release);
       enter_touch(event.contact, at, y, states);
       break;
     case EventKind::part:
@@ -221,10 +227,12 @@ void EventWatcher::apply(const Event& event, const Instant& at, const double* y,
       if (is_continuous(c.law) || kinematics(c, at.phase, y, system_.coordinates()).depth <= 0.0) {
         surface = bit(EventKind::touch);
         states[i] = {Touch::apart, 1.0};
-      } else {
-        surface = bit(EventKind::retouch);
-        states[i] = {Touch::receding, 1.0};
+        break;
       }
+      [[fallthrough]];
+    case EventKind::pull:
+      surface = bit(EventKind::retouch);
+      states[i] = {Touch::receding, 1.0};
       break;
     case EventKind::slip_stop: {
       const Hold hold = system_.hold(at, y, states, event.contact);

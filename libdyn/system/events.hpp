@@ -13,7 +13,8 @@ namespace whirl::inline dyn {
 enum class EventKind : unsigned char {
   touch,        ///< apart:     1 - r^2 / clearance^2
   release,      ///< in touch:  N, or r^2 / clearance^2 - 1 for laws that are continuous
-  retouch,      ///< receding:  -N
+  pull,         ///< in touch, of laws with a rate factor: that factor
+  retouch,      ///< receding:  -N, or minus the rate factor
   part,         ///< receding:  r^2 / clearance^2 - 1
   slip_stop,    ///< sliding:   sign of the slip times the slip velocity
   stick_limit,  ///< sticking:  (mu N)^2 - T^2, sums over those that slip alike

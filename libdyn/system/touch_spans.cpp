@@ -35,6 +35,9 @@ ContactForces ContactPath::at(double theta) const {
 }
 
 double ContactPath::gap(const ContactForces& f) const {
+  if (const auto factor = rate_factor(contact_.law, f.rate)) {
+    return std::min(f.depth, *factor * contact_.clearance);
+  }
   if (is_continuous(contact_.law)) return f.depth;
   return std::min(f.depth, f.normal / stiffness_);
 }

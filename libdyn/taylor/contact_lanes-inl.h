@@ -52,7 +52,7 @@ struct ContactLanes {
   P plane_at{0.0};                                    // n . u of a plane
   const BladeLanes<P>* disk = nullptr;                // of a blade, what it shares with the others
   P blade_cosine{1.0}, blade_sine{0.0}, excess{0.0};  // of its angle; d . d - clearance^2 at first
-  uint64_t continuous = 0, exact = 0, smooth = 0;
+  uint64_t continuous = 0, damped = 0, exact = 0, smooth = 0;
 
   // state, a bit per lane
   uint64_t touching = 0, receding = 0, sticking = 0;
@@ -101,6 +101,7 @@ struct ContactLanes {
     const Friction& f = from.friction;
     load_numbers(from, l, turn);
     put(continuous, bit, is_continuous(from.law));
+    put(damped, bit, is_damped(from.law));
     put(exact, bit, f.is_exact());
     put(smooth, bit, f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);
     set_state(state, l);

@@ -94,8 +94,7 @@ struct ContactSlopes {
 
  private:
   HWY_ATTR void derivatives_of_law(const ContactLanes<P>& c, int N) {
-    with_alternative(c.law, [&](const auto& law) HWY_ATTR {
-      const auto force = law.normal(Leaf<P, 0>(), Leaf<P, 1>());
+    with_force(c.law, c.rows.has_rate, [&](const auto& force) HWY_ATTR {
       auto by_depth = derivative<0>(force);
       auto by_rate = derivative<1>(force);
       for (int k = 0; k <= N; ++k) {

@@ -45,7 +45,7 @@ HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
                              mask_of<P>(c.surface_distance)));
     c.s[0] = s0;
     if (!c.is_evaluated) continue;
-    if (((c.touching | c.receding) & active_ & ~c.continuous) != 0) watch_force(i, h);
+    if (((c.touching | c.receding) & active_ & c.damped) != 0) watch_force(i, h);
     if ((c.touching & active_ & c.exact & ~c.sticking) != 0) watch_slip(i, h);
     if ((c.leading & active_) != 0) watch_stick(i, h);
   }
@@ -66,15 +66,19 @@ HWY_ATTR bool Engine<P>::is_out_of_reach(const BladeLanes<P>& disk, const P& h) 
                                      mask_of<P>(0)));
 }
 
-/// A damped law lets go where its force vanishes, and grips again where it would push.
+/// A damped law lets go where its force vanishes, and grips again where it would push. If it has a rate
+/// factor, that says both: the force itself vanishes with the depth, too.
 template <class P>
 HWY_ATTR void Engine<P>::watch_force(size_t i, P& h) {
   ContactLanes<P>& c = contacts_[i];
-  const uint64_t watched = (c.touching | c.receding) & active_ & ~c.continuous;
+  const uint64_t watched = (c.touching | c.receding) & active_ & c.damped;
   const P sign = select(mask_of<P>(c.touching), P(1.0), P(-1.0));
+  const auto rate = [&](int k) HWY_ATTR { return c.rate(k); };
+  P factor[P::most_terms];
+  const bool has_factor = find_rate_factor(c.law, rate, N, factor);
   note(i, &EventMask::force,
-       first_downward_zero(c.N, N, sign, c.force_scale, h, mask_of<P>(watched),
-                           mask_of<P>(c.surface_force)));
+       first_downward_zero(has_factor ? factor : c.N, N, sign, has_factor ? P(1.0) : c.force_scale,
+                           h, mask_of<P>(watched), mask_of<P>(c.surface_force)));
 }
 
 /// Slip that comes to rest. A bound tells most steps that it cannot:  |d x d'| <= max |d| max |d'|.
@@ -155,7 +159,7 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
     ContactLanes<P>& c = contacts_[i];
     const EventMask& f = event_masks_[i];
     // touching and parting of continuous laws, in all lanes at once
-    uint64_t common = f.distance & c.continuous;
+    uint64_t common = f.distance & c.continuous & ~c.receding;
     if (common != 0) {
       const uint64_t enters = common & ~c.touching;
       if ((enters & c.exact) != 0) {  // the slip that it begins with
@@ -222,13 +226,16 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   ContactStates states = contacts_of(l);
 
   const EventMask& f = event_masks_[i];
+  ContactLanes<P>& c = contacts_[i];
   EventKind kind = EventKind::touch;
   if (f.distance & bit) {
     kind = states[i].touch == Touch::receding ? EventKind::part
            : states[i].in_touch()             ? EventKind::release
                                               : EventKind::touch;
   } else if (f.force & bit) {
-    kind = states[i].in_touch() ? EventKind::release : EventKind::retouch;
+    kind = !states[i].in_touch()  ? EventKind::retouch
+           : (c.continuous & bit) ? EventKind::pull
+                                  : EventKind::release;
   } else {
     kind = f.slip & bit ? EventKind::slip_stop : EventKind::stick_limit;
   }
@@ -258,14 +265,14 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   }
   t.system->remove_slip(y.data(), states);
   if constexpr (P::is_double) set_state(l, y);
-  ContactLanes<P>& c = contacts_[i];
   c.set_state(states[i], l);
   const auto starts = [&](EventKind k) { return record.watcher->on_surface(index, k); };
   put(c.surface_distance, bit,
       starts(EventKind::touch) || starts(EventKind::part) ||
           (starts(EventKind::release) && (c.continuous & bit)));
   put(c.surface_force, bit,
-      starts(EventKind::retouch) || (starts(EventKind::release) && !(c.continuous & bit)));
+      starts(EventKind::retouch) || starts(EventKind::pull) ||
+          (starts(EventKind::release) && !(c.continuous & bit)));
   put(c.surface_slip, bit, starts(EventKind::slip_stop));
   put(c.level_slip, bit, record.watcher->is_level(index, EventKind::slip_stop));
   for (size_t j = 0; j < contacts_.size(); ++j) {  // others stick and slip with it

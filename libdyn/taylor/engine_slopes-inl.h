@@ -93,8 +93,7 @@ HWY_ATTR P Engine<P>::limit_for_slopes(const P& h) {
     if ((c.touching & active_) == 0) continue;
     const double gain = slopes.gain[i], mu = 1.0 + lane(c.mu, 0), q = std::abs(lane(c.q[0], 0));
     double by_depth[3], by_rate = 0.0;  // coefficients 0, 1 and N
-    with_alternative(c.law, [&](const auto& law) HWY_ATTR {
-      const auto force = law.normal(Leaf<P, 0>(), Leaf<P, 1>());
+    with_force(c.law, c.rows.has_rate, [&](const auto& force) HWY_ATTR {
       auto depth_slope = derivative<0>(force);
       auto rate_slope = derivative<1>(force);
       for (int k = 0; k <= N; ++k) {

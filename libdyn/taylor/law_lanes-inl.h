@@ -101,6 +101,30 @@ struct LawWork {
   HWY_ATTR inline P normal(int k, const P& depth) { return rateless.at(k, depth, depth); }
 };
 
+/// Calls f with a law's normal force as an expression of depth and rate, of the depth alone where the
+/// rate does not matter.
+template <class P>
+HWY_ATTR void with_force(const AnyContactLaw<P>& any, bool has_rate, const auto& f) {
+  with_alternative(any, [&](const auto& law) HWY_ATTR {
+    if (has_rate) return f(law.normal(Leaf<P, 0>(), Leaf<P, 1>()));
+    return f(law.normal(Leaf<P, 0>(), Zero<P>()));
+  });
+}
+
+/// Coefficients 0 to N of a law's rate factor, from those of the rate; false: it has none.
+template <class P>
+HWY_ATTR bool find_rate_factor(const AnyContactLaw<P>& any, const auto& rate, int N, P* to) {
+  return with_alternative(any, [&](const auto& law) HWY_ATTR {
+    if constexpr (requires { law.rate_factor(Leaf<P, 0>()); }) {
+      auto factor = law.rate_factor(Leaf<P, 0>());
+      for (int k = 0; k <= N; ++k) to[k] = factor.at(k, rate(k), P(0.0));
+      return true;
+    } else {
+      return false;
+    }
+  });
+}
+
 template <class P, class List>
 struct WorkOf;
 template <class P, class... Laws>

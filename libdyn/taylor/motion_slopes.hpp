@@ -35,7 +35,7 @@ struct MotionEvent {
 /// Where a motion all but touches, or all but stops to slip: beside it are motions that do and
 /// motions that do not, whose derivatives differ.
 ///
-/// Of a damped contact that is touched, derivatives are one-sided: right for changes towards the
+/// Of a contact whose force jumps at a touch, derivatives are one-sided: right for changes towards the
 /// side that the motion is on. Of slip that comes to rest, those of the motions that get there grow
 /// without bound. Contacts whose force grows from nothing may be grazed: they have a derivative.
 struct Graze {

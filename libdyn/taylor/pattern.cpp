@@ -139,7 +139,7 @@ void add_contact(Pattern::ContactRows& rows, const ReducedContact& contact, int 
   }
   if (rows.rubs_apart || rows.is_plane) insert_friction(rows, contact, n);
   const Friction& f = contact.friction;
-  rows.has_rate = rows.has_rate || !is_continuous(contact.law);
+  rows.has_rate = rows.has_rate || is_damped(contact.law);
   rows.has_friction = rows.has_friction || f.mu > 0.0;
   rows.has_smooth_friction =
       rows.has_smooth_friction || (f.mu > 0.0 && f.slip == Slip::actual && f.tolerance > 0.0);

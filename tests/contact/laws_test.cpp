@@ -144,6 +144,25 @@ TEST(Radial, IsASpringWithADamper) {
   EXPECT_TRUE(Radial<>{.k = 2e6}.is_continuous());
 }
 
+// N = k d^1.5 (1 + 1.5 alpha d'): without force where the depth or the factor is zero.
+TEST(Hertz, IsDampedByAFactorOfItsRate) {
+  const Hertz<> law{.k = 4e9, .alpha = 2.0}, plain{.k = 4e9};
+  EXPECT_NEAR(law.normal(1e-4, 0.5), 4e3 * 2.5, rounding * 1e4);
+  EXPECT_NEAR(law.normal(1e-4, -0.5), 4e3 * -0.5, rounding * 1e4);  // the engine cuts it off
+  EXPECT_EQ(law.normal(1e-4, -1.0 / 3.0), 0.0);
+  EXPECT_TRUE(law.is_continuous());
+  EXPECT_EQ(rate_factor(law, 0.5), 2.5);
+  EXPECT_EQ(rate_factor(plain, 0.5), std::nullopt);
+  EXPECT_EQ(rate_factor(Radial<>{.k = 2e6, .c = 300.0}, 0.5), std::nullopt);
+}
+
+// A law is damped if its force changes with the rate.
+TYPED_TEST(EveryLaw, IsDampedIfItSaysSo) {
+  for (const TypeParam& law : {this->plain, this->full}) {
+    EXPECT_EQ(is_damped(law), law.normal(1e-4, 0.1) != law.normal(1e-4, 0.0));
+  }
+}
+
 TEST(AnyContactLaw, AnswersForTheLawItHolds) {
   const Radial<> law{.k = 2e6, .c = 300.0};
   const AnyContactLaw<> any = law;

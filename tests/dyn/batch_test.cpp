@@ -24,7 +24,7 @@ test::Trajectories random_rotors(int size, bool are_damped = false, bool are_her
   for (int i = 0; i < size; ++i) {
     RotorStator p{.Omega = 120.0 + 50.0 * unit(random), .mu = 0.3 * unit(random)};
     p.kC = 2e6 * std::pow(100.0, unit(random));
-    if (are_damped) p.cC = 1e3 * unit(random);
+    if (are_damped) p.cC = 1e3 * unit(random), p.alpha = 1e-3 * p.cC;
     if (are_hertz) p.kH = 100.0 * p.kC;
     sample.add(p, 20 + static_cast<long>(20.0 * unit(random)));
   }
@@ -68,6 +68,9 @@ TEST(Batch, GivesEachTrajectoryWhatItIsAloneWithDampedContacts) {
 }
 TEST(Batch, GivesEachTrajectoryWhatItIsAloneWithHertzContacts) {
   expect_same_as_alone(random_rotors(24, false, true), {.sections = true});
+}
+TEST(Batch, GivesEachTrajectoryWhatItIsAloneWithDampedHertzContacts) {
+  expect_same_as_alone(random_rotors(24, true, true), {.tolerance = 1e-8, .sections = true});
 }
 TEST(Batch, GivesEachTrajectoryItsExponents) {
   expect_same_as_alone(random_rotors(20), {.tolerance = 1e-8, .exponents = true});

@@ -57,6 +57,12 @@ Model blades(Slip slip, double tolerance) {
   return m;
 }
 
+Model damped_hertz() {
+  Model m = ring(0.0, 1e7, {.mu = 0.1, .slip = Slip::forward});
+  std::get<Hertz<>>(m.contacts[0].law).alpha = 8.0;  // it lets go beyond the surface
+  return m;
+}
+
 struct Case {
   std::string name;
   Model model;
@@ -68,6 +74,7 @@ std::vector<Case> cases() {
           {"reversals of slip", ring(0.0, 0.0, {.mu = 0.3}), 2.0},
           {"creep", ring(0.0, 0.0, {.mu = 0.3, .tolerance = 0.05}), 2.0},
           {"hertz", ring(0.0, 1e7, {.mu = 0.1, .slip = Slip::forward}), 2.0},
+          {"damped hertz", damped_hertz(), 2.0},
           {"stop", stop(0.0, 0.0, {.mu = 0.1, .slip = Slip::forward}), 2.0},
           {"damped stop", stop(40.0, 0.0, {.mu = 0.3}), 2.0},
           {"stop that creeps", stop(0.0, 1e7, {.mu = 0.3, .tolerance = 0.05}), 2.0},

@@ -308,14 +308,15 @@ Model with_reversals() {
   return m;
 }
 std::vector<Rub> rubs() {
-  const auto stator = [](double kC, double cC, double kH) {
+  const auto stator = [](double kC, double cC, double kH, double alpha = 0.0) {
     test::RotorStator p = test::P1;
-    p.kC = kC, p.cC = cC, p.kH = kH;
+    p.kC = kC, p.cC = cC, p.kH = kH, p.alpha = alpha;
     return p.model();
   };
   return {{"two long contacts", stator(20e6, 0.0, 0.0), 1, {10, 20, 40, 80}, 2.7, 3.5, 2e-7, 1e-5},
           {"damped contact", stator(20e6, 20e3, 0.0), 1, {10, 20, 40, 80}, 2.7, 3.2, 3e-7, 1e-5},
           {"hertz", stator(0.0, 0.0, 3e8), 1, {10, 20, 40, 80}, 5.0, 5.0, 1e-10, 1e-9},
+          {"damped hertz", stator(0.0, 0.0, 3e8, 1.0), 1, {10, 20, 40, 80}, 4.8, 5.0, 1e-10, 1e-9},
           {"blades", with_blades(), 1, {20, 40, 80}, 4.5, 5.5, 5e-7, 1e-6},
           {"ring and face", test::overhung_disk(), 3, {7, 14, 28}, 3.5, 4.0, 5e-5, 2e-3},
           {"reversals of slip", with_reversals(), 1, {10, 20, 40, 80}, 0.8, 0.7, 1e-4, 1e-3}};

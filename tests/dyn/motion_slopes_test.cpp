@@ -46,6 +46,10 @@ Knob damping() {
 Knob hertz() {
   return {"hertz", [](Model& m) -> double& { return std::get<Hertz<>>(m.contacts[0].law).k; }};
 }
+Knob dissipation(double size = 0.0) {
+  return {"dissipation",
+          [](Model& m) -> double& { return std::get<Hertz<>>(m.contacts[0].law).alpha; }, size};
+}
 Knob friction(std::size_t i = 0) {
   return {"friction", [i](Model& m) -> double& { return m.contacts[i].friction.mu; }};
 }
@@ -203,9 +207,34 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesWithDampedContacts) {
 TEST(MotionSlopes, AreTheLimitOfDifferencesOfHertzContacts) {
   RotorStator p = test::P1;
   p.kH = 1.5e8;
-  const auto found = expect_differences({.model = p.model(), .settle = 50, .revolutions = 5},
-                                        {hertz(), friction(), clearance(), speed()});
+  const auto found =
+      expect_differences({.model = p.model(), .settle = 50, .revolutions = 5},
+                         {hertz(), dissipation(1.0), friction(), clearance(), speed()});
   EXPECT_GE(found.events.size(), 8u);
+}
+
+TEST(MotionSlopes, AreTheLimitOfDifferencesOfDampedHertzContacts) {
+  RotorStator p = test::P1;
+  p.kH = 1.5e8;
+  p.alpha = 0.5;
+  const auto found = expect_differences({.model = p.model(), .settle = 50, .revolutions = 5},
+                                        {dissipation(), hertz(), friction(), clearance(), speed()});
+  EXPECT_GE(found.events.size(), 8u);
+  EXPECT_EQ(jumps(found), 0);
+}
+
+// Shaken on a stop below it, so that the contact lets go and pushes again, and comes off.
+TEST(MotionSlopes, AreTheLimitOfDifferencesWhereDampedHertzContactsLetGo) {
+  Model model =
+      test::MassInRing{
+          .k = 50.0, .c = 5.0, .U = 1.7e-3, .kH = 1e5, .alpha = 30.0, .mu = 0.1, .gravity = 9.81}
+          .model();
+  model.contacts[0].geometry = geometry::Stop{.angle = -0.5 * test::pi};
+  const auto found = expect_differences({.model = model, .settle = 10, .revolutions = 10},
+                                        {dissipation(), hertz(), clearance(), speed()});
+  const auto pulls = std::count_if(found.events.begin(), found.events.end(),
+                                   [](const auto& e) { return e.kind == EventKind::pull; });
+  EXPECT_GE(pulls, 10);
 }
 
 TEST(MotionSlopes, AreTheLimitOfDifferencesIntoRolling) {

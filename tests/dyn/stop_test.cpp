@@ -27,7 +27,7 @@ using test::pi;
 struct MassAtStop {
   double Omega = 10.0;
   double m = 2.0, k = 200.0, c = 0.0, U = 0.0;
-  double kC = 5000.0, cC = 0.0, kH = 0.0, mu = 0.0, R = 0.0;
+  double kC = 5000.0, cC = 0.0, kH = 0.0, alpha = 0.0, mu = 0.0, R = 0.0;
   double clearance = 1e-3, angle = 2.2;
   Vec2 offset = Vec2::Zero();
   double gravity = 0.0;
@@ -48,6 +48,7 @@ struct MassAtStop {
                                .kC = kC,
                                .cC = cC,
                                .kH = kH,
+                               .alpha = alpha,
                                .mu = mu,
                                .R = R,
                                .clearance = clearance,
@@ -280,15 +281,17 @@ Mat tangent_by_differences(const Scene& scene, const Vec& y) {
   return columns;
 }
 
-// Every kind of friction and law: forward, creeping, switching (reversals, sticking), damped, Hertz.
+// Every kind of friction and law: forward, creeping, switching (reversals, sticking), damped, Hertz,
+// damped Hertz.
 TEST(Stop, HasTheTangentsOfDifferences) {
   const MassAtStop base{.Omega = 9.0, .c = 4.0, .U = 4e-3, .R = 0.01, .offset = {2e-4, -1e-4}};
-  std::vector<MassAtStop> cases(5, base);
+  std::vector<MassAtStop> cases(6, base);
   cases[0].mu = 0.2, cases[0].slip = Slip::forward;
   cases[1].mu = 0.3, cases[1].tolerance = 0.02;
   cases[2].mu = 0.5, cases[2].R = 0.0;
   cases[3].cC = 30.0, cases[3].mu = 0.2;
   cases[4].kH = 2e5, cases[4].mu = 0.2;
+  cases[5].kH = 2e5, cases[5].alpha = 10.0, cases[5].mu = 0.2;
   for (const MassAtStop& p : cases) {
     const Scene scene = p.scene();
     MotionState state = test::state_of(Vec2(1e-3, 2e-3), Vec2(0.03, -0.02));

@@ -56,8 +56,9 @@ RotorStator changed(RotorStator p, double cC, double slip_tolerance) {
   return p;
 }
 
-RotorStator with_hertz_contact(RotorStator p) {
+RotorStator with_hertz_contact(RotorStator p, double alpha = 0.0) {
   p.kH = 1.5e10;  // as stiff as P1 at 0.1 mm
+  p.alpha = alpha;
   return p;
 }
 
@@ -70,6 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"damped_contact", changed(test::P1, 2e4, 0.0), 400, 1, 1e-6},
                       Case{"heavily_damped_contact", changed(test::P1, 2e5, 0.0), 400, 1, 1e-5},
                       Case{"hertz_contact", with_hertz_contact(test::P1), 400, 1, 1e-6},
+                      Case{"damped_hertz_contact", with_hertz_contact(test::P1, 2.0), 400, 1, 1e-6},
                       Case{"smoothed_friction", changed(test::P1, 0.0, 1.0), 400, 1, 1e-6},
                       Case{"smoothed_rolling", changed(rolling, 0.0, 0.1), 100, 1, 1e-5},
                       Case{"smoothed_friction_damped", changed(rolling, 1e3, 0.3), 20, 2, 1e-5},

@@ -295,6 +295,13 @@ TEST(BadInput, KeysOfAnotherLaw) {
        "contact.seal.hertz_stiffness", "missing, expected a Hertz stiffness (N/m^1.5)"},
       {"friction = 0.1", "hertz_stiffness = 1e9", "50:1", "contact.seal.hertz_stiffness",
        "unknown"},
+      {"friction = 0.1", "dissipation = 0.5", "50:1", "contact.seal.dissipation", "unknown"},
+      {"stiffness = \"3 MN/m\"\nfriction = 0.1",
+       "law = \"hertz\"\nhertz_stiffness = 1e9\ndissipation = -0.5", "51:15",
+       "contact.seal.dissipation", "found -0.5"},
+      {"stiffness = \"3 MN/m\"\nfriction = 0.1",
+       "law = \"hertz\"\nhertz_stiffness = 1e9\ndissipation = \"0.5 m/s\"", "51:15",
+       "contact.seal.dissipation", "expected a dissipation factor (s/m)"},
   });
 }
 

@@ -335,6 +335,15 @@ TEST(ModelConnections, HertzContact) {
                         "hertz_stiffness = \"23.33 kN/mm^1.5\"\n")
                         .contacts.at(0);
   EXPECT_NEAR(std::get<Hertz<>>(c.law).k, 23.33e3 * std::pow(1e3, 1.5), 1e-3);
+  EXPECT_EQ(std::get<Hertz<>>(c.law).alpha, 0.0);
+}
+
+TEST(ModelConnections, DampedHertzContact) {
+  const Contact c = rotor(
+                        "[[contact]]\nnode = 7\nclearance = 1e-4\nlaw = \"hertz\"\n"
+                        "hertz_stiffness = 1e9\ndissipation = \"2 ms/mm\"\n")
+                        .contacts.at(0);
+  EXPECT_NEAR(std::get<Hertz<>>(c.law).alpha, 2.0, 1e-15);
 }
 
 TEST(ModelConnections, ContactRadiusIsThatOfTheShaftThere) {

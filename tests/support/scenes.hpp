@@ -16,8 +16,8 @@
 namespace whirl::test {
 
 /// Linear contact, or Hertz contact if its stiffness kH is given.
-inline AnyContactLaw<> contact_law(double kC, double cC, double kH) {
-  if (kH > 0.0) return Hertz<>{.k = kH};
+inline AnyContactLaw<> contact_law(double kC, double cC, double kH, double alpha) {
+  if (kH > 0.0) return Hertz<>{.k = kH, .alpha = alpha};
   return Radial<>{.k = kC, .c = cC};
 }
 
@@ -31,6 +31,7 @@ struct RotorStator {
   double kC = 150e6, mu = 0.1;      ///< contact: stiffness [N/m], friction
   double cC = 0.0;                  ///< and damping [N.s/m]
   double kH = 0.0;                  ///< above 0: Hertz contact instead [N/m^1.5]
+  double alpha = 0.0;               ///< and its dissipation factor [s/m]
   double mr = 50.0, ms = 50.0;      ///< [kg]
   double kr = 980e3, ks = 14.58e6;  ///< [N/m]
   double cr = 280.0, cs = 2700.0;   ///< [N.s/m]
@@ -57,7 +58,7 @@ struct RotorStator {
                    .clearance = gap,
                    .offset = offset,
                    .friction = {.mu = mu, .slip = slip, .radius = R, .tolerance = slip_tolerance},
-                   .law = contact_law(kC, cC, kH)}};
+                   .law = contact_law(kC, cC, kH, alpha)}};
     return m;
   }
   Scene scene() const { return make_scene(model()); }
@@ -77,6 +78,7 @@ struct MassInRing {
   double U = 0.0, phase = 0.0;  ///< unbalance [kg.m], [rad]
   double kC = 1e6, cC = 0.0;    ///< of the contact [N/m], [N.s/m]
   double kH = 0.0;              ///< above 0: Hertz contact instead [N/m^1.5]
+  double alpha = 0.0;           ///< and its dissipation factor [s/m]
   double mu = 0.0, R = 0.0;     ///< friction and its radius [m]
   double clearance = 1e-3;      ///< [m]
   double gravity = 0.0;         ///< [m/s^2]
@@ -95,7 +97,7 @@ struct MassInRing {
                    .clearance = clearance,
                    .offset = offset,
                    .friction = {.mu = mu, .radius = R},
-                   .law = contact_law(kC, cC, kH)}};
+                   .law = contact_law(kC, cC, kH, alpha)}};
     return s;
   }
   Scene scene() const { return make_scene(model()); }
