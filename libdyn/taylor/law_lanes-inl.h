@@ -104,7 +104,7 @@ struct LawWork {
 /// Calls f with a law's normal force as an expression of depth and rate, of the depth alone where the
 /// rate does not matter.
 template <class P>
-HWY_ATTR void with_force(const AnyContactLaw<P>& any, bool has_rate, const auto& f) {
+HWY_ATTR inline void with_force(const AnyContactLaw<P>& any, bool has_rate, const auto& f) {
   with_alternative(any, [&](const auto& law) HWY_ATTR {
     if (has_rate) return f(law.normal(Leaf<P, 0>(), Leaf<P, 1>()));
     return f(law.normal(Leaf<P, 0>(), Zero<P>()));
