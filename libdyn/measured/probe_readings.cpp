@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "libbase/error.hpp"
 
 namespace whirl::inline dyn {
@@ -10,6 +12,13 @@ namespace {
 
 Eigen::Index channel_of(const MeasuredRecord& record, const std::string& channel,
                         const std::string& who) {
+  const auto alike = std::count_if(record.channels.begin(), record.channels.end(),
+                                   [&](const MeasuredChannel& c) { return c.name == channel; });
+  if (alike > 1) {
+    throw OptionError(fmt::format(
+        "{}: {} channels of the record are called \"{}\": give its number from 1; it has {}", who,
+        alike, channel, record.channel_list()));
+  }
   if (const auto found = record.channel(channel)) return *found;
   throw OptionError(fmt::format("{}: the record has no channel \"{}\"; it has {}", who, channel,
                                 record.channel_list()));

@@ -13,7 +13,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr double even_to = 0.1;  ///< of a step
+constexpr double same_rate = 1e-4;  ///< to which --rate gives that of a file more digits
 
 /// Takes rate and start from a channel of times.
 void take_times(RawRecord& raw, const RawChannel& time) {
@@ -63,12 +63,22 @@ bool names_rate(const std::string& name) {
 MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
   const auto time = std::find_if(raw.channels.begin(), raw.channels.end(),
                                  [](const RawChannel& c) { return names_time(c.name); });
-  if (time != raw.channels.end()) {
+  if (time != raw.channels.end() && !raw.has_own_times) {
     const RawChannel times = std::move(*time);
     raw.channels.erase(time);
     take_times(raw, times);
   }
   const Where where{raw.file};
+  if (raw.rate && rate) {
+    if (!(std::abs(*raw.rate / *rate - 1.0) <= same_rate)) {
+      throw ModelError(
+          where, "",
+          fmt::format("says {:.6g} samples per second, --rate says {:.6g}: leave --rate out, "
+                      "or mend the file",
+                      *raw.rate, *rate));
+    }
+    raw.rate = rate;
+  }
   if (raw.channels.empty()) throw ModelError(where, "", "has no channels with samples");
   if (!raw.rate) raw.rate = rate;
   if (!raw.rate) {

@@ -24,14 +24,18 @@ struct RawRecord {
   std::vector<RawChannel> channels;
   std::optional<double> rate{};  ///< where the file says it [1/s]
   double start = 0.0;            ///< [s]
+  bool has_own_times = false;    ///< no channel is one of times, whatever its name
 };
+
+/// Share of a step that times may be off.
+constexpr double even_to = 0.1;
 
 /// Makes a record of channels of equal length: lengths in m, voltages in V. Without a rate the channel
 /// named time, or t, says it, whose steps must be even to a tenth.
 ///
-/// @param rate  for files that say neither; nothing: nobody knows [1/s]
-/// @throws ModelError  for times that do not ascend evenly, for channels of different lengths, without
-///                     any, or where nothing says the rate
+/// @param rate  for files that say neither, or with more digits than theirs; nothing: nobody knows [1/s]
+/// @throws ModelError  for a rate that is not that of the file, for times that do not ascend evenly, for
+///                     channels of different lengths, without any, or where nothing says the rate
 MeasuredRecord finished(RawRecord raw, std::optional<double> rate);
 
 /// Whether a name is that of times.

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
+#include <set>
 
 #include "libio/measured/record_formats.hpp"
 #include "libio/text/delimited.hpp"
@@ -23,7 +25,8 @@ constexpr std::string_view block_mark = "    -1";
 /// Numbers of the format.
 struct RecordCode {
   static constexpr long real_single = 2, real_double = 4, complex_single = 5, complex_double = 6;
-  static constexpr long time_response = 1, displacement = 8, time = 17;
+  static constexpr long general = 0, time_response = 1;                 // kinds of functions
+  static constexpr long any_quantity = 1, displacement = 8, time = 17;  // of axes; 0 is unknown
   static constexpr long little_endian = 1, ieee = 2;
 };
 
@@ -70,6 +73,12 @@ bool is_mark(std::string_view line) {
   return trimmed(line) == "-1" && line.size() <= 80;
 }
 
+/// Names of a channel beside its first line.
+struct ResponseNames {
+  std::string response;  ///< entity, node and direction
+  std::string label;     ///< of its axis
+};
+
 /// One dataset 58.
 class ResponseDataset {
  public:
@@ -92,7 +101,7 @@ class ResponseDataset {
 
   /// Reads its values.
   RawChannel channel(RawRecord& raw) {
-    RawChannel found{name(), unit_, {}, text_.where()};
+    RawChannel found{id_or_response(), unit_, {}, text_.where()};
     const std::size_t wide = is_even_ ? 1 : 2;
     require_size(wide);
     std::vector<double> values = is_binary_ ? binary_values(wide) : text_values(wide);
@@ -107,20 +116,33 @@ class ResponseDataset {
       take_step(times);
     }
     for (double& sample : found.samples) sample *= factor_;
-    if (!(step_ > 0.0)) text_.fail(key_, fmt::format("has steps of {} s of time", step_));
-    if (raw.rate && std::abs(*raw.rate * step_ - 1.0) > 1e-5) {
-      text_.fail(key_, fmt::format("has {} samples per second, those before have {}", 1.0 / step_,
-                                   *raw.rate));
-    }
-    raw.rate = 1.0 / step_;
-    raw.start = start_;
+    take_times(raw);
     return found;
   }
   bool is_over_time() const { return is_over_time_; }
+  /// Of the axis of its values.
+  std::string label() const { return columns_of(records_[8], 26, 20); }
+  /// Name, node and direction of its response.
+  std::string response() const {
+    std::string entity = columns_of(records_[5], 31, 10);
+    if (entity == "NONE") entity.clear();
+    static constexpr std::array<const char*, 7> directions{"",     " +x",  " +y", " +z",
+                                                           " +rx", " +ry", " +rz"};
+    const double direction = number_in(columns_of(records_[5], 51, 4)).value_or(0.0);
+    std::string way;
+    if (std::abs(direction) < static_cast<double>(directions.size())) {
+      way = directions[static_cast<std::size_t>(std::abs(direction))];
+    }
+    if (direction < 0.0 && !way.empty()) way[1] = '-';
+    return fmt::format("{}{}{}{}", entity, entity.empty() ? "" : " ",
+                       columns_of(records_[5], 41, 10), way);
+  }
 
  private:
+  /// Cells that are blank are 0, as in Fortran.
   long whole(std::string_view record, std::size_t from, std::size_t size, const char* what) const {
     const std::string cell = columns_of(record, from, size);
+    if (cell.empty()) return 0;
     const auto value = parse_as(cell, "");
     if (!value || *value != std::floor(*value) || std::abs(*value) > 1e12) {
       text_.fail(key_,
@@ -130,6 +152,7 @@ class ResponseDataset {
   }
   double real(std::string_view record, std::size_t from, const char* what) const {
     const std::string cell = columns_of(record, from, 13);
+    if (cell.empty()) return 0.0;
     const auto value = number_in(cell);
     if (!value) {
       text_.fail(key_, fmt::format("found {}, expected a number: its {}", in_quotes(cell), what));
@@ -148,14 +171,20 @@ class ResponseDataset {
 
   void read_records(double length_factor) {
     const std::string_view form = records_[6], time = records_[7], response = records_[8];
-    is_over_time_ = whole(time, 0, 10, "kind of abscissa") == RecordCode::time ||
-                    whole(records_[5], 0, 5, "kind of function") == RecordCode::time_response;
+    const long kind = whole(records_[5], 0, 5, "kind of function");
+    const long abscissa = whole(time, 0, 10, "kind of abscissa");
+    const bool is_response = kind == RecordCode::time_response;
+    is_over_time_ = abscissa == RecordCode::time
+                        ? is_response || kind == RecordCode::general
+                        : is_response && abscissa <= RecordCode::any_quantity;
     type_ = whole(form, 0, 10, "type of values");
     count_ = whole(form, 10, 10, "number of values");
     is_even_ = whole(form, 20, 10, "spacing of values") != 0;
     start_ = real(form, 30, "first time");
     step_ = real(form, 43, "step of time");
+    is_over_time_ = is_over_time_ && count_ != 1;  // one value is a mean or a setting
     if (!is_over_time_) return;
+    time_factor_ = parse_as("1 " + columns_of(time, 47, 20), "s").value.value_or(1.0);
     if (type_ == RecordCode::complex_single || type_ == RecordCode::complex_double) {
       text_.fail(key_, "has complex values, expected samples over time");
     }
@@ -163,7 +192,7 @@ class ResponseDataset {
       text_.fail(key_,
                  fmt::format("has values of type {}, expected 2 (single) or 4 (double)", type_));
     }
-    if (count_ < 1) text_.fail(key_, fmt::format("has {} values, expected one or more", count_));
+    if (count_ < 1) text_.fail(key_, fmt::format("has {} values, expected two or more", count_));
     unit_ = columns_of(response, 47, 20);
     if (unit_ == "NONE") unit_.clear();
     const bool is_displacement =
@@ -174,20 +203,10 @@ class ResponseDataset {
     }
   }
 
-  /// Its first identification line, or the name, node and direction of its response.
-  std::string name() const {
+  /// Its first identification line; the response where that is empty.
+  std::string id_or_response() const {
     const std::string id = trimmed(records_[0]);
-    if (!id.empty() && id != "NONE") return id;
-    std::string entity = columns_of(records_[5], 31, 10);
-    if (entity == "NONE") entity.clear();
-    static constexpr std::array<const char*, 7> directions{"",     " +x",  " +y", " +z",
-                                                           " +rx", " +ry", " +rz"};
-    const long direction = whole(records_[5], 51, 4, "direction of the response");
-    const auto along = static_cast<std::size_t>(std::abs(direction));
-    std::string way = along < directions.size() ? directions[along] : "";
-    if (direction < 0 && !way.empty()) way[1] = '-';
-    return fmt::format("{}{}{}{}", entity, entity.empty() ? "" : " ",
-                       whole(records_[5], 41, 10, "node of the response"), way);
+    return id.empty() || id == "NONE" ? response() : id;
   }
 
   std::size_t number_size() const { return type_ == RecordCode::real_double ? 8 : 4; }
@@ -274,13 +293,28 @@ class ResponseDataset {
                                  type_ == RecordCode::real_double ? 20 : 13));
   }
 
+  /// Gives the record its times, which are those of the datasets before.
+  void take_times(RawRecord& raw) {
+    start_ *= time_factor_;
+    step_ *= time_factor_;
+    if (!(step_ > 0.0)) text_.fail(key_, fmt::format("has steps of {} s of time", step_));
+    if (raw.rate && std::abs(*raw.rate * step_ - 1.0) > 1e-5) {
+      text_.fail(key_, fmt::format("has {} samples per second, those before have {}", 1.0 / step_,
+                                   *raw.rate));
+    }
+    if (raw.rate && std::abs(raw.start - start_) > even_to * step_) {
+      text_.fail(key_, fmt::format("begins at {} s, those before at {} s", start_, raw.start));
+    }
+    raw.rate = 1.0 / step_;
+    raw.start = start_;
+  }
+
   void take_step(const std::vector<double>& times) {
     const std::size_t n = times.size();
-    if (n < 2) text_.fail(key_, "has one time, expected two or more");
     start_ = times.front();
     step_ = (times.back() - times.front()) / static_cast<double>(n - 1);
     for (std::size_t i = 0; i < n; ++i) {
-      if (std::abs(times[i] - start_ - step_ * static_cast<double>(i)) <= 0.1 * step_) continue;
+      if (std::abs(times[i] - start_ - step_ * static_cast<double>(i)) <= even_to * step_) continue;
       text_.fail(key_,
                  fmt::format("value {} is at {} s: steps of time must be even", i + 1, times[i]));
     }
@@ -291,7 +325,7 @@ class ResponseDataset {
   std::array<std::string_view, 11> records_;
   bool is_binary_ = false, is_little_ = true, is_even_ = true, is_over_time_ = false;
   long type_ = 0, count_ = 0, byte_count_ = 0;
-  double start_ = 0.0, step_ = 0.0, factor_ = 1.0;
+  double start_ = 0.0, step_ = 0.0, factor_ = 1.0, time_factor_ = 1.0;
 };
 
 /// Skips what is left of a dataset.
@@ -311,15 +345,33 @@ double length_factor_in(UniversalText& text) {
   return length && *length > 0.0 ? *length : 1.0;
 }
 
+/// Names of channels: their first lines; of those that have one in common, for instance what kind of
+/// function they are, the responses or else the labels, where these differ.
+void tell_apart(std::vector<RawChannel>& channels, const std::vector<ResponseNames>& names) {
+  std::map<std::string, std::vector<std::size_t>> alike;
+  for (std::size_t i = 0; i < channels.size(); ++i) alike[channels[i].name].push_back(i);
+  for (const auto& [first_line, members] : alike) {
+    if (members.size() == 1) continue;
+    for (const auto name : {&ResponseNames::response, &ResponseNames::label}) {
+      std::set<std::string> different;
+      for (const std::size_t i : members) different.insert(names[i].*name);
+      if (different.size() < members.size()) continue;
+      for (const std::size_t i : members) channels[i].name = names[i].*name;
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 RawRecord read_universal_record(const std::filesystem::path& path) {
   const std::string bytes = record_bytes(path);
-  RawRecord raw{.file = path.string()};
+  RawRecord raw{.file = path.string(), .has_own_times = true};
   UniversalText text(bytes, raw.file);
   double length_factor = 1.0;
   long number = 0;
   std::string others;
+  std::vector<ResponseNames> names;  // of the channels
   while (!text.is_at_end()) {
     if (!is_mark(text.line())) continue;
     if (text.is_at_end()) break;
@@ -332,9 +384,10 @@ RawRecord read_universal_record(const std::filesystem::path& path) {
       ResponseDataset dataset(text, head, number, length_factor);
       if (dataset.is_over_time()) {
         raw.channels.push_back(dataset.channel(raw));
+        names.push_back({dataset.response(), dataset.label()});
       } else {
-        others +=
-            fmt::format("{}dataset {} (58, not over time)", others.empty() ? "" : ", ", number);
+        others += fmt::format("{}dataset {} (58, no record over time)", others.empty() ? "" : ", ",
+                              number);
       }
     } else {
       others += fmt::format("{}dataset {} ({})", others.empty() ? "" : ", ", number, kind);
@@ -346,6 +399,7 @@ RawRecord read_universal_record(const std::filesystem::path& path) {
                      fmt::format("has no dataset 58 of a response over time; it has {}",
                                  others.empty() ? "none at all" : others));
   }
+  tell_apart(raw.channels, names);
   return raw;
 }
 

@@ -105,6 +105,12 @@ TEST_F(RecordFile, ReadsTablesOfLoggers) {
   EXPECT_EQ(read_record(file("d.csv", "x,y,\n1,2,\n3,4,\n"), 10.0).channels.size(), 2u);
 }
 
+TEST_F(RecordFile, TakesRatesThatAreThoseOfTheFile) {
+  const std::filesystem::path path = file("a.csv", "time [s],x [um]\n0,1\n0.00033333,2\n");
+  EXPECT_EQ(read_record(path, 3000.0).rate, 3000.0) << "with more digits";
+  EXPECT_THROW(read_record(path, 2900.0), ModelError);
+}
+
 TEST_F(RecordFile, SaysWhatIsWrongInATable) {
   expect_problem("a.csv", "t,x\n0,1\n1,2\n2,3,4\n",
                  "a.csv:4:1: found 3 columns, expected 2 as in line 2");
