@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
@@ -12,8 +13,81 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr double back_by = 0.2;     ///< of a signal's range, before another pulse counts
-constexpr double uneven_by = 0.35;  ///< of an interval between pulses, against its neighbors
+constexpr double back_by = 0.2;           ///< of a signal's range, before another pulse counts
+constexpr double uneven_by = 0.35;        ///< of an interval between pulses, against its neighbors
+constexpr double same_interval = 0.15;    ///< to which intervals are alike
+constexpr std::size_t most_together = 3;  ///< pulses that are missing one after the other
+constexpr std::size_t around = 3;         ///< intervals to each side that one is compared with
+
+/// Intervals between pulses, and what they usually are about each of them.
+class Intervals {
+ public:
+  explicit Intervals(const std::vector<double>& pulses) {
+    for (std::size_t i = 1; i < pulses.size(); ++i) of_.push_back(pulses[i] - pulses[i - 1]);
+  }
+  double at(std::size_t i) const { return of_[i]; }
+  /// The median of an interval and its neighbors.
+  double usual(std::size_t i) const {
+    const std::size_t first = i > around ? i - around : 0;
+    const std::size_t end = std::min(of_.size(), i + around + 1);
+    std::vector<double> near(of_.begin() + static_cast<std::ptrdiff_t>(first),
+                             of_.begin() + static_cast<std::ptrdiff_t>(end));
+    const auto middle = near.begin() + std::ssize(near) / 2;
+    std::nth_element(near.begin(), middle, near.end());
+    return *middle;
+  }
+  std::size_t count() const { return of_.size(); }
+  /// Whether an interval and the next one are one that a pulse too many cuts in two: rather than the
+  /// next one and that behind it.
+  bool is_cut(std::size_t i) const {
+    const double off = off_as_one(i);
+    return off < same_interval && off <= off_as_one(i + 1);
+  }
+
+ private:
+  /// By what share an interval and the next one together are not a usual one.
+  double off_as_one(std::size_t i) const {
+    if (i + 1 >= of_.size()) return std::numeric_limits<double>::infinity();
+    return std::abs((of_[i] + of_[i + 1]) / usual(i) - 1.0);
+  }
+
+  std::vector<double> of_;
+};
+
+/// Leaves pulses out that cut an interval in two, and puts missing ones between their neighbors.
+std::vector<double> mended_pulses(const std::vector<double>& pulses, const KeyPhasor& key,
+                                  std::vector<std::string>& notes) {
+  const Intervals intervals(pulses);
+  if (intervals.count() <= 2 * around) return pulses;
+  std::vector<double> mended{pulses.front()}, extra, missing;
+  for (std::size_t i = 0; i < intervals.count(); ++i) {
+    const double usual = intervals.usual(i), begin = pulses[i];
+    double interval = intervals.at(i);
+    if (intervals.is_cut(i)) {
+      extra.push_back(pulses[++i]);
+      interval += intervals.at(i);
+    }
+    for (std::size_t more = 1; more <= most_together; ++more) {
+      const auto parts = static_cast<double>(more + 1);
+      if (std::abs(interval / (parts * usual) - 1.0) > same_interval) continue;
+      for (std::size_t k = 1; k <= more; ++k) {
+        missing.push_back(begin + static_cast<double>(k) * interval / parts);
+        mended.push_back(missing.back());
+      }
+      break;
+    }
+    mended.push_back(pulses[i + 1]);
+  }
+  const auto note = [&](const std::vector<double>& which, const char* what, const char* done) {
+    if (which.empty()) return;
+    notes.push_back(fmt::format("key-phasor \"{}\": {} pulse{} {}, the first at {:.6g} s; {}",
+                                key.channel, which.size(), which.size() == 1 ? " is" : "s are",
+                                what, which.front(), done));
+  };
+  note(missing, "missing", "such pulses are put between their neighbors");
+  note(extra, "too many", "such pulses are left out");
+  return mended;
+}
 
 }  // namespace
 
@@ -48,16 +122,25 @@ TurnClock::TurnClock(std::vector<double> pulses, const KeyPhasor& key,
         "and slope, or give the speed by --speed and leave [keyphasor] out",
         key.channel, n, n == 1 ? "" : "s"));
   }
-  std::vector<double> sorted;
-  for (std::size_t i = 1; i < n; ++i) sorted.push_back(pulses_[i] - pulses_[i - 1]);
-  for (std::size_t i = 1; i + 1 < sorted.size(); ++i) {
-    const double expected = 0.5 * (sorted[i - 1] + sorted[i + 1]);
-    if (std::abs(sorted[i] / expected - 1.0) < uneven_by) continue;
+  pulses_ = mended_pulses(pulses_, key, notes);
+  note_jump(key, notes);
+  set_slopes();
+}
+
+void TurnClock::note_jump(const KeyPhasor& key, std::vector<std::string>& notes) const {
+  const Intervals intervals(pulses_);
+  for (std::size_t i = 1; i + 1 < intervals.count(); ++i) {
+    const double expected = 0.5 * (intervals.at(i - 1) + intervals.at(i + 1));
+    if (std::abs(intervals.at(i) / expected - 1.0) < uneven_by) continue;
     notes.push_back(fmt::format(
         "key-phasor \"{}\": the time between pulses jumps at {:.6g} s; one is missing or too many",
         key.channel, pulses_[i]));
     break;
   }
+}
+
+void TurnClock::set_slopes() {
+  const std::size_t n = pulses_.size();
   slopes_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     // the parabola through three pulses, about the middle one

@@ -47,7 +47,10 @@ std::vector<double> pulse_times(const Vec& samples, const MeasuredRecord& record
 /// exact where the speed changes evenly.
 class TurnClock {
  public:
-  /// @param notes  receives where pulses seem to be missing or too many
+  /// Up to three pulses that are missing one after the other are put between their neighbors, and one
+  /// that cuts an interval in two is left out; intervals are compared with the median about them.
+  ///
+  /// @param notes  receives where pulses are missing or too many
   /// @throws OptionError  for fewer than three pulses
   TurnClock(std::vector<double> pulses, const KeyPhasor& key, std::vector<std::string>& notes);
 
@@ -69,6 +72,8 @@ class TurnClock {
     std::size_t number = 0;
   };
   Piece piece_at(double t) const;
+  void note_jump(const KeyPhasor& key, std::vector<std::string>& notes) const;
+  void set_slopes();
 
   std::vector<double> pulses_, slopes_;  ///< [s], [pulses/s]
   int per_turn_ = 1;

@@ -13,9 +13,11 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr double most_missing = 0.05;  ///< share of the samples of a channel
-constexpr long clipped_run = 3;        ///< samples at the limit one after the other
-constexpr double clipped_step = 2.0;   ///< of the smallest step, beyond which a limit was met
+constexpr long clipped_run = 3;          ///< samples at the limit one after the other
+constexpr double clipped_step = 2.0;     ///< of the smallest step, beyond which a limit was met
+constexpr double usual_share = 0.99;     ///< of the steps, that spikes are compared with
+constexpr double spike_step = 5.0;       ///< of the largest usual step
+constexpr double spike_deviation = 3.0;  ///< of the standard deviation
 
 /// The smallest step between neighbors; 0: there is none.
 double smallest_step(const Vec& samples) {
@@ -104,6 +106,25 @@ bool is_clipped(const Vec& samples) {
   if (quantum == 0.0) return false;
   return std::max(step_to(samples, samples.maxCoeff()), step_to(samples, samples.minCoeff())) >
          clipped_step * quantum;
+}
+
+Spikes spikes_in(const Vec& samples) {
+  Spikes found;
+  const Eigen::Index n = samples.size();
+  if (n < 3) return found;
+  const Vec steps = samples.tail(n - 1) - samples.head(n - 1);
+  Vec sizes = steps.cwiseAbs();
+  const auto usual = static_cast<Eigen::Index>(usual_share * static_cast<double>(n - 2));
+  std::nth_element(sizes.begin(), sizes.begin() + usual, sizes.end());
+  const double deviation = std::sqrt((samples.array() - samples.mean()).square().mean());
+  const double least = std::max({spike_step * sizes(usual), spike_step * smallest_step(samples),
+                                 spike_deviation * deviation});
+  for (Eigen::Index j = 1; j + 1 < n; ++j) {
+    const double in = steps(j - 1), out = steps(j);
+    if (in * out >= 0.0 || std::abs(in) < least || std::abs(out) < least) continue;
+    if (++found.count == 1) found.first = j;
+  }
+  return found;
 }
 
 }  // namespace whirl::inline dyn

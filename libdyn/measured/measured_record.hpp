@@ -29,6 +29,9 @@ struct MeasuredRecord {
   std::optional<Eigen::Index> channel(const std::string& name) const;
 };
 
+/// Share of the samples of a channel that may be missing.
+constexpr double most_missing = 0.05;
+
 /// Fills missing samples of a channel by straight lines between their neighbors.
 ///
 /// @param name   of the channel, for notes
@@ -41,5 +44,12 @@ Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::st
 /// and comes there by steps of more than two of the smallest that it makes. What was digitized coarsely
 /// rests at its crests, too, but comes there by the smallest steps.
 bool is_clipped(const Vec& samples);
+
+/// Samples that stand out alone: the steps into them and back are five times and more what 99 of 100
+/// steps are at most, and three times the standard deviation of the signal.
+struct Spikes {
+  Eigen::Index count = 0, first = 0;
+};
+Spikes spikes_in(const Vec& samples);
 
 }  // namespace whirl::inline dyn

@@ -50,8 +50,9 @@ double metres_per_unit(const MeasuredChannel& channel, const MeasuredProbe& p) {
   }
 }
 
-/// Notes that a channel says nothing, or less than it should.
-void note_channel(const Vec& samples, const std::string& name, std::vector<std::string>& notes) {
+/// Notes that a channel says nothing, or less or more than it should.
+void note_channel(const Vec& samples, const MeasuredRecord& record, const std::string& name,
+                  std::vector<std::string>& notes) {
   if (samples.size() > 0 && samples.maxCoeff() == samples.minCoeff()) {
     notes.push_back(fmt::format("channel \"{}\" is constant: is its probe connected?", name));
   } else if (is_clipped(samples)) {
@@ -59,6 +60,13 @@ void note_channel(const Vec& samples, const std::string& name, std::vector<std::
         "channel \"{}\" is clipped: it rests at its largest or smallest value; amplitudes are too "
         "small and harmonics are not the motion's",
         name));
+  }
+  if (const Spikes spikes = spikes_in(samples); spikes.count > 0) {
+    notes.push_back(fmt::format(
+        "channel \"{}\" has {} of one sample, the first at {:.6g} s: spectra are too high "
+        "everywhere; leave such samples empty",
+        name, spikes.count == 1 ? "a spike" : fmt::format("{} spikes", spikes.count),
+        record.time(spikes.first)));
   }
 }
 
@@ -80,7 +88,7 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
     }
     channels.push_back(c);
     const Vec samples = without_gaps(record.samples.col(c), record, channel.name, readings.notes);
-    note_channel(samples, channel.name, readings.notes);
+    note_channel(samples, record, channel.name, readings.notes);
     readings.displacement.col(static_cast<Eigen::Index>(i)) = metres_per_unit(channel, p) * samples;
     readings.probes.push_back(p.probe);
   }

@@ -188,6 +188,34 @@ std::size_t first_of_numbers(const std::vector<CsvLine>& lines) {
   return lines.size();
 }
 
+/// What is said of a table without numbers: the first cell that is none, of the last line.
+ModelError no_numbers(const std::string& file, const std::vector<CsvLine>& lines) {
+  const std::string message = "has no two lines of numbers, expected a column for each channel";
+  if (lines.empty()) return ModelError({file}, "", "is empty: " + message);
+  for (const Delimiter delimiter : {Delimiter::semicolon, Delimiter::tab, Delimiter::comma}) {
+    const std::vector<Cell> cells = cells_of(lines.back().text, delimiter);
+    if (cells.size() < 2) continue;
+    for (const Cell& cell : cells) {
+      if (sample_of(cell.text, delimiter != Delimiter::comma)) continue;
+      return ModelError(
+          {file, lines.back().number, cell.place}, "",
+          fmt::format("{}; {} in the last line is none", message, in_quotes(cell.text)));
+    }
+  }
+  return ModelError({file}, "", message);
+}
+
+/// Decimal commas between commas cannot be told from these: there are twice as many columns as names.
+void require_other_delimiters(const std::string& file, const CsvLine& header, std::size_t count) {
+  const std::size_t names = cells_of(header.text, Delimiter::comma).size();
+  if (names < 2 || count != 2 * names) return;
+  throw ModelError({file, header.number, 1}, "",
+                   fmt::format("names {} columns, and the lines of numbers have {}: decimal commas "
+                               "cannot be told from commas between columns, expected decimal "
+                               "points, or semicolons between columns",
+                               names, count));
+}
+
 }  // namespace
 
 RawRecord read_csv_record(const std::filesystem::path& path) {
@@ -195,15 +223,16 @@ RawRecord read_csv_record(const std::filesystem::path& path) {
   const std::string file = path.string();
   const std::vector<CsvLine> lines = csv_lines(text);
   const std::size_t first = first_of_numbers(lines);
-  if (first == lines.size()) {
-    throw ModelError({file}, "", "has no two lines of numbers, expected a column for each channel");
-  }
+  if (first == lines.size()) throw no_numbers(file, lines);
   // decimal commas may be in any line: the one with most of them says it
   CsvForm form = *number_form(lines[first].text);
   if (first + 1 < lines.size() && !form.has_decimal_commas) {
     form.has_decimal_commas = number_form(lines[first + 1].text)->has_decimal_commas;
   }
   const std::size_t count = csv_cells(lines[first].text, form).size();
+  if (form.delimiter == Delimiter::comma && first > 0) {
+    require_other_delimiters(file, lines[first - 1], count);
+  }
   const CsvHeader header({lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first)},
                          count);
   RawRecord raw{.file = file};

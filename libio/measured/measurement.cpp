@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "libbase/constants.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr double other_speed = 0.01;   ///< of the key-phasor against the one that is given
 constexpr double uneven_speed = 0.02;  ///< change of speed that smears lines of the speed
+constexpr double far_speed = 3.0;      ///< times the model's, or a part of it, that is a mistake
 
 /// Gives the model the speed of the record, and says what is odd about it.
 void take_speed(Model& model, ProbeReadings& readings, bool is_given) {
@@ -32,6 +34,16 @@ void take_speed(Model& model, ProbeReadings& readings, bool is_given) {
     return;
   }
   const double speed = readings.clock->mean_speed();
+  if (!is_given && model.has_speed && model.speed > 0.0) {
+    const double ratio = speed / model.speed;
+    const bool is_double = std::abs(std::max(ratio, 1.0 / ratio) / 2.0 - 1.0) < other_speed;
+    if (is_double || ratio > far_speed || ratio < 1.0 / far_speed) {
+      readings.notes.push_back(fmt::format(
+          "the key-phasor says {:.6g} rpm, the model {:.6g} rpm: are the times or --rate, the edge "
+          "and the number of pulses per revolution right?",
+          speed / rpm, model.speed / rpm));
+    }
+  }
   if (is_given && std::abs(model.speed / speed - 1.0) > other_speed) {
     readings.notes.push_back(
         fmt::format("--speed says {:.6g} rpm, the key-phasor {:.6g} rpm, which is taken",
@@ -45,6 +57,16 @@ void take_speed(Model& model, ProbeReadings& readings, bool is_given) {
   }
   model.speed = speed;
   model.has_speed = true;
+}
+
+/// Readings of a record; what is wrong with it is said of its file.
+ProbeReadings readings_of(const RecordSource& source, const MeasurementSetup& setup) {
+  const MeasuredRecord record = read_record(source.file, source.rate);
+  try {
+    return probe_readings(record, setup);
+  } catch (const OptionError& error) {
+    throw ModelError({source.file}, "", error.problems().front().message);
+  }
 }
 
 /// The records of a list, as far as they are right.
@@ -96,7 +118,7 @@ Measurement read_measurement(Model model, const RecordSource& source) {
   const MeasurementSetup setup = source.probes.empty()
                                      ? model_probes(found.model)
                                      : read_probe_file(source.probes, found.model);
-  found.readings = probe_readings(read_record(source.file, source.rate), setup);
+  found.readings = readings_of(source, setup);
   take_speed(found.model, found.readings, source.has_speed);
   return found;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "libbase/constants.hpp"
 #include "libio/measured/channel_unit.hpp"
 #include "libio/text/delimited.hpp"
 
@@ -15,8 +16,42 @@ namespace {
 
 constexpr double same_rate = 1e-4;  ///< to which --rate gives that of a file more digits
 
-/// Takes rate and start from a channel of times.
-void take_times(RawRecord& raw, const RawChannel& time) {
+/// Numbers of the steps at which times stand, from 0: a time that comes after several steps has left
+/// the samples between out.
+std::vector<double> step_numbers(const RawChannel& time) {
+  const std::vector<double>& t = time.samples;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    steps.push_back(t[i] - t[i - 1]);
+    if (steps.back() > 0.0) continue;
+    throw ModelError(time.where, time.name,
+                     fmt::format("sample {} is at {}, the one before at {}: expected times that "
+                                 "ascend, with all their digits",
+                                 i + 1, t[i], t[i - 1]));
+  }
+  std::vector<double> sorted = steps;
+  const auto middle = sorted.begin() + (std::ssize(sorted) - 1) / 2;
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  std::vector<double> numbers{0.0};
+  for (const double step : steps) {
+    numbers.push_back(numbers.back() + std::max(1.0, std::round(step / *middle)));
+  }
+  const auto longest = std::max_element(steps.begin(), steps.end()) - steps.begin();
+  const auto n = static_cast<double>(t.size());
+  const double missing = numbers.back() + 1.0 - n;
+  if (!(missing <= most_missing * (n + missing))) {
+    const auto after = static_cast<std::size_t>(longest);
+    throw ModelError(
+        time.where, time.name,
+        fmt::format("{:.6g} of {:.6g} samples are missing, the longest gap is from {} to {}: steps "
+                    "must be even, with at most {:g} % of the samples left out",
+                    missing, n + missing, t[after], t[after + 1], 100.0 * most_missing));
+  }
+  return numbers;
+}
+
+/// Takes rate and start from a channel of times; returns the step number of each.
+std::vector<double> take_times(RawRecord& raw, const RawChannel& time) {
   double factor = 1.0;
   if (!time.unit.empty()) {
     const auto second = parse_as("1 " + time.unit, "s");
@@ -24,25 +59,31 @@ void take_times(RawRecord& raw, const RawChannel& time) {
     factor = *second;
   }
   const std::vector<double>& t = time.samples;
-  const std::size_t n = t.size();
-  if (n < 2) throw ModelError(time.where, time.name, "expected two times or more");
-  const double step = (t.back() - t.front()) / static_cast<double>(n - 1);
-  if (!(step > 0.0)) {
+  if (t.size() < 2) throw ModelError(time.where, time.name, "expected two times or more");
+  const std::vector<double> numbers = step_numbers(time);
+  const double step = (t.back() - t.front()) / numbers.back();
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double expected = t.front() + step * numbers[i];
+    if (std::abs(t[i] - expected) <= even_to * step) continue;
     throw ModelError(
         time.where, time.name,
-        fmt::format("goes from {} to {}, expected times that ascend", t.front(), t.back()));
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const double expected = t.front() + step * static_cast<double>(i);
-    if (std::abs(t[i] - expected) <= even_to * step) continue;
-    throw ModelError(time.where, time.name,
-                     fmt::format("sample {} is at {}, expected {:.9g}: steps must be even, write "
-                                 "missing samples as empty cells or nan",
-                                 i + 1, t[i], expected));
+        fmt::format("sample {} is at {}, expected {:.9g}: steps must be even, to {:g} % of {:.6g}",
+                    i + 1, t[i], expected, 100.0 * even_to, step));
   }
   // a rate that the file says has more digits than its times
   if (!raw.rate) raw.rate = 1.0 / (factor * step);
   raw.start = factor * t.front();
+  return numbers;
+}
+
+/// Puts samples where their times are, and NaN where times were left out.
+void spread(std::vector<double>& samples, const std::vector<double>& numbers) {
+  if (samples.size() != numbers.size()) return;  // told later
+  std::vector<double> all(static_cast<std::size_t>(numbers.back()) + 1, nan);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    all[static_cast<std::size_t>(numbers[i])] = samples[i];
+  }
+  samples = std::move(all);
 }
 
 bool is_one_of(const std::string& name, std::initializer_list<std::string_view> known) {
@@ -66,7 +107,8 @@ MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
   if (time != raw.channels.end() && !raw.has_own_times) {
     const RawChannel times = std::move(*time);
     raw.channels.erase(time);
-    take_times(raw, times);
+    const std::vector<double> numbers = take_times(raw, times);
+    for (RawChannel& channel : raw.channels) spread(channel.samples, numbers);
   }
   const Where where{raw.file};
   if (raw.rate && rate) {
@@ -92,6 +134,7 @@ MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
   }
   MeasuredRecord record{.rate = *raw.rate, .start = raw.start};
   const std::size_t n = raw.channels.front().samples.size();
+  if (n == 0) throw ModelError(where, "", "has no samples");
   record.samples.resize(static_cast<Eigen::Index>(n), std::ssize(raw.channels));
   for (std::size_t i = 0; i < raw.channels.size(); ++i) {
     const RawChannel& channel = raw.channels[i];

@@ -70,9 +70,42 @@ TEST(TurnClock, IsExactWhereSpeedChangesEvenly) {
   EXPECT_NEAR(TurnClock(quiet, {.pulses = 2}, notes).mean_speed(), 2.0 * pi * 5.0, 1e-9);
 }
 
-TEST(TurnClock, NotesAMissingPulse) {
+/// Pulses of a speed that rises slowly, but some.
+std::vector<double> pulses_but(const std::vector<int>& left_out, double extra) {
+  std::vector<double> pulses;
+  for (int i = 0; i < 60; ++i) {
+    const double t = 0.1 * i - 1e-4 * i * i;
+    if (std::find(left_out.begin(), left_out.end(), i) == left_out.end()) pulses.push_back(t);
+    if (pulses.size() == 30 && extra > 0.0) pulses.push_back(pulses.back() + extra);
+  }
+  return pulses;
+}
+
+// The clock is that of all pulses: where some are missing to the fourth power of an interval over the
+// time in which the speed changes.
+TEST(TurnClock, PutsMissingPulsesBackAndLeavesExtraOnesOut) {
   std::vector<std::string> notes;
-  const TurnClock clock({0.0, 0.1, 0.2, 0.4, 0.5, 0.6}, {}, notes);
+  const TurnClock all(pulses_but({}, 0.0), {}, notes);
+  EXPECT_TRUE(notes.empty());
+  const TurnClock mended(pulses_but({7, 20, 21, 58}, 0.0), {.channel = "key"}, notes);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("4 pulses are missing, the first at 0.695"), std::string::npos)
+      << notes[0];
+  EXPECT_EQ(mended.turns().size(), all.turns().size());
+  EXPECT_NEAR(mended.angle(5.0), all.angle(5.0), 1e-9);
+  EXPECT_NEAR(mended.mean_speed(), all.mean_speed(), 1e-12 * all.mean_speed());
+  for (const double extra : {0.01, 0.045, 0.08}) {
+    notes.clear();
+    const TurnClock less(pulses_but({}, extra), {.channel = "key"}, notes);
+    ASSERT_EQ(notes.size(), 1u) << extra;
+    EXPECT_NE(notes[0].find("1 pulse is too many"), std::string::npos) << notes[0];
+    EXPECT_NEAR(less.angle(3.0), all.angle(3.0), 1e-12) << extra;
+  }
+}
+
+TEST(TurnClock, NotesPulsesThatItCannotMend) {
+  std::vector<std::string> notes;
+  const TurnClock clock({0.0, 0.1, 0.2, 0.4, 0.5, 0.6}, {}, notes);  // too few to say what is usual
   EXPECT_TRUE(has_note(notes, "pulses jumps"));
   EXPECT_THROW(TurnClock({0.0, 0.1}, {.channel = "key"}, notes), OptionError);
 }
@@ -101,6 +134,22 @@ TEST(MeasuredRecord, TellsClippedSignalsFromCoarseOnes) {
   EXPECT_TRUE(is_clipped(signal.cwiseMin(0.9)));
   EXPECT_TRUE(is_clipped(signal.cwiseMax(-0.7)));
   EXPECT_FALSE(is_clipped((64.0 * signal.array()).round() / 64.0)) << "digitized in 128 steps";
+}
+
+// A spike stands out alone; a ball that bounces, noise and coarse steps have none.
+TEST(MeasuredRecord, TellsSpikesFromSharpMotions) {
+  const Vec t = Vec::LinSpaced(4000, 0.0, 100.0);
+  Vec signal = t.array().sin();
+  EXPECT_EQ(spikes_in(signal).count, 0);
+  EXPECT_EQ(spikes_in(signal.cwiseAbs()).count, 0);
+  EXPECT_EQ(spikes_in((8.0 * signal.array()).round() / 8.0).count, 0);
+  EXPECT_EQ(spikes_in(Vec::Zero(100)).count, 0);
+  EXPECT_EQ(spikes_in(Vec::Ones(2)).count, 0);
+  signal(1000) += 8.0;
+  signal(2000) -= 8.0;
+  const Spikes spikes = spikes_in(signal);
+  EXPECT_EQ(spikes.count, 2);
+  EXPECT_EQ(spikes.first, 1000);
 }
 
 // ---- probes -------------------------------------------------------------------------------------

@@ -105,6 +105,27 @@ TEST_F(RecordFile, ReadsTablesOfLoggers) {
   EXPECT_EQ(read_record(file("d.csv", "x,y,\n1,2,\n3,4,\n"), 10.0).channels.size(), 2u);
 }
 
+// Rows that are left out show in the times: their samples are missing ones.
+TEST_F(RecordFile, PutsSamplesWhereTheirTimesAre) {
+  std::string rows = "time [s],x [um]\n", kept = rows;
+  for (int j = 0; j < 60; ++j) {
+    const std::string row = fmt::format("{:.4f},{}\n", 0.5 + 0.001 * j, j);
+    rows += row;
+    if (j != 17 && j != 40 && j != 41) kept += row;
+  }
+  const MeasuredRecord record = read_record(file("a.csv", kept));
+  const MeasuredRecord whole = read_record(file("b.csv", rows));
+  EXPECT_NEAR(record.rate, 1000.0, 1e-6);
+  ASSERT_EQ(record.samples.rows(), 60);
+  for (Eigen::Index j = 0; j < 60; ++j) {
+    const bool is_missing = j == 17 || j == 40 || j == 41;
+    EXPECT_EQ(std::isnan(record.samples(j, 0)), is_missing) << j;
+    if (!is_missing) {
+      EXPECT_EQ(record.samples(j, 0), whole.samples(j, 0));
+    }
+  }
+}
+
 TEST_F(RecordFile, TakesRatesThatAreThoseOfTheFile) {
   const std::filesystem::path path = file("a.csv", "time [s],x [um]\n0,1\n0.00033333,2\n");
   EXPECT_EQ(read_record(path, 3000.0).rate, 3000.0) << "with more digits";
@@ -112,6 +133,10 @@ TEST_F(RecordFile, TakesRatesThatAreThoseOfTheFile) {
 }
 
 TEST_F(RecordFile, SaysWhatIsWrongInATable) {
+  expect_problem("a.csv", "t,x\n0,1\n1,2\n1,3\n2,4\n", "sample 3 is at 1, the one before at 1");
+  expect_problem("a.csv", "t,x\n0,1\n1,2\n2.3,2\n3,4\n", "sample 3 is at 2.3, expected 2");
+  expect_problem("a.csv", "t,x,y\n0,0,1,5,2,5\n0,1,1,5,2,5\n", "a.csv:1:1: names 3 columns");
+  expect_problem("a.csv", "t,x\n12:00:01,1\n12:00:02,1\n", "\"12:00:02\" in the last line");
   expect_problem("a.csv", "t,x\n0,1\n1,2\n2,3,4\n",
                  "a.csv:4:1: found 3 columns, expected 2 as in line 2");
   expect_problem("a.csv", "t,x\n0,1\n1,2\n2,three\n", "a.csv:4:3: x: found \"three\"");
@@ -120,7 +145,7 @@ TEST_F(RecordFile, SaysWhatIsWrongInATable) {
   expect_problem("a.csv", "t [um],x\n0,1\n1,2\n", "time");
   expect_problem("a.csv", "x,y\n0,1\n1,2\n", "--rate says it");
   expect_problem("a.csv", "nothing\nat all\n", "expected a column for each channel");
-  expect_problem("a.csv", "", "expected a column for each channel");
+  expect_problem("a.csv", "", "is empty");
 }
 
 // ---- universal files ----------------------------------------------------------------------------
@@ -239,6 +264,7 @@ TEST_F(RecordFile, ReadsSoundFiles) {
   expect_problem("a.wav", wav_file(16, two_frames, 80), "is cut off");
   expect_problem("a.wav", wav_file(12, two_frames, 8), "with 12 bits");
   expect_problem("a.wav", "RIFFxxxxWAVE", "no samples");
+  expect_problem("a.wav", wav_file(16, "", 0), "no samples");
   expect_problem("a.wav", "sound", "is no WAV file");
 }
 
