@@ -6,9 +6,6 @@
 // corpus, read into memory once. An edit replaces a dataset or attribute, drops it, or gives it other
 // sizes, another kind or single other values.
 
-#include <stdlib.h>
-#include <unistd.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -24,23 +21,12 @@
 #include "libio/results/csv_tables.hpp"
 #include "libio/results/hdf5.hpp"
 #include "tests/fuzz/result_edits.hpp"
+#include "tests/fuzz/scratch.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace whirl;
-
-/// A folder for the file that is tried, removed when the program ends.
-struct Scratch {
-  Scratch() {
-    const bool has_memory = fs::is_directory("/dev/shm");
-    std::string name = (has_memory ? "/dev/shm/" : fs::temp_directory_path().string() + "/");
-    name += "whirl_fuzz_XXXXXX";
-    folder = ::mkdtemp(name.data());
-  }
-  ~Scratch() { fs::remove_all(folder); }
-  fs::path folder;
-};
 
 void use(const fs::path& path, const fs::path& folder) {
   try {
@@ -61,7 +47,7 @@ void use(const fs::path& path, const fs::path& folder) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Scratch scratch;
+  static const fuzz::Scratch scratch;
   const fs::path path = scratch.folder / "result.h5";
   try {
     fuzz::write_edited({data, size}, path);

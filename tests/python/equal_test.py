@@ -142,6 +142,21 @@ class Equal(unittest.TestCase):
             with self.subTest(model=name, verb=verb):
                 self.assertEqual(self.compare(verb, name, options), "equal")
 
+    def test_a_measured_motion(self):
+        with open("probes.toml", "w", encoding="utf-8") as file:
+            for name, angle in (("x", 0), ("y", 90)):
+                file.write(f'[[probe]]\nname = "{name}"\nnode = 4\nangle = "{angle} deg"\n')
+            file.write('[keyphasor]\nchannel = "key"\n')
+        status, _, errors = command_line(
+            "simulate", support.MODELS / "two_disk_mac.toml", *words_of(MOTION | {"revolutions": 40}), "--measure",
+            "probes.toml", "--measured-out", "run.csv", "--noise", "1%", "--quiet")
+        self.assertEqual(status, 0, errors)
+        record = {"measured": "run.csv", "probes": "probes.toml", "modes": 4}
+        for more in ({}, {"orders": "1,2"}, {"rate": 1000}):
+            with self.subTest(options=more):
+                self.assertEqual(self.compare("identify", "two_disk_mac", record | more),
+                                 "refused" if "rate" in more else "equal")
+
     def test_files_written_by_python_are_those_of_the_command_line(self):
         found = model("jeffcott").unbalance("500:3500:500rpm")
         found.save("saved.h5")
