@@ -6,6 +6,7 @@
 
 #include "libio/measured/record_formats.hpp"
 #include "libio/results/matlab_variables.hpp"
+#include "libio/results/trial.hpp"
 
 namespace whirl::inline io {
 
@@ -61,12 +62,13 @@ std::vector<std::string> texts_of(const matvar_t& v) {
 }
 
 /// The channels of a matrix: its columns, or rows where these are longer.
-void add_channels(RawRecord& raw, const matvar_t& v, const std::vector<double>& numbers) {
+void add_channels(RawRecord& raw, const matvar_t& v, const std::string& name,
+                  const std::vector<double>& numbers) {
   const bool is_upright = v.dims[0] >= v.dims[1];
   const std::size_t count = std::min(v.dims[0], v.dims[1]), n = std::max(v.dims[0], v.dims[1]);
   for (std::size_t c = 0; c < count; ++c) {
     RawChannel& channel = raw.channels.emplace_back();
-    channel.name = count == 1 ? v.name : fmt::format("{}({})", v.name, c + 1);
+    channel.name = count == 1 ? name : fmt::format("{}({})", name, c + 1);
     channel.where = {raw.file};
     channel.samples.resize(n);
     for (std::size_t j = 0; j < n; ++j) {
@@ -83,9 +85,7 @@ bool is_possible(const matvar_t& v, std::size_t file_size) {
   return bytes <= most_compressed * static_cast<double>(file_size);
 }
 
-}  // namespace
-
-RawRecord read_matlab_record(const std::filesystem::path& path) {
+RawRecord matlab_record(const std::filesystem::path& path) {
   const std::size_t file_size = record_bytes(path).size();
   RawRecord raw{.file = path.string()};
   const MatlabFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close);
@@ -108,7 +108,7 @@ RawRecord read_matlab_record(const std::filesystem::path& path) {
     } else if (numbers.size() == 1 && name == "start") {
       raw.start = numbers.front();
     } else if (numbers.size() > 1) {
-      add_channels(raw, *v, numbers);
+      add_channels(raw, *v, name, numbers);
     } else if (name == "channels" || name == "units") {
       (name == "units" ? units : names) = texts_of(*v);
     } else {
@@ -126,6 +126,16 @@ RawRecord read_matlab_record(const std::filesystem::path& path) {
     if (units.size() == raw.channels.size()) raw.channels[i].unit = units[i];
   }
   return raw;
+}
+
+}  // namespace
+
+RawRecord read_matlab_record(const std::filesystem::path& path) {
+  // matio 1.5 ends the process on some damaged files
+  if (std::filesystem::is_regular_file(path)) {
+    try_in_child(path, "MATLAB", [&] { matlab_record(path); });
+  }
+  return matlab_record(path);
 }
 
 void write_matlab_record(const std::filesystem::path& path, const MeasuredRecord& record,

@@ -268,6 +268,37 @@ TEST_F(RecordFile, ReadsSoundFiles) {
   expect_problem("a.wav", "sound", "is no WAV file");
 }
 
+/// A MATLAB file with one matrix of two numbers, by its public layout.
+std::string matlab_file(const std::string& name, std::uint32_t said) {
+  std::string file("MATLAB 5.0 MAT-file");
+  file.resize(124, ' ');
+  file += std::string("\x00\x01IM", 4);
+  const auto element = [](std::uint32_t kind, const std::string& bytes) {
+    std::string all(8, '\0');
+    const auto size = static_cast<std::uint32_t>(bytes.size());
+    std::memcpy(all.data(), &kind, 4);
+    std::memcpy(all.data() + 4, &size, 4);
+    return all + bytes + std::string((8 - bytes.size() % 8) % 8, '\0');
+  };
+  const auto bytes = [](auto first, auto second) {
+    std::string all(2 * sizeof first, '\0');
+    std::memcpy(all.data(), &first, sizeof first);
+    std::memcpy(all.data() + sizeof first, &second, sizeof first);
+    return all;
+  };
+  std::string matrix = element(6, bytes(6u, 0u)) + element(5, bytes(said, 1u));
+  if (!name.empty()) matrix += element(1, name);
+  return file + element(14, matrix + element(9, bytes(1.5, 2.5)));
+}
+
+TEST_F(RecordFile, ReadsMatlabFilesOfOtherWriters) {
+  const MeasuredRecord record = read_record(file("a.mat", matlab_file("x", 2)), 10.0);
+  EXPECT_EQ(record.channels.at(0).name, "x");
+  EXPECT_EQ(record.samples(1, 0), 2.5);
+  expect_problem("a.mat", matlab_file("x", 2000000000), "larger than the file can hold");
+  expect_problem("a.mat", matlab_file("", 2), "a.mat");
+}
+
 TEST_F(RecordFile, SaysWhatIsWrongInOtherFiles) {
   expect_problem("a.mat", "MATLAB 5.0 but no more", "a.mat");
   expect_problem("a.docx", "", "expected a record of a measurement");
