@@ -441,6 +441,8 @@ def results(whirl, repository, folder):
          "--measured-out", folder / "run.csv"),
         ("measured", "identify", rig, "--measured", folder / "run.csv", "--probes", measured_by, "--orders", "1,2",
          "--running-modes"),
+        ("fitted", "fit", rig, "--measured", folder / "run.csv", "--probes", measured_by, "--free",
+         "contact.ring.stiffness", "--revolutions", "4"),
         ("bench", "bench", models / "jeffcott_stator.toml", "--methods", "dop853,rk4", "--tolerances", "1e-4,1e-6",
          "--discard", "2", "--revolutions", "2"),
         ("long", "simulate", models / "dropped_rotor.toml", "--discard", "0", "--revolutions", "128"),

@@ -156,6 +156,10 @@ class Equal(unittest.TestCase):
             with self.subTest(options=more):
                 self.assertEqual(self.compare("identify", "two_disk_mac", record | more),
                                  "refused" if "rate" in more else "equal")
+        with self.subTest(verb="fit"):
+            self.assertEqual(self.compare("fit", "two_disk_mac", {
+                "measured": "run.csv", "probes": "probes.toml", "free": "contact.ring.stiffness,contact.ring.friction=0:0.2",
+                "revolutions": 6}), "equal")
 
     def test_files_written_by_python_are_those_of_the_command_line(self):
         found = model("jeffcott").unbalance("500:3500:500rpm")
