@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "libdyn/branches/branch_equations.hpp"
+#include "libdyn/branches/range_slopes.hpp"
 #include "libdyn/methods/rk4.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/taylor/batch.hpp"
@@ -36,10 +37,12 @@ struct P1Branch {
   ContinuationOptions options{
       .low = 150e6, .high = 170e6, .first = 150e6, .largest_step = 0.1e6, .most_points = points};
 
-  void walk(benchmark::State& state, const FlowAt& flow_at) const {
+  void walk(
+      benchmark::State& state, const FlowAt& flow_at,
+      const std::function<EndSlopeAt()>& slope_at = [] { return EndSlopeAt(); }) const {
     std::size_t found = 0;
     for (auto _ : state) {
-      Continuation walk = orbit_continuation(flow_at, start, options);
+      Continuation walk = orbit_continuation(flow_at, start, options, slope_at());
       while (walk.advance()) {
       }
       found = walk.branch().points.size();
@@ -56,6 +59,24 @@ void BranchByTangents(benchmark::State& state) {
   });
 }
 BENCHMARK(BranchByTangents)->Unit(benchmark::kMillisecond);
+
+/// The same with exact derivatives by the stiffness, too, which begin anew with every branch.
+void BranchBySlopes(benchmark::State& state) {
+  const P1Branch branch;
+  const auto scene_at = [](double stiffness) {
+    return std::make_shared<const Scene>(P1Branch::at(stiffness).scene());
+  };
+  branch.walk(
+      state, [&](double stiffness) { return flow_of(scene_at(stiffness), *branch.first); },
+      [&]() -> EndSlopeAt {
+        const auto slopes = std::make_shared<const RangeSlopes>(
+            scene_at, branch.first, branch.options.low, branch.options.high);
+        return [slopes](double stiffness, const Vec& start, double revolutions) {
+          return slopes->end_slope(stiffness, test::state_of(start), revolutions);
+        };
+      });
+}
+BENCHMARK(BranchBySlopes)->Unit(benchmark::kMillisecond);
 
 /// Shooting as it is done without tangents: RK4, 1000 steps a revolution, a column of the tangent from
 /// each of 8 starts moved aside.

@@ -221,10 +221,9 @@ BranchEquations bifurcation_curve_equations(BifurcationKind kind, FlowPlane flow
     throw NumericalError("a pitchfork lives by a symmetry and has no curve of its own in a plane");
   }
   const BifurcationCurve curve{kind, std::move(flows), std::move(scale), low, high};
-  return {[curve](const Vec& x, double second, WithTangent wanted) {
-            return evaluate(curve, x, second, wanted);
-          },
-          curve.difference()};
+  return {.at = [curve](const Vec& x, double second,
+                        WithTangent wanted) { return evaluate(curve, x, second, wanted); },
+          .difference = curve.difference()};
 }
 
 double nearest_graze(const Scene& scene, const std::string& contact, std::span<const Vec> starts) {

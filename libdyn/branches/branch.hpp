@@ -23,6 +23,9 @@ struct BranchEquations {
     Failure failure;
   };
   std::function<Value(const Vec& x, double value, WithTangent wanted)> at;
+  /// Derivative of the residual by the parameter's value at fixed x, exact; empty where it is not
+  /// known. A null function, or an empty value: it is taken as a difference.
+  std::function<Vec(const Vec& x, double value)> slope{};
   double difference = 3e-6;  ///< of the parameter's range, for the derivative by it
 };
 

@@ -7,9 +7,22 @@
 
 namespace whirl::inline dyn {
 
-BranchEquations shooting_equations(FlowAt flow_at, Vec scale) {
-  return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
-                                                                   WithTangent wanted) {
+BranchEquations shooting_equations(FlowAt flow_at, Vec scale, EndSlopeAt end_slope) {
+  BranchEquations equations;
+  if (end_slope) {
+    equations.slope = [end_slope = std::move(end_slope), scale](const Vec& x, double value) -> Vec {
+      const Eigen::Index n = scale.size();
+      Vec slope(x.size());
+      for (Eigen::Index i = 0; i < x.size(); i += n) {
+        const auto end = end_slope(value, scale.cwiseProduct(x.segment(i, n)), 1.0);
+        if (!end) return {};
+        slope.segment(i, n) = end->cwiseQuotient(scale);
+      }
+      return slope;
+    };
+  }
+  equations.at = [flow_at = std::move(flow_at), scale = std::move(scale)](
+                     const Vec& x, double value, WithTangent wanted) {
     const Eigen::Index n = scale.size();
     PeriodicOrbit orbit{.period = static_cast<int>(x.size() / n)};
     for (Eigen::Index i = 0; i < x.size(); i += n) {
@@ -25,11 +38,12 @@ BranchEquations shooting_equations(FlowAt flow_at, Vec scale) {
     at.contacts = std::move(orbit.contacts);
     at.failure = std::move(orbit.failure);
     return at;
-  }};
+  };
+  return equations;
 }
 
 Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
-                                const ContinuationOptions& options) {
+                                const ContinuationOptions& options, const EndSlopeAt& end_slope) {
   options.check();
   const Flow flow = flow_at(options.first);
   require_loads_of_a_revolution(flow);
@@ -43,12 +57,23 @@ Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
   for (int i = 0; i < options.period; ++i) {
     x.segment(i * n, n) = orbit.states[static_cast<std::size_t>(i)].cwiseQuotient(flow.scale);
   }
-  return {shooting_equations(flow_at, flow.scale), x, options};
+  return {shooting_equations(flow_at, flow.scale, end_slope), x, options};
 }
 
-BranchEquations autonomous_equations(AutonomousFlowAt flow_at, Vec scale) {
-  return {[flow_at = std::move(flow_at), scale = std::move(scale)](const Vec& x, double value,
-                                                                   WithTangent wanted) {
+BranchEquations autonomous_equations(AutonomousFlowAt flow_at, Vec scale, EndSlopeAt end_slope) {
+  BranchEquations equations;
+  if (end_slope) {
+    equations.slope = [end_slope = std::move(end_slope), scale](const Vec& x, double value) -> Vec {
+      const Eigen::Index n = scale.size();
+      const auto end = end_slope(value, scale.cwiseProduct(x.head(n)), x(n));
+      if (!end) return {};
+      Vec slope = Vec::Zero(n + 1);  // nothing moves along the flow
+      slope.head(n) = end->cwiseQuotient(scale);
+      return slope;
+    };
+  }
+  equations.at = [flow_at = std::move(flow_at), scale = std::move(scale)](
+                     const Vec& x, double value, WithTangent wanted) {
     const Eigen::Index n = scale.size();
     AutonomousFlow flow = flow_at(value);
     const Vec state = scale.cwiseProduct(x.head(n));
@@ -66,11 +91,13 @@ BranchEquations autonomous_equations(AutonomousFlowAt flow_at, Vec scale) {
         autonomous_jacobian(tangent, flow.rate(state).cwiseProduct(to_scale) * flow.revolution,
                             flow.rate(end.end).cwiseProduct(to_scale) * flow.revolution);
     return at;
-  }};
+  };
+  return equations;
 }
 
 Continuation autonomous_continuation(const AutonomousFlowAt& flow_at, const Vec& start,
-                                     double period, const ContinuationOptions& options) {
+                                     double period, const ContinuationOptions& options,
+                                     const EndSlopeAt& end_slope) {
   options.check();
   const AutonomousFlow flow = flow_at(options.first);
   const AutonomousOrbit cycle =
@@ -81,7 +108,7 @@ Continuation autonomous_continuation(const AutonomousFlowAt& flow_at, const Vec&
   }
   Vec x(start.size() + 1);
   x << cycle.state.cwiseQuotient(flow.scale), cycle.period / flow.revolution;
-  return {autonomous_equations(flow_at, flow.scale), x, options};
+  return {autonomous_equations(flow_at, flow.scale, end_slope), x, options};
 }
 
 }  // namespace whirl::inline dyn

@@ -109,6 +109,15 @@ BranchEquations::Value Continuation::evaluate(const Vec& z, WithTangent wanted) 
 }
 
 Vec Continuation::derivative_by_parameter(const Vec& z) const {
+  const Eigen::Index size = z.size() - 1;
+  if (equations_.slope) {
+    const Vec slope = equations_.slope(z.head(size), value_of(z(size)));
+    if (slope.size() > 0) return slope * options_.range();
+  }
+  return difference_by_parameter(z);
+}
+
+Vec Continuation::difference_by_parameter(const Vec& z) const {
   // within the range, beyond which there may be no model: at its ends to one side
   const double u = z(z.size() - 1), h = equations_.difference;
   const double shifts[2][3] = {{-h, h, 0.0}, {0.0, u < 0.5 ? h : -h, u < 0.5 ? 2.0 * h : -2.0 * h}};

@@ -28,8 +28,9 @@ struct ContinuationOptions {
 ///   F(z) = 0,  <t, z - z_predicted> = 0,   z = (x, u)
 ///   <a, b> = mean of a_i b_i over the unknowns x + a_u b_u
 ///
-/// Newton's method corrects what the tangent t predicts. The derivative by the parameter is a central
-/// difference of two further evaluations at each point. Steps follow the number of corrections and the
+/// Newton's method corrects what the tangent t predicts. The derivative by the parameter is taken at
+/// each point, exactly where the equations have it, else as a central difference of two further
+/// evaluations. Steps follow the number of corrections and the
 /// angle between tangents; where none converges they shrink. Bifurcations between two points show
 /// by the signs of test functions (see bifurcation.hpp) or by other numbers of impacts; they are
 /// located by solving for the point where that happens.
@@ -75,7 +76,9 @@ class Continuation {
   double value_of(double u) const;
   double dot(const Vec& a, const Vec& b) const;
   BranchEquations::Value evaluate(const Vec& z, WithTangent wanted) const;
+  /// Of the residual, over the range.
   Vec derivative_by_parameter(const Vec& z) const;
+  Vec difference_by_parameter(const Vec& z) const;
   Trial correct(const Plane& plane, Vec by_parameter) const;
   /// Tangent at a point of the branch, and the derivative by the parameter.
   bool add_tangent(Trial& trial, const Vec& along) const;

@@ -65,6 +65,15 @@ Mat rotation(const Mat& S, double angle) {
   return both;
 }
 
+/// Where a motion begins that is z as seen from the rotor and ends at phase 0, where both frames are
+/// the same, after an angle of the rotor [rad].
+MotionState start_before(const Mat& S, const Vec& z, double angle) {
+  MotionState start;
+  start.phase = std::clamp(std::ceil(angle / turn) * turn - angle, 0.0, std::nextafter(turn, 0.0));
+  start.y = rotation(S, start.phase) * z;
+  return start;
+}
+
 /// Whether accelerations turn with the state and the phase, in contact and out of it.
 void require_isotropy(const ContactSystem& system, const Mat& S) {
   const Eigen::Index n = S.rows();
@@ -168,6 +177,10 @@ AutonomousOrbit shorten(const AutonomousFlow& flow, const AutonomousOrbit& cycle
   return cycle;
 }
 
+MotionState rotating_start(const Scene& scene, const Vec& z, double revolutions) {
+  return start_before(quarter_turn(scene), z, turn * revolutions);
+}
+
 AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double tolerance) {
   const ContactSystem& system = scene->contacts;
   if (!(system.Omega() > 0.0) || system.coordinates() == 0) {
@@ -185,13 +198,11 @@ AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double toleranc
   return {system.state_scale(), system.period(),
           [scene, S, tolerance](const Vec& z, double time,
                                 WithTangent wanted) -> AutonomousFlow::Result {
-            // it ends at phase 0, where both frames are the same, so it begins at another phase
-            const double phases = scene->contacts.Omega() * time;
-            const double revolutions = std::ceil(phases / turn);
-            Trajectory t{.system = &scene->contacts, .revolutions = static_cast<long>(revolutions)};
-            t.state.phase = std::clamp(revolutions * turn - phases, 0.0, std::nextafter(turn, 0.0));
+            const double angle = scene->contacts.Omega() * time;
+            Trajectory t{.system = &scene->contacts,
+                         .state = start_before(S, z, angle),
+                         .revolutions = static_cast<long>(std::ceil(angle / turn))};
             const Mat R = rotation(S, t.state.phase);
-            t.state.y = R * z;
             integrate_single(
                 t,
                 {.tolerance = tolerance, .measures = true, .tangent = wanted == WithTangent::yes});

@@ -60,6 +60,11 @@ AutonomousOrbit shorten(const AutonomousFlow& flow, const AutonomousOrbit& cycle
 /// @throws NumericalError  for a basis that is not closed under rotation
 Mat rotation(const Scene& scene, double angle);
 
+/// Where a motion begins that is z as seen from the rotor, so many revolutions before it comes to
+/// phase 0, where both frames are the same.
+/// @throws NumericalError  likewise
+MotionState rotating_start(const Scene& scene, const Vec& z, double revolutions);
+
 /// The rotor as it is seen from its own frame, where unbalance stands still: states are turned back
 /// by the phase. Time does not occur there if nothing but the unbalance tells directions apart.
 ///

@@ -11,6 +11,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/branches/harmonic_branch.hpp"
+#include "libdyn/branches/range_slopes.hpp"
 #include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/studies/branch_walk.hpp"
@@ -34,13 +35,31 @@ class TreeEquations {
     return [this](double value) { return rotating_flow(scenes_.at(value), *scenes_.first); };
   }
 
+  /// Null: there are no exact derivatives.
+  EndSlopeAt end_slope() const {
+    if (!scenes_.slopes) return {};
+    return [this](double value, const Vec& start, double revolutions) {
+      MotionState at;
+      at.y = start;
+      return scenes_.slopes->end_slope(value, at, revolutions);
+    };
+  }
+  EndSlopeAt rotating_end_slope() const {
+    if (!scenes_.slopes) return {};
+    return [this](double value, const Vec& start, double revolutions) {
+      return scenes_.slopes->end_slope(value, rotating_start(*scenes_.first, start, revolutions),
+                                       revolutions);
+    };
+  }
+
   BranchEquations of(const BranchLayout& layout) const {
     if (options_.method == OrbitMethod::harmonic_balance) {
       return harmonic_equations([this](double value) { return problem_at(value); }, options_.period,
                                 layout.harmonics, length_scale());
     }
-    return layout.is_rotating ? autonomous_equations(autonomous_flow_at(), layout.scale)
-                              : shooting_equations(flow_at(), layout.scale);
+    return layout.is_rotating
+               ? autonomous_equations(autonomous_flow_at(), layout.scale, rotating_end_slope())
+               : shooting_equations(flow_at(), layout.scale, end_slope());
   }
 
   /// The orbit of harmonic balance near a start.
@@ -180,8 +199,9 @@ BranchTree begin_tree(const ParameterScenes& scenes, const Vec& start,
     const ContinuationOptions how = walk_options(options, direction);
     const Continuation walk =
         unknowns      ? Continuation(equations.of(tree.layout), *unknowns, how)
-        : is_rotating ? autonomous_continuation(equations.autonomous_flow_at(), start, period, how)
-                      : orbit_continuation(equations.flow_at(), start, how);
+        : is_rotating ? autonomous_continuation(equations.autonomous_flow_at(), start, period, how,
+                                                equations.rotating_end_slope())
+                      : orbit_continuation(equations.flow_at(), start, how, equations.end_slope());
     tree.branches.push_back({.branch = walk.branch(), .direction = direction});
     equations.measure(tree.layout, options.period, walk.branch().points[0], tree.branches.back());
   }

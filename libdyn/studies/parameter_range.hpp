@@ -10,6 +10,8 @@
 
 namespace whirl::inline dyn {
 
+class RangeSlopes;
+
 /// The scene at a value of a parameter; may throw NumericalError where there is none.
 using SceneAt = std::function<std::shared_ptr<const Scene>(double value)>;
 
@@ -17,6 +19,7 @@ using SceneAt = std::function<std::shared_ptr<const Scene>(double value)>;
 struct ParameterScenes {
   std::shared_ptr<const Scene> first;  ///< at the value where branches begin
   SceneAt at;
+  std::shared_ptr<const RangeSlopes> slopes{};  ///< of them; null: derivatives are differences
 };
 
 /// The range of a parameter, and where in it branches begin.

@@ -1,6 +1,7 @@
 #include "libio/model/branch_setup.hpp"
 
 #include "libbase/error.hpp"
+#include "libdyn/branches/range_slopes.hpp"
 #include "libdyn/system/stations.hpp"
 
 namespace whirl::inline io {
@@ -27,7 +28,9 @@ BranchStudyOptions BranchSetup::options() const {
 }
 
 BranchScenes BranchSetup::scenes() const {
-  return {{scene, [this](double value) { return parameters.scene(value); }},
+  const SceneAt along = [this](double value) { return parameters.scene(value); };
+  const ParameterRange& range = tree.along;
+  return {{scene, along, std::make_shared<const RangeSlopes>(along, scene, range.low, range.high)},
           {scene, [this](double a, double b) { return parameters.scene(a, b); }}};
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "libdyn/branches/range_slopes.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/studies/branch_study.hpp"
 #include "libdyn/taylor/batch.hpp"
@@ -12,24 +13,24 @@ namespace whirl::test {
 
 /// At 138.4 rad/s along friction, and in the plane of friction and contact stiffness.
 struct DoublingRotor {
-  double stiffness = 64e6;  ///< of the contact [N/m]
+  static constexpr double low = 0.12, high = 0.14;  ///< range of the friction
+  double stiffness = 64e6;                          ///< of the contact [N/m]
 
   std::shared_ptr<const Scene> scene(double friction, double k) const {
     return std::make_shared<const Scene>(
         RotorStator{.Omega = 138.4, .kC = k, .mu = friction}.scene());
   }
   ParameterScenes scenes() const {
-    return {scene(0.13, stiffness), [*this](double mu) { return scene(mu, stiffness); }};
+    const auto first = scene(0.13, stiffness);
+    const SceneAt at = [*this](double mu) { return scene(mu, stiffness); };
+    return {first, at, std::make_shared<const RangeSlopes>(at, first, low, high)};
   }
   PlaneScenes plane() const {
     return {scene(0.13, stiffness), [*this](double mu, double k) { return scene(mu, k); }};
   }
   BranchTreeOptions options() const {
-    return {.along = {.low = 0.12,
-                      .high = 0.14,
-                      .first = 0.13,
-                      .largest_step = 0.002,
-                      .goes_both = true},
+    return {.along =
+                {.low = low, .high = high, .first = 0.13, .largest_step = 0.002, .goes_both = true},
             .generations = 1,
             .stations = {scenes().first->assembler.point(body("rotor"))}};
   }
