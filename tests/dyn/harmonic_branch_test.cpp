@@ -104,6 +104,54 @@ TEST(HarmonicBranch, FoldsWhereShootingDoes) {
   EXPECT_EQ(series.bifurcations.size(), shot.bifurcations.size());
 }
 
+/// A scene with its problem.
+struct At {
+  Scene scene;
+  HarmonicProblem problem;
+  explicit At(Scene s) : scene(std::move(s)), problem(harmonic_problem(scene.contacts)) {}
+};
+std::shared_ptr<const HarmonicProblem> problem_of(const test::RotorStator& rotor) {
+  const auto both = std::make_shared<const At>(rotor.scene());
+  return {both, &both->problem};
+}
+
+// The residual is a formula: at displacements that are held it goes straight with stiffness, friction and
+// unbalance, so that values far apart tell its slope. Rounding leaves the difference that branches take nearly nine
+// digits of it.
+TEST(HarmonicBranch, HasEightDigitsOfTheDerivativeByTheParameter) {
+  constexpr int harmonics = 20;
+  constexpr double eight_digits = 1e-8;
+  struct Knob {
+    const char* name;
+    double test::RotorStator::*value;
+    double low, high;
+  };
+  for (const Knob& knob : {Knob{"stiffness", &test::RotorStator::kC, 100e6, 200e6},
+                           Knob{"friction", &test::RotorStator::mu, 0.05, 0.15},
+                           Knob{"unbalance", &test::RotorStator::e, 0.5e-3, 1.5e-3}}) {
+    SCOPED_TRACE(knob.name);
+    const auto problem_at = [&](double value) {
+      test::RotorStator rotor = test::P1;
+      rotor.*knob.value = value;
+      return problem_of(rotor);
+    };
+    const BranchEquations equations = harmonic_equations(problem_at, 1, harmonics, test::P1.gap);
+    Vec x = Vec::Zero(2 * (2 * harmonics + 1));  // within the ring, beyond it for a while
+    x.head(6) << 0.1, -0.4, 0.8, 0.1, 0.0, 0.9;
+    const auto change = [&](double low, double high) -> Vec {
+      const auto a = equations.at(x, low, WithTangent::no),
+                 b = equations.at(x, high, WithTangent::no);
+      EXPECT_EQ(a.residual.size(), x.size());
+      return (b.residual - a.residual) / (high - low);
+    };
+    const double middle = 0.5 * (knob.low + knob.high);
+    const double h = equations.difference * (knob.high - knob.low);
+    const Vec exact = change(knob.low, knob.high), taken = change(middle - h, middle + h);
+    EXPECT_GT(exact.norm(), 0.0);
+    EXPECT_LT((taken - exact).norm(), eight_digits * exact.norm());
+  }
+}
+
 // The rotor in its stator doubles its period as friction falls, contacts and all, where shooting says.
 TEST(HarmonicBranch, FindsThePeriodDoublingOfARubbingRotor) {
   const auto at = [](double mu) {
@@ -125,15 +173,7 @@ TEST(HarmonicBranch, FindsThePeriodDoublingOfARubbingRotor) {
   const Branch shot = walk_to_the_end(orbit_continuation(flow_at, t.state.y, down));
   ASSERT_EQ(values(shot, period_doubling).size(), 1u);
 
-  struct At {
-    Scene scene;
-    HarmonicProblem problem;
-    explicit At(Scene s) : scene(std::move(s)), problem(harmonic_problem(scene.contacts)) {}
-  };
-  const HarmonicProblemAt problem_at = [&](double mu) {
-    const auto both = std::make_shared<const At>(at(mu).scene());
-    return std::shared_ptr<const HarmonicProblem>(both, &both->problem);
-  };
+  const HarmonicProblemAt problem_at = [&](double mu) { return problem_of(at(mu)); };
   const ContactOrbit orbit = find_harmonic_orbit(first->contacts, t.state.y, {.harmonics = 40});
   ASSERT_TRUE(orbit.orbit.is_good()) << orbit.orbit.failure;
   const double scale = first->contacts.length_scale();
