@@ -127,9 +127,9 @@ TEST_F(RecordFile, PutsSamplesWhereTheirTimesAre) {
 }
 
 TEST_F(RecordFile, TakesRatesThatAreThoseOfTheFile) {
-  const std::filesystem::path path = file("a.csv", "time [s],x [um]\n0,1\n0.00033333,2\n");
-  EXPECT_EQ(read_record(path, 3000.0).rate, 3000.0) << "with more digits";
-  EXPECT_THROW(read_record(path, 2900.0), ModelError);
+  const std::filesystem::path record = file("a.csv", "time [s],x [um]\n0,1\n0.00033333,2\n");
+  EXPECT_EQ(read_record(record, 3000.0).rate, 3000.0) << "with more digits";
+  EXPECT_THROW(read_record(record, 2900.0), ModelError);
 }
 
 TEST_F(RecordFile, SaysWhatIsWrongInATable) {
