@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
@@ -68,6 +70,11 @@ Complex motion_of(const ResponseEnd& end, const DofMap& dofs, const CVec& full) 
     if (k >= 0) sum += parts[static_cast<std::size_t>(c)] * full(k);
   }
   return sum;
+}
+
+bool is_tilt(const std::string& end) {
+  return end.ends_with(fmt::format(" {}", name_of(Direction::theta_x))) ||
+         end.ends_with(fmt::format(" {}", name_of(Direction::theta_y)));
 }
 
 }  // namespace
@@ -157,6 +164,27 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
     if (!is_bounded) result.unbounded.push_back(w);
   }
   return result;
+}
+
+std::vector<bool> FrequencyResponse::silent_pairs() const {
+  constexpr double rounding = 1e-10;  // of the largest response, with room for large rotors
+  const auto group_of = [](const ResponsePair& pair) {
+    return std::pair(pair.from, is_tilt(pair.to));
+  };
+  std::vector<double> sizes;
+  std::map<std::pair<std::string, bool>, double> largest;
+  for (const ResponsePair& pair : pairs) {
+    double size = nan;
+    for (const Complex& H : pair.receptance) size = std::fmax(size, std::abs(H));
+    double& top = largest.try_emplace(group_of(pair), nan).first->second;
+    top = std::fmax(top, size);
+    sizes.push_back(size);
+  }
+  std::vector<bool> silent;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    silent.push_back(sizes[i] <= rounding * largest.at(group_of(pairs[i])));
+  }
+  return silent;
 }
 
 std::vector<double> usual_frequencies(const Assembler& assembler, double Omega) {

@@ -77,6 +77,10 @@ struct FrequencyResponse {
   std::vector<ResponsePair> pairs;
   std::vector<double> unbounded;  ///< undamped resonances, where responses are NaN [rad/s]
 
+  /// For each pair, whether its response is zero but for rounding: nowhere above 1e-10 of the largest one
+  /// to the same force, displacements and tilts each by themselves.
+  std::vector<bool> silent_pairs() const;
+
   static constexpr std::string_view group = "/frf";
   static constexpr auto columns() {
     using enum Written;

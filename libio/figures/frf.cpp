@@ -54,8 +54,13 @@ Figure figure_of(const ResultView& result, const FrequencyResponse& found,
   amplitude.y = {.title = fmt::format("{} [{}]", form.name, form.unit),
                  .scale = Scale::logarithmic};
   phase.y = {.title = "phase [deg]", .first = -180.0, .last = 180.0, .step = 90.0};
+  const std::vector<bool> silent = found.silent_pairs();
   for (std::size_t i = 0; i < std::min(most_curves, found.pairs.size()); ++i) {
     const ResponsePair& pair = found.pairs[i];
+    if (silent[i]) {
+      f.notes.push_back(fmt::format("{} by {}: no response.", pair.to, pair.from));
+      continue;
+    }
     Curve c{.name = fmt::format("{} by {}", pair.to, pair.from),
             .paint = series_paint(i),
             .x = scaled(found.frequencies, in.factor)};

@@ -14,7 +14,13 @@ namespace whirl::inline io {
 std::string text_of(const FrequencyResponse& found) {
   constexpr std::size_t most = 6;
   Table table({"from", "to", "peak [Hz]", "receptance [m/N]", "phase [deg]", "amplification"});
-  for (const ResponsePair& pair : found.pairs) {
+  const std::vector<bool> silent = found.silent_pairs();
+  for (std::size_t i = 0; i < found.pairs.size(); ++i) {
+    const ResponsePair& pair = found.pairs[i];
+    if (silent[i]) {
+      table.row({pair.from, pair.to, "none", "0", "-", "-"});
+      continue;
+    }
     const Mat amplitude = pair.receptance.cwiseAbs().transpose();
     std::string from = pair.from, to = pair.to;
     for (const ResponsePeak& peak : response_peaks(found.frequencies, amplitude, most)) {
