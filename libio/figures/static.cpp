@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "libdyn/system/running_film.hpp"
 #include "libfe/bending.hpp"
 #include "libfe/forces.hpp"
 #include "libio/figures/common.hpp"
@@ -86,8 +87,63 @@ Panel panel_of(const Vec& z, const Line& line, bool is_filled) {
   return p;
 }
 
-/// The rotor behind its sag, and what its bearings bear.
+/// What carries the rotor: a bearing, a seal or an oil film.
+struct Support {
+  std::string name;
+  Vec2 load;                    ///< of the rotor on it [N]
+  const Station* at = nullptr;  ///< null: the model does not have it
+  Paint paint = Paint::bearing;
+};
+
+std::vector<Support> supports_of(const ResultView& result) {
+  std::vector<Support> all;
+  const Model* model = result.model ? &*result.model : nullptr;
+  for (const BearingLoad& b : result_of<StaticEquilibrium>(result).bearings) {
+    Support support{b.name, b.force};
+    if (model) {
+      const Structure& s = model->structure;
+      const std::size_t i = all.size(), seal = i - std::min(i, s.bearings.size());
+      if (i < s.bearings.size()) {
+        support.at = &s.bearings[i].from;
+      } else if (seal < s.seals.size()) {  // they follow the bearings
+        support.at = &s.seals[seal].from;
+        support.paint = Paint::seal;
+      }
+    }
+    all.push_back(support);
+  }
+  if (!result.file.has(dataset_of<RunningFilms>(&RunningFilm::name))) return all;
+  for (const RunningFilm& film : result_of<RunningFilms>(result).films) {
+    Support support{film.name, film.load};
+    for (std::size_t i = 0; model && i < model->films.size(); ++i) {
+      if (model->films[i].name == film.name) support.at = &model->films[i].at;
+    }
+    all.push_back(support);
+  }
+  return all;
+}
+
+/// An arrow with what a support pushes the rotor up or down by.
+/// @param height  of the label in the panel
+void add_reaction(Panel& p, const ResultView& result, const Support& support,
+                  const DisplayUnit& unit, double height) {
+  if (!result.assembler || !support.at) return;
+  const Point at = result.assembler->point(*support.at);
+  if (at.kind != Point::Kind::node) return;
+  const double z = mm * result.assembler->mesh().z[static_cast<std::size_t>(at.index)];
+  const double reaction = -unit.factor * support.load(1);
+  Label l{z, height,
+          fmt::format("{} {:.4g} {}", reaction < 0.0 ? "↓" : "↑", std::abs(reaction), unit.name)};
+  const double along = (z - p.x.first) / (p.x.last - p.x.first);
+  l.anchor = along < 0.1 ? Anchor::start : along > 0.9 ? Anchor::end : Anchor::middle;
+  l.dx = l.dy = 0.0;
+  l.paint = support.paint;
+  p.labels.push_back(l);
+}
+
+/// The rotor behind its sag, and what its supports bear.
 void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& table) {
+  constexpr double small = 0.05;  // of the largest load: told in the table only
   double low = 0.0, high = 0.0;
   for (const Curve& c : p.curves) {
     for (const double v : c.y) low = std::min(low, v), high = std::max(high, v);
@@ -98,34 +154,19 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
   Panel behind;
   add_rotor(behind, result, 0.0, 0.22 * span);
   p.curves.insert(p.curves.begin(), behind.curves.begin(), behind.curves.end());
-  const auto& bearings = result_of<StaticEquilibrium>(result).bearings;
-  if (bearings.empty()) return;
+  const std::vector<Support> supports = supports_of(result);
+  if (supports.empty()) return;
   double largest = 0.0;
-  for (const BearingLoad& b : bearings) largest = std::max(largest, b.force.cwiseAbs().maxCoeff());
+  for (const Support& s : supports) largest = std::max(largest, s.load.cwiseAbs().maxCoeff());
   const DisplayUnit unit = unit_for(largest, "N");
   table.header = {"bearing", with_unit("load x", unit), with_unit("load y", unit)};
-  for (std::size_t i = 0; i < bearings.size(); ++i) {
+  for (const Support& s : supports) {
     const auto text = [&](double force) {
       const double shown = unit.factor * force;
       return with_minus(fmt::format("{:.4g}", std::abs(force) > still * largest ? shown : 0.0));
     };
-    table.rows.push_back({bearings[i].name, text(bearings[i].fx()), text(bearings[i].fy())});
-    if (!result.assembler) continue;
-    const Structure& s = result.model->structure;
-    const std::size_t seal = i - std::min(i, s.bearings.size());  // they follow the bearings
-    if (i >= s.bearings.size() && seal >= s.seals.size()) continue;
-    const Connection& c = i < s.bearings.size() ? s.bearings[i] : s.seals[seal];
-    const Point at = result.assembler->point(c.from);
-    if (at.kind != Point::Kind::node) continue;
-    const double z = mm * result.assembler->mesh().z[static_cast<std::size_t>(at.index)];
-    const double reaction = -unit.factor * bearings[i].fy();
-    Label l{z, 0.3 * span,
-            fmt::format("{} {:.4g} {}", reaction < 0.0 ? "↓" : "↑", std::abs(reaction), unit.name)};
-    const double along = (z - p.x.first) / (p.x.last - p.x.first);
-    l.anchor = along < 0.1 ? Anchor::start : along > 0.9 ? Anchor::end : Anchor::middle;
-    l.dx = l.dy = 0.0;
-    l.paint = i < s.bearings.size() ? Paint::bearing : Paint::seal;
-    p.labels.push_back(l);
+    table.rows.push_back({s.name, text(s.load(0)), text(s.load(1))});
+    if (std::abs(s.load(1)) >= small * largest) add_reaction(p, result, s, unit, 0.3 * span);
   }
 }
 

@@ -1,5 +1,7 @@
 // plot: pictures of results.
 
+#include <fmt/format.h>
+
 #include <complex>
 #include <regex>
 
@@ -582,6 +584,48 @@ TEST_F(Plot, ASagShowsReactionsAndMoments) {
   EXPECT_NEAR(moment[0].y.back(), 0.0, rounding * largest);
   EXPECT_FALSE(named(f.panels[0], "disk").empty());
   EXPECT_FALSE(named(f.panels[0], "bearing").empty());
+}
+
+// Journals bear the rotor, so their films are told and labeled; seals that bear next to nothing are told only.
+TEST_F(Plot, ASagTellsWhatOilFilmsBear) {
+  make({"static", WHIRL_SOURCE_DIR "/models/compressor.toml"}, "s.h5");
+  const ResultView view(folder / "s.h5");
+  const Figure f = figures_in("static", view).at(0);
+  ASSERT_EQ(f.table.rows.size(), view.model->structure.seals.size() + 2u);
+  const Mat load = view.file.matrix("/films/load");
+  double sum = 0.0;  // [kN]
+  for (const Eigen::Index i : {0, 1}) {
+    const auto& row = f.table.rows.at(f.table.rows.size() - 2u + static_cast<std::size_t>(i));
+    EXPECT_EQ(row.at(0), i == 0 ? "left" : "right");
+    EXPECT_TRUE(has(row.at(2), fmt::format("{:.4g}", 1e-3 * std::abs(load(i, 1))))) << row.at(2);
+    sum += 1e-3 * std::abs(load(i, 1));
+  }
+  EXPECT_GT(sum, 0.9 * 735.0 * 9.81e-3);  // of the rotor's weight
+  std::vector<std::string> arrows;
+  for (const Label& l : f.panels[0].labels) {
+    if (l.text.starts_with("↑ ")) arrows.push_back(l.text);
+  }
+  EXPECT_EQ(arrows, (std::vector<std::string>{fmt::format("↑ {:.4g} kN", -1e-3 * load(0, 1)),
+                                              fmt::format("↑ {:.4g} kN", -1e-3 * load(1, 1))}));
+}
+
+// An isotropic rotor does not whirl backward by a forward force: rounding is neither a peak nor a line.
+TEST_F(Plot, AResponseThatIsNoneIsNotDrawn) {
+  const std::vector<std::string> call{"frf",     WHIRL_SOURCE_DIR "/models/two_disk_mac.toml",
+                                      "--speed", "3000rpm",
+                                      "--from",  "7:forward",
+                                      "--to",    "7:forward,7:backward",
+                                      "--out",   "f.h5"};
+  const std::string text = whirl(call).out;
+  EXPECT_TRUE(std::regex_search(text, std::regex(" backward +none +0 +- +-"))) << text;
+  EXPECT_FALSE(has(text, "e-1")) << text;
+  const std::vector<Figure> figures = figures_in("frf", ResultView(folder / "f.h5"));
+  ASSERT_EQ(figures.size(), 3u);
+  for (const Figure& f : figures) {
+    for (const Panel& p : f.panels) EXPECT_EQ(p.curves.size(), 1u);
+    ASSERT_EQ(f.notes.size(), 1u);
+    EXPECT_TRUE(has(f.notes[0], "no response")) << f.notes[0];
+  }
 }
 
 // Bearings of oil films are as long as they are, above and below the journals, which they leave room.
