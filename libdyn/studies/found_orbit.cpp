@@ -10,6 +10,7 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/hill.hpp"
+#include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -35,6 +36,14 @@ std::vector<Vec> every_revolution(const ContactSystem& system, const PeriodicOrb
   return states;
 }
 
+std::vector<OrbitProbe> probes_along(const Scene& scene, const OrbitMeasure& measure) {
+  std::vector<OrbitProbe> probes;
+  for (const Probe& probe : probes_of(scene)) {
+    probes.push_back({probe, measure.probe_peak_to_peak[probes.size()]});
+  }
+  return probes;
+}
+
 FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
   const Flow flow = flow_of(scene.contacts);
   PeriodicOrbit orbit = find_orbit(flow, start, {.period = period});
@@ -50,6 +59,9 @@ FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
   found.exponents = orbit.exponents();
   found.is_stable = orbit.is_stable();
   found.modes = modes_of_multipliers(scene, orbit);
+  if (!probes_of(scene).empty()) {
+    found.probes = probes_along(scene, measure_orbit(scene, {}, found.state(), period));
+  }
   return found;
 }
 
@@ -114,6 +126,9 @@ FoundOrbit find_by_harmonic_balance(const Scene& scene, const Vec& start,
   found.series->averaged_multipliers = hill.averaged;
   found.series->stability_failure = hill.failure;
   add_amplitudes(scene, orbit, *found.series);
+  if (!probes_of(scene).empty()) {
+    found.probes = probes_along(scene, measure_orbit(scene, {}, orbit.motion));
+  }
   if (options.is_verified) found.series->gap = gap_of(scene, found);
   return found;
 }

@@ -14,6 +14,7 @@
 #include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
 #include "libdyn/orbits/multiplier_modes.hpp"
+#include "libdyn/system/probes.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/taylor/batch.hpp"
 
@@ -95,6 +96,17 @@ struct OrbitSeries {
   }
 };
 
+/// What a probe reads of an orbit.
+struct OrbitProbe : ProbeLabel {
+  double peak_to_peak = 0.0;  ///< over the period, see OrbitMeasure [m]
+
+  static constexpr auto columns() {
+    return joined(
+        ProbeLabel::columns(),
+        ColumnList{column("peak_to_peak", &OrbitProbe::peak_to_peak, "m", "of the reading")});
+  }
+};
+
 /// An orbit, or how far the search for it got.
 struct FoundOrbit {
   int period = 1, shortest_period = 1;  ///< [revolutions]
@@ -107,6 +119,7 @@ struct FoundOrbit {
   std::vector<MultiplierMode> modes{};  ///< of the multipliers; empty: not told
   bool is_stable = false;
   std::vector<ContactMeasure> contacts{};  ///< shares of the period
+  std::vector<OrbitProbe> probes{};        ///< those of the model; empty: there is no orbit
   Failure failure{};
   std::optional<OrbitSeries> series{};  ///< of harmonic balance
 
@@ -128,6 +141,7 @@ struct FoundOrbit {
         column("stable", &O::stability, "", "null: there is no orbit"),
         column("state", &O::state, "", "reduced, at phase 0"),
         rows(&O::contact_shares, "contacts"),
+        rows(&O::probes, "probes").maybe(),
         column("harmonic_balance", &O::series, "", "what it says beside").maybe(),
         column("failure", &O::failure, "", "why there is none").only(Written::in_json).maybe()};
   }

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <span>
 
 #include "libio/text/parameter_axis.hpp"
+#include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -66,6 +68,41 @@ std::string branch_text(const BranchResult& result, const BranchRow& branch) {
          bifurcations_table(result, branch.number);
 }
 
+/// Where along branches a probe reads most, peak to peak.
+struct LargestOnBranch {
+  ProbeLabel probe{};
+  const BranchOrbit* orbit = nullptr;  ///< null: nothing is known of it
+  double peak_to_peak = 0.0;           ///< [m]
+};
+
+std::string probes_text(const BranchResult& result) {
+  std::vector<LargestOnBranch> all;
+  for (std::size_t i = 0; i < result.probes.size(); ++i) {
+    LargestOnBranch most{result.probes[i]};
+    for (const BranchOrbit& orbit : result.points) {
+      if (i >= orbit.probe_peak_to_peak.size()) continue;
+      const double size = orbit.probe_peak_to_peak[i];
+      if (!std::isfinite(size) || (most.orbit && size <= most.peak_to_peak)) continue;
+      most.orbit = &orbit;
+      most.peak_to_peak = size;
+    }
+    all.push_back(std::move(most));
+  }
+  if (all.empty()) return "";
+  using L = LargestOnBranch;
+  return "\n  Along the probes, peak to peak\n" +
+         table_of(
+             all,
+             {{"probe", [](const L& l) { return l.probe.name; }},
+              {"angle [deg]", [](const L& l) { return fmt::format("{:g}", l.probe.angle_deg()); }},
+              {"largest",
+               [](const L& l) { return l.orbit ? reading_text(l.peak_to_peak, l.probe) : "-"; }},
+              {"at " + label_of(result.parameter),
+               [](const L& l) { return l.orbit ? fmt::format("{:.9g}", l.orbit->value) : "-"; }},
+              {"on branch",
+               [](const L& l) { return l.orbit ? std::to_string(l.orbit->branch) : "-"; }}});
+}
+
 /// "0.1 to 0.15" of the ends of a curve.
 std::string curve_range(const Mat& points, Eigen::Index parameter) {
   return fmt::format("{:.6g} to {:.6g}", points(0, parameter),
@@ -80,7 +117,7 @@ std::string text_of(const BranchResult& result) {
     text = fmt::format("  by harmonic balance with {} harmonics\n", *result.harmonics);
   }
   for (const BranchRow& branch : result.branches) text += branch_text(result, branch);
-  return text;
+  return text + probes_text(result);
 }
 
 std::string text_of(const CurveResult& result) {

@@ -7,6 +7,7 @@
 #include "libbase/constants.hpp"
 #include "libio/text/table.hpp"
 #include "libio/texts/motion_text.hpp"
+#include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -92,7 +93,8 @@ std::string text_of(const FoundOrbit& orbit) {
                         orbit.shortest_period);
   }
   text += "\n" + multipliers_table(orbit);
-  return orbit.contacts.empty() ? text : text + "\n" + contacts_table(orbit.contacts, period);
+  if (!orbit.contacts.empty()) text += "\n" + contacts_table(orbit.contacts, period);
+  return text + text_of(orbit.probes);
 }
 
 std::string text_of(const RotatingOrbit& orbit) {

@@ -109,4 +109,13 @@ std::string text_of(const std::vector<ProbeSummary>& probes) {
                            [](const ProbeSummary& p) { return reading_text(p.peak_to_peak, p); }}});
 }
 
+std::string text_of(const std::vector<OrbitProbe>& probes) {
+  if (probes.empty()) return "";
+  return "\n" + table_of(probes, {shown("name").as("probe"),
+                                  {"angle [deg]", angle_text},
+                                  {"peak to peak", [](const OrbitProbe& p) {
+                                     return reading_text(p.peak_to_peak, p);
+                                   }}});
+}
+
 }  // namespace whirl::inline io

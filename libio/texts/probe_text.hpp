@@ -6,6 +6,7 @@
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/static_study.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/studies/found_orbit.hpp"
 
 namespace whirl::inline io {
 
@@ -30,5 +31,8 @@ std::string text_of(const std::vector<RestingProbe>& probes);
 
 /// Mean and peak to peak along every probe; empty without probes.
 std::string text_of(const std::vector<ProbeSummary>& probes);
+
+/// Peak to peak along every probe; empty without probes.
+std::string text_of(const std::vector<OrbitProbe>& probes);
 
 }  // namespace whirl::inline io

@@ -142,10 +142,30 @@ TEST_F(Probes, SpectraAreOfWholeRevolutions) {
   }
 }
 
+// A circle, by both methods: peak to peak twice its radius.
+TEST_F(Probes, TellOrbits) {
+  constexpr double of_instants = 5e-3;  // ten a step, which is a fraction of a revolution
+  const double size = 2.0 * std::abs(circle(60.0));
+  for (const char* method : {"shooting", "harmonic-balance"}) {
+    const std::vector<std::string> call{"orbit",    "rotor.toml", "--speed",   "60rad/s",
+                                        "--method", method,       "--discard", "10"};
+    const json r = result(call);
+    ASSERT_EQ(r["probes"].size(), 2u) << method;
+    EXPECT_EQ(r["probes"][0]["unit"], "mil");
+    EXPECT_EQ(r["probes"][1]["name"], "1Y");
+    for (const json& probe : r["probes"]) {
+      EXPECT_NEAR(probe["peak_to_peak_m"], size, of_instants * size);
+    }
+    EXPECT_TRUE(has(whirl(call).out, "peak to peak")) << method;
+  }
+  write("plain.toml", jeffcott);
+  EXPECT_FALSE(result({"orbit", "plain.toml", "--speed", "60rad/s"}).contains("probes"));
+}
+
 // Orbits of the rotor along its speed: circles, peak to peak twice their radius.
 TEST_F(Probes, TellBranches) {
-  const json r = result({"continue", "rotor.toml", "--over", "operation.speed=50:70:5rad/s",
-                         "--out", "branch.h5"});
+  const json r = result(
+      {"continue", "rotor.toml", "--over", "operation.speed=50:70:5rad/s", "--out", "branch.h5"});
   ASSERT_EQ(r["probes"].size(), 2u);
   EXPECT_EQ(r["probes"][1]["name"], "1Y");
   EXPECT_EQ(r["probes"][0]["unit"], "mil");

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <regex>
+
+#include "libbase/constants.hpp"
 #include "libio/texts/torus_text.hpp"
 
 namespace whirl::branches_text_test {
@@ -30,6 +33,20 @@ TEST(BranchesText, SaysWhereBranchesGoAndWhatHappensThere) {
                 "branch 1\n  it ends: not yet\n"),
       std::string::npos)
       << text;
+}
+
+TEST(BranchesText, SaysWhereProbesReadMost) {
+  BranchResult result{.parameter = {"operation.speed", "rad/s"}};
+  result.branches = {{{}, 1, 1, 0}, {{}, 2, 2, 1}};
+  Probe mil{.name = "1X", .angle = 45.0 * degree, .unit = "mil"}, old{.name = "1Y"};
+  result.probes = ProbeLabels({mil, old});
+  result.points = {{.value = 50.0, .branch = 1, .probe_peak_to_peak = {2.54e-5, nan}},
+                   {.value = 60.0, .branch = 2, .probe_peak_to_peak = {5.08e-5, nan}},
+                   {.value = 70.0, .branch = 2, .probe_peak_to_peak = {nan, nan}}};
+  const std::string text = text_of(result);
+  for (const char* row : {"1X +45 +2 mil +60 +2", "1Y +0 +- +- +-"}) {
+    EXPECT_TRUE(std::regex_search(text, std::regex(row))) << text;
+  }
 }
 
 TEST(BranchesText, SaysThatThereIsNoCurve) {
