@@ -57,6 +57,7 @@ void add_row(OpenTable& open, const std::vector<Cell>& cells, Where where,
     if (column.kind == Kind::speed) {
       speed = *value;
       where.column = cells[i].place;
+      if (speed < 0.0) report(cells[i].place, "speed", "a speed is zero or more");
     } else if (column.kind == Kind::whirl) {
       whirl = *value;
       if (!open.has(Kind::speed)) where.column = cells[i].place;

@@ -102,6 +102,11 @@ TEST(BearingTable, SpeedsMustAscend) {
             "bearing.csv:4:1: speed: speeds must ascend from line to line\n");
 }
 
+TEST(BearingTable, SpeedsAreZeroOrMore) {
+  EXPECT_EQ(problems("speed [rpm],kxx\n-1000,1\n0,1\n1000,1\n"),
+            "bearing.csv:2:1: speed: a speed is zero or more\n");
+}
+
 TEST(BearingTable, NumbersMustBeFinite) {
   EXPECT_NE(problems("speed,kxx\n1,nan\n").find("\"nan\" is not a number"), std::string::npos);
   EXPECT_NE(problems("speed,kxx\n1,1e999\n").find("beyond the range"), std::string::npos);
