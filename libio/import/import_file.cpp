@@ -23,10 +23,11 @@ std::string content_of(const fs::path& file) {
   return text.str();
 }
 
-/// The tree of a file, by how it begins.
+/// The tree of a file, by how it begins: "[" begins a list of JSON, or a table of TOML.
 ConfigNode tree_of(const std::string& text, const std::string& name) {
   const auto first = text.find_first_not_of(" \t\r\n");
-  const bool is_json = first != std::string::npos && text[first] == '{';
+  const bool is_list = name.ends_with(".json") && first != std::string::npos && text[first] == '[';
+  const bool is_json = is_list || (first != std::string::npos && text[first] == '{');
   return is_json ? parse_json(text, name) : parse_toml(text, name);
 }
 

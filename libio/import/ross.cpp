@@ -63,7 +63,7 @@ class Section {
     if (!is_number || !std::isfinite(value.number)) {
       problem(value.where, key, fmt::format("found {}, expected a number", value.as_written()));
     }
-    return is_number ? value.number : 0.0;
+    return is_number && std::isfinite(value.number) ? value.number : 0.0;
   }
   /// Numbers of a list, or one alone; none where the key is left out.
   std::vector<double> numbers(std::string_view key) const {
@@ -126,8 +126,9 @@ void read_element(const Section& s, RossRotor& rotor) {
   e.material = material_of(s, rotor, e.nu);
   e.node = s.node("n");
   e.length = s.number("L");
-  e.outer = {s.number("odl"), s.number_or("odr", s.number("odl"))};
-  e.inner = {s.number("idl"), s.number_or("idr", s.number("idl"))};
+  const double outer = s.number("odl"), inner = s.number("idl");
+  e.outer = {outer, s.number_or("odr", outer)};
+  e.inner = {inner, s.number_or("idr", inner)};
   e.axial_force = s.number_or("axial_force", 0.0);
   e.torque = s.number_or("torque", 0.0);
   e.shears = s.flag("shear_effects");
@@ -169,6 +170,14 @@ std::vector<double> coefficients_of(const Section& s, std::string_view key) {
   return all;
 }
 
+/// Tells that coefficients are left out, where any of them is not zero.
+void leave_out(const Section& s, std::string_view key, std::string_view why, RossRotor& rotor) {
+  const std::vector<double> values = coefficients_of(s, key);
+  if (std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; })) {
+    rotor.left_out.push_back(fmt::format("{} of \"{}\": {}", key, s.tag(), why));
+  }
+}
+
 void read_bearing(const Section& s, RossRotor& rotor, bool is_before_3) {
   RossBearing b{.where = s.where(),
                 .name = s.tag(),
@@ -178,7 +187,8 @@ void read_bearing(const Section& s, RossRotor& rotor, bool is_before_3) {
   const Axes axes = axes_of(s, is_before_3);
   b.has_speed = !axes.speed.empty();
   b.has_whirl = !axes.whirl.empty();
-  const std::size_t rows = coefficients_of(s, "kxx").size();
+  const std::vector<double> kxx = coefficients_of(s, "kxx");
+  const std::size_t rows = kxx.size();
   const std::size_t speeds = std::max<std::size_t>(1, axes.speed.size()),
                     frequencies = std::max<std::size_t>(1, axes.whirl.size());
   const bool is_grid = rows == speeds * frequencies,
@@ -195,7 +205,7 @@ void read_bearing(const Section& s, RossRotor& rotor, bool is_before_3) {
     if (b.has_whirl) b.rows[i].whirl = axes.whirl[is_grid ? i % frequencies : i];
   }
   for (std::size_t k = 0; k < ross_coefficients.size(); ++k) {
-    const std::vector<double> values = coefficients_of(s, ross_coefficients[k]);
+    const std::vector<double> values = k == 0 ? kxx : coefficients_of(s, ross_coefficients[k]);
     if (values.empty()) continue;
     if (values.size() != rows && values.size() != 1) {
       s.problem(s.where(), ross_coefficients[k],
@@ -207,15 +217,16 @@ void read_bearing(const Section& s, RossRotor& rotor, bool is_before_3) {
     }
   }
   for (const std::string_view axial : {"kzz", "czz", "mzz"}) {
-    const std::vector<double> values = coefficients_of(s, axial);
-    if (std::any_of(values.begin(), values.end(), [](double v) { return v != 0.0; })) {
-      rotor.left_out.push_back(fmt::format("{} of \"{}\": motion along the axis", axial, b.name));
-    }
+    leave_out(s, axial, "motion along the axis", rotor);
   }
   rotor.bearings.push_back(std::move(b));
 }
 
 void read_disk(const Section& s, RossRotor& rotor) {
+  if (s.class_name().starts_with("Gear")) {
+    rotor.taken_differently.push_back(
+        fmt::format("the gear \"{}\" is a disk: the forces of its teeth are left out", s.tag()));
+  }
   rotor.disks.push_back({s.tag(), s.node("n"), s.number("m"), s.number("Id"), s.number("Ip")});
 }
 
@@ -239,6 +250,28 @@ void read_coupling(const Section& s, RossRotor& rotor) {
                              .c = pair("ct_x", "ct_y"),
                              .k_tilt = pair("kr_x", "kr_y"),
                              .c_tilt = pair("cr_x", "cr_y")});
+  for (const std::string_view key : {"kt_z", "ct_z"}) {
+    leave_out(s, key, "motion along the axis", rotor);
+  }
+  for (const std::string_view key : {"kr_z", "cr_z"}) {
+    leave_out(s, key, "turning about the axis", rotor);
+  }
+}
+
+/// Speeds that the rotor is made for; one that is none is left out.
+void read_speeds(const Section& s, RossRotor& rotor) {
+  const auto speed = [&](std::string_view key) {
+    const double value = s.number_or(key, 0.0);
+    if (value < 0.0) rotor.left_out.push_back(fmt::format("{} = {}: below zero", key, value));
+    return std::max(0.0, value);
+  };
+  rotor.rated_speed = speed("rated_w");
+  rotor.minimum_speed = speed("min_w");
+  rotor.maximum_speed = speed("max_w");
+  if (rotor.maximum_speed > 0.0 && rotor.minimum_speed > rotor.maximum_speed) {
+    rotor.left_out.emplace_back("min_w and max_w: the first one is above the other");
+    rotor.minimum_speed = rotor.maximum_speed = 0.0;
+  }
 }
 
 void read_section(const Section& s, RossRotor& rotor, bool is_before_3) {
@@ -280,6 +313,9 @@ RossRotor read_ross(const ConfigNode& root) {
     const bool is_element =
         entry.value.kind == ConfigNode::Kind::table && entry.key.find('_') != std::string::npos;
     if (is_element) read_section(Section(entry, problems), rotor, is_before_3);
+    if (entry.key == "parameters" && entry.value.kind == ConfigNode::Kind::table) {
+      read_speeds(Section(entry, problems), rotor);
+    }
   }
   if (rotor.elements.empty() && problems.empty()) {
     problems.push_back(

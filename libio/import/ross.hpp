@@ -81,7 +81,9 @@ struct RossRotor {
   std::vector<RossDisk> disks;
   std::vector<RossPointMass> masses;
   std::vector<RossBearing> bearings;
-  std::vector<std::string> left_out;  ///< a sentence each
+  double rated_speed = 0.0, minimum_speed = 0.0, maximum_speed = 0.0;  ///< 0: not told [rad/s]
+  std::vector<std::string> left_out;                                   ///< a sentence each
+  std::vector<std::string> taken_differently;                          ///< likewise
 };
 
 /// @param root  tree of a file, TOML or JSON

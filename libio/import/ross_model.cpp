@@ -87,6 +87,7 @@ class Writer {
   Writer(const RossRotor& rotor, const std::string& source, const std::string& stem)
       : rotor_(rotor), source_(source), stem_(stem) {
     result_.left_out = rotor.left_out;
+    result_.taken_differently = rotor.taken_differently;
   }
 
   ImportedModel write() {
@@ -94,6 +95,7 @@ class Writer {
     text("# From {}, saved by ROSS {}.\nformat = 1\ntitle  = {}\n", one_line(source_),
          rotor_.version.empty() ? "(of unknown version)" : one_line(rotor_.version),
          toml_text(stem_));
+    write_speeds();
     for (const RossMaterial& m : rotor_.materials) {
       text("\n[material.{}]\ndensity        = {}\nyoungs_modulus = {}\nshear_modulus  = {}\n",
            toml_key(m.name), number(m.rho), number(m.E), number(m.G));
@@ -161,6 +163,17 @@ class Writer {
   std::string station(int node) const {
     if (is_on_shaft(node)) return fmt::format("node = {}", node + 1);
     return fmt::format("body = {}", toml_text(supports_.at(node)));
+  }
+
+  void write_speeds() {
+    std::string keys;
+    const auto add = [&](const char* key, double speed) {
+      if (speed > 0.0) keys += fmt::format("{:<13} = \"{} rad/s\"\n", key, speed);
+    };
+    add("speed", rotor_.rated_speed);
+    add("minimum_speed", rotor_.minimum_speed);
+    add("maximum_speed", rotor_.maximum_speed);
+    if (!keys.empty()) text("\n[operation]\n{}", keys);
   }
 
   void write_beam_keys(const RossElement& e) {

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "libfe/modes.hpp"
+#include "libio/import/import_file.hpp"
 #include "libio/import/parse_json.hpp"
 #include "libio/import/ross_model.hpp"
 #include "libio/model/model_file.hpp"
@@ -187,6 +188,60 @@ TEST(RossImport, RefusesWhatAModelCannotSay) {
       "[BearingElement_a]\nn = 0\nkxx = [1.0, 2.0, 3.0]\n"
       "speed = [1.0, 2.0, 3.0]\nfrequency = [1.0, 2.0]\n";
   EXPECT_NE(refusal(small + unequal).find("3 values for 3 speeds"), std::string::npos);
+}
+
+// Speeds are those of the model; what has no place in it is said.
+TEST(RossImport, TellsWhatItTakesAndWhatNot) {
+  const ImportedModel written = imported(
+      small +
+          "[parameters]\nrated_w = 500.0\nmin_w = 400.0\nmax_w = 550.0\n"
+          "[CouplingElement_c]\nn = 1\nL = 0.1\nm_l = 1.0\nkt_x = 1e6\nkt_y = 1e6\nkt_z = 1e5\n"
+          "kr_z = 2e5\n"
+          "[GearElement_g]\nn = 0\nm = 3.0\nId = 0.01\nIp = 0.02\npitch_diameter = 0.2\n",
+      "rotor.toml");
+  const Model model = model_in_files(written);
+  EXPECT_TRUE(model.has_speed);
+  EXPECT_EQ(model.speed, 500.0);
+  EXPECT_EQ(model.machine.minimum, 400.0);
+  EXPECT_EQ(model.machine.maximum, 550.0);
+  const auto has = [](const std::vector<std::string>& all, const std::string& sentence) {
+    return std::find(all.begin(), all.end(), sentence) != all.end();
+  };
+  EXPECT_TRUE(has(written.left_out, "kt_z of \"c\": motion along the axis"));
+  EXPECT_TRUE(has(written.left_out, "kr_z of \"c\": turning about the axis"));
+  EXPECT_TRUE(has(written.taken_differently,
+                  "the gear \"g\" is a disk: the forces of its teeth are left out"));
+  const ImportedModel odd =
+      imported(small + "[parameters]\nrated_w = -5.0\nmin_w = 9.0\nmax_w = 8.0\n", "rotor.toml");
+  EXPECT_EQ(odd.text.find("[operation]"), std::string::npos);
+  EXPECT_TRUE(has(odd.left_out, "rated_w = -5: below zero"));
+  EXPECT_TRUE(has(odd.left_out, "min_w and max_w: the first one is above the other"));
+}
+
+TEST(RossImport, SaysAMistakeOnce) {
+  std::string text = small;
+  text.replace(text.find("odl = 0.05"), 10, "odl = \"x\"");
+  for (const std::string& wrong : {text, small + "[BearingElement_a]\nn = 0\nkxx = \"x\"\n",
+                                   small + "[X_a]\nn = inf\nkxx = 1.0\n"}) {
+    const std::string told = refusal(wrong);
+    EXPECT_NE(told.find("expected a number"), std::string::npos) << told;
+    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 0) << told;
+  }
+}
+
+// "[" begins a table of TOML, too: the name tells.
+TEST(RossImport, AListIsNoRotor) {
+  const fs::path file =
+      fs::path(testing::TempDir()) / ("whirl_ross_list_" + std::to_string(::getpid()) + ".json");
+  std::ofstream(file) << "[1, 2]\n";
+  std::string told;
+  try {
+    import_file(file, file.string() + ".toml", Replaces::anything);
+  } catch (const ModelError& error) {
+    told = error.what();
+  }
+  fs::remove(file);
+  EXPECT_NE(told.find("no shaft elements of ROSS"), std::string::npos) << told;
 }
 
 TEST(RossImport, SaysWhereAFileIsWrong) {
