@@ -114,7 +114,11 @@ std::optional<ModelBuilder::NamedText> ModelBuilder::table_text(TableReader& tab
                                                                 std::size_t item) {
   const auto name = table.string(key);
   if (!name) return std::nullopt;
-  NamedText result{table.path(key), *name};
+  const Where at = table.where(key);
+  const std::string line = at.line > 0 ? fmt::format(":{}", at.line) : "";
+  NamedText result{
+      at.file.empty() ? table.path(key) : fmt::format("{}{}: {}", at.file, line, table.path(key)),
+      *name};
   if (name->find('\n') == std::string::npos) {
     const std::filesystem::path path = directory_ / *name;
     std::ifstream file(path);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <regex>
 
 #include "libfe/assemble.hpp"
 #include "tests/io/shaft_model.hpp"
@@ -211,6 +212,19 @@ speed, kxx
   EXPECT_EQ(parse_model(model.source).structure.seals.size(), 3u);
   const Model set = parse_model(model.source, "model", {"seal.balance piston.added_mass=4"});
   EXPECT_EQ(constant(set.structure.seals[1]).M, isotropic(4.0));
+}
+
+// Mistakes of a table that stands in the model have the model's file and the line of the key.
+TEST(ModelConnections, MistakesInATableInTheModelAreInItsFile) {
+  try {
+    rotor("[[seal]]\nat = \"100 mm\"\ntable = \"\"\"\nspeed, kxx, kyy\n1, x, 5\n\"\"\"\n");
+    FAIL() << "the table is wrong";
+  } catch (const ModelError& error) {
+    const std::string text = error.what();
+    EXPECT_TRUE(std::regex_search(
+        text, std::regex("model:[0-9]+: seal\\.1\\.table:2:4: kxx: \"x\" is not a number")))
+        << text;
+  }
 }
 
 // Bearings and seals tell a clearance, which is no coefficient; links have none.

@@ -112,7 +112,8 @@ TEST(ModelDoubts, LayersOfATableAreToldAtTheirCells) {
       doubts("format = 1\n[material.steel]\ndensity = 7800\nyoungs_modulus = \"211 GPa\"\n"
              "poisson_ratio = 0.3\n" +
              table),
-      "shaft.1.table:3:5: inner_diameter: lies in the shaft from 0 to 100 mm: what is between the "
+      "m:8: shaft.1.table:3:5: inner_diameter: lies in the shaft from 0 to 100 mm: what is "
+      "between the "
       "diameters 45 and 50 mm counts twice; a layer begins at the outer diameter of what it lies "
       "on; and 1 more row\n");
 }
@@ -121,7 +122,8 @@ TEST(ModelDoubts, ColumnsThatABearingLacksAreDoubtedOncePerTable) {
   const std::string bearing =
       "[[bearing]]\nat = 0.5\ntable = \"\"\"rpm;kxx;cxx;cyy\n1000;1;2;3\n\"\"\"\n";
   EXPECT_EQ(doubts(rotor("1", "0.1", bearing)),
-            "bearing.3.table:1:5: kyy: this table has no such column beside kxx: it is taken as "
+            "m:18: bearing.3.table:1:5: kyy: this table has no such column beside kxx: it is "
+            "taken as "
             "zero\n");
 }
 
