@@ -32,13 +32,13 @@ bool has_required_key(const AnyBearing& bearing) {
 struct ToldKind {
   AnyBearing bearing;
   std::string key;  ///< "kind", or that of a file; empty: coefficients stand there, or nothing
+  bool is_wrong = false;  ///< its name is no kind, which is reported: it is told by other keys
 };
 
-/// The kind that a table is of; none if its name is wrong, which is reported. The keys of all kinds
-/// that may be meant become known.
-std::optional<ToldKind> kind_of(TableReader& table) {
+/// The kind that a table is of. The keys of all kinds that may be meant become known.
+ToldKind kind_of(TableReader& table) {
   const auto name = table.choice("kind", member_names<AnyBearing>());
-  if (name) return ToldKind{member_named<AnyBearing>(*name), "kind"};
+  if (name) return {member_named<AnyBearing>(*name), "kind"};
   const bool is_wrong = table.has("kind");
   ToldKind told;
   for_each_member<AnyBearing>([&](const auto& kind) {
@@ -47,7 +47,7 @@ std::optional<ToldKind> kind_of(TableReader& table) {
     for (const std::string& key : keys_of_kind(kind)) table.node(key);
     if (!is_first && table.has(kind.told_by)) told = {kind, std::string(kind.told_by)};
   });
-  if (is_wrong) return std::nullopt;
+  told.is_wrong = is_wrong;
   return told;
 }
 
@@ -131,19 +131,21 @@ void ModelBuilder::read_supports(const char* array, std::vector<Connection>& to)
       if (const auto s = named_station(*body, table, "to")) c.to = *s;
     }
     table.read(c);
-    const auto told = kind_of(table);
-    if (told) c.coefficients = told->bearing;
+    const ToldKind told = kind_of(table);
+    c.coefficients = told.bearing;
     const std::size_t known_tables = tables_.size();
-    const bool has_values = told && read_kind(table, c.coefficients);
+    const bool has_values = read_kind(table, c.coefficients);
     c.is_clamped = table.boolean("clamped").value_or(false);
     c.is_rigid = table.boolean("rigid").value_or(false) || c.is_clamped;
-    const bool is_by_file = told && !told->key.empty() && told->key != "kind";
+    const bool is_by_file = !told.key.empty() && told.key != "kind";
     if (AnyBearing coefficients; is_by_file && read_kind(table, coefficients)) {
-      table.problem(told->key,
-                    fmt::format("found a {} and coefficients, expected one of them", told->key));
+      table.problem(told.key,
+                    fmt::format("found a {} and coefficients, expected one of them", told.key));
     }
-    if (told) check_kind(table, *told, c.is_rigid, has_values);
-    if (told) report_left_over(table, *told);
+    if (!told.is_wrong) {  // else it is not known which keys belong to it
+      check_kind(table, told, c.is_rigid, has_values);
+      report_left_over(table, told);
+    }
     for (std::size_t k = known_tables; k < tables_.size(); ++k) {
       tables_[k].owner = array;
       tables_[k].item = i;
