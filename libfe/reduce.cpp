@@ -10,6 +10,7 @@
 #include "libfe/eigen/quadratic.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/modes.hpp"
+#include "libfe/static_shapes.hpp"
 
 namespace whirl::inline fe {
 
@@ -37,11 +38,8 @@ void append_orthonormal(Mat& basis, const Mat& shapes, const Sparse& M) {
   }
 }
 
-/// K_s^-1 r for every row; free systems by a shift that leaves their rigid modes aside.
-Mat static_shapes(const Sparse& K, const Sparse& M, const std::vector<Vec>& rows,
-                  const RealModes& modes) {
-  Mat loads(K.rows(), static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) loads.col(static_cast<Eigen::Index>(i)) = rows[i];
+/// K_s^-1 f for every load f; free systems by a shift that leaves their rigid modes aside.
+Mat static_shapes(const Sparse& K, const Sparse& M, const Mat& loads, const RealModes& modes) {
   Sparse A = K;
   if (modes.rigid > 0) {
     const double flexible = modes.first_flexible();  // 0: nothing deforms, K = 0
@@ -186,7 +184,10 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   if (method == ReductionMethod::modal_residual) {
     std::vector<Vec> rows = ports;
     rows.insert(rows.end(), others.begin(), others.end());
-    if (!rows.empty()) residual = static_shapes(K, M, rows, real);
+    Mat loads(n, std::ssize(rows));
+    for (Eigen::Index i = 0; i < loads.cols(); ++i)
+      loads.col(i) = rows[static_cast<std::size_t>(i)];
+    if (!rows.empty()) residual = static_shapes(K, M, loads, real);
   }
   const auto with = [&](int modes) {
     if (method == ReductionMethod::damped) {
@@ -208,6 +209,17 @@ ReducedSystem reduce(const System& system, const Reduction& how, const std::vect
   }
   if (error) *error = found;
   return reduced;
+}
+
+ReducedSystem with_static_shapes(const System& system, const ReducedSystem& reduced,
+                                 const Mat& loads) {
+  const Sparse K = symmetric_part(system.K), M = symmetric_inertia(system.M);
+  constexpr int few = 16;  // modes, more than can be rigid
+  const RealModes modes = lowest_real_modes(K, M, std::min(system.size(), few));
+  Mat basis(system.size(), 0);
+  append_orthonormal(basis, reduced.Phi, M);
+  append_orthonormal(basis, static_shapes(K, M, loads, modes), M);
+  return basis.cols() == reduced.Phi.cols() ? reduced : project(system, basis);
 }
 
 }  // namespace whirl::inline fe

@@ -7,16 +7,32 @@
 #include <memory>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/corrected_scene.hpp"
 #include "libio/model/model_family.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
+constexpr double aside = 1.0 / 128.0;  ///< of the size of a parameter, for what it changes
+
 std::vector<double> starts_of(const FreeParameters& free) {
   std::vector<double> starts;
   for (const FreeParameter& p : free.parameters) starts.push_back(p.start);
   return starts;
+}
+
+/// At the starts, with shapes that follow the parameters.
+std::shared_ptr<const Scene> scene_for(const ModelFamily& family, const FreeParameters& free) {
+  const std::vector<double> starts = starts_of(free);
+  std::vector<Model> others;
+  for (std::size_t p = 0; p < starts.size(); ++p) {
+    std::vector<double> other = starts;
+    other[p] += aside * free.parameters[p].size;
+    others.push_back(family.model(other));
+  }
+  return std::make_shared<const Scene>(
+      corrected_scene(*family.scene(starts), family.model(starts), others));
 }
 
 FitMeasurement measurement_of(const Model& model, const FreeParameters& free,
@@ -30,7 +46,7 @@ FitMeasurement measurement_of(const Model& model, const FreeParameters& free,
   found.readings = std::move(m.readings);
   const std::string speed = fmt::format("operation.speed={:.17g} rad/s", found.span.speed);
   const auto family = std::make_shared<const ModelFamily>(with_values(m.model, {speed}), free.axes);
-  found.scene = family->scene(starts_of(free));
+  found.scene = scene_for(*family, free);
   found.model_at = [family](const Vec& values) {
     return family->model({values.data(), static_cast<std::size_t>(values.size())});
   };

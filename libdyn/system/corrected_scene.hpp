@@ -1,0 +1,25 @@
+#pragma once
+/// Scenes whose shapes follow parameters of the rotor.
+
+#include <span>
+
+#include "libdyn/system/scene.hpp"
+
+namespace whirl::inline dyn {
+
+/// A scene with static corrections for parameters: with shapes for what these change in its own.
+///
+///   Phi+ = [Phi, K_s^-1 dM Phi, K_s^-1 dC Phi, K_s^-1 dG Phi, K_s^-1 dK Phi]   of each parameter
+///
+/// Slopes by a parameter hold the shapes (slope_of). With the forces that the parameter makes in
+/// them answered statically, what is left out is the inertia of these answers: the square of the
+/// frequency over that of the lowest mode that is left out. A bearing or a mass adds two shapes or four.
+/// Nothing is added for contacts, films and unbalances, and to scenes that are not reduced.
+///
+/// @param model   of the scene
+/// @param others  the same with another value of one parameter each
+/// @throws ModelError, NumericalError  as make_scene, and for another number of degrees of freedom
+/// @source [CraigChang1977]
+Scene corrected_scene(const Scene& scene, const Model& model, std::span<const Model> others);
+
+}  // namespace whirl::inline dyn
