@@ -16,6 +16,7 @@
 #include "libbase/random.hpp"
 #include "libdyn/fit/fit.hpp"
 #include "libdyn/fit/model_source.hpp"
+#include "libdyn/fit/steady_record.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
@@ -34,19 +35,22 @@ struct Twin {
   double revolutions = 10.0;
   std::vector<std::string> paths;
   std::vector<double> truth;
+  int period = 0;          ///< of a steady motion, averaged to one [revolutions]
+  double settled = 300.0;  ///< revolutions before
 };
 
 constexpr int per_revolution = 64;
-constexpr double noise = 0.01;     ///< standard deviation, of that of the readings
-constexpr double settled = 300.0;  ///< revolutions before
+constexpr double noise = 0.01;  ///< standard deviation, of that of the readings
 
 std::vector<Twin> twins() {
   const auto node = [](int number) { return Point{Point::Kind::node, number - 1}; };
+  const std::vector<std::string> ring{"contact.ring.stiffness", "contact.ring.friction",
+                                      "contact.ring.clearance"};
   return {{.name = "two disks",
            .file = "two_disk_mac.toml",
            .sets = {"contact.ring.friction=0.05"},
            .points = {node(4), node(9)},
-           .paths = {"contact.ring.stiffness", "contact.ring.friction", "contact.ring.clearance"},
+           .paths = ring,
            .truth = {4e6, 0.05, 5e-3}},
           {.name = "chaos",
            .file = "jeffcott_stator.toml",
@@ -54,7 +58,25 @@ std::vector<Twin> twins() {
            .points = {Point{Point::Kind::body, 0}},
            .revolutions = 20.0,
            .paths = {"contact.ring.friction"},
-           .truth = {0.1}}};
+           .truth = {0.1}},
+          {.name = "steady",
+           .file = "jeffcott_stator.toml",
+           .sets = {"contact.ring.stiffness=20e6"},
+           .points = {Point{Point::Kind::body, 0}, Point{Point::Kind::body, 1}},
+           .revolutions = 40.0,
+           .paths = ring,
+           .truth = {20e6, 0.1, 6e-3},
+           .period = 1},
+          {.name = "doubled",
+           .file = "jeffcott_stator.toml",
+           .sets = {"operation.speed='138.4 rad/s'", "contact.ring.stiffness=64e6",
+                    "contact.ring.friction=0.12"},
+           .points = {Point{Point::Kind::body, 0}, Point{Point::Kind::body, 1}},
+           .revolutions = 40.0,
+           .paths = ring,
+           .truth = {64e6, 0.12, 6e-3},
+           .period = 2,
+           .settled = 2000.0}};
 }
 
 /// A twin ready to be measured.
@@ -88,7 +110,7 @@ Measured measure(const Twin& twin) {
 
   const ContactSystem& system = found.scene->contacts;
   const SlopeOptions alone{.by_start = false};
-  const std::vector<double> before{settled * system.period()};
+  const std::vector<double> before{twin.settled * system.period()};
   MotionState state = start_state(model, *found.scene, std::optional<EarlierEnd>());
   state = motion_slopes(system, state, before, {}, alone).end;
   const auto samples = static_cast<int>(twin.revolutions) * per_revolution + 1;
@@ -131,7 +153,11 @@ void fit_twin(const Twin& twin, int seeds, double off) {
   const auto begin = std::chrono::steady_clock::now();
   for (int seed = 0; seed < seeds; ++seed) {
     std::mt19937_64 random(static_cast<unsigned>(seed) + 1);
-    const FitRecord record = with_noise(measured.record, random);
+    FitRecord record = with_noise(measured.record, random);
+    if (twin.period > 0) {
+      const double speed = measured.scene->contacts.phase_rate();
+      record = steady_record(record, speed, {.revolutions = twin.period}).period;
+    }
     std::vector<FreeParameter> free;
     for (std::size_t p = 0; p < twin.paths.size(); ++p) {
       const double start = twin.truth[p] * (1.0 + off * (2.0 * random_share(random) - 1.0));
