@@ -103,10 +103,11 @@ Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
   }
   const std::vector<Model> models = models_of(call, asked);
   const Model& model = models.front();
-  std::vector<MeasuredFit> fits{fit_of(call, asked, model, free_parameters(model, *asked.free))};
-  std::vector<std::string> names{model.path};
-  for (std::size_t i = 1; i < models.size(); ++i) {
-    fits.push_back(fit_of(call, asked, models[i], known_parameters(models[i], *asked.free)));
+  const std::vector<FreeParameters> free = free_parameters(models, *asked.free);
+  std::vector<MeasuredFit> fits;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    fits.push_back(fit_of(call, asked, models[i], free[i]));
     names.push_back(models[i].path);
   }
   MeasuredFit found = fits.front();

@@ -151,8 +151,15 @@ Fit fit_from(FitSearch& search, const FitOptions& options) {
                                  : squares.solve(between, rough_iterations, rough_change);
     fit.iterations = squares.iterations();
     fit.has_converged = summary.termination_type == ceres::CONVERGENCE;
-    if (!fit.has_converged) fit.why_not = summary.message;
-    if (!fit.has_converged && summary.termination_type != ceres::NO_CONVERGENCE) break;
+    const bool is_out_of_time = summary.termination_type == ceres::NO_CONVERGENCE;
+    if (!fit.has_converged) {
+      fit.why_not = is_out_of_time ? fmt::format(
+                                         "the search still moves after {} iterations: the "
+                                         "model may not explain the records",
+                                         fit.iterations)
+                                   : summary.message;
+    }
+    if (!fit.has_converged && !is_out_of_time) break;
     if (options.progress) options.progress(++done, std::ssize(stages));
   }
   search.make_systems();

@@ -2,11 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "libbase/error.hpp"
 
 namespace whirl::inline dyn {
+
+namespace {
+
+/// Of a parameter's size: how far its neighbors are, whose coefficients slopes are made of.
+constexpr double neighborhood = 4.0 / 128.0;
+/// Of a parameter's size: a friction that is zero has no neighbors that slip alike.
+constexpr double hardly = 1e-6;
+
+/// A value as far from the bounds of a parameter as an amount, where they leave so much room.
+double inside(double value, const FreeParameter& parameter, double amount) {
+  const double room = std::min(amount, 0.5 * (parameter.upper - parameter.lower));
+  return std::clamp(value, parameter.lower + room, parameter.upper - room);
+}
+
+}  // namespace
 
 FitSource model_source(FitRecord record, std::shared_ptr<const Scene> scene, Mat rows,
                        const std::vector<FreeParameter>& parameters,
@@ -22,12 +38,18 @@ FitSource model_source(FitRecord record, std::shared_ptr<const Scene> scene, Mat
     throw ModelError({}, parameters[p].path,
                      fmt::format("changes the speed, which {} was measured at", record.name));
   }
-  const auto system_at = [scene, parameters, model_at = std::move(model_at)](const Vec& values) {
+  const auto system_at = [scene, parameters, model_at = std::move(model_at)](const Vec& asked) {
+    Vec values = asked;
+    for (Eigen::Index p = 0; p < values.size(); ++p) {
+      const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+      values(p) = inside(values(p), parameter, hardly * parameter.size);
+    }
     FitSystem found{in_shapes_of(*scene, model_at(values)), {}};
     for (Eigen::Index p = 0; p < values.size(); ++p) {
       const FreeParameter& parameter = parameters[static_cast<std::size_t>(p)];
+      const double middle = inside(values(p), parameter, neighborhood * parameter.size);
       found.slopes.push_back(
-          slope_of(parameter.path, *scene, values(p), parameter.size, [&](double value) {
+          slope_of(parameter.path, *scene, middle, parameter.size, [&](double value) {
             Vec other = values;
             other(p) = value;
             return model_at(other);

@@ -15,6 +15,9 @@ namespace whirl::inline dyn {
 /// All of them move in the shapes of one scene, see SystemSlope. No parameter may change the speed: that
 /// is what the record was measured at.
 ///
+/// A value at a bound is taken a millionth of its size inside, and slopes within four steps of it
+/// (SystemSlope) are those there: beyond a bound there may be no model.
+///
 /// @param scene       of the model at the starts of the parameters
 /// @param rows        as of FitSource
 /// @param model_at    the model at values of the parameters, in their order [SI]

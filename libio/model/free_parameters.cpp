@@ -119,25 +119,30 @@ void add(const AskedParameter& asked, const ConfigNode* value, FreeParameters& f
 
 }  // namespace
 
-FreeParameters free_parameters(const Model& model, const std::string& list) {
-  ConfigNode root = parse_toml(model.source, model.path);
-  FreeParameters found;
-  for (const AskedParameter& asked : asked_parameters(list)) {
-    // without bounds a value that is missing is an error, which says what there is instead
-    const ConfigNode* value =
-        asked.bounds.empty() ? &value_at(root, asked.path) : written_value(root, asked.path);
-    add(asked, value, found);
+std::vector<FreeParameters> free_parameters(const std::vector<Model>& models,
+                                            const std::string& list) {
+  std::vector<FreeParameters> all;
+  const std::vector<AskedParameter> asked = asked_parameters(list);
+  std::vector<bool> is_known(asked.size(), false);
+  for (const Model& model : models) {
+    ConfigNode root = parse_toml(model.source, model.path);
+    FreeParameters& found = all.emplace_back();
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const ConfigNode* value = written_value(root, asked[i].path);
+      const bool is_new = models.size() == 1 && !asked[i].bounds.empty();
+      if (value || is_new) add(asked[i], value, found);
+      is_known[i] = is_known[i] || value || is_new;
+    }
   }
-  return found;
-}
-
-FreeParameters known_parameters(const Model& model, const std::string& list) {
-  ConfigNode root = parse_toml(model.source, model.path);
-  FreeParameters found;
-  for (const AskedParameter& asked : asked_parameters(list)) {
-    if (const ConfigNode* value = written_value(root, asked.path)) add(asked, value, found);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (is_known[i]) continue;
+    ConfigNode root = parse_toml(models.front().source, models.front().path);
+    value_at(root, asked[i].path);  // throws, and says what there is instead
   }
-  return found;
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (all[m].empty()) throw wrong_option("free", list, models[m].path + " has none of these");
+  }
+  return all;
 }
 
 }  // namespace whirl::inline io

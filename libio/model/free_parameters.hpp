@@ -16,18 +16,17 @@ struct FreeParameters {
   bool empty() const { return parameters.empty(); }
 };
 
-/// Reads PATH, PATH=LOW:HIGH, ... : values of a model, with the bounds that they must stay within.
+/// Reads PATH, PATH=LOW:HIGH, ... : values of models, with the bounds that they must stay within.
 ///
-/// A search begins at the model's own value, or in the middle of the bounds where that is zero or not in
-/// the model. Numbers without unit are SI.
+/// A search begins at a model's own value, or in the middle of the bounds where that is zero or not in
+/// the model. Numbers without unit are SI. Of several models each has those of the list that stand in its
+/// file.
 ///
-/// @param model  with the text that it was read from
-/// @throws ModelError  for a path that is twice there, has no value or no number in the model and no
-///                     bounds, and for bounds that are none
-FreeParameters free_parameters(const Model& model, const std::string& list);
-
-/// Those of a list that a model has, in its own words: what a candidate is without it does not fit.
-/// @throws ModelError  as free_parameters, for paths that the model has
-FreeParameters known_parameters(const Model& model, const std::string& list);
+/// @param models  with the texts that they were read from
+/// @return        of each model
+/// @throws ModelError  for a path that is twice there, one that no model has, one without bounds that
+///                     has no number in its model, and for bounds that are none
+std::vector<FreeParameters> free_parameters(const std::vector<Model>& models,
+                                            const std::string& list);
 
 }  // namespace whirl::inline io

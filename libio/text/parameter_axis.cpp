@@ -15,7 +15,7 @@ std::string si_unit(const Dimension& dimension) {
   for (const char* unit :
        {"m",     "kg", "s",    "rad",  "rad/s",  "rad/s^2", "1/s",       "m/s",
         "m/s^2", "N",  "N.m",  "N/m",  "N.s/m",  "N.m/rad", "N.m.s/rad", "N/m^1.5",
-        "N.m^2", "Pa", "Pa.s", "kg/m", "kg/m^3", "kg.m",    "kg.m^2"}) {
+        "N.m^2", "Pa", "Pa.s", "kg/m", "kg/m^3", "kg.m",    "kg.m^2",    "s/m"}) {
     if (dimension_of(unit) == dimension) return unit;
   }
   return "";
