@@ -141,7 +141,7 @@ struct FoundOrbit {
         column("stable", &O::stability, "", "null: there is no orbit"),
         column("state", &O::state, "", "reduced, at phase 0"),
         rows(&O::contact_shares, "contacts"),
-        rows(&O::probes, "probes").maybe(),
+        rows(&O::probes, "probes").only(Written::in_json).maybe(),
         column("harmonic_balance", &O::series, "", "what it says beside").maybe(),
         column("failure", &O::failure, "", "why there is none").only(Written::in_json).maybe()};
   }
