@@ -166,7 +166,7 @@ void add_rotor_and_reactions(Panel& p, const ResultView& result, FigureTable& ta
       return with_minus(fmt::format("{:.4g}", std::abs(force) > still * largest ? shown : 0.0));
     };
     table.rows.push_back({s.name, text(s.load(0)), text(s.load(1))});
-    if (std::abs(s.load(1)) >= small * largest) add_reaction(p, result, s, unit, 0.3 * span);
+    if (std::abs(s.load(1)) >= small * largest) add_reaction(p, result, s, unit, high + 0.3 * span);
   }
 }
 

@@ -601,12 +601,17 @@ TEST_F(Plot, ASagTellsWhatOilFilmsBear) {
     sum += 1e-3 * std::abs(load(i, 1));
   }
   EXPECT_GT(sum, 0.9 * 735.0 * 9.81e-3);  // of the rotor's weight
+  const Mat seals = view.file.matrix("/static/bearing_load");
+  const double small = 0.05 * load.cwiseAbs().maxCoeff();
+  const auto loaded = 2 + (seals.col(1).array().abs() >= small).count();
+  EXPECT_LT(loaded, 4);
   std::vector<std::string> arrows;
   for (const Label& l : f.panels[0].labels) {
     if (l.text.starts_with("↑ ")) arrows.push_back(l.text);
   }
-  EXPECT_EQ(arrows, (std::vector<std::string>{fmt::format("↑ {:.4g} kN", -1e-3 * load(0, 1)),
-                                              fmt::format("↑ {:.4g} kN", -1e-3 * load(1, 1))}));
+  ASSERT_EQ(std::ssize(arrows), loaded);
+  EXPECT_EQ(arrows.end()[-2], fmt::format("↑ {:.4g} kN", -1e-3 * load(0, 1)));
+  EXPECT_EQ(arrows.end()[-1], fmt::format("↑ {:.4g} kN", -1e-3 * load(1, 1)));
 }
 
 // An isotropic rotor does not whirl backward by a forward force: rounding is neither a peak nor a line.
@@ -618,7 +623,6 @@ TEST_F(Plot, AResponseThatIsNoneIsNotDrawn) {
                                       "--out",   "f.h5"};
   const std::string text = whirl(call).out;
   EXPECT_TRUE(std::regex_search(text, std::regex(" backward +none +0 +- +-"))) << text;
-  EXPECT_FALSE(has(text, "e-1")) << text;
   const std::vector<Figure> figures = figures_in("frf", ResultView(folder / "f.h5"));
   ASSERT_EQ(figures.size(), 3u);
   for (const Figure& f : figures) {
