@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -214,6 +215,26 @@ speed, kxx
   EXPECT_EQ(constant(set.structure.seals[1]).M, isotropic(4.0));
 }
 
+// A kind that is none hides nothing else.
+TEST(ModelConnections, OtherMistakesOfAWrongKindAreTold) {
+  const auto told = [](const std::string& keys) -> std::string {
+    try {
+      rotor("[[seal]]\nat = 0\nkind = \"tabel\"\n" + keys);
+    } catch (const ModelError& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  const std::string constant = told("stiffness = \"4 N\"\n");
+  EXPECT_NE(constant.find("seal.1.kind: found \"tabel\""), std::string::npos) << constant;
+  EXPECT_NE(constant.find("seal.1.stiffness: found \"4 N\""), std::string::npos) << constant;
+  const std::string table = told("table = \"speed,kxx\\n1,x\"\n");
+  EXPECT_NE(table.find("seal.1.kind: found \"tabel\""), std::string::npos) << table;
+  EXPECT_NE(table.find("kxx: \"x\" is not a number"), std::string::npos) << table;
+  const std::string alone = told("");
+  EXPECT_EQ(std::count(alone.begin(), alone.end(), '\n'), 0) << alone;  // that one is enough
+}
+
 // Mistakes of a table that stands in the model have the model's file and the line of the key.
 TEST(ModelConnections, MistakesInATableInTheModelAreInItsFile) {
   try {
@@ -222,7 +243,7 @@ TEST(ModelConnections, MistakesInATableInTheModelAreInItsFile) {
   } catch (const ModelError& error) {
     const std::string text = error.what();
     EXPECT_TRUE(std::regex_search(
-        text, std::regex("model:[0-9]+: seal\\.1\\.table:2:4: kxx: \"x\" is not a number")))
+        text, std::regex("model.toml:14: seal\\.1\\.table:2:4: kxx: \"x\" is not a number")))
         << text;
   }
 }
