@@ -258,7 +258,7 @@ rayleigh = { stiffness = "2 us" }
   const Model again = parse_model(model.source, "result.h5");
   EXPECT_EQ(again.structure.shaft.size(), 3u);
   EXPECT_EQ(again.structure.layers.size(), 1u);
-  EXPECT_EQ(again.structure.shaft[1].where.file, "shaft.1.table");
+  EXPECT_EQ(again.structure.shaft[1].where.file, "result.h5:14: shaft.1.table");
 }
 
 TEST_F(ShaftTableFile, ProblemsOfTableAndModelAreToldTogether) {
