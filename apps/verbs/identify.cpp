@@ -1,13 +1,7 @@
-#include <fmt/format.h>
-
 #include "apps/verbs/common.hpp"
-#include "apps/verbs/measured.hpp"
-#include "apps/verbs/running_modes.hpp"
+#include "apps/verbs/identify_measured.hpp"
 #include "apps/verbs/simulation.hpp"
-#include "libdyn/measured/measured_identification.hpp"
-#include "libdyn/measured/station_motion.hpp"
 #include "libio/texts/identification_text.hpp"
-#include "libio/texts/running_modes_text.hpp"
 
 namespace whirl::inline cli {
 
@@ -25,13 +19,6 @@ struct IdentifyVerbOptions {
     return std::tie(modes, rotations, mass_weighted, stiffened, measured, running, integration);
   }
 };
-
-std::string mac_heading(const Model& model, const IdentifyOptions& options) {
-  return fmt::format(
-      "MAC of deflection shapes (rows) against complex modes at {:.6g} rpm{} (columns: number, "
-      "whirl, rpm)\n\n",
-      model.speed / rpm, options.stiffened ? " with contacts closed" : "");
-}
 
 /// What a motion is made of; without a motion, nothing.
 void add_identification(const Model& model, const Run& run, const IdentifyOptions& options,
@@ -70,54 +57,15 @@ void require_one_source(IdentifyVerbOptions asked) {
   }
 }
 
-/// What a measured motion is made of.
-Report identify_measured(const Invocation& call, const IdentifyVerbOptions& asked,
-                         const IdentifyOptions& options) {
-  const Measurement measurement =
-      read_measurement(call.model(), source_of(call, asked.measured.record));
-  const Model& model = measurement.model;
-  const Scene scene = make_scene(model, ReductionEstimate::no);
-  const MeasuredIdentification measured = identify(model, scene, measurement.readings, options);
-  const ModesAtPoints modes({.oscillatory = measured.found.modes}, scene.system.dofs);
-  const std::optional<OrderTracking> orders = tracked_orders(asked.measured, measurement.readings);
-  const std::optional<RunningModes> running =
-      find_running_modes(asked.running, measurement, measured, scene.assembler);
-  Report report = begin_report(call, model, record_of(measured));
-  report.record.merge(record_of(measured.found)).merge(record_of(modes));
-  report.text = headline("Measured motion", model) + "\n" + text_of(measured) + "\n" +
-                mac_heading(model, options) + text_of(measured.found, model.speed) +
-                doubt_text(measured);
-  if (orders) {
-    report.record.set("orders", record_of(*orders));
-    report.text += "\n" + text_of(*orders);
-  }
-  if (running) {
-    report.record.set("running", record_of(*running));
-    report.text += "\n" + text_of(*running);
-  }
-  report.add_notes(measured.notes);
-  note_tables(call, model, report);
-  report.add_notes(film_notes(model));
-  write_file(call, model, report, [&](ResultWriter& file) {
-    file.attribute("/", "speed", model.speed);
-    write_points(file, model, scene.assembler);
-    write_result(file, modes);
-    write_result(file, measured.found);
-    write_result(file, measured);
-    if (orders) write_result(file, *orders);
-    write_result(file, station_record(measurement.readings, scene.assembler));
-    if (running) write_result(file, *running);
-  });
-  return report;
-}
-
 Report run_identify(const Invocation& call, const IdentifyVerbOptions& asked) {
   require_one_source(asked);
   const IdentifyOptions options{.modes = *asked.modes,
                                 .rotations = asked.rotations,
                                 .mass_weighted = asked.mass_weighted,
                                 .stiffened = asked.stiffened};
-  if (asked.measured.record.measured) return identify_measured(call, asked, options);
+  if (asked.measured.record.measured) {
+    return identify_measured(call, asked.measured, asked.running, options);
+  }
   const Model model = call.model();
   require_speed(model);
   const auto file = call.result_file(model);

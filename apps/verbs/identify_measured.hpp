@@ -1,0 +1,18 @@
+#pragma once
+/// What identify does with a measured motion.
+
+#include "apps/verbs/measured.hpp"
+#include "apps/verbs/running_modes.hpp"
+#include "libdyn/motions/identify.hpp"
+
+namespace whirl::inline cli {
+
+/// Headline of a MAC table.
+std::string mac_heading(const Model& model, const IdentifyOptions& options);
+
+/// What the motion of a record is made of.
+Report identify_measured(const Invocation& call, const MeasuredVerbOptions& asked,
+                         const RunningModesVerbOptions& running_asked,
+                         const IdentifyOptions& options);
+
+}  // namespace whirl::inline cli
