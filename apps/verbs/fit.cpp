@@ -27,7 +27,7 @@ struct FitVerbOptions {
   Option<ProbeNoise> noise{"noise", "S",
                            "standard deviation of the probes' noise, such as 2um, or 1% of what "
                            "each reads; left out: what is left is noise",
-                           parse_noise};
+                           parse_probe_noise};
   Option<int> steady{"steady", "N",
                      "the motion repeats after N revolutions: its average over all that count is "
                      "fitted to, as one that closes"};
@@ -39,27 +39,7 @@ struct FitVerbOptions {
   auto fields() {
     return std::tie(record, free, from, revolutions, noise, steady, offsets, against, starts, seed);
   }
-
-  static Parsed<double> parse_revolutions(const std::string& text) {
-    const auto number = parse_as(text, "");
-    if (number && *number >= 0.0) return number;
-    return Parsed<double>::failed("expected a number of revolutions, such as 20");
-  }
-  static Parsed<ProbeNoise> parse_noise(const std::string& text) {
-    const bool is_share = text.ends_with('%');
-    const auto number =
-        is_share ? parse_as(text.substr(0, text.size() - 1), "") : parse_as(text, "m");
-    if (!number || !(*number > 0.0)) {
-      return Parsed<ProbeNoise>::failed("expected a length such as 2um, or a share such as 1%");
-    }
-    return ProbeNoise{is_share ? 0.01 * *number : *number, is_share};
-  }
 };
-
-std::vector<RecordSource> sources_of(const Invocation& call, const RecordVerbOptions& asked) {
-  const RecordSource one = source_of(call, asked);
-  return is_record_list(one.file) ? read_record_list(one.file, one) : std::vector{one};
-}
 
 /// The models that are fitted, the call's own first.
 std::vector<Model> models_of(const Invocation& call, const FitVerbOptions& asked) {
@@ -77,7 +57,7 @@ MeasuredFit fit_of(const Invocation& call, const FitVerbOptions& asked, const Mo
   const bool is_all = asked.steady && !asked.revolutions.is_given;
   std::vector<std::string> notes;
   const auto measurements = fit_measurements(
-      model, free, sources_of(call, asked.record),
+      model, free, records_of(source_of(call, asked.record)),
       {.from = *asked.from, .revolutions = is_all ? 0.0 : *asked.revolutions}, notes);
   MeasuredFit found =
       fit(measurements, free.parameters,
@@ -93,24 +73,21 @@ MeasuredFit fit_of(const Invocation& call, const FitVerbOptions& asked, const Mo
 }
 
 Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
-  if (!asked.record.measured) {
-    throw ModelError({"--measured"}, "", "missing, expected a record: --measured run.csv");
-  }
-  if (!asked.free) {
-    throw ModelError(
-        {"--free"}, "",
-        "missing, expected values of the model: --free contact.ring.friction=0.05:0.4");
-  }
+  const auto missing = [](const char* option, const char* example) {
+    return ModelError({option}, "", fmt::format("missing, expected {} {}", option, example));
+  };
+  if (!asked.record.measured) throw missing("--measured", "run.csv");
+  if (!asked.free) throw missing("--free", "contact.ring.friction=0.05:0.4");
   const std::vector<Model> models = models_of(call, asked);
   const Model& model = models.front();
   const std::vector<FreeParameters> free = free_parameters(models, *asked.free);
-  std::vector<MeasuredFit> fits;
   std::vector<std::string> names;
+  std::vector<MeasuredFit> fits;
   for (std::size_t i = 0; i < models.size(); ++i) {
     fits.push_back(fit_of(call, asked, models[i], free[i]));
     names.push_back(models[i].path);
   }
-  MeasuredFit found = fits.front();
+  MeasuredFit& found = fits.front();
   if (fits.size() > 1) found.candidates = compared(fits, names);
   Report report = begin_report(call, model, record_of(found));
   report.text = headline("Fit to measured motions", model) + "\n" + text_of(found, model.path);
@@ -132,7 +109,6 @@ Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
 Verb fit_verb() {
   return {
       .name = "fit",
-      .alias = "",
       .group = "Contact",
       .summary = "finds values of the model in measured motions, and how sure they are",
       .example =

@@ -146,8 +146,9 @@ std::vector<RecordSource> read_record_list(const std::filesystem::path& path,
   return sources;
 }
 
-bool is_record_list(const std::filesystem::path& path) {
-  return path.extension() == ".toml";
+std::vector<RecordSource> records_of(const RecordSource& source) {
+  const bool is_list = std::filesystem::path(source.file).extension() == ".toml";
+  return is_list ? read_record_list(source.file, source) : std::vector{source};
 }
 
 }  // namespace whirl::inline io

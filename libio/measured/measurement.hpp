@@ -48,7 +48,7 @@ Model with_values(const Model& model, const std::vector<std::string>& sets);
 std::vector<RecordSource> read_record_list(const std::filesystem::path& path,
                                            const RecordSource& all);
 
-/// Whether a file is such a list, by its ending.
-bool is_record_list(const std::filesystem::path& path);
+/// The records of such a list, a file that ends with .toml, or the one that any other file is.
+std::vector<RecordSource> records_of(const RecordSource& source);
 
 }  // namespace whirl::inline io
