@@ -39,6 +39,9 @@ FitMeasurement measurement_of(const Model& model, const FreeParameters& free,
                               const RecordSource& source, const FitWindow& window,
                               std::vector<std::string>& notes) {
   Measurement m = read_measurement(with_values(model, source.sets), source);
+  if (m.readings.probes.empty()) {
+    throw OptionError("no probes read it: give --probes FILE.toml, or the model a [[probe]]");
+  }
   FitMeasurement found;
   found.name = std::filesystem::path(source.file).filename().string();
   notes.insert(notes.end(), m.readings.notes.begin(), m.readings.notes.end());

@@ -164,6 +164,9 @@ TEST_F(FitVerb, SaysWhatIsWrong) {
     EXPECT_EQ(ran.status, 2) << ran.out << ran.err;
     EXPECT_TRUE(has(ran.err, c.says)) << ran.err;
   }
+  const Outcome blind = whirl({"fit", model, "--measured", "run.csv", "--free", free});
+  EXPECT_EQ(blind.status, 2);
+  EXPECT_TRUE(has(blind.err, "run.csv: no probes read it")) << blind.err;
   write("records.toml",
         "[[record]]\nfile = \"run.csv\"\nsets = []\n[[record]]\nspeed = \"1 mm\"\n");
   const Outcome ran = fit({"--measured", "records.toml", "--free", free});
