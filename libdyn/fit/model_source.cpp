@@ -12,7 +12,7 @@ namespace whirl::inline dyn {
 namespace {
 
 /// Of a parameter's size: how far its neighbors are, whose coefficients slopes are made of.
-constexpr double neighborhood = 4.0 / 128.0;
+constexpr double neighborhood = farthest_neighbor * largest_step;
 /// Of a parameter's size: a friction that is zero has no neighbors that slip alike.
 constexpr double hardly = 1e-6;
 
@@ -31,10 +31,11 @@ FitSource model_source(FitRecord record, std::shared_ptr<const Scene> scene, Mat
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     starts(static_cast<Eigen::Index>(p)) = parameters[p].start;
   }
+  const double speed = model_at(starts).speed;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     Vec other = starts;
-    other(static_cast<Eigen::Index>(p)) += parameters[p].size / 128.0;
-    if (model_at(other).speed == model_at(starts).speed) continue;
+    other(static_cast<Eigen::Index>(p)) += largest_step * parameters[p].size;
+    if (model_at(other).speed == speed) continue;
     throw ModelError({}, parameters[p].path,
                      fmt::format("changes the speed, which {} was measured at", record.name));
   }

@@ -23,9 +23,9 @@ Scene corrected_scene(const Scene& scene, const Model& model, std::span<const Mo
     }
   }
   if (loads.cols() == 0 || Phi.cols() == Phi.rows()) return scene;
-  ReducedSystem reduced = with_static_shapes(system, scene.reduced, loads);
-  ContactSystem contacts(scene.assembler, reduced, model.contacts, model.films);
-  return {scene.assembler, system, std::move(reduced), scene.error, std::move(contacts)};
+  Scene corrected = scene;
+  corrected.reduced = with_static_shapes(system, scene.reduced, loads);
+  return with_contacts(corrected, model);
 }
 
 }  // namespace whirl::inline dyn

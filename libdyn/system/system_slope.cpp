@@ -28,7 +28,7 @@ SystemSlope slope_of(std::string name, double value, double size,
     throw ModelError({}, name, "a parameter that is zero needs a size to be compared with");
   }
   // a power of two, so that the places of the neighbors are hardly rounded
-  const double step = std::exp2(std::floor(std::log2(compared)) - 7.0);
+  const double step = std::ldexp(1.0, std::ilogb(largest_step * compared));
   SystemSlope slope{std::move(name), step, {}};
   for (const double place : neighbor_places) slope.neighbors.push_back(at(value + place * step));
   return slope;

@@ -20,6 +20,11 @@ inline constexpr std::array<double, 8> neighbor_weights{4.0 / 5.0,    -4.0 / 5.0
                                                         1.0 / 5.0,    4.0 / 105.0, -4.0 / 105.0,
                                                         -1.0 / 280.0, 1.0 / 280.0};
 
+/// A step, of what a parameter is compared with: this, or down to half of it.
+inline constexpr double largest_step = 1.0 / 128.0;
+/// Where the farthest neighbors are [steps].
+inline constexpr double farthest_neighbor = 4.0;
+
 /// A parameter p of a system: anything that its coefficients follow from smoothly, as stiffness,
 /// friction and clearance of a contact, viscosity of a film, unbalance, speed, mass of a body.
 ///
@@ -34,7 +39,7 @@ struct SystemSlope {
 /// The slope of systems that are made by a function of p.
 ///
 /// @param value  of p
-/// @param size   what p is compared with: steps are 1 / 128 of it; 0: of the value
+/// @param size   what p is compared with: see largest_step; 0: of the value
 /// @param at     the system at p, in the same coordinates; asked up to 4 steps to either side
 /// @throws ModelError  without a size of p, if value and size are 0
 SystemSlope slope_of(std::string name, double value, double size,

@@ -8,13 +8,12 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/system/corrected_scene.hpp"
+#include "libdyn/system/system_slope.hpp"
 #include "libio/model/model_family.hpp"
 
 namespace whirl::inline io {
 
 namespace {
-
-constexpr double aside = 1.0 / 128.0;  ///< of the size of a parameter, for what it changes
 
 std::vector<double> starts_of(const FreeParameters& free) {
   std::vector<double> starts;
@@ -28,7 +27,7 @@ std::shared_ptr<const Scene> scene_for(const ModelFamily& family, const FreePara
   std::vector<Model> others;
   for (std::size_t p = 0; p < starts.size(); ++p) {
     std::vector<double> other = starts;
-    other[p] += aside * free.parameters[p].size;
+    other[p] += largest_step * free.parameters[p].size;
     others.push_back(family.model(other));
   }
   return std::make_shared<const Scene>(
