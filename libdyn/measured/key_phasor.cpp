@@ -8,6 +8,7 @@
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/statistics.hpp"
 
 namespace whirl::inline dyn {
 
@@ -30,11 +31,8 @@ class Intervals {
   double usual(std::size_t i) const {
     const std::size_t first = i > around ? i - around : 0;
     const std::size_t end = std::min(of_.size(), i + around + 1);
-    std::vector<double> near(of_.begin() + static_cast<std::ptrdiff_t>(first),
-                             of_.begin() + static_cast<std::ptrdiff_t>(end));
-    const auto middle = near.begin() + std::ssize(near) / 2;
-    std::nth_element(near.begin(), middle, near.end());
-    return *middle;
+    return median_of({of_.begin() + static_cast<std::ptrdiff_t>(first),
+                      of_.begin() + static_cast<std::ptrdiff_t>(end)});
   }
   std::size_t count() const { return of_.size(); }
   /// Whether an interval and the next one are one that a pulse too many cuts in two: rather than the

@@ -7,6 +7,7 @@
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/statistics.hpp"
 #include "libdyn/measured/station_motion.hpp"
 #include "libdyn/motions/motion_lines.hpp"
 #include "libfe/campbell.hpp"
@@ -195,9 +196,7 @@ void note_speed(const MeasuredSpectra& spectra, double Omega, std::vector<std::s
       beside.push_back(about(k));
     }
   }
-  const auto middle = beside.begin() + std::ssize(beside) / 2;
-  std::nth_element(beside.begin(), middle, beside.end());
-  if (there > no_line * *middle) return;
+  if (there > no_line * median_of(std::move(beside))) return;
   notes.push_back(fmt::format(
       "nothing in the record turns with {:.6g} rpm: is that its speed? A [keyphasor] or --speed "
       "says it",

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "libbase/error.hpp"
+#include "libbase/statistics.hpp"
 
 namespace whirl::inline dyn {
 
@@ -116,9 +117,8 @@ Spikes spikes_in(const Vec& samples) {
   Vec sizes = steps.cwiseAbs();
   const auto usual = static_cast<Eigen::Index>(usual_share * static_cast<double>(n - 2));
   std::nth_element(sizes.begin(), sizes.begin() + usual, sizes.end());
-  const double deviation = std::sqrt((samples.array() - samples.mean()).square().mean());
   const double least = std::max({spike_step * sizes(usual), spike_step * smallest_step(samples),
-                                 spike_deviation * deviation});
+                                 spike_deviation * standard_deviation(samples)});
   for (Eigen::Index j = 1; j + 1 < n; ++j) {
     const double in = steps(j - 1), out = steps(j);
     if (in * out >= 0.0 || std::abs(in) < least || std::abs(out) < least) continue;

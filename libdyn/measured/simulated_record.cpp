@@ -10,6 +10,7 @@
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libbase/random.hpp"
+#include "libbase/statistics.hpp"
 
 namespace whirl::inline dyn {
 
@@ -20,8 +21,7 @@ constexpr double pulse_samples = 4.0;  ///< between its edges
 
 void add_noise(Vec& samples, const ChannelNoise& noise, std::size_t channel) {
   if (noise.share == 0.0) return;
-  const double size = static_cast<double>(samples.size());
-  const double deviation = std::sqrt((samples.array() - samples.mean()).square().sum() / size);
+  const double deviation = standard_deviation(samples);
   std::seed_seq sequence{static_cast<std::uint32_t>(noise.seed),
                          static_cast<std::uint32_t>(noise.seed >> 32),
                          static_cast<std::uint32_t>(channel)};

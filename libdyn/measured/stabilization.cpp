@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "libbase/statistics.hpp"
+
 namespace whirl::inline dyn {
 
 namespace {
@@ -83,13 +85,6 @@ Group one_of_each_order(const std::vector<OrderPole>& poles, const Group& group)
 }
 
 }  // namespace
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5 * (*middle + *std::max_element(values.begin(), middle));
-}
 
 void find_stable(std::vector<std::vector<OrderPole>>& orders, const StabilityLimits& limits) {
   for (std::size_t i = 1; i < orders.size(); ++i) {

@@ -65,7 +65,4 @@ std::vector<std::vector<std::size_t>> clustered_modes(const std::vector<OrderPol
                                                       const StabilityLimits& limits, int orders,
                                                       double share);
 
-/// The one in the middle, of an even number the mean of the two.
-double median_of(std::vector<double> values);
-
 }  // namespace whirl::inline dyn

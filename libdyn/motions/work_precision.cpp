@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "libbase/error.hpp"
+#include "libbase/statistics.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/pattern.hpp"
 
@@ -28,12 +29,6 @@ double processor_time() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
 struct End {
@@ -194,7 +189,7 @@ TimedRun measure(const Candidate& candidate, double tolerance, const ContactSyst
     times.push_back(time / batch);
   }
   if (times.empty()) times.push_back(first);
-  run.time = median(times) / static_cast<double>(reference.revolutions) / candidate.motions;
+  run.time = median_of(times) / static_cast<double>(reference.revolutions) / candidate.motions;
   return run;
 }
 
