@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "libbase/error.hpp"
 #include "libbase/random.hpp"
 #include "libbase/spectrum.hpp"
+#include "libbase/statistics.hpp"
 #include "libbase/work_queue.hpp"
 #include "libdyn/fit/model_source.hpp"
 #include "libdyn/fit/steady_record.hpp"
@@ -28,10 +30,6 @@ constexpr double even_weights = 1.3;          ///< ratio of noises up to which t
 constexpr double unexplained = 3.0;           ///< noise floors, from which what is left is told
 constexpr double hardly_apart = 0.98;         ///< correlation that is told
 constexpr double range_without_bounds = 0.5;  ///< of a value, to either side
-
-double deviation_of(const Vec& samples) {
-  return std::sqrt((samples.array() - samples.mean()).square().mean());
-}
 
 /// Readings of the span, probes x samples.
 Mat readings_in(const FitMeasurement& m) {
@@ -51,7 +49,7 @@ FitRecord fit_record(const FitMeasurement& m, const MeasuredFitOptions& options)
   record.noise.resize(record.readings.rows());
   for (Eigen::Index probe = 0; probe < record.readings.rows(); ++probe) {
     const Vec samples = record.readings.row(probe).transpose();
-    const double deviation = deviation_of(samples);
+    const double deviation = standard_deviation(samples);
     double& own = record.noise(probe);
     own = !noise               ? std::max(noise_floor(samples), least_floor * deviation)
           : noise->is_relative ? noise->value * deviation
@@ -100,18 +98,32 @@ bool are_same(const Fit& a, const Fit& b) {
 /// The best fit of all starts, the first one of those that are as good.
 Fit best_fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
              const MeasuredFitOptions& options, int& same_end) {
+  const FitOptions& asked = options.search;
+  if (options.starts == 1) {
+    Fit only = fit(sources, parameters, asked);
+    same_end = only.has_converged ? 1 : 0;
+    return only;
+  }
   const auto starts = starts_of(parameters, options);
   std::vector<Fit> fits(starts.size());
+  std::atomic<bool> is_over = false;  // who asks and shows is this thread alone
+  FitOptions each = asked;
+  each.is_stopped = [&is_over] { return is_over.load(); };
+  each.progress = {};
   {
-    WorkQueue<std::pair<std::size_t, Fit>> queue(starts.size() > 1 ? options.threads : 0);
+    WorkQueue<std::pair<std::size_t, Fit>> queue(options.threads);
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      queue.add([&sources, &search = options.search, &start = starts[i], i] {
-        return std::pair(i, fit(sources, start, search));
+      queue.add([&sources, &each, &start = starts[i], i] {
+        return std::pair(i, fit(sources, start, each));
       });
     }
-    while (queue.has_open()) {
+    for (long finished = 0; queue.has_open();) {
       constexpr std::chrono::milliseconds patience(100);
-      if (auto done = queue.take(patience)) fits[done->first] = std::move(done->second);
+      if (auto done = queue.take(patience)) {
+        fits[done->first] = std::move(done->second);
+        if (asked.progress) asked.progress(++finished, options.starts);
+      }
+      if (asked.is_stopped && asked.is_stopped()) is_over = true;
     }
   }
   const Fit* best = &fits.front();
@@ -269,8 +281,7 @@ FitSpan fit_span(const ProbeReadings& readings, double speed, double from, doubl
   } else {
     notes.push_back(
         "no key-phasor: the angle of the rotor at the first sample that is fitted to is taken to "
-        "be "
-        "zero; angles of unbalances have to be free, or right");
+        "be zero; angles of unbalances have to be free, or right");
   }
   const double period = turn / speed;
   begin += from * period;
@@ -312,10 +323,8 @@ double noise_floor(const Vec& samples) {
   std::vector<double> powers;
   for (Eigen::Index k = n / 4; k < n / 2; ++k) powers.push_back(std::norm(s.lines(k)));
   if (powers.empty()) return 0.0;
-  const auto middle = powers.begin() + std::ssize(powers) / 2;
-  std::nth_element(powers.begin(), middle, powers.end());
   // of white noise a line under this window has 3 / (2 n) of the variance, its median ln 2 of that
-  return std::sqrt(*middle / std::log(2.0) * static_cast<double>(n) / 1.5);
+  return std::sqrt(median_of(std::move(powers)) / std::log(2.0) * static_cast<double>(n) / 1.5);
 }
 
 MeasuredFit fit(const std::vector<FitMeasurement>& measurements,
