@@ -105,7 +105,7 @@ class DampedMode {
   const CriticalOptions& options_;
 };
 
-constexpr const char* lost = "its mode does not oscillate, or changes beyond recognition";
+constexpr const char* lost_text = "its mode does not oscillate, or changes beyond recognition";
 
 /// Solves Im lambda(Omega) = order * Omega by secants from an undamped critical speed.
 void find_damped(const ModeFinder& finder, const CriticalOptions& options, Critical& critical) {
@@ -120,7 +120,7 @@ void find_damped(const ModeFinder& finder, const CriticalOptions& options, Criti
     critical.note.clear();
   };
   double a = start, ga = mode.gap(a);
-  critical.note = lost;
+  critical.note = lost_text;
   if (!std::isfinite(ga)) return;
   if (std::abs(ga) <= damped_tol * a) return found(a);
   double b = a + ga / options.order * 0.5;

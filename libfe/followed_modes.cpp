@@ -15,13 +15,13 @@ namespace {
 constexpr std::size_t longest_span = 100;  ///< speeds, then all modes are looked at again
 constexpr std::size_t memory = 5;          ///< speeds that an extrapolation uses
 constexpr double settled = 1e-7;  ///< relative step of Newton's iteration: the next is its square
-constexpr double alike = 0.9;     ///< MAC of a mode at neighboring speeds
-constexpr double near = 0.3;      ///< relative step of its eigenvalue
+constexpr double alike_nearby = 0.9;      ///< MAC of a mode at neighboring speeds
+constexpr double near_step = 0.3;         ///< relative step of its eigenvalue
 constexpr double same_eigenvalue = 1e-7;  ///< relative distance
 constexpr double same_shape = 0.99;       ///< MAC
-constexpr double own = 1e-12;  ///< relative distance of a frequency from that of its system
-constexpr int deepest = 5;     ///< halvings of the way to the next speed
-constexpr int most_owns = 12;  ///< systems until a frequency is its own
+constexpr double exactly_own = 1e-12;  ///< relative distance of a frequency from that of its system
+constexpr int most_halved_ways = 5;    ///< halvings of the way to the next speed
+constexpr int most_owns = 12;          ///< systems until a frequency is its own
 
 /// Nothing is known for sure about a span.
 struct Doubt {};
@@ -35,7 +35,7 @@ bool is_same(const EigenPair& a, const EigenPair& b) {
   return agree(a, b, same_eigenvalue, same_shape);
 }
 bool is_like(const EigenPair& a, const EigenPair& b) {
-  return agree(a, b, near, alike);
+  return agree(a, b, near_step, alike_nearby);
 }
 
 /// Gives a shape the phase of another, so that shapes change smoothly.
@@ -84,7 +84,7 @@ class AtSpeed {
       PairNewton newton(system_.M, system_.D(), system_.K);
       if (!newton.converge(pair, settled)) return false;
       const double gap = pair.lambda.imag() - omega;
-      if (std::abs(gap) <= own * omega) return true;
+      if (std::abs(gap) <= exactly_own * omega) return true;
       const double slope = i == 0 ? -1.0 : (gap - last_gap) / (omega - last_omega);
       last_omega = omega, last_gap = gap;
       omega -= gap / std::min(slope, -0.1);
@@ -131,7 +131,7 @@ class Track {
       is_over_ = !oscillates(last().lambda);
       return;
     }
-    if (depth == deepest) throw Doubt{};
+    if (depth == most_halved_ways) throw Doubt{};
     advance(looks, 0.5 * (speeds_.back() + Omega), depth + 1);
     advance(looks, Omega, depth + 1);
   }

@@ -30,7 +30,7 @@ constexpr double cut_pair = 1e-6;        ///< of the farthest eigenvalue: its tw
 constexpr double off_axis = 0.05;        ///< Re over Im of a center for modes near a frequency
 constexpr double rough = 1e-3;           ///< relative error of an eigenvalue that can be refined
 constexpr double fine = 1e-5;            ///< the same among others that are as near
-constexpr double apart = 0.1;            ///< of the distance to the next one: it stays the same
+constexpr double apart_from_next = 0.1;  ///< of the distance to the next one: it stays the same
 constexpr double same_frequency = 1e-9;  ///< relative distance of equal eigenvalues
 
 /// What the modes of a free system are compared with.
@@ -101,7 +101,7 @@ double reach_of(Complex lambda, const CVec& all) {
   for (const Complex other : all) {
     if (other != lambda) next = std::min(next, std::abs(other - lambda));
   }
-  return std::abs(lambda) * std::clamp(apart * next / std::abs(lambda), fine, rough);
+  return std::abs(lambda) * std::clamp(apart_from_next * next / std::abs(lambda), fine, rough);
 }
 
 Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, int count) {

@@ -15,20 +15,21 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr double own = 1e-13;         ///< relative distance of a frequency from that of its system
+constexpr double own_within = 1e-13;  ///< relative distance of a frequency from that of its system
 constexpr double own_enough = 1e-10;  ///< the same where rounding allows no less
 constexpr double stride = 0.2;        ///< of a frequency, while no own frequency is passed
 constexpr double closest = 1e-6;      ///< relative distance to where a mode is lost
-constexpr double settled = 1e-15;     ///< relative step of an eigenvalue that is found
-constexpr double alike = 0.9;         ///< MAC of a mode before and after a step
-constexpr double near = 0.15;         ///< relative step of an eigenvalue that is followed
-constexpr int most_halvings = 6;      ///< of a step
+constexpr double settled_pair = 1e-15;  ///< relative step of an eigenvalue that is found
+constexpr double alike_after = 0.9;     ///< MAC of a mode before and after a step
+constexpr double near_after = 0.15;     ///< relative step of an eigenvalue that is followed
+constexpr int most_halvings = 6;        ///< of a step
 constexpr int most_secants = 80;
 constexpr int spare = 4;  ///< modes followed beyond those wanted, which may come below them
-constexpr double same_eigenvalue = 1e-8;  ///< relative distance
+constexpr double same_pair = 1e-8;  ///< relative distance
 constexpr double same_space = 0.1;  ///< of the energy of a shape: outside of those of equal modes
 constexpr double known_shape = 0.99, known_frequency = 0.02;  ///< of a mode that is not followed
-constexpr double beside = 0.1;  ///< of a frequency: looking at one is looking at those around it
+constexpr double looked_beside =
+    0.1;                        ///< of a frequency: looking at one is looking at those around it
 constexpr double window = 0.5;  ///< of a frequency: modes around it that may be at home there
 
 /// q^H W p.
@@ -37,27 +38,28 @@ Complex product(const CVec& q, const Sparse& W, const CVec& p) {
 }
 
 /// An eigenpair of the system at a frequency.
-struct Pair : EigenPair {
+struct PairAtFrequency : EigenPair {
   double omega = 0.0;  ///< of the system [rad/s]
 
   double gap() const { return lambda.imag() - omega; }
 };
 
 /// The eigenpair of another system that is near; none: Newton's iteration does not converge.
-std::optional<Pair> solved(const System& system, double omega, const Pair& start) {
-  Pair pair{{start.lambda, start.q}, omega};
-  if (!PairNewton(system.M, system.D(), system.K).converge(pair, settled)) return std::nullopt;
+std::optional<PairAtFrequency> solved(const System& system, double omega,
+                                      const PairAtFrequency& start) {
+  PairAtFrequency pair{{start.lambda, start.q}, omega};
+  if (!PairNewton(system.M, system.D(), system.K).converge(pair, settled_pair)) return std::nullopt;
   return pair;
 }
 
 /// Follows an eigenpair to another frequency by its shape; none: it is lost on the way.
-std::optional<Pair> followed(const SystemAtFrequency& system, const Pair& from, double omega,
-                             int depth = 0) {
+std::optional<PairAtFrequency> followed(const SystemAtFrequency& system,
+                                        const PairAtFrequency& from, double omega, int depth = 0) {
   const System there = system(omega);
   const auto pair = solved(there, omega, from);
   const bool is_same = pair &&
-                       std::abs(pair->lambda - from.lambda) <= near * std::abs(from.lambda) &&
-                       mac(pair->q, from.q, there.M) >= alike;
+                       std::abs(pair->lambda - from.lambda) <= near_after * std::abs(from.lambda) &&
+                       mac(pair->q, from.q, there.M) >= alike_after;
   if (is_same) return pair;
   if (depth == most_halvings) return std::nullopt;
   const auto middle = followed(system, from, 0.5 * (from.omega + omega), depth + 1);
@@ -65,15 +67,16 @@ std::optional<Pair> followed(const SystemAtFrequency& system, const Pair& from, 
 }
 
 /// The pair at the frequency that is its own; none: it stops oscillating before.
-std::optional<Pair> at_own_frequency(const SystemAtFrequency& system, const Pair& start) {
-  Pair here = start, best = start;
-  std::optional<Pair> below, above;  // own frequencies are higher and lower there
+std::optional<PairAtFrequency> at_own_frequency(const SystemAtFrequency& system,
+                                                const PairAtFrequency& start) {
+  PairAtFrequency here = start, best = start;
+  std::optional<PairAtFrequency> below, above;  // own frequencies are higher and lower there
   double barrier = std::numeric_limits<double>::infinity();  // lost from here on
   double next = start.lambda.imag();
   for (int i = 0; i < most_secants; ++i) {
     (here.gap() > 0.0 ? below : above) = here;
     const double gap = std::abs(here.gap()), least = std::abs(best.gap());
-    if (gap <= own * here.omega) return here;
+    if (gap <= own_within * here.omega) return here;
     // what does not shrink any more is rounding
     if (i > 0 && gap >= 0.5 * least && least <= own_enough * best.omega) return best;
     if (gap < least) best = here;
@@ -154,14 +157,15 @@ class OwnModes {
 
  private:
   struct Found {
-    Pair pair;
+    PairAtFrequency pair;
     bool is_seen = false;  ///< the system at its frequency is one whose modes are known
   };
 
   /// Whether all modes of a system near this frequency have been looked at.
   bool is_beside_a_look(double frequency) const {
-    return std::any_of(looks_.begin(), looks_.end(),
-                       [&](double look) { return std::abs(look - frequency) <= beside * look; });
+    return std::any_of(looks_.begin(), looks_.end(), [&](double look) {
+      return std::abs(look - frequency) <= looked_beside * look;
+    });
   }
 
   /// Modes of the system at a frequency; those that are at home nearby become found.
@@ -173,7 +177,7 @@ class OwnModes {
     for (const Mode& mode : modes.oscillatory) {
       const double f = mode.frequency();
       if (omega > 0.0 && std::abs(f - omega) > window * omega) continue;
-      const Pair start{{mode.lambda, mode.shape.normalized()}, omega};
+      const PairAtFrequency start{{mode.lambda, mode.shape.normalized()}, omega};
       if (omega > 0.0 && is_known(start, here.M, known_frequency, 1.0 - known_shape)) continue;
       if (are_equal(system_(f), here)) {
         add({{mode.lambda, start.q}, f}, here.M, true);
@@ -185,7 +189,8 @@ class OwnModes {
   }
 
   /// Whether a shape is one of the found modes whose eigenvalues are as near, or of their space.
-  bool is_known(const Pair& pair, const Sparse& M, double distance, double outside) const {
+  bool is_known(const PairAtFrequency& pair, const Sparse& M, double distance,
+                double outside) const {
     std::vector<const CVec*> equal;
     for (const Found& f : found_) {
       const double apart = std::abs(f.pair.lambda - pair.lambda);
@@ -208,7 +213,7 @@ class OwnModes {
       CVec b = basis.col(i);
       for (Eigen::Index k = 0; k < i; ++k) b -= product(basis.col(k), M, b) * basis.col(k);
       const double size = product(b, M, b).real();
-      if (!(size > same_eigenvalue * product(basis.col(i), M, basis.col(i)).real())) {
+      if (!(size > same_pair * product(basis.col(i), M, basis.col(i)).real())) {
         basis.col(i).setZero();
         continue;
       }
@@ -217,8 +222,8 @@ class OwnModes {
     }
   }
 
-  void add(Pair pair, const Sparse& M, bool is_seen) {
-    if (is_known(pair, M, same_eigenvalue, same_space)) return;
+  void add(PairAtFrequency pair, const Sparse& M, bool is_seen) {
+    if (is_known(pair, M, same_pair, same_space)) return;
     found_.push_back({std::move(pair), is_seen});
   }
 

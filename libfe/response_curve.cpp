@@ -14,12 +14,12 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr double visible =
+constexpr double visible_peak =
     1e-3;                        ///< of a point's largest motion: below, its phase is not looked at
 constexpr double finest = 1e-8;  ///< relative distance of speeds; a sharper turn has no damping
 constexpr double tolerance = 1e-10;  ///< of peaks and their sides, relative
-constexpr double flat = 1e-9;        ///< relative height of a peak that may be rounding
-constexpr double beside =
+constexpr double flat_peak = 1e-9;   ///< relative height of a peak that may be rounding
+constexpr double beside_resonance =
     1e-3;  ///< relative distance around an undamped resonance that is left out
 constexpr int campbell_steps = 20;  ///< along which modes are followed
 constexpr int first_modes = 8;      ///< looked at, before more are needed
@@ -59,8 +59,8 @@ class CurveBuilder {
   /// Removes the samples that were added beside undamped resonances, which tell nothing.
   void thin_out(const std::vector<double>& keep) {
     for (const double Omega : unbounded_) {
-      for (auto s = samples_.lower_bound((1.0 - beside) * Omega);
-           s != samples_.end() && s->first < (1.0 + beside) * Omega;) {
+      for (auto s = samples_.lower_bound((1.0 - beside_resonance) * Omega);
+           s != samples_.end() && s->first < (1.0 + beside_resonance) * Omega;) {
         const bool stays = std::binary_search(keep.begin(), keep.end(), s->first);
         s = stays ? std::next(s) : samples_.erase(s);
       }
@@ -84,7 +84,7 @@ class CurveBuilder {
       if (!(largest[k] > largest[k - 1] && largest[k] >= largest[k + 1])) continue;
       if (has_unbounded(speeds[k - 1], speeds[k + 1])) continue;
       const ResponsePeak peak = refined(speeds, k, row[k]);
-      if (peak.amplitude > (1.0 + flat) * std::max(largest[k - 1], largest[k + 1]))
+      if (peak.amplitude > (1.0 + flat_peak) * std::max(largest[k - 1], largest[k + 1]))
         found.push_back(peak);
     }
     found = highest_peaks(std::move(found), options_.most_peaks);
@@ -122,7 +122,7 @@ class CurveBuilder {
 
   bool turns(const CVec& a, const CVec& b) const {
     for (Eigen::Index i = 0; i < a.size(); ++i) {
-      if (std::max(std::abs(a(i)), std::abs(b(i))) < visible * largest_(i)) continue;
+      if (std::max(std::abs(a(i)), std::abs(b(i))) < visible_peak * largest_(i)) continue;
       if (a(i) == 0.0 || b(i) == 0.0) continue;
       if (std::abs(std::arg(b(i) / a(i))) > options_.phase_step * degree) return true;
     }
@@ -132,7 +132,7 @@ class CurveBuilder {
   void divide(double low, double high) {
     if (samples_.size() >= options_.most || !turns(samples_.at(low), samples_.at(high))) return;
     const double middle = 0.5 * (low + high);
-    if (high - low < beside * high) {
+    if (high - low < beside_resonance * high) {
       const auto undamped = std::find_if(undamped_.begin(), undamped_.end(), [&](double Omega) {
         return low <= Omega && Omega <= high;
       });
@@ -144,8 +144,9 @@ class CurveBuilder {
   }
 
   void add_unbounded(double Omega) {
-    const bool is_known = std::any_of(unbounded_.begin(), unbounded_.end(),
-                                      [&](double u) { return std::abs(u - Omega) < beside * u; });
+    const bool is_known = std::any_of(unbounded_.begin(), unbounded_.end(), [&](double u) {
+      return std::abs(u - Omega) < beside_resonance * u;
+    });
     if (!is_known) unbounded_.push_back(Omega);
   }
 
@@ -219,7 +220,8 @@ std::vector<ResponsePeak> refined_peaks(const SizeAt& size_at, const ResponseCur
                     [&](double u) { return speeds[k - 1] <= u && u <= speeds[k + 1]; });
     if (is_unbounded) continue;
     const ResponsePeak peak = refined_peak(size_at, speeds, known, k);
-    if (peak.amplitude > (1.0 + flat) * std::max(known(k - 1), known(k + 1))) found.push_back(peak);
+    if (peak.amplitude > (1.0 + flat_peak) * std::max(known(k - 1), known(k + 1)))
+      found.push_back(peak);
   }
   return highest_peaks(std::move(found), most);
 }

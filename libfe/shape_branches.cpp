@@ -11,11 +11,11 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr double sure = 0.8;    ///< agreement from which a match needs no second look
-constexpr double least = 0.1;   ///< agreement below which shapes have nothing in common
-constexpr double near = 0.2;    ///< share of the distance of values in a match's score
-constexpr double equal = 1e-9;  ///< relative distance of equal values
-constexpr int deepest = 6;      ///< halvings of a step
+constexpr double sure_match = 0.8;      ///< agreement from which a match needs no second look
+constexpr double least = 0.1;           ///< agreement below which shapes have nothing in common
+constexpr double nearness_share = 0.2;  ///< share of the distance of values in a match's score
+constexpr double equal = 1e-9;          ///< relative distance of equal values
+constexpr int most_halved_steps = 6;    ///< halvings of a step
 constexpr int nobody = -1;
 
 /// How far apart two solutions are.
@@ -92,7 +92,7 @@ class Follower {
 
   void advance(double at, std::vector<ShapedValue> found, int depth) {
     const Match match = best_match(found);
-    if (!match.is_sure && depth < deepest) {
+    if (!match.is_sure && depth < most_halved_steps) {
       const double middle = 0.5 * (at_ + at);
       if (auto between = solved(middle)) {
         advance(middle, std::move(*between), depth + 1);
@@ -104,11 +104,11 @@ class Follower {
   }
 
   Match best_match(std::vector<ShapedValue>& found) const {
-    struct Pair {
+    struct Candidate {
       double score, agreement;
       std::size_t alive, candidate;
     };
-    std::vector<Pair> pairs;
+    std::vector<Candidate> pairs;
     const std::vector<Space> spaces = spaces_of(found, W_);
     for (std::size_t a = 0; a < alive_.size(); ++a) {
       const ShapedValue& from = last(a);
@@ -116,22 +116,22 @@ class Follower {
         const double agreement = share_within(from.shape, space.Q, W_);
         const double away = distance(found[space.first], from) / from.value;
         for (Eigen::Index k = 0; k < space.Q.cols(); ++k) {
-          pairs.push_back({agreement - near * std::min(away, 1.0), agreement, a,
+          pairs.push_back({agreement - nearness_share * std::min(away, 1.0), agreement, a,
                            space.first + static_cast<std::size_t>(k)});
         }
       }
     }
     std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Pair& a, const Pair& b) { return a.score > b.score; });
+                     [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
     Match match{std::vector<int>(found.size(), nobody), true};
     std::vector<bool> has_successor(alive_.size(), false);
-    for (const Pair& p : pairs) {
+    for (const Candidate& p : pairs) {
       if (has_successor[p.alive] || match.branch_of[p.candidate] != nobody || p.agreement < least) {
         continue;
       }
       has_successor[p.alive] = true;
       match.branch_of[p.candidate] = alive_[p.alive];
-      if (p.agreement < sure && last(p.alive).value < limit_) match.is_sure = false;
+      if (p.agreement < sure_match && last(p.alive).value < limit_) match.is_sure = false;
     }
     for (std::size_t a = 0; a < alive_.size(); ++a) {
       if (!has_successor[a] && last(a).value < limit_) match.is_sure = false;

@@ -22,8 +22,9 @@ constexpr int parts = 6;            ///< of the strongest line that are tried as
 constexpr int tested = 16;          ///< harmonics by which they are compared
 constexpr double all_told = 1e-4;   ///< of the energy, that may be left without a search
 constexpr double much_less = 0.25;  ///< energy left, for a part to be taken
-constexpr Eigen::Index scanned = 1024;  ///< sections in which a line is looked for at first
-constexpr double sharpest = 1e-9;       ///< share of a line's width, to which it is found
+constexpr Eigen::Index scanned_sections =
+    1024;                               ///< sections in which a line is looked for at first
+constexpr double sharpest_line = 1e-9;  ///< share of a line's width, to which it is found
 constexpr double moves = 1e-9;          ///< scales that a motion moves at least
 
 /// Shift of a trigonometric polynomial by its values at N even angles: the value at theta + angle is
@@ -164,7 +165,7 @@ class Lines {
   /// A line by its harmonic `part`, which is strong.
   double sharpened(double line, int part) const {
     return bracketed_maximum([&](double cycles) { return size(part * cycles); }, line - width(),
-                             line, line + width(), sharpest * width())
+                             line, line + width(), sharpest_line * width())
         .at;
   }
 
@@ -290,7 +291,7 @@ std::optional<InvariantCircle> guessed_circle(const Mat& sections, const Vec& sc
     return std::nullopt;
   }
   // among more and more sections, as lines are sharper there
-  Lines lines(moving, most, std::min<Eigen::Index>(count, scanned));
+  Lines lines(moving, most, std::min<Eigen::Index>(count, scanned_sections));
   auto [best, part] = own_line(lines, lines.sharpened(lines.strongest(), 1));
   for (;; lines.use(std::min(2 * lines.used(), count))) {
     best = lines.sharpened(best, part);

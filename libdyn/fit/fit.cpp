@@ -30,8 +30,6 @@ constexpr double last_change = 1e-4;
 /// are the nearer they follow it whatever the parameters are. Where the first number leads nowhere the
 /// others may.
 constexpr std::array<int, 3> steady_windows{8, 16, 4};
-/// Standard deviations of the sum of squares beyond which chance does not leave so much.
-constexpr double improbable = 6.0;
 constexpr double confidence = 1.959963985;  ///< standard deviations to either side of 95 %
 
 void require_fit(const std::vector<FitSource>& sources,

@@ -12,6 +12,9 @@
 
 namespace whirl::inline dyn {
 
+/// Standard deviations that chance does not reach.
+inline constexpr double improbable = 6.0;
+
 /// Readings of displacement probes while the rotor turned at a constant speed.
 struct FitRecord {
   std::string name;    ///< for messages

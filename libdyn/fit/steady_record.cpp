@@ -20,7 +20,6 @@ constexpr int least_per_revolution = 8;  ///< samples
 constexpr int most_per_revolution = 256;
 constexpr int bins_per_harmonic = 8;
 constexpr double most_scatter = 1.5;  ///< of a steady motion, in noises
-constexpr double improbable = 6.0;    ///< standard deviations that chance does not reach
 constexpr double even = 0.01;         ///< of a sample, by which a period may miss a whole number
 
 std::string revolutions_text(int count) {

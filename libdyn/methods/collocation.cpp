@@ -8,26 +8,24 @@
 #include "libbase/error.hpp"
 #include "libdyn/flow/free_flight.hpp"
 #include "libdyn/methods/contact_step.hpp"
+#include "libdyn/methods/step_limits.hpp"
 #include "libdyn/system/failure_text.hpp"
 
 namespace whirl::inline dyn {
 
 namespace {
 
-constexpr double too_small = 1e-14;  ///< of a revolution
-constexpr int most_instant_events = 50;
 constexpr int most_corrections = 5;     ///< of the place of an event
 constexpr double rounding = 4e-15;      ///< of an event's function
-constexpr double missed = 1e-6;         ///< an event's function there: the step was too coarse
 constexpr double coarsest_path = 1e-4;  ///< error of a path in free flight, by the clearance
 constexpr double wanted_path = 1e-6;    ///< the same, aimed at
-constexpr double whole = 2.0 * std::numbers::pi;
+constexpr double whole_turn = 2.0 * std::numbers::pi;
 
 /// One integration: the state, the step sizes, what has happened.
-class Run {
+class CollocationRun {
  public:
-  Run(const ContactSystem& system, MotionState& state, const IntegrationOptions& options,
-      const Observer& observer)
+  CollocationRun(const ContactSystem& system, MotionState& state, const IntegrationOptions& options,
+                 const Observer& observer)
       : system_(system),
         state_(state),
         options_(options),
@@ -40,7 +38,7 @@ class Run {
     }
     if (is_fixed()) return;
     const double w = contact_frequency(system);
-    const double shortest = too_small * system.period();
+    const double shortest = too_small_step * system.period();
     if (w > 0.0) touch_ = step_.rung_for(std::clamp(1.0 / w, shortest, system.period()));
     flight_ = {4};
   }
@@ -94,7 +92,7 @@ class Run {
   Integration result_;
 };
 
-Integration Run::go(long last) {
+Integration CollocationRun::go(long last) {
   while (state_.revolution < last) {
     if (!state_.y.allFinite()) {
       fail(Outcome::not_finite, "the state is no number");
@@ -110,7 +108,7 @@ Integration Run::go(long last) {
   return result_;
 }
 
-double Run::locate(Event& event, double h) {
+double CollocationRun::locate(Event& event, double h) {
   if (event.kind == EventKind::stick_limit) {  // from the forces of the step, which are unknowns
     step_.advance(event.s, state_, end_);
     return 0.0;
@@ -139,7 +137,7 @@ double Run::locate(Event& event, double h) {
   return std::abs(g);
 }
 
-void Run::choose_next(Rung tried, bool touched) {
+void CollocationRun::choose_next(Rung tried, bool touched) {
   if (is_fixed()) return;
   const auto next = [&](double error, int order) {
     const double factor = 0.9 * std::pow(std::max(error, 1e-10), -1.0 / order);
@@ -153,10 +151,10 @@ void Run::choose_next(Rung tried, bool touched) {
   }
 }
 
-Run::Result Run::advance() {
+CollocationRun::Result CollocationRun::advance() {
   const double rate = system_.phase_rate(), period = system_.period();
   const double left = period - state_.phase / rate;
-  if (left <= too_small * period) {
+  if (left <= too_small_step * period) {
     ++state_.revolution;
     state_.phase = 0.0;
     return Result::goes_on;
@@ -167,7 +165,7 @@ Run::Result Run::advance() {
   const auto shorten = [&](int by) {
     ++result_.cost.rejected;
     (touched ? touch_ : flight_).number = rung.number + by;
-    if (step_.size({rung.number + by}) < too_small * period || is_fixed()) {
+    if (step_.size({rung.number + by}) < too_small_step * period || is_fixed()) {
       return fail(Outcome::step_too_small, "the step underflowed");
     }
     return Result::goes_on;
@@ -191,7 +189,7 @@ Run::Result Run::advance() {
   if (!is_fixed() && (!is_sure || (!touched && step_.path_error() > coarsest_path))) {
     return shorten(1);
   }
-  if (event && event->s * h <= too_small * period) {
+  if (event && event->s * h <= too_small_step * period) {
     if (++instant_events_ > most_instant_events) {
       return fail(Outcome::step_too_small, "events follow without time passing");
     }
@@ -200,7 +198,7 @@ Run::Result Run::advance() {
     return Result::goes_on;
   }
   if (event) {
-    if (locate(*event, h) > missed) return shorten(1);
+    if (locate(*event, h) > missed_event) return shorten(1);
     limit = event->s;
     ends_revolution = false;
     ++result_.cost.events;
@@ -215,7 +213,7 @@ Run::Result Run::advance() {
   return show_last();
 }
 
-void Run::move_on(double turn, bool ends_revolution, const std::optional<Event>& event) {
+void CollocationRun::move_on(double turn, bool ends_revolution, const std::optional<Event>& event) {
   state_.y = end_;
   state_.phase += turn;
   if (ends_revolution) {
@@ -228,7 +226,7 @@ void Run::move_on(double turn, bool ends_revolution, const std::optional<Event>&
   system_.remove_slip(state_.y.data(), state_.contacts);
 }
 
-bool Run::show(double limit) {
+bool CollocationRun::show(double limit) {
   has_held_ = false;
   const bool goes_on = step_.dense(state_, limit, [&](const Step& piece, const Vec& end) {
     if (has_held_) {
@@ -247,7 +245,7 @@ bool Run::show(double limit) {
   return true;
 }
 
-Run::Result Run::show_last() {
+CollocationRun::Result CollocationRun::show_last() {
   if (!observer_) {
     ++result_.cost.steps;
     return Result::goes_on;
@@ -258,7 +256,7 @@ Run::Result Run::show_last() {
   return Result::ended;
 }
 
-Run::Result Run::finish(long last) {
+CollocationRun::Result CollocationRun::finish(long last) {
   if (!observer_) {
     ++result_.cost.steps;
     free_flight_.finish(state_, last);
@@ -266,7 +264,7 @@ Run::Result Run::finish(long last) {
   }
   while (state_.revolution < last) {
     step_.solve({0}, state_);
-    const double limit = 1.0 - state_.phase / whole;
+    const double limit = 1.0 - state_.phase / whole_turn;
     step_.advance(limit, state_, end_);
     if (show(limit)) return Result::ended;
     state_.y = end_;
@@ -291,7 +289,7 @@ Integration Collocation::integrate(const ContactSystem& system, MotionState& sta
             ? "is for contacts of rings and stops only; take taylor for faces and blades"
             : "cannot compute oil films, which carry without a pause; take taylor");
   }
-  return Run(system, state, options, observer).go(state.revolution + revolutions);
+  return CollocationRun(system, state, options, observer).go(state.revolution + revolutions);
 }
 
 bool suits_collocation(const ContactSystem& system) {

@@ -12,8 +12,8 @@ namespace whirl::inline dyn {
 namespace {
 
 constexpr int most_sweeps = 25, most_newton = 12;
-constexpr double slow = 0.3;        ///< contraction from which on Newton's method is cheaper
-constexpr double rounding = 4e-15;  ///< of forces
+constexpr double slow = 0.3;  ///< contraction from which on Newton's method is cheaper
+constexpr double rounding_of_forces = 4e-15;  ///< of forces
 
 constexpr double fast = 4.0;  ///< modes by the contact frequency, from which on they are too fast
                               ///< for the points of a step
@@ -215,7 +215,7 @@ bool ContactStep::picard(const MotionState& from) {
       a = next;
     }
     if (!std::isfinite(change)) return false;
-    if (change <= rounding * largest || effect <= 1e-3) return true;
+    if (change <= rounding_of_forces * largest || effect <= 1e-3) return true;
     if (sweep > 2 && change > slow * before) return false;
     before = change;
   }
@@ -324,7 +324,8 @@ bool ContactStep::newton(const MotionState& from) {
       effect = std::max(
           effect, part.cwiseAbs().maxCoeff() * weight_[static_cast<std::size_t>(c)] * h / size_);
     }
-    if (size_of_change <= rounding * a_.cwiseAbs().maxCoeff() || effect <= 1e-3) return true;
+    if (size_of_change <= rounding_of_forces * a_.cwiseAbs().maxCoeff() || effect <= 1e-3)
+      return true;
     if (size_of_change > 0.1 * before) has_jacobian = false;
     before = size_of_change;
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "libdyn/methods/dop853_coefficients.hpp"
+#include "libdyn/methods/step_limits.hpp"
 #include "libdyn/system/events.hpp"
 #include "libdyn/system/failure_text.hpp"
 
@@ -14,10 +15,7 @@ namespace whirl::inline dyn {
 namespace {
 
 constexpr double safety = 0.9, smallest_factor = 0.2, largest_factor = 5.0;
-constexpr double too_small = 1e-14;      ///< of a revolution
-constexpr int most_instant_events = 50;  ///< without time passing
-constexpr int most_restarts = 4;         ///< Newton steps on the length of a step to an event
-constexpr double missed = 1e-6;  ///< an event's function there: the step was too coarse for it
+constexpr int most_restarts = 4;  ///< Newton steps on the length of a step to an event
 
 class Stepper {
  public:
@@ -169,10 +167,10 @@ double step_onto(const Event& event, const EventWatcher& watcher, Stepper& stepp
 }
 
 /// One integration: the state, the step sizes, what has happened.
-class Run {
+class Dop853Run {
  public:
-  Run(const ContactSystem& system, MotionState& state, const IntegrationOptions& options,
-      const Observer& observer)
+  Dop853Run(const ContactSystem& system, MotionState& state, const IntegrationOptions& options,
+            const Observer& observer)
       : system_(system),
         state_(state),
         options_(options),
@@ -220,7 +218,7 @@ class Run {
   Step step_;
 };
 
-Integration Run::go(long last) {
+Integration Dop853Run::go(long last) {
   if (state_.contacts.size() != system_.contacts().size()) {
     state_.contacts = system_.classify(state_.instant(), state_.y.data());
   }
@@ -234,9 +232,9 @@ Integration Run::go(long last) {
   return result_;
 }
 
-Run::Result Run::advance() {
+Dop853Run::Result Dop853Run::advance() {
   const double left = period_ - state_.phase / rate_;  // steps end on revolutions
-  if (left <= too_small * period_) {                   // an event fell on the end
+  if (left <= too_small_step * period_) {              // an event fell on the end
     begin_revolution();
     return Result::goes_on;
   }
@@ -257,32 +255,32 @@ Run::Result Run::advance() {
   const auto event = watcher_.first(step_);
   if (event) {
     ends_revolution = false;
-    if (event->s * trial <= too_small * period_) return apply_at_once(*event);
+    if (event->s * trial <= too_small_step * period_) return apply_at_once(*event);
     const double remainder = step_onto(*event, watcher_, stepper_, state_, step_, rate_);
     if (!std::isfinite(remainder)) return fail(Outcome::not_finite, "a distance overflowed");
-    if (remainder > missed) return miss(trial);
+    if (remainder > missed_event) return miss(trial);
     ++result_.cost.events;
   }
   return accept(event, ends_revolution, trial * factor);
 }
 
-Run::Result Run::reject(double trial, double error) {
+Dop853Run::Result Dop853Run::reject(double trial, double error) {
   ++result_.cost.rejected;
   is_rejected_ = true;
   const bool is_finite = std::isfinite(error);
   h_ = trial * (is_finite ? std::max(smallest_factor, safety * std::pow(error, -1.0 / 8.0)) : 0.1);
-  if (h_ >= too_small * period_) return Result::goes_on;
+  if (h_ >= too_small_step * period_) return Result::goes_on;
   return fail(is_finite ? Outcome::step_too_small : Outcome::not_finite, "the step underflowed");
 }
 
-Run::Result Run::miss(double trial) {
+Dop853Run::Result Dop853Run::miss(double trial) {
   ++result_.cost.rejected;
   longest_ = 0.5 * trial;
-  if (longest_ >= too_small * period_) return Result::goes_on;
+  if (longest_ >= too_small_step * period_) return Result::goes_on;
   return fail(Outcome::step_too_small, "an event could not be located");
 }
 
-Run::Result Run::apply_at_once(const Event& event) {
+Dop853Run::Result Dop853Run::apply_at_once(const Event& event) {
   if (++instant_events_ > most_instant_events) {
     return fail(Outcome::step_too_small, "events follow without time passing");
   }
@@ -292,7 +290,8 @@ Run::Result Run::apply_at_once(const Event& event) {
   return Result::goes_on;
 }
 
-Run::Result Run::accept(const std::optional<Event>& event, bool ends_revolution, double next) {
+Dop853Run::Result Dop853Run::accept(const std::optional<Event>& event, bool ends_revolution,
+                                    double next) {
   instant_events_ = 0;
   longest_ = std::numeric_limits<double>::infinity();
   state_.y = stepper_.end();
@@ -318,7 +317,7 @@ Run::Result Run::accept(const std::optional<Event>& event, bool ends_revolution,
 
 Integration Dop853::integrate(const ContactSystem& system, MotionState& state, long revolutions,
                               const IntegrationOptions& options, const Observer& observer) {
-  return Run(system, state, options, observer).go(state.revolution + revolutions);
+  return Dop853Run(system, state, options, observer).go(state.revolution + revolutions);
 }
 
 }  // namespace whirl::inline dyn

@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libdyn/methods/step_limits.hpp"
 #include "libdyn/system/failure_text.hpp"
 
 namespace whirl::inline dyn::sundials {
 
 namespace {
 
-constexpr int most_instant_events = 50;
 enum Flag { stop_time = 1, root = 2 };  // of CVODE and ARKODE alike; below zero: a failure
 
 }  // namespace

@@ -148,9 +148,9 @@ struct Lateral {
 
 /// Peaks of every case.
 /// @return  the speeds that the curve of each needs
-std::vector<std::vector<double>> find_peaks(const Lateral& lateral,
-                                            const std::vector<Assembler>& cases,
-                                            LateralReport& report) {
+std::vector<std::vector<double>> lateral_peaks(const Lateral& lateral,
+                                               const std::vector<Assembler>& cases,
+                                               LateralReport& report) {
   std::vector<std::vector<double>> speeds;
   const std::vector<double> landmarks = lateral.landmarks();
   ResponseCurveOptions how;  // unbalance changes no resonance
@@ -364,7 +364,7 @@ LateralStudy lateral_report(const Model& model, const LateralOptions& options) {
   add_cases(lateral, cases, report);
   std::vector<Assembler> unbalanced;
   for (const UnbalanceCase& c : cases) unbalanced.push_back(lateral.unbalanced(c));
-  const std::vector<std::vector<double>> speeds = find_peaks(lateral, unbalanced, report);
+  const std::vector<std::vector<double>> speeds = lateral_peaks(lateral, unbalanced, report);
 
   const Assembler own(model.structure);
   const RestingRotor rest = resting_rotor(model, own, range.maximum);

@@ -18,11 +18,11 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr double isotropic = 1e-9;  ///< relative, to which rotations must not matter
-constexpr double nearby = 0.3;      ///< of the way that a motion goes, for a recurrence
-constexpr int most_parts = 128;     ///< of a period, that are tried as a shorter one
-constexpr double same = 1e-6;       ///< of states after a shorter period
-constexpr double still = 1e-7;      ///< motions below stand still [length scales]
+constexpr double isotropic = 1e-9;   ///< relative, to which rotations must not matter
+constexpr double nearby = 0.3;       ///< of the way that a motion goes, for a recurrence
+constexpr int most_parts = 128;      ///< of a period, that are tried as a shorter one
+constexpr double same_place = 1e-6;  ///< of states after a shorter period
+constexpr double still = 1e-7;       ///< motions below stand still [length scales]
 
 /// A quarter turn about the axis, in reduced coordinates.
 Mat quarter_turn(const Scene& scene) {
@@ -170,7 +170,7 @@ AutonomousOrbit shorten(const AutonomousFlow& flow, const AutonomousOrbit& cycle
     const AutonomousFlow::Result at = flow.go(cycle.state, cycle.period / parts, WithTangent::no);
     if (at.failure) continue;
     const Vec gap = (at.end - cycle.state).cwiseQuotient(flow.scale);
-    if (gap.lpNorm<Eigen::Infinity>() > same) continue;
+    if (gap.lpNorm<Eigen::Infinity>() > same_place) continue;
     AutonomousOrbit shorter = find_autonomous_orbit(flow, cycle.state, cycle.period / parts);
     if (shorter.is_good()) return shorter;
   }

@@ -16,8 +16,8 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr int samples = 256;  ///< of a revolution, for a start
-constexpr int kept = 80;      ///< harmonics of them
+constexpr int first_samples = 256;  ///< of a revolution, for a start
+constexpr int kept = 80;            ///< harmonics of them
 
 }  // namespace
 
@@ -41,7 +41,7 @@ HarmonicProblem harmonic_problem(const ContactSystem& system) {
 
 Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {
   const auto n = system.coordinates();
-  const Eigen::Index N = static_cast<Eigen::Index>(samples) * revolutions;
+  const Eigen::Index N = static_cast<Eigen::Index>(first_samples) * revolutions;
   Mat eta = y.head(n).replicate(1, N);
   MotionState state;
   state.y = y;
@@ -50,7 +50,7 @@ Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {
   integrate(suitable_method(system), system, state, revolutions, {}, [&](const Step& step) {
     const double begin = turn * static_cast<double>(step.revolution) + step.phase;
     for (; next < N; ++next) {
-      const double phase = turn * static_cast<double>(next) / samples;
+      const double phase = turn * static_cast<double>(next) / first_samples;
       if (phase > begin + step.turn) break;
       step.at(std::clamp((phase - begin) / step.turn, 0.0, 1.0), now.data());
       eta.col(next) = now.head(n);

@@ -15,8 +15,8 @@ namespace whirl::inline dyn {
 namespace {
 
 constexpr double worse = 2.0;  ///< growth of the residual that halves a step
-constexpr int most_halvings = 6;
-constexpr double same = 1e-6;  ///< of states after a shorter period
+constexpr int most_halved_steps = 6;
+constexpr double same_state = 1e-6;  ///< of states after a shorter period
 
 /// Sums of what contacts did in the segments, as shares of the whole.
 std::vector<ContactMeasure> shares(const std::vector<FlowResult>& passages, double whole) {
@@ -142,7 +142,7 @@ PeriodicOrbit find_orbit(const Flow& flow, std::vector<Vec> starts,
       },
       {.most_steps = options.most_steps,
        .accurate = options.accurate,
-       .most_halvings = most_halvings,
+       .most_halvings = most_halved_steps,
        .worse = worse});
   if (search.has_converged()) {
     at.orbit.multipliers = multipliers_of(at.orbit.tangents);
@@ -184,7 +184,7 @@ int shortest_period(const PeriodicOrbit& orbit, const Vec& scale) {
       const Vec& b = orbit.states[static_cast<std::size_t>((i + p) % m)];
       worst = std::max(worst, (a - b).cwiseQuotient(scale).lpNorm<Eigen::Infinity>());
     }
-    if (worst < same) return orbit.period / m * p;
+    if (worst < same_state) return orbit.period / m * p;
   }
   return orbit.period;
 }

@@ -13,8 +13,8 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr double same = 1e-5;    ///< distance of sections [length scales]
-constexpr int most_draws = 100;  ///< until a start is inside its bearings
+constexpr double same_section = 1e-5;  ///< distance of sections [length scales]
+constexpr int most_draws = 100;        ///< until a start is inside its bearings
 
 /// Whether the last section of one orbit is any of another.
 bool is_on(const ContactSystem& system, const Ending& one, const Ending& other) {
@@ -23,7 +23,7 @@ bool is_on(const ContactSystem& system, const Ending& one, const Ending& other) 
   const Eigen::Map<const Vec> last(one.sections.data(), size);
   for (int i = 0; i < count; ++i) {
     const Eigen::Map<const Vec> section(other.sections.data() + i * size, size);
-    if (distance(system, last, section) < same) return true;
+    if (distance(system, last, section) < same_section) return true;
   }
   return false;
 }

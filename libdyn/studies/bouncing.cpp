@@ -14,7 +14,7 @@ namespace whirl::inline dyn {
 namespace {
 
 constexpr int line_samples = 128;     ///< of a period, for its lines
-constexpr long watched = 20;          ///< revolutions in which it is seen whether a motion bounces
+constexpr long watched_bounces = 20;  ///< revolutions in which it is seen whether a motion bounces
 constexpr double least_share = 0.05;  ///< of the second line, to count beside the first
 constexpr int tried_orbits = 6;       ///< motions at a speed that are closed by Newton's method
 
@@ -140,7 +140,7 @@ std::optional<Bouncing> find_bouncing(
     if (stops()) return std::nullopt;
     std::erase_if(motions, [](const Trajectory& t) { return t.outcome != Outcome::reached_end; });
     for (Trajectory& t : motions) {
-      t.revolutions = watched;
+      t.revolutions = watched_bounces;
     }
     integrate_batch(motions, {.tolerance = 1e-8, .threads = 1, .measures = true, .watch = watch});
     std::optional<Bouncing> found;

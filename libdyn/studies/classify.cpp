@@ -26,7 +26,7 @@ constexpr long first_search = 96;     ///< revolutions
 constexpr double later_search = 1.5;  ///< times those of the search before
 constexpr Eigen::Index most_dimension = 400;  ///< sections that their dimension is taken from
 /// Change of averages over sections that a motion may have which has settled.
-constexpr double settled = 0.02;
+constexpr double settled_change = 0.02;
 constexpr long most_load_periods = 8;    ///< of loads, that a motion may take to repeat
 constexpr double most_repeating = 4000;  ///< revolutions, likewise
 constexpr long most_flight =
@@ -207,7 +207,7 @@ class BatchClassifier {
     const auto positive = (c.exponents.array() > c.zero).count();
     if (positive > 0) {
       c.kind = positive > 1 ? MotionKind::hyperchaotic : MotionKind::chaotic;
-    } else if (c.drift.change > settled) {
+    } else if (c.drift.change > settled_change) {
       c.kind = MotionKind::not_settled;
     } else {
       // a force that does not repeat makes a torus of a motion that attracts
@@ -227,8 +227,9 @@ class BatchClassifier {
       more = static_cast<double>(free_after(s));
     } else if (c.drift.rate > 0.0) {
       // averages change no longer, and sections repeat as well as is asked for at last
-      const double reach = std::max(
-          c.drift.left / settled, c.drift.left * c.drift.spread / repeats[std::ssize(repeats) - 1]);
+      const double reach =
+          std::max(c.drift.left / settled_change,
+                   c.drift.left * c.drift.spread / repeats[std::ssize(repeats) - 1]);
       more = std::max(1.0, std::log(reach) / c.drift.rate);
     }
     if (more == 0.0) return;

@@ -12,8 +12,8 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr double same = 1e-6;    ///< of a shorter period that Newton's orbit has, too
-constexpr double exact = 1e-12;  ///< tolerance of steps for an orbit and its multipliers
+constexpr double same_motion = 1e-6;  ///< of a shorter period that Newton's orbit has, too
+constexpr double exact = 1e-12;       ///< tolerance of steps for an orbit and its multipliers
 constexpr int most_newton = 8;
 
 /// A step of Newton's method; false: this leads nowhere.
@@ -36,7 +36,7 @@ bool improve(OrbitCandidate& c, const Trajectory& t, bool is_patient) {
     for (int p = step; p < c.period; p += step) {  // it may have a shorter period
       const Eigen::Map<const Vec> section(t.sections.data() + (p - 1) * system.size(),
                                           system.size());
-      if (c.period % p == 0 && distance(system, section, c.y) < same) c.period = p;
+      if (c.period % p == 0 && distance(system, section, c.y) < same_motion) c.period = p;
     }
     return true;
   }
@@ -108,7 +108,7 @@ bool stands_still(const ClassifyCandidate& s, double tolerance) {
     }
     return true;
   });
-  return t.outcome == Outcome::reached_end && moved < same;
+  return t.outcome == Outcome::reached_end && moved < same_motion;
 }
 
 }  // namespace whirl::inline dyn

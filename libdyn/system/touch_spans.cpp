@@ -10,16 +10,16 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr int fewest = 256;         ///< angles a revolution at which events are looked for
-constexpr int per_harmonic = 8;     ///< and of a harmonic
-constexpr double sharpest = 1e-15;  ///< of a turn: how well events are known
+constexpr int fewest_angles = 256;      ///< angles a revolution at which events are looked for
+constexpr int angles_per_harmonic = 8;  ///< and of a harmonic
+constexpr double sharpest = 1e-15;      ///< of a turn: how well events are known
 
 }  // namespace
 
 ContactPath::ContactPath(const ReducedContact& contact, const Periodic& motion)
     : contact_(contact), motion_(motion) {
   stiffness_ = normal_force(contact.law, contact.clearance, 0.0) / contact.clearance;
-  const int N = std::max(fewest * motion.period, per_harmonic * motion.harmonics());
+  const int N = std::max(fewest_angles * motion.period, angles_per_harmonic * motion.harmonics());
   angles_.reserve(static_cast<std::size_t>(N) + 1);
   for (int i = 0; i <= N; ++i) {
     angles_.push_back(turn * i / N);

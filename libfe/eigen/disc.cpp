@@ -23,7 +23,7 @@ constexpr int starts = 2;           ///< vectors at the beginning: isotropic rot
 constexpr int rounds = 5;           ///< powers of the inverse a fresh vector gets to show something
 constexpr double converged = 1e-11;  ///< residual over the size of an eigenvalue of the inverse
 constexpr double exhausted = 1e-13;  ///< of its length: what is left of a vector inside the basis
-constexpr double gap = 1e-6;         ///< relative distance in which a disc does not end
+constexpr double rim = 1e-6;         ///< relative distance in which a disc does not end
 constexpr double real_axis = 1e-10;  ///< |Im| of an eigenvalue that is real, over its size
 
 /// (A - s I)^-1 of the state (q, p = q' / scale) for a complex s.
@@ -149,7 +149,7 @@ Look look_at(const KrylovBasis& basis) {
   // a projection without open ends has all that is finite
   const auto distance = [&](Eigen::Index i) { return 1.0 / std::abs(ritz->values(i)); };
   double radius = edge > 0.0 ? 1.0 / edge : infinity;
-  while (!inside.empty() && distance(inside.back()) > (1.0 - gap) * radius) {
+  while (!inside.empty() && distance(inside.back()) > (1.0 - rim) * radius) {
     radius = std::min(radius, distance(inside.back()));
     inside.pop_back();
   }

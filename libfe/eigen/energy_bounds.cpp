@@ -14,10 +14,10 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr int steps = 30;            ///< of Lanczos' method: ends of a spectrum come first
-constexpr double exhausted = 1e-12;  ///< of its length: what is left of a vector inside the basis
+constexpr double used_up = 1e-12;    ///< of its length: what is left of a vector inside the basis
 constexpr double margin = 0.02;      ///< added to a bound, of the larger of both
 constexpr double negligible = 1e-9;  ///< of the most damping: less is none
-constexpr double rounding = 1e-13;   ///< of the largest entry of a sum
+constexpr double rounding_of_sums = 1e-13;  ///< of the largest entry of a sum
 
 struct Interval {
   double low = 0.0, high = 0.0;
@@ -45,7 +45,7 @@ Interval spectrum(const std::function<Vec(const Vec&)>& op, const Sparse& K) {
       w -= basis.leftCols(size) * (basis.leftCols(size).transpose() * Kw);
     }
     left = std::sqrt(std::max(w.dot(K * w), 0.0));
-    if (!(left > exhausted * before)) {
+    if (!(left > used_up * before)) {
       left = 0.0;
       break;
     }
@@ -61,7 +61,9 @@ Interval spectrum(const std::function<Vec(const Vec&)>& op, const Sparse& K) {
 Sparse skew_part(const Sparse& A) {
   Sparse S = 0.5 * (A - Sparse(A.transpose()));
   const double largest = A.nonZeros() == 0 ? 0.0 : A.coeffs().abs().maxCoeff();
-  S.prune([&](Eigen::Index, Eigen::Index, double x) { return std::abs(x) > rounding * largest; });
+  S.prune([&](Eigen::Index, Eigen::Index, double x) {
+    return std::abs(x) > rounding_of_sums * largest;
+  });
   return S;
 }
 

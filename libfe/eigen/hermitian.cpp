@@ -14,7 +14,7 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int dense_below = 150;
+constexpr int dense_hermitian_below = 150;
 constexpr double dependent = 1e-6;  ///< share of a vector that is left when it repeats others
 
 HermitianModes dense(const Sparse& M, const Sparse& G, double g, const Sparse& K, int count) {
@@ -38,7 +38,7 @@ HermitianModes largest_hermitian(const Sparse& M, const Sparse& G, double g, con
                                  int count) {
   const auto n = static_cast<int>(M.rows());
   count = std::min(count, n);
-  if (n < dense_below || 4 * count >= n) return dense(M, G, g, K, count);
+  if (n < dense_hermitian_below || 4 * count >= n) return dense(M, G, g, K, count);
 
   // q = a + i b:  [M gG; -gG M] (a, b) = nu [K 0; 0 K] (a, b), every eigenvalue twice
   std::vector<Triplet> left, right;

@@ -7,8 +7,8 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr double rounding = 1e-8;  ///< of steps that grow again, as far as they are rounding
-constexpr int most_steps = 25;
+constexpr double rounding_steps = 1e-8;  ///< of steps that grow again, as far as they are rounding
+constexpr int most_newton_steps = 25;
 
 }  // namespace
 
@@ -28,12 +28,12 @@ PairNewton::Step PairNewton::step(EigenPair& pair) {
 
 bool PairNewton::converge(EigenPair& pair, double settled) {
   double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < most_newton_steps; ++i) {
     const Complex before = pair.lambda;
     const Step done = step(pair);
     if (done != Step::taken) return done == Step::is_exact;
     const double size = std::abs(pair.lambda - before) / std::abs(pair.lambda);
-    if (size <= settled || (size <= rounding && size >= 0.5 * last)) return true;
+    if (size <= settled || (size <= rounding_steps && size >= 0.5 * last)) return true;
     last = size;
   }
   return false;

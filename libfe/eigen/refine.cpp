@@ -9,7 +9,7 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double accurate = 2e-11;  ///< backward error: a fifth of what is promised
-constexpr int most_steps = 3;
+constexpr int most_refinements = 3;
 constexpr double unbalanced = 0.5;  ///< residual over the sum of its parts: 1 at infinity
 
 double longest_column(const Sparse& A) {
@@ -43,7 +43,7 @@ bool Refinement::balances(Complex lambda, const CVec& q) const {
 bool Refinement::improve(Complex& lambda, CVec& q, double reach) {
   double error = backward_error(lambda, q);
   const Complex start = lambda;
-  for (int i = 0; i < most_steps && error > accurate; ++i) {
+  for (int i = 0; i < most_refinements && error > accurate; ++i) {
     if (!newton_) newton_.emplace(M_, D_, K_);
     EigenPair next{lambda, q};
     if (newton_->step(next) != PairNewton::Step::taken) break;

@@ -12,7 +12,7 @@ namespace whirl::inline fe {
 
 namespace {
 
-constexpr int points = 24;  // exact for cylinders; a cone of ratio 1:10 integrates to 1e-9
+constexpr int gauss_points = 24;  // exact for cylinders; a cone of ratio 1:10 integrates to 1e-9
 
 /// Fields of all shape functions of one plane at the integration points, a column per function.
 struct PlaneFields {
@@ -130,7 +130,7 @@ ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam) {
   if (beam.internal_functions < 0 || beam.internal_functions > 4) {
     throw OptionError("a beam element takes 0 to 4 pairs of internal functions");
   }
-  static const Quadrature q = Quadrature::gauss(points);
+  static const Quadrature q = Quadrature::gauss(gauss_points);
   const Along along = properties(beam, q);
   const PlaneFields f = shape_functions(beam, along, q);
   const auto m = f.w.cols();  // functions of one plane
@@ -139,7 +139,7 @@ ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam) {
   const auto integral = [&](const Mat& a, const Vec& by, const Mat& b) -> Mat {
     return a.transpose() * by.cwiseProduct(weight).asDiagonal() * b;
   };
-  const Vec one = Vec::Ones(points);
+  const Vec one = Vec::Ones(gauss_points);
   const Mat elastic = integral(f.moment, along.bending_flexibility, f.moment) +
                       integral(f.shear, along.shear_flexibility, f.shear);
   const Mat K = elastic + beam.axial_force * integral(f.slope, one, f.slope);
@@ -192,7 +192,7 @@ ElementMatrices<Eigen::Dynamic> matrices(const Beam& beam) {
 }
 
 Mat deflection_functions(const Beam& beam, const Vec& xi) {
-  static const Quadrature q = Quadrature::gauss(points);
+  static const Quadrature q = Quadrature::gauss(gauss_points);
   return q.interpolation(xi) * shape_functions(beam, properties(beam, q), q).w;
 }
 

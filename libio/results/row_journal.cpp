@@ -39,7 +39,7 @@ struct RowHead {
 };
 static_assert(sizeof(Head) == 24 && sizeof(RowHead) == 16);
 
-[[noreturn]] void fail(const fs::path& place, const char* action) {
+[[noreturn]] void fail_to(const fs::path& place, const char* action) {
   throw FileError(fmt::format("cannot {} {}: {}", action, place.string(), std::strerror(errno)));
 }
 
@@ -83,7 +83,7 @@ class Stream {
       const ssize_t got =
           ::pread(file_, buffer_.data() + have, buffer_.size() - have, static_cast<off_t>(at_));
       if (got < 0 && errno == EINTR) continue;
-      if (got < 0) fail(place_, "read");
+      if (got < 0) fail_to(place_, "read");
       if (got == 0) break;
       have += static_cast<std::size_t>(got);
       at_ += static_cast<std::uint64_t>(got);
@@ -120,14 +120,14 @@ void write_at(int file, const fs::path& place, std::string_view bytes, std::uint
   while (!bytes.empty()) {
     const ssize_t done = ::pwrite(file, bytes.data(), bytes.size(), static_cast<off_t>(at));
     if (done < 0 && errno == EINTR) continue;
-    if (done < 0) fail(place, "write");
+    if (done < 0) fail_to(place, "write");
     bytes.remove_prefix(static_cast<std::size_t>(done));
     at += static_cast<std::uint64_t>(done);
   }
 }
 
 void cut(int file, const fs::path& place, std::uint64_t size) {
-  if (::ftruncate(file, static_cast<off_t>(size)) != 0) fail(place, "write");
+  if (::ftruncate(file, static_cast<off_t>(size)) != 0) fail_to(place, "write");
 }
 
 /// What an open file begins with; nothing if it is shorter.
@@ -151,7 +151,7 @@ bool is_ours(int file) {
 RowJournal::RowJournal(const fs::path& place, std::string_view key, const ReadRow& f)
     : place_(place) {
   file_ = ::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) fail(place, "write");
+  if (file_ < 0) fail_to(place, "write");
   try {
     if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       throw FileError(fmt::format("cannot write {}: another run is writing it", place.string()));
@@ -195,7 +195,7 @@ void RowJournal::append(std::span<const Row> rows) {
   }
   try {
     write_at(file_, place_, bytes, end_);
-    if (::fdatasync(file_) != 0) fail(place_, "write");
+    if (::fdatasync(file_) != 0) fail_to(place_, "write");
   } catch (const FileError&) {
     // where this fails, too, what is torn is dropped when the journal is opened again
     [[maybe_unused]] const int code = ::ftruncate(file_, static_cast<off_t>(end_));
