@@ -49,6 +49,14 @@ struct alignas(64) Sloped {
   HWY_ATTR Sloped(const Value& value, const Slopes& slopes) : s(slopes), x(value) {}
 };
 
+/// Where every slope takes a register of its own, as in what all processors have, products are calls:
+/// spread over the engine they take longer to compile than all the rest.
+#if HWY_TARGET == HWY_SCALAR
+#define WHIRL_PRODUCT HWY_ATTR HWY_NOINLINE inline
+#else
+#define WHIRL_PRODUCT HWY_ATTR inline
+#endif
+
 /// A value for every slope.
 HWY_ATTR inline Sloped::Slopes wide(const Sloped::Value& x) {
   return Sloped::Slopes(hn::GetLane(x.v[0]));
@@ -57,7 +65,7 @@ HWY_ATTR inline Sloped::Slopes wide(const Sloped::Value& x) {
 HWY_ATTR inline Sloped operator-(const Sloped& a) {
   return {-a.x, -a.s};
 }
-HWY_ATTR inline Sloped operator+(const Sloped& a, const Sloped& b) {
+WHIRL_PRODUCT Sloped operator+(const Sloped& a, const Sloped& b) {
   return {a.x + b.x, a.s + b.s};
 }
 HWY_ATTR inline Sloped operator+(const Sloped& a, double b) {
@@ -66,7 +74,7 @@ HWY_ATTR inline Sloped operator+(const Sloped& a, double b) {
 HWY_ATTR inline Sloped operator+(double a, const Sloped& b) {
   return {a + b.x, b.s};
 }
-HWY_ATTR inline Sloped operator-(const Sloped& a, const Sloped& b) {
+WHIRL_PRODUCT Sloped operator-(const Sloped& a, const Sloped& b) {
   return {a.x - b.x, a.s - b.s};
 }
 HWY_ATTR inline Sloped operator-(const Sloped& a, double b) {
@@ -75,25 +83,25 @@ HWY_ATTR inline Sloped operator-(const Sloped& a, double b) {
 HWY_ATTR inline Sloped operator-(double a, const Sloped& b) {
   return {a - b.x, -b.s};
 }
-HWY_ATTR inline Sloped operator*(const Sloped& a, const Sloped& b) {
+WHIRL_PRODUCT Sloped operator*(const Sloped& a, const Sloped& b) {
   return {a.x * b.x, fma(wide(a.x), b.s, wide(b.x) * a.s)};
 }
-HWY_ATTR inline Sloped operator*(const Sloped& a, double b) {
+WHIRL_PRODUCT Sloped operator*(const Sloped& a, double b) {
   return {a.x * b, a.s * Sloped::Slopes(b)};
 }
 HWY_ATTR inline Sloped operator*(double a, const Sloped& b) {
   return {a * b.x, Sloped::Slopes(a) * b.s};
 }
-HWY_ATTR inline Sloped operator/(const Sloped& a, const Sloped& b) {
+WHIRL_PRODUCT Sloped operator/(const Sloped& a, const Sloped& b) {
   const Sloped::Value quotient = a.x / b.x, inverse = Sloped::Value(1.0) / b.x;
   return {quotient, fnma(wide(quotient), b.s, a.s) * wide(inverse)};
 }
 /// a b + c.
-HWY_ATTR inline Sloped fma(const Sloped& a, const Sloped& b, const Sloped& c) {
+WHIRL_PRODUCT Sloped fma(const Sloped& a, const Sloped& b, const Sloped& c) {
   return {fma(a.x, b.x, c.x), fma(wide(a.x), b.s, fma(wide(b.x), a.s, c.s))};
 }
 /// c - a b.
-HWY_ATTR inline Sloped fnma(const Sloped& a, const Sloped& b, const Sloped& c) {
+WHIRL_PRODUCT Sloped fnma(const Sloped& a, const Sloped& b, const Sloped& c) {
   return {fnma(a.x, b.x, c.x), fnma(wide(a.x), b.s, fnma(wide(b.x), a.s, c.s))};
 }
 
@@ -195,6 +203,8 @@ HWY_ATTR inline Sloped::Mask first_downward_zero(const Sloped* g, int degree, co
   for (int k = 0; k <= degree; ++k) values[k] = g[k].x;
   return first_downward_zero<Sloped::Value>(values, degree, sign.x, scale.x, h.x, active, surface);
 }
+
+#undef WHIRL_PRODUCT
 
 }  // namespace HWY_NAMESPACE
 }  // namespace whirl::inline dyn
