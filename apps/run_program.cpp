@@ -4,11 +4,12 @@
 
 #include <cstdio>
 
-#include "apps/command.hpp"
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
 #include "libbase/travel.hpp"
 #include "libio/text/nearest.hpp"
+#include "libverbs/command/command.hpp"
+#include "libverbs/command/exit_status.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/command/version.hpp"
 
 namespace whirl::inline cli {
 

@@ -8,15 +8,16 @@
 #include <cstdio>
 #include <fstream>
 
-#include "apps/arithmetic.hpp"
 #include "apps/mpi/mpi_process.hpp"
-#include "apps/program.hpp"
 #include "apps/run_program.hpp"
 #include "libbase/arithmetic.hpp"
 #include "libbase/digest.hpp"
 #include "libbase/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/text/terminal.hpp"
+#include "libverbs/command/arithmetic.hpp"
+#include "libverbs/command/exit_status.hpp"
+#include "libverbs/command/version.hpp"
 
 namespace {
 

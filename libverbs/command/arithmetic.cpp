@@ -1,4 +1,4 @@
-#include "apps/arithmetic.hpp"
+#include "libverbs/command/arithmetic.hpp"
 
 #include "libbase/arithmetic.hpp"
 #include "libdyn/taylor/batch.hpp"

@@ -1,17 +1,17 @@
-#include "apps/command.hpp"
+#include "libverbs/command/command.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <new>
 
-#include "apps/program.hpp"
 #include "libbase/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/bare_speed.hpp"
 #include "libio/text/terminal.hpp"
 #include "libio/texts/problems_text.hpp"
+#include "libverbs/command/exit_status.hpp"
 
 namespace whirl::inline cli {
 

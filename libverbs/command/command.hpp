@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/command_line.hpp"
-#include "apps/verb.hpp"
+#include "libverbs/command/command_line.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,6 +1,6 @@
 // The only file that sees CLI11.
 
-#include "apps/command_line.hpp"
+#include "libverbs/command/command_line.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <span>
 
-#include "apps/program.hpp"
 #include "libio/text/nearest.hpp"
+#include "libverbs/command/exit_status.hpp"
 
 namespace whirl::inline cli {
 

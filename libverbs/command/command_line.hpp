@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "apps/invocation.hpp"
-#include "apps/verb.hpp"
+#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

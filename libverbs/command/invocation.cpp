@@ -1,13 +1,13 @@
-#include "apps/invocation.hpp"
+#include "libverbs/command/invocation.hpp"
 
 #include <filesystem>
 
-#include "apps/arithmetic.hpp"
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/interrupt.hpp"
+#include "libverbs/command/arithmetic.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/command/version.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,12 +1,12 @@
-#include "apps/verbs/common.hpp"
+#include "libverbs/command/reporting.hpp"
 
 #include <fmt/format.h>
 
 #include <memory>
 #include <optional>
 
-#include "apps/program.hpp"
 #include "libio/text/progress_line.hpp"
+#include "libverbs/command/version.hpp"
 
 namespace whirl::inline cli {
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "apps/invocation.hpp"
 #include "libbase/constants.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/texts/model_text.hpp"
+#include "libverbs/command/invocation.hpp"
 
 namespace whirl::inline cli {
 

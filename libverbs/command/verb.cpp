@@ -1,8 +1,8 @@
-#include "apps/verb.hpp"
+#include "libverbs/command/verb.hpp"
 
 #include <algorithm>
 
-#include "apps/invocation.hpp"
+#include "libverbs/command/invocation.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,4 +1,4 @@
-#include "apps/verbs/measured.hpp"
+#include "libverbs/options/measured.hpp"
 
 #include <fmt/format.h>
 

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "apps/invocation.hpp"
 #include "libdyn/measured/order_tracking.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libio/measured/measurement.hpp"
 #include "libio/text/option.hpp"
+#include "libverbs/command/invocation.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,4 +1,4 @@
-#include "apps/verbs/orbits.hpp"
+#include "libverbs/options/orbits.hpp"
 
 #include <fmt/format.h>
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/verbs/study.hpp"
 #include "libdyn/motions/transient.hpp"
 #include "libdyn/studies/found_orbit.hpp"
 #include "libio/model/branch_parameters.hpp"
+#include "libverbs/options/study.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,4 +1,4 @@
-#include "apps/verbs/over.hpp"
+#include "libverbs/options/over.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 #pragma once
 /// What linear verbs share that run over a value of the model (modes, critical, unbalance).
 
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/study.hpp"
 #include "libdyn/studies/model_at.hpp"
 #include "libio/model/model_family.hpp"
 #include "libio/results/columns.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/options/study.hpp"
 
 namespace whirl::inline cli {
 

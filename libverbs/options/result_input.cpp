@@ -1,4 +1,4 @@
-#include "apps/verbs/result_input.hpp"
+#include "libverbs/options/result_input.hpp"
 
 #include <fmt/format.h>
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/invocation.hpp"
-#include "apps/verbs/options.hpp"
 #include "libio/export/scene_source.hpp"
 #include "libio/figures/figures.hpp"
+#include "libverbs/command/invocation.hpp"
+#include "libverbs/options/common.hpp"
 
 namespace whirl::inline cli {
 

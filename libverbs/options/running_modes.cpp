@@ -1,4 +1,4 @@
-#include "apps/verbs/running_modes.hpp"
+#include "libverbs/options/running_modes.hpp"
 
 namespace whirl::inline cli {
 

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "apps/verb.hpp"
-#include "apps/verbs/measured.hpp"
 #include "libdyn/measured/running_comparison.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/options/measured.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,7 +1,7 @@
-#include "apps/verbs/simulation.hpp"
+#include "libverbs/options/simulation.hpp"
 
-#include "apps/verbs/common.hpp"
 #include "libdyn/studies/travel.hpp"
+#include "libverbs/command/reporting.hpp"
 
 namespace whirl::inline cli {
 

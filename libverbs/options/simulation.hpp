@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/invocation.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/options.hpp"
 #include "libdyn/motions/run_model.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/texts/motion_text.hpp"
+#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/options/common.hpp"
 
 namespace whirl::inline cli {
 

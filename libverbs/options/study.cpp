@@ -1,10 +1,10 @@
-#include "apps/verbs/study.hpp"
+#include "libverbs/options/study.hpp"
 
 #include <fmt/format.h>
 
-#include "apps/program.hpp"
 #include "libbase/processors.hpp"
 #include "libio/texts/study_text.hpp"
+#include "libverbs/command/version.hpp"
 
 namespace whirl::inline cli {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/simulation.hpp"
 #include "libio/results/kept_study.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/options/simulation.hpp"
 
 namespace whirl::inline cli {
 

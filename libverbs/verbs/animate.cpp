@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include "apps/invocation.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/options.hpp"
-#include "apps/verbs/result_input.hpp"
 #include "libio/export/clip.hpp"
 #include "libio/export/video.hpp"
+#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/options/common.hpp"
+#include "libverbs/options/result_input.hpp"
 
 namespace whirl::inline cli {
 

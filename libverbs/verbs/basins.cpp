@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/study.hpp"
 #include "libio/texts/basins_text.hpp"
+#include "libverbs/options/study.hpp"
 
 namespace whirl::inline cli {
 

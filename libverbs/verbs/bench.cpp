@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/options.hpp"
-#include "apps/verbs/simulation.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/work_precision.hpp"
 #include "libio/text/parameter_axis.hpp"
 #include "libio/texts/work_precision_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/options/common.hpp"
+#include "libverbs/options/simulation.hpp"
 
 namespace whirl::inline cli {
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/options.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/modes_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/options/common.hpp"
 
 namespace whirl::inline cli {
 

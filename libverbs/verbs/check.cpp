@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
 #include "libdyn/system/model_facts.hpp"
 #include "libio/drawing/terminal_layout.hpp"
 #include "libio/model/file_text.hpp"
@@ -11,6 +9,8 @@
 #include "libio/results/motion_results.hpp"
 #include "libio/text/terminal.hpp"
 #include "libio/texts/problems_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

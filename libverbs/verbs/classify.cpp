@@ -1,7 +1,7 @@
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/options.hpp"
-#include "apps/verbs/simulation.hpp"
 #include "libio/texts/classification_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/options/common.hpp"
+#include "libverbs/options/simulation.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
 #include "libio/text/bash_completion.hpp"
+#include "libverbs/command/exit_status.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,8 +1,8 @@
-#include "apps/verbs/orbits.hpp"
 #include "libbase/error.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/kept_branches.hpp"
 #include "libio/texts/branches_text.hpp"
+#include "libverbs/options/orbits.hpp"
 
 namespace whirl::inline cli {
 

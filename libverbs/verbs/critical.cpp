@@ -1,12 +1,12 @@
 #include "libfe/critical.hpp"
 
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/over.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/modes_text.hpp"
 #include "libio/texts/over_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/options/over.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,15 +1,15 @@
 #include <fmt/format.h>
 
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/measured.hpp"
-#include "apps/verbs/options.hpp"
-#include "apps/verbs/study.hpp"
 #include "libio/measured/fit_setup.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/text/parameter_axis.hpp"
 #include "libio/texts/fit_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/options/common.hpp"
+#include "libverbs/options/measured.hpp"
+#include "libverbs/options/study.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,10 +1,10 @@
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/text/value_range.hpp"
 #include "libio/texts/frequency_response_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,7 +1,7 @@
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/identify_measured.hpp"
-#include "apps/verbs/simulation.hpp"
 #include "libio/texts/identification_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/options/simulation.hpp"
+#include "libverbs/verbs/identify_measured.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,8 +1,7 @@
-#include "apps/verbs/identify_measured.hpp"
+#include "libverbs/verbs/identify_measured.hpp"
 
 #include <fmt/format.h>
 
-#include "apps/verbs/common.hpp"
 #include "libdyn/measured/measured_identification.hpp"
 #include "libdyn/measured/station_motion.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
@@ -10,6 +9,7 @@
 #include "libio/results/motion_results.hpp"
 #include "libio/texts/identification_text.hpp"
 #include "libio/texts/running_modes_text.hpp"
+#include "libverbs/command/reporting.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,9 +1,9 @@
 #pragma once
 /// What identify does with a measured motion.
 
-#include "apps/verbs/measured.hpp"
-#include "apps/verbs/running_modes.hpp"
 #include "libdyn/motions/identify.hpp"
+#include "libverbs/options/measured.hpp"
+#include "libverbs/options/running_modes.hpp"
 
 namespace whirl::inline cli {
 

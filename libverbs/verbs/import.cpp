@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
 #include "libio/import/import_file.hpp"
 #include "libio/texts/import_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

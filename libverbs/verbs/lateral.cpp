@@ -1,5 +1,3 @@
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
 #include "libdyn/motions/lateral_report.hpp"
 #include "libdyn/motions/static_study.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
@@ -7,6 +5,8 @@
 #include "libio/results/motion_results.hpp"
 #include "libio/text/lateral_values.hpp"
 #include "libio/texts/lateral_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

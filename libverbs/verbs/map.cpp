@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/study.hpp"
 #include "libio/results/grid_record.hpp"
 #include "libio/texts/map_text.hpp"
+#include "libverbs/options/study.hpp"
 
 namespace whirl::inline cli {
 

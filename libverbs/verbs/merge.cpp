@@ -2,12 +2,12 @@
 
 #include <filesystem>
 
-#include "apps/command.hpp"
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/study_part.hpp"
+#include "libverbs/command/command.hpp"
+#include "libverbs/command/exit_status.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

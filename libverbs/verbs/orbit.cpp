@@ -1,11 +1,11 @@
-#include "apps/verbs/orbit.hpp"
+#include "libverbs/verbs/orbit.hpp"
 
-#include "apps/program.hpp"
 #include "libbase/error.hpp"
 #include "libio/results/branch_point.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/orbit_results.hpp"
 #include "libio/texts/orbit_text.hpp"
+#include "libverbs/command/exit_status.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Options of orbit, which finds one from a motion or many from random starts.
 
-#include "apps/verbs/orbits.hpp"
+#include "libverbs/options/orbits.hpp"
 
 namespace whirl::inline cli {
 

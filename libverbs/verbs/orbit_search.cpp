@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "apps/verbs/orbit.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/orbit_results.hpp"
 #include "libio/texts/orbit_text.hpp"
+#include "libverbs/verbs/orbit.hpp"
 
 namespace whirl::inline cli {
 

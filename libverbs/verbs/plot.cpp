@@ -1,16 +1,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "apps/invocation.hpp"
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/options.hpp"
-#include "apps/verbs/result_input.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/drawing/picture_file.hpp"
 #include "libio/figures/choice.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/text/table.hpp"
+#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/command/version.hpp"
+#include "libverbs/options/common.hpp"
+#include "libverbs/options/result_input.hpp"
 
 namespace whirl::inline cli {
 

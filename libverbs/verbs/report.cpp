@@ -2,14 +2,14 @@
 
 #include <filesystem>
 
-#include "apps/invocation.hpp"
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
-#include "apps/verbs/options.hpp"
-#include "apps/verbs/result_input.hpp"
 #include "libbase/error.hpp"
 #include "libio/page/report_page.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/command/version.hpp"
+#include "libverbs/options/common.hpp"
+#include "libverbs/options/result_input.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include "apps/command.hpp"
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libverbs/command/command.hpp"
+#include "libverbs/command/exit_status.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

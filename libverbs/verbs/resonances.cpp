@@ -1,13 +1,13 @@
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/options.hpp"
-#include "apps/verbs/study.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/texts/resonance_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/options/common.hpp"
+#include "libverbs/options/study.hpp"
 
 namespace whirl::inline cli {
 

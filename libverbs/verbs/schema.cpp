@@ -2,10 +2,10 @@
 
 #include <cstdio>
 
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
 #include "libio/model/model_schema.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libverbs/command/exit_status.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

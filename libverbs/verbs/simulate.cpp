@@ -1,6 +1,6 @@
-#include "apps/verbs/common.hpp"
-#include "apps/verbs/measured.hpp"
-#include "apps/verbs/simulation.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/options/measured.hpp"
+#include "libverbs/options/simulation.hpp"
 
 namespace whirl::inline cli {
 

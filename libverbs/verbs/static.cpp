@@ -1,8 +1,8 @@
-#include "apps/verb.hpp"
-#include "apps/verbs/common.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/texts/static_text.hpp"
+#include "libverbs/command/reporting.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::inline cli {
 

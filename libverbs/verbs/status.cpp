@@ -1,9 +1,9 @@
-#include "apps/invocation.hpp"
-#include "apps/program.hpp"
-#include "apps/verb.hpp"
 #include "libbase/error.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/status_text.hpp"
+#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/verb.hpp"
+#include "libverbs/command/version.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,7 +1,7 @@
 #include "libdyn/studies/sweep.hpp"
 
-#include "apps/verbs/study.hpp"
 #include "libio/texts/sweep_text.hpp"
+#include "libverbs/options/study.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,7 +1,7 @@
-#include "apps/verbs/orbits.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/kept_branches.hpp"
 #include "libio/texts/torus_text.hpp"
+#include "libverbs/options/orbits.hpp"
 
 namespace whirl::inline cli {
 

@@ -1,6 +1,6 @@
 // The list of verbs, in the order of the help. A new verb is a file in verbs/ and a line here.
 
-#include "apps/verb.hpp"
+#include "libverbs/command/verb.hpp"
 
 // clang-format off
 #define VERBS        \

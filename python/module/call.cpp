@@ -8,9 +8,9 @@
 #include <optional>
 #include <thread>
 
-#include "apps/command.hpp"
 #include "libbase/interruption.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libverbs/command/command.hpp"
 
 namespace whirl::inline python {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/invocation.hpp"
-#include "apps/verb.hpp"
+#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/verb.hpp"
 #include "python/module/model_text.hpp"
 
 namespace whirl::inline python {

@@ -3,10 +3,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "apps/program.hpp"
 #include "libio/import/import_file.hpp"
 #include "libio/model/file_text.hpp"
 #include "libio/model/model_schema.hpp"
+#include "libverbs/command/version.hpp"
 #include "python/module/call.hpp"
 #include "python/module/errors.hpp"
 #include "python/module/model_text.hpp"

@@ -2,10 +2,10 @@
 
 #include <pybind11/stl.h>
 
-#include "apps/program.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/choice.hpp"
 #include "libio/page/report_page.hpp"
+#include "libverbs/command/version.hpp"
 
 namespace whirl::inline python {
 

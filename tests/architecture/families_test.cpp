@@ -28,9 +28,11 @@ std::map<std::string, int> places_in(const char* folder, const std::string& patt
   return places;
 }
 
-/// The same in the program.
+/// The same among verbs and in the programs.
 std::map<std::string, int> places_of(const std::string& pattern) {
-  return places_in("apps", pattern);
+  std::map<std::string, int> places = places_in("libverbs", pattern);
+  places.merge(places_in("apps", pattern));
+  return places;
 }
 
 /// Members by the functions of a list that describe them, such as modes_verb().
@@ -47,13 +49,13 @@ std::vector<std::string> names_in(const char* list, const std::string& family) {
 }
 
 TEST(Verbs, EachIsOneFileAndOneLineOfTheList) {
-  const std::vector<std::string> names = names_in("apps/verbs.cpp", "verb");
+  const std::vector<std::string> names = names_in("libverbs/verbs/verbs.cpp", "verb");
   EXPECT_GE(names.size(), 24u);
   for (const std::string& name : names) {
     const std::string own = "verbs/" + name + ".cpp";
     // its functions: one that describes it, and one that runs it
     EXPECT_EQ(places_of("\\b" + name + "_verb\\b"),
-              (std::map<std::string, int>{{own, 1}, {"verbs.cpp", 1}}));
+              (std::map<std::string, int>{{own, 1}, {"verbs/verbs.cpp", 1}}));
     EXPECT_EQ(places_of("\\brun_" + name + "\\b"), (std::map<std::string, int>{{own, 2}}));
     EXPECT_EQ(places_of("\\.name = \"" + name + "\""), (std::map<std::string, int>{{own, 1}}));
   }
@@ -62,7 +64,8 @@ TEST(Verbs, EachIsOneFileAndOneLineOfTheList) {
 // One whose name is no common word: nothing else of the program knows its name as that of a verb.
 TEST(Verbs, UnbalanceIsNamedNowhereElse) {
   const auto places = places_of("\"unbalance\"|unbalance_verb|run_unbalance");
-  EXPECT_EQ(places, (std::map<std::string, int>{{"verbs/unbalance.cpp", 4}, {"verbs.cpp", 1}}));
+  EXPECT_EQ(places,
+            (std::map<std::string, int>{{"verbs/unbalance.cpp", 4}, {"verbs/verbs.cpp", 1}}));
 }
 
 TEST(Figures, EachIsDescribedInOneFileAndALineOfTheList) {
@@ -84,7 +87,7 @@ TEST(ContactLaws, HertzIsAFileAndTwoLinesOfTheList) {
   std::map<std::string, int> outside = places;
   outside.erase("laws/hertz.hpp");
   EXPECT_EQ(outside, (std::map<std::string, int>{{"laws.hpp", 2}}));
-  for (const char* folder : {"libfe", "libdyn", "libio", "apps"}) {
+  for (const char* folder : {"libfe", "libdyn", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(places_in(folder, "\\bHertz<|laws/hertz").empty()) << folder;
   }
 }
@@ -94,14 +97,14 @@ TEST(Bearings, TableBearingIsAFileAndTwoLinesOfTheList) {
   auto places = places_in("libfe", "\\bTableBearing\\b|bearings/table");
   places.erase("bearings/table.hpp");
   EXPECT_EQ(places, (std::map<std::string, int>{{"bearings.hpp", 2}}));
-  for (const char* folder : {"libcontact", "libdyn", "libio", "apps"}) {
+  for (const char* folder : {"libcontact", "libdyn", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(places_in(folder, "\\bTableBearing\\b|bearings/table").empty()) << folder;
   }
 }
 
 // Nothing asks for the first kind, either: only the list knows what kinds there are.
 TEST(Bearings, NoCodeAsksForAKind) {
-  for (const char* folder : {"libfe", "libcontact", "libdyn", "libio", "apps"}) {
+  for (const char* folder : {"libfe", "libcontact", "libdyn", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(
         places_in(folder, "(get_if|get|holds_alternative)<(Constant|Table)Bearing>").empty())
         << folder;
@@ -115,7 +118,7 @@ TEST(Geometries, AStopIsAFileAndTwoLinesOfTheList) {
   std::map<std::string, int> outside = places_in("libcontact", named);
   outside.erase("geometry/stop.hpp");
   EXPECT_EQ(outside, (std::map<std::string, int>{{"geometries.hpp", 2}}));
-  for (const char* folder : {"libfe", "libdyn", "libio", "apps"}) {
+  for (const char* folder : {"libfe", "libdyn", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(places_in(folder, named).empty()) << folder;
   }
 }

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/verb.hpp"
+#include "libverbs/command/verb.hpp"
 
 namespace whirl::test {
 

@@ -1,12 +1,10 @@
-#include "apps/program.hpp"
+#include "libverbs/command/exit_status.hpp"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 
 namespace whirl::inline cli {
-
-const char* const version = WHIRL_VERSION;
 
 int after_printing(int status) {
   if (std::fflush(stdout) == 0) return status;

@@ -1,12 +1,9 @@
 #pragma once
-/// The program: its version, and how it ends.
+/// How a program ends that runs a verb.
 
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline cli {
-
-/// Version of the program, from the build.
-extern const char* const version;
 
 /// Exit statuses.
 namespace exit_status {
