@@ -15,6 +15,7 @@
 #include "libio/results/study_part.hpp"
 #include "libio/text/option.hpp"
 #include "libio/text/record.hpp"
+#include "libverbs/command/exit_status.hpp"
 
 namespace whirl::inline io {
 class ResultWriter;
@@ -116,8 +117,8 @@ struct Report {
   std::string text;  ///< for people
   /// What the numbers leave out or go beyond, a sentence each: printed below the text, in JSON.
   std::vector<std::string> notes{};
-  Failure failure;  ///< goes to standard error, --quiet or not
-  int status = 0;   ///< 0; 3: failed, what was computed is in the report; 130: stopped
+  Failure failure;                 ///< goes to standard error, --quiet or not
+  int status = exit_status::done;  ///< or failed or stopped: what was computed is in the report
 
   void add_notes(const std::vector<std::string>& more) {
     notes.insert(notes.end(), more.begin(), more.end());

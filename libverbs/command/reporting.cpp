@@ -10,9 +10,14 @@
 
 namespace whirl::inline cli {
 
-Report begin_report(const Invocation& call, const Model& model, const Record& result) {
+Report begin_report(const Invocation& call) {
   Report report;
   report.record.set("model", call.file).set("version", version);
+  return report;
+}
+
+Report begin_report(const Invocation& call, const Model& model, const Record& result) {
+  Report report = begin_report(call);
   report.record.set("speed_rpm", model.speed / rpm).merge(result);
   return report;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What several verbs do in the same way.
+/// How reports begin and end, and how files come to them.
 
 #include <functional>
 #include <string>
@@ -13,7 +13,9 @@
 
 namespace whirl::inline cli {
 
-/// A report with the entries that all verbs have (model, version, speed_rpm), and those of a result.
+/// A report with the entries that all verbs have (model, version).
+Report begin_report(const Invocation& call);
+/// The same of verbs that take a model, whose speed it says (speed_rpm), with the entries of a result.
 Report begin_report(const Invocation& call, const Model& model, const Record& result = {});
 
 /// Notes the bearing tables that are held constant at the speed of the model, or at one that --over

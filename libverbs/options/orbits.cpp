@@ -50,7 +50,7 @@ Report orbit_report(const Invocation& call, const Model& model, const std::strin
 
 void add_kept(const Invocation& call, const std::string& points, long resumed, Report& report) {
   if (resumed > 0) report.text += fmt::format("\n  {} {} were there already\n", resumed, points);
-  if (report.status == 130) {
+  if (report.status == exit_status::stopped) {
     report.text +=
         fmt::format("\n  stopped{}\n", call.output.out ? "; the same line goes on from there" : "");
   }

@@ -48,11 +48,11 @@ Run run_simulation(const Invocation& call, const Model& model,
 int status_of(Outcome outcome) {
   switch (outcome) {
     case Outcome::reached_end:
-      return 0;
+      return exit_status::done;
     case Outcome::stopped_by_observer:
-      return 130;
+      return exit_status::stopped;
     default:
-      return 3;
+      return exit_status::failed;
   }
 }
 

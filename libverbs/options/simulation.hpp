@@ -54,7 +54,7 @@ MotionState starting_state(const Option<std::string>& from, Model model, const S
 Run run_simulation(const Invocation& call, const Model& model,
                    const IntegrationVerbOptions& options);
 
-/// Exit status of a run: 0, 3 (failed) or 130 (stopped by the user).
+/// Exit status of a run.
 int status_of(Outcome outcome);
 
 /// Report on a run under a headline: its record, its text, its notes and its status.

@@ -62,8 +62,10 @@ Report study_report(const Invocation& call, const Model& model, const StudyOutco
   Report report = begin_report(call, model, record);
   report.record.merge(record_of(outcome));
   report.text = text + text_of(outcome, call.output.out.is_given);
-  report.status = !outcome.is_whole() ? 130 : outcome.has_failed() ? 3 : 0;
-  if (report.status == 3) report.failure = outcome.failure;
+  report.status = !outcome.is_whole()    ? exit_status::stopped
+                  : outcome.has_failed() ? exit_status::failed
+                                         : exit_status::done;
+  if (report.status == exit_status::failed) report.failure = outcome.failure;
   tell_result(call, report);
   note_tables(call, model, report);
   return report;

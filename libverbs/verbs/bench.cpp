@@ -50,7 +50,7 @@ Report run_bench(const Invocation& call, const BenchVerbOptions& asked) {
       {.progress = progress_of(call, "measuring"), .is_stopped = call.stop_asked()});
 
   Report report = begin_report(call, model, record_of(study));
-  report.status = study.is_whole ? 0 : 130;
+  report.status = study.is_whole ? exit_status::done : exit_status::stopped;
   report.text = headline("Speed against error", model) + "\n" + text_of(study, model);
   if (asked.svg) {
     const Figure figure = work_precision_figure(work_precision_of(study, model));

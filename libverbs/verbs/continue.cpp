@@ -75,7 +75,7 @@ Report run_continue(const Invocation& call, const ContinueVerbOptions& asked) {
   };
   const auto [found, resumed] = keep_branches(
       setup, study_keeping(call, model, asked.kept, "points of branches", report.notes), settled);
-  report.status = found.is_complete() ? 0 : 130;
+  report.status = found.is_complete() ? exit_status::done : exit_status::stopped;
   const BranchResult branches = setup.result(found.tree);
   report.record.merge(record_of(branches)).set("resumed", resumed);
   report.text += text_of(branches);

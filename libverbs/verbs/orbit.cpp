@@ -5,7 +5,6 @@
 #include "libio/results/columns.hpp"
 #include "libio/results/orbit_results.hpp"
 #include "libio/texts/orbit_text.hpp"
-#include "libverbs/command/exit_status.hpp"
 
 namespace whirl::inline cli {
 
@@ -26,7 +25,7 @@ Report orbit_found(const Invocation& call, const Model& model, const Scene& scen
                    const Orbit& orbit, const std::string& what, const Record& asked) {
   Report report = orbit_report(call, model, what);
   report.failure = orbit.failure;
-  report.status = orbit.is_good() ? 0 : 3;
+  report.status = orbit.is_good() ? exit_status::done : exit_status::failed;
   report.record.merge(asked).merge(record_of(orbit));
   report.record.set("reduction", record_of(reduction_facts(scene)));
   report.text += "\n" + reduction_text(scene, model) + text_of(orbit);

@@ -48,7 +48,7 @@ Report search_orbits(const Invocation& call, const OrbitVerbOptions& asked) {
       orbit_report(call, model,
                    fmt::format("Orbits of {} revolution{} from {} random starts", options.period,
                                options.period == 1 ? "" : "s", search.done));
-  report.status = search.done < options.starts ? 130 : 0;
+  report.status = search.done < options.starts ? exit_status::stopped : exit_status::done;
   report.record.set("frame", "stationary").set("period_revs", options.period);
   report.record.merge(record_of(search));
   report.record.set("reduction", record_of(reduction_facts(scene)));

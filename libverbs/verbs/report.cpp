@@ -5,7 +5,7 @@
 #include "libbase/error.hpp"
 #include "libio/page/report_page.hpp"
 #include "libio/results/replace_file.hpp"
-#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
 #include "libverbs/command/version.hpp"
 #include "libverbs/options/common.hpp"
@@ -35,8 +35,8 @@ Report run_report(const Invocation& call, const ReportVerbOptions& options) {
     throw FileError(fmt::format("{} holds nothing that can be drawn", call.file));
   }
   replace_file(out, page.html, call.picture_replaces());
-  Report report;
-  report.record.set("model", call.file).set("version", version).set("figures", page.figures);
+  Report report = begin_report(call);
+  report.record.set("figures", page.figures);
   report.record.set("files", file_list({out}));
   report.text = fmt::format("  {}: {} figures, {:.1f} MB; open it in a browser\n", out,
                             page.figures, 1e-6 * static_cast<double>(page.html.size()));

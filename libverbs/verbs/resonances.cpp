@@ -48,7 +48,7 @@ Report run_resonances(const Invocation& call, const ResonancesVerbOptions& asked
                        .is_stopped = options.confirms ? call.stop_asked() : nullptr,
                        .ranks = call.ranks});
   Report report = begin_report(call, model, record_of(study));
-  report.status = study.is_whole ? 0 : 130;
+  report.status = study.is_whole ? exit_status::done : exit_status::stopped;
   report.text = headline("Internal resonances seen from the rotor", model) + "\n" + text_of(study) +
                 (study.is_whole ? "" : "\n  stopped\n");
   if (options.confirms) {

@@ -1,9 +1,8 @@
 #include "libbase/error.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/status_text.hpp"
-#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
-#include "libverbs/command/version.hpp"
 
 namespace whirl::inline cli {
 
@@ -11,7 +10,7 @@ namespace {
 
 Report run_status(const Invocation& call) {
   if (call.output.out) throw ModelError({"--out"}, "", "there is nothing to write but --json");
-  Report report;
+  Report report = begin_report(call);
   Record studies = Record::array();
   std::vector<std::string> files{call.file};
   files.insert(files.end(), call.words.begin(), call.words.end());
@@ -20,7 +19,7 @@ Report run_status(const Invocation& call) {
     studies.add(record_of(status));
     report.text += text_of(status);
   }
-  report.record.set("model", call.file).set("version", version).set("studies", studies);
+  report.record.set("studies", studies);
   return report;
 }
 

@@ -44,12 +44,14 @@ Report run_torus(const Invocation& call, const TorusVerbOptions& asked) {
   if (torus.circle.points.size() == 0) {
     report.text.clear();
     report.failure = "stopped in the transient";
-    report.status = 130;
+    report.status = exit_status::stopped;
     return report;
   }
   const TorusResult result = setup.result(torus);
   report.failure = result.failure;
-  report.status = !result.is_good ? 3 : torus.is_complete ? 0 : 130;
+  report.status = !result.is_good     ? exit_status::failed
+                  : torus.is_complete ? exit_status::done
+                                      : exit_status::stopped;
   report.record.merge(record_of(result));
   if (!torus.walks.empty()) report.record.set("resumed", resumed);
   report.text += "\n" + text_of(result);
