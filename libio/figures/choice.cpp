@@ -11,6 +11,7 @@
 #include "libio/figures/probes.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/option_values.hpp"
+#include "libio/text/table.hpp"
 
 namespace whirl::inline io {
 
@@ -110,6 +111,16 @@ DrawableKinds drawable_kinds(const ResultView& result) {
     }
   }
   return all;
+}
+
+std::string text_of(const DrawableKinds& all, const std::string& file) {
+  Table table({"kind", "shows", "--which"});
+  for (const DrawableKind& kind : all.kinds) {
+    table.row({kind.name, kind.summary, fmt::format("{}", fmt::join(kind.variants, " | "))});
+  }
+  std::string text = fmt::format("{} can be drawn as\n\n{}", file, table.text());
+  for (const std::string& problem : all.problems) text += fmt::format("  {}\n", problem);
+  return text + fmt::format("\n  whirl plot {} KIND --out FILE.svg\n", file);
 }
 
 Figure chosen_figure(const ResultView& result, const FigureChoice& choice) {

@@ -30,6 +30,9 @@ struct DrawableKinds {
   static constexpr auto columns() { return ColumnList{rows(&DrawableKinds::kinds, "kinds")}; }
 };
 DrawableKinds drawable_kinds(const ResultView& result);
+/// A line each, then the command that draws one.
+/// @param file  of the result
+std::string text_of(const DrawableKinds& all, const std::string& file);
 
 /// A figure of a result that was asked for.
 struct FigureChoice {

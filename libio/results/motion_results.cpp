@@ -74,6 +74,12 @@ Recording stored_recording(const ResultReader& file, const Scene& scene, std::si
 
 }  // namespace
 
+void write_rest(ResultWriter& file, const StaticStudy& study) {
+  write_result(file, study.at_rest);
+  if (!study.on_films.films.empty()) write_result(file, study.on_films);
+  if (study.line.z.size() > 0) write_result(file, study.line);
+}
+
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler) {
   write_result(file, point_names(model, assembler));
 }

@@ -1,16 +1,20 @@
 #pragma once
-/// Motions and where they end, to a result file and back.
+/// Rest, motions and where they end, to a result file and back.
 
 #include <optional>
 #include <string>
 
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/start.hpp"
+#include "libdyn/motions/static_study.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 
 namespace whirl::inline io {
 
 class ResultWriter;
+
+/// Groups of a rotor at rest: what its bearings and films carry, and how its shaft bends.
+void write_rest(ResultWriter& file, const StaticStudy& study);
 
 /// Group /points: nodes and bodies with their positions and names.
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);

@@ -1,5 +1,4 @@
 #include "libdyn/motions/lateral_report.hpp"
-#include "libdyn/motions/static_study.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
@@ -85,9 +84,7 @@ Report run_lateral(const Invocation& call, const LateralVerbOptions& options) {
     write_result(file, study.report);
     write_result(file, study.criticals);
     write_result(file, study.campbell);
-    write_result(file, rest.at_rest);
-    if (!rest.on_films.films.empty()) write_result(file, rest.on_films);
-    if (rest.line.z.size() > 0) write_result(file, rest.line);
+    write_rest(file, rest);
   });
   return report;
 }

@@ -1,14 +1,11 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/drawing/picture_file.hpp"
 #include "libio/figures/choice.hpp"
 #include "libio/results/columns.hpp"
-#include "libio/text/table.hpp"
-#include "libverbs/command/invocation.hpp"
+#include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
-#include "libverbs/command/version.hpp"
 #include "libverbs/options/common.hpp"
 #include "libverbs/options/result_input.hpp"
 
@@ -48,16 +45,9 @@ Report list_of(const Invocation& call, const PlotVerbOptions& options, const Res
   };
   refuse(options.out, options.with, options.size, options.font, options.format, options.no_title);
   const DrawableKinds all = drawable_kinds(result);
-  Table table({"kind", "shows", "--which"});
-  for (const DrawableKind& kind : all.kinds) {
-    table.row({kind.name, kind.summary, fmt::format("{}", fmt::join(kind.variants, " | "))});
-  }
-  Report report;
-  report.record.set("model", call.file).set("version", version).merge(record_of(all));
-  report.record.set("files", file_list({}));
-  report.text = fmt::format("{} can be drawn as\n\n{}", call.file, table.text());
-  for (const std::string& problem : all.problems) report.text += fmt::format("  {}\n", problem);
-  report.text += fmt::format("\n  whirl plot {} KIND --out FILE.svg\n", call.file);
+  Report report = begin_report(call);
+  report.record.merge(record_of(all)).set("files", file_list({}));
+  report.text = text_of(all, call.file);
   return report;
 }
 
@@ -89,8 +79,7 @@ Report run_plot(const Invocation& call, const PlotVerbOptions& options) {
                  .is_printed = size.is_given() || size.font > 0.0,
                  .replaces = call.picture_replaces()});
 
-  Report report;
-  report.record.set("model", call.file).set("version", version);
+  Report report = begin_report(call);
   report.record.set("kind", figure.kind).set("variant", figure.variant);
   report.record.set("files", file_list({out}));
   report.notes = figure.notes;

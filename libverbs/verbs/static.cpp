@@ -17,9 +17,7 @@ Report run_static(const Invocation& call) {
   report.add_notes(left_out_notes(model, {model.speed}));
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
-    write_result(file, study.at_rest);
-    if (!study.on_films.films.empty()) write_result(file, study.on_films);
-    if (study.line.z.size() > 0) write_result(file, study.line);
+    write_rest(file, study);
   });
   return report;
 }
