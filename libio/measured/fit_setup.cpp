@@ -57,22 +57,6 @@ FitMeasurement measurement_of(const Model& model, const FreeParameters& free,
 
 }  // namespace
 
-Parsed<double> parse_revolutions(const std::string& text) {
-  const auto number = parse_as(text, "");
-  if (number && *number >= 0.0) return number;
-  return Parsed<double>::failed("expected a number of revolutions, such as 20");
-}
-
-Parsed<ProbeNoise> parse_probe_noise(const std::string& text) {
-  const bool is_share = text.ends_with('%');
-  const auto number =
-      is_share ? parse_as(text.substr(0, text.size() - 1), "") : parse_as(text, "m");
-  if (!number || !(*number > 0.0)) {
-    return Parsed<ProbeNoise>::failed("expected a length such as 2um, or a share such as 1%");
-  }
-  return ProbeNoise{is_share ? 0.01 * *number : *number, is_share};
-}
-
 std::vector<FitMeasurement> fit_measurements(const Model& model, const FreeParameters& free,
                                              const std::vector<RecordSource>& sources,
                                              const FitWindow& window,

@@ -7,7 +7,6 @@
 #include "libdyn/fit/measured_fit.hpp"
 #include "libio/measured/measurement.hpp"
 #include "libio/model/free_parameters.hpp"
-#include "libio/text/units.hpp"
 
 namespace whirl::inline io {
 
@@ -16,11 +15,6 @@ struct FitWindow {
   double from = 0.0;          ///< revolutions before it
   double revolutions = 20.0;  ///< at most; 0: all that there are
 };
-
-/// A number of revolutions, 0 or more.
-Parsed<double> parse_revolutions(const std::string& text);
-/// A length, or a share of what a probe reads such as 1%.
-Parsed<ProbeNoise> parse_probe_noise(const std::string& text);
 
 /// Reads records for a fit of a model.
 ///

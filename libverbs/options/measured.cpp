@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <sstream>
-
-#include "libbase/constants.hpp"
 #include "libdyn/measured/simulated_record.hpp"
 #include "libio/measured/probe_file.hpp"
 #include "libio/measured/record_file.hpp"
@@ -17,36 +13,6 @@ RecordSource source_of(const Invocation& call, const RecordVerbOptions& options)
           .probes = options.probes.value_or(""),
           .rate = options.rate.value,
           .has_speed = !call.text("speed").empty()};
-}
-
-Parsed<double> RecordVerbOptions::parse_rate(const std::string& text) {
-  if (const auto number = parse_as(text, ""); number && *number > 0.0) return number;
-  const auto frequency = parse_as(text, "rad/s");
-  if (frequency && *frequency > 0.0) return *frequency / hertz;
-  return Parsed<double>::failed("expected samples per second, such as 5000 or 5 kHz");
-}
-
-Parsed<std::vector<double>> MeasuredVerbOptions::parse_orders(const std::string& text) {
-  std::vector<double> orders;
-  std::istringstream list(text);
-  for (std::string one; std::getline(list, one, ',');) {
-    const auto order = parse_as(one, "");
-    if (!order || *order <= 0.0) {
-      return Parsed<std::vector<double>>::failed("expected orders above zero, such as 1,2 or 0.5");
-    }
-    if (std::find(orders.begin(), orders.end(), *order) == orders.end()) orders.push_back(*order);
-  }
-  if (orders.empty()) return Parsed<std::vector<double>>::failed("expected orders, such as 1,2");
-  return orders;
-}
-
-Parsed<double> RecordingVerbOptions::parse_noise(const std::string& text) {
-  const bool is_percent = text.ends_with('%');
-  const auto number = parse_as(is_percent ? text.substr(0, text.size() - 1) : text, "");
-  if (!number || *number < 0.0) {
-    return Parsed<double>::failed("expected a share of the signal, such as 1% or 0.01");
-  }
-  return is_percent ? 0.01 * *number : *number;
 }
 
 std::optional<OrderTracking> tracked_orders(const MeasuredVerbOptions& options,

@@ -7,6 +7,7 @@
 #include "libdyn/measured/order_tracking.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libio/measured/measurement.hpp"
+#include "libio/measured/record_values.hpp"
 #include "libio/text/option.hpp"
 #include "libverbs/command/invocation.hpp"
 
@@ -21,10 +22,8 @@ struct RecordVerbOptions {
                              "which channels of it are which probes; left out: those of the model, "
                              "by their names"};
   Option<double> rate{"rate", "R", "samples per second, where the record does not say it",
-                      parse_rate};
+                      parse_sampling_rate};
   auto fields() { return std::tie(measured, probes, rate); }
-
-  static Parsed<double> parse_rate(const std::string& text);
 };
 
 /// The record of a call.
@@ -38,10 +37,8 @@ struct MeasuredVerbOptions {
       parse_orders};
   Option<double> slow_roll{"slow-roll", "S",
                            "speed of the record whose readings are taken off these orders",
-                           [](const std::string& text) { return parse_as(text, "rad/s"); }};
+                           parse_frequency};
   auto fields() { return std::tie(record, orders, slow_roll); }
-
-  static Parsed<std::vector<double>> parse_orders(const std::string& text);
 };
 
 /// The orders that a call asks for; nothing: it asks for none.
@@ -60,11 +57,9 @@ struct RecordingVerbOptions {
   Option<double> noise{"noise", "P",
                        "of each of its channels, such as 1%: standard deviation, of "
                        "the signal's",
-                       0.0, parse_noise};
+                       0.0, parse_noise_share};
   Option<std::uint64_t> seed{"seed", "S", "of the noise", 1};
   auto fields() { return std::tie(measure, out, noise, seed); }
-
-  static Parsed<double> parse_noise(const std::string& text);
 };
 
 /// The probes that a motion is recorded with; nothing: it is not recorded.

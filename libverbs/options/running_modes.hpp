@@ -16,7 +16,7 @@ struct RunningModesVerbOptions {
   Option<int> block_rows{"block-rows", "N",
                          "of the covariances they come from; left out: by what the record has"};
   Option<double> highest{"highest", "F", "frequency of interest, for which samples are thinned out",
-                         [](const std::string& text) { return parse_as(text, "rad/s"); }};
+                         parse_frequency};
   Option<int> speed_harmonics{"speed-harmonics", "N", "of the speed that are taken out before", 10,
                               Whole{0}};
   Flag keep_harmonics{"keep-harmonics", "mark these, and leave them in the record"};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "libio/measured/fit_setup.hpp"
+#include "libio/measured/record_values.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/text/parameter_axis.hpp"
