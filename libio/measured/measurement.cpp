@@ -60,12 +60,11 @@ void take_speed(Model& model, ProbeReadings& readings, bool is_given) {
 }
 
 /// Readings of a record; what is wrong with it is said of its file.
-ProbeReadings readings_of(const RecordSource& source, const MeasurementSetup& setup) {
-  const MeasuredRecord record = read_record(source.file, source.rate);
+ProbeReadings readings_of(const SourcedRecord& read, const MeasurementSetup& setup) {
   try {
-    return probe_readings(record, setup);
+    return probe_readings(read.record, setup);
   } catch (const OptionError& error) {
-    throw ModelError({source.file}, "", error.problems().front().message);
+    throw ModelError({read.source.file}, "", error.problems().front().message);
   }
 }
 
@@ -106,25 +105,8 @@ class ListReader {
   RecordSource all_;
 };
 
-}  // namespace
-
-Model with_values(const Model& model, const std::vector<std::string>& sets) {
-  return parse_model(model.source, model.path, sets,
-                     std::filesystem::path(model.path).parent_path());
-}
-
-Measurement read_measurement(Model model, const RecordSource& source) {
-  Measurement found{std::move(model), {}};
-  const MeasurementSetup setup = source.probes.empty()
-                                     ? model_probes(found.model)
-                                     : read_probe_file(source.probes, found.model);
-  found.readings = readings_of(source, setup);
-  take_speed(found.model, found.readings, source.has_speed);
-  return found;
-}
-
-std::vector<RecordSource> read_record_list(const std::filesystem::path& path,
-                                           const RecordSource& all) {
+/// @throws ModelError  with every problem found and its place in the file
+std::vector<RecordSource> read_list(const std::filesystem::path& path, const RecordSource& all) {
   const ConfigNode root = parse_toml(file_text(path), path.string());
   std::vector<Problem> problems;
   {
@@ -146,9 +128,35 @@ std::vector<RecordSource> read_record_list(const std::filesystem::path& path,
   return sources;
 }
 
-std::vector<RecordSource> records_of(const RecordSource& source) {
+}  // namespace
+
+Model with_values(const Model& model, const std::vector<std::string>& sets) {
+  return parse_model(model.source, model.path, sets,
+                     std::filesystem::path(model.path).parent_path());
+}
+
+Measurement measurement_of(Model model, const SourcedRecord& record) {
+  const RecordSource& source = record.source;
+  Measurement found{std::move(model), {}};
+  const MeasurementSetup setup = source.probes.empty()
+                                     ? model_probes(found.model)
+                                     : read_probe_file(source.probes, found.model);
+  found.readings = readings_of(record, setup);
+  take_speed(found.model, found.readings, source.has_speed);
+  return found;
+}
+
+Measurement read_measurement(Model model, const RecordSource& source) {
+  return measurement_of(std::move(model), {source, read_record(source.file, source.rate)});
+}
+
+std::vector<SourcedRecord> read_records(const RecordSource& source) {
   const bool is_list = std::filesystem::path(source.file).extension() == ".toml";
-  return is_list ? read_record_list(source.file, source) : std::vector{source};
+  std::vector<SourcedRecord> records;
+  for (const RecordSource& one : is_list ? read_list(source.file, source) : std::vector{source}) {
+    records.push_back({one, read_record(one.file, one.rate)});
+  }
+  return records;
 }
 
 }  // namespace whirl::inline io

@@ -1,7 +1,6 @@
 #pragma once
 /// A measurement of a rotor: its model at the speed of a record, and what its probes read.
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,22 +19,31 @@ struct RecordSource {
   std::vector<std::string> sets{};  ///< "PATH=VALUE" of the model, for this record
 };
 
+/// A record, and where it is from.
+struct SourcedRecord {
+  RecordSource source;
+  MeasuredRecord record;
+};
+
 struct Measurement {
   Model model;
   ProbeReadings readings;
 };
 
-/// Reads the record and its probes. The speed is that of the key-phasor, or else the model's.
+/// What the probes read in a record. The speed is that of the key-phasor, or else the model's.
 ///
 /// @param model  with what the source sets
 /// @throws ModelError, FileError  for what is wrong in these files, and if nothing says the speed
+Measurement measurement_of(Model model, const SourcedRecord& record);
+
+/// The same of a record that is not read yet.
 Measurement read_measurement(Model model, const RecordSource& source);
 
 /// The model with some values set, "PATH=VALUE" each.
 /// @throws ModelError  as parse_model
 Model with_values(const Model& model, const std::vector<std::string>& sets);
 
-/// Reads a list of records, [[record]] each:
+/// Reads a record, or all of a list, a file that ends with .toml and has a [[record]] each:
 ///
 ///   file    of the record, from the folder of the list
 ///   probes  file of its probes; left out, the one that all have
@@ -43,12 +51,8 @@ Model with_values(const Model& model, const std::vector<std::string>& sets);
 ///   rate    samples per second, where the record does not say it
 ///   set     values of the model that are others then, ["disk.fan.unbalance=200g.mm"]
 ///
-/// @param all  what holds where a record says nothing
-/// @throws ModelError  with every problem found and its place in the file
-std::vector<RecordSource> read_record_list(const std::filesystem::path& path,
-                                           const RecordSource& all);
-
-/// The records of such a list, a file that ends with .toml, or the one that any other file is.
-std::vector<RecordSource> records_of(const RecordSource& source);
+/// @param source  the file, and what holds where a record of the list says nothing
+/// @throws ModelError, FileError  with every problem found in the list, and for what is wrong with a record
+std::vector<SourcedRecord> read_records(const RecordSource& source);
 
 }  // namespace whirl::inline io

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "libio/measured/fit_setup.hpp"
+#include "libio/measured/model_fit.hpp"
 #include "libio/measured/record_values.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/columns.hpp"
@@ -52,25 +52,14 @@ std::vector<Model> models_of(const Invocation& call, const FitVerbOptions& asked
   return models;
 }
 
-/// What is found for one of the models.
-MeasuredFit fit_of(const Invocation& call, const FitVerbOptions& asked, const Model& model,
-                   const FreeParameters& free) {
-  const bool is_all = asked.steady && !asked.revolutions.is_given;
-  std::vector<std::string> notes;
-  const auto measurements = fit_measurements(
-      model, free, records_of(source_of(call, asked.record)),
-      {.from = *asked.from, .revolutions = is_all ? 0.0 : *asked.revolutions}, notes);
-  MeasuredFit found =
-      fit(measurements, free.parameters,
-          {.noise = asked.noise.value,
-           .period = asked.steady.value_or(0),
-           .finds_offsets = asked.offsets,
-           .starts = *asked.starts,
-           .seed = *asked.seed,
-           .threads = study_threads(call),
-           .search = {.is_stopped = call.stop_asked(), .progress = progress_of(call, "fitting")}});
-  found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
-  return found;
+MeasuredFitOptions fit_options(const Invocation& call, const FitVerbOptions& asked) {
+  return {.noise = asked.noise.value,
+          .period = asked.steady.value_or(0),
+          .finds_offsets = asked.offsets,
+          .starts = *asked.starts,
+          .seed = *asked.seed,
+          .threads = study_threads(call),
+          .search = {.is_stopped = call.stop_asked(), .progress = progress_of(call, "fitting")}};
 }
 
 Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
@@ -82,10 +71,13 @@ Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
   const std::vector<Model> models = models_of(call, asked);
   const Model& model = models.front();
   const std::vector<FreeParameters> free = free_parameters(models, *asked.free);
+  const std::vector<SourcedRecord> records = read_records(source_of(call, asked.record));
+  const bool is_all = asked.steady && !asked.revolutions.is_given;
+  const FitWindow window{.from = *asked.from, .revolutions = is_all ? 0.0 : *asked.revolutions};
   std::vector<std::string> names;
   std::vector<MeasuredFit> fits;
   for (std::size_t i = 0; i < models.size(); ++i) {
-    fits.push_back(fit_of(call, asked, models[i], free[i]));
+    fits.push_back(fit_model(models[i], free[i], records, window, fit_options(call, asked)));
     names.push_back(models[i].path);
   }
   MeasuredFit& found = fits.front();
@@ -96,7 +88,7 @@ Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
   if (!found.has_converged) {
     const bool is_stopped = call.stop_asked()();
     report.failure = is_stopped ? "stopped" : "the fit did not converge: " + found.why_not;
-    report.status = is_stopped ? 130 : 3;
+    report.status = is_stopped ? exit_status::stopped : exit_status::failed;
   }
   write_file(call, model, report, [&](ResultWriter& file) {
     if (!found.files.empty()) file.attribute("/", "speed", found.files.front().speed);

@@ -1,4 +1,4 @@
-#include "libio/measured/fit_setup.hpp"
+#include "libio/measured/model_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -34,10 +34,11 @@ std::shared_ptr<const Scene> scene_for(const ModelFamily& family, const FreePara
       corrected_scene(*family.scene(starts), family.model(starts), others));
 }
 
-FitMeasurement measurement_of(const Model& model, const FreeParameters& free,
-                              const RecordSource& source, const FitWindow& window,
-                              std::vector<std::string>& notes) {
-  Measurement m = read_measurement(with_values(model, source.sets), source);
+FitMeasurement fit_measurement(const Model& model, const FreeParameters& free,
+                               const SourcedRecord& record, const FitWindow& window,
+                               std::vector<std::string>& notes) {
+  const RecordSource& source = record.source;
+  Measurement m = measurement_of(with_values(model, source.sets), record);
   if (m.readings.probes.empty()) {
     throw OptionError("no probes read it: give --probes FILE.toml, or the model a [[probe]]");
   }
@@ -55,26 +56,37 @@ FitMeasurement measurement_of(const Model& model, const FreeParameters& free,
   return found;
 }
 
-}  // namespace
-
+/// @param notes  receives what is odd about the records
 std::vector<FitMeasurement> fit_measurements(const Model& model, const FreeParameters& free,
-                                             const std::vector<RecordSource>& sources,
+                                             const std::vector<SourcedRecord>& records,
                                              const FitWindow& window,
                                              std::vector<std::string>& notes) {
   std::vector<FitMeasurement> all;
-  for (const RecordSource& source : sources) {
+  for (const SourcedRecord& record : records) {
     std::vector<std::string> own;
     try {
-      all.push_back(measurement_of(model, free, source, window, own));
+      all.push_back(fit_measurement(model, free, record, window, own));
     } catch (const OptionError& error) {
-      throw OptionError(source.file + ": " + error.what());
+      throw OptionError(record.source.file + ": " + error.what());
     }
     for (std::string& note : own) {
-      if (sources.size() > 1) note = all.back().name + ": " + note;
+      if (records.size() > 1) note = all.back().name + ": " + note;
       if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
     }
   }
   return all;
+}
+
+}  // namespace
+
+MeasuredFit fit_model(const Model& model, const FreeParameters& free,
+                      const std::vector<SourcedRecord>& records, const FitWindow& window,
+                      const MeasuredFitOptions& options) {
+  std::vector<std::string> notes;
+  MeasuredFit found =
+      fit(fit_measurements(model, free, records, window, notes), free.parameters, options);
+  found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
+  return found;
 }
 
 }  // namespace whirl::inline io
