@@ -1,6 +1,6 @@
 #include "libdyn/system/corrected_scene.hpp"
 
-#include "libbase/error.hpp"
+#include "libdyn/system/system_slope.hpp"
 #include "libfe/static_shapes.hpp"
 
 namespace whirl::inline dyn {
@@ -11,10 +11,7 @@ Scene corrected_scene(const Scene& scene, const Model& model, std::span<const Mo
   const Mat& Phi = scene.reduced.Phi;
   Mat loads(Phi.rows(), 0);
   for (const Model& other : others) {
-    const System changed = Assembler(other.structure).at(other.speed);
-    if (changed.M.rows() != Phi.rows()) {
-      throw NumericalError("the parameter changes the number of degrees of freedom");
-    }
+    const System changed = system_beside(scene, Assembler(other.structure), other);
     for (const auto matrix : {&System::M, &System::C, &System::G, &System::K}) {
       const Sparse change = changed.*matrix - system.*matrix;
       if (!(change.norm() > rounding * (system.*matrix).norm())) continue;

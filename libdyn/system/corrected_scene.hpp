@@ -18,7 +18,7 @@ namespace whirl::inline dyn {
 ///
 /// @param model   of the scene
 /// @param others  the same with another value of one parameter each
-/// @throws ModelError, NumericalError  as make_scene, and for another number of degrees of freedom
+/// @throws ModelError, NumericalError  as system_beside
 /// @source [CraigChang1977]
 Scene corrected_scene(const Scene& scene, const Model& model, std::span<const Model> others);
 

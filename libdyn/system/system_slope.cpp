@@ -7,13 +7,16 @@
 
 namespace whirl::inline dyn {
 
+System system_beside(const Scene& scene, const Assembler& assembler, const Model& model) {
+  System system = assembler.at(model.speed);
+  if (system.M.rows() == scene.reduced.Phi.rows()) return system;
+  throw NumericalError("the parameter changes the number of degrees of freedom");
+}
+
 ContactSystem in_shapes_of(const Scene& scene, const Model& model) {
   const Assembler assembler(model.structure);
-  const System system = assembler.at(model.speed);
+  const System system = system_beside(scene, assembler, model);
   const Mat& Phi = scene.reduced.Phi;
-  if (system.M.rows() != Phi.rows()) {
-    throw NumericalError("the parameter changes the number of degrees of freedom");
-  }
   const auto small = [&](const Sparse& A) -> Mat { return Phi.transpose() * (A * Phi); };
   const ReducedSystem reduced{
       Phi,         small(system.M), small(system.C), small(system.G), small(system.K),

@@ -45,9 +45,15 @@ struct SystemSlope {
 SystemSlope slope_of(std::string name, double value, double size,
                      const std::function<ContactSystem(double)>& at);
 
+/// M, C, G, K of a model at its speed, in the degrees of freedom of a scene of another one.
+///
+/// @param assembler  of the model
+/// @throws ModelError, NumericalError  as make_scene, and for another number of degrees of freedom
+System system_beside(const Scene& scene, const Assembler& assembler, const Model& model);
+
 /// The system of a model in the shapes Phi that a scene of another one moves in.
 ///
-/// @throws ModelError, NumericalError  as make_scene, and for another number of degrees of freedom
+/// @throws ModelError, NumericalError  as system_beside
 ContactSystem in_shapes_of(const Scene& scene, const Model& model);
 
 /// The slope of a scene by a parameter of its model.
