@@ -7,16 +7,30 @@
 
 namespace whirl::inline dyn {
 
+namespace {
+
+/// The same of states over their scale; none of none.
+EndSlopeAt over_scale(EndSlopeAt slope, const Vec& scale) {
+  if (!slope) return {};
+  return [slope = std::move(slope), scale](double value, const Vec& start, double revolutions) {
+    auto end = slope(value, scale.cwiseProduct(start), revolutions);
+    if (end) *end = end->cwiseQuotient(scale);
+    return end;
+  };
+}
+
+}  // namespace
+
 BranchEquations shooting_equations(FlowAt flow_at, Vec scale, EndSlopeAt end_slope) {
   BranchEquations equations;
   if (end_slope) {
-    equations.slope = [end_slope = std::move(end_slope), scale](const Vec& x, double value) -> Vec {
-      const Eigen::Index n = scale.size();
+    equations.slope = [n = scale.size(), end_slope = over_scale(std::move(end_slope), scale)](
+                          const Vec& x, double value) -> Vec {
       Vec slope(x.size());
       for (Eigen::Index i = 0; i < x.size(); i += n) {
-        const auto end = end_slope(value, scale.cwiseProduct(x.segment(i, n)), 1.0);
+        const auto end = end_slope(value, x.segment(i, n), 1.0);
         if (!end) return {};
-        slope.segment(i, n) = end->cwiseQuotient(scale);
+        slope.segment(i, n) = *end;
       }
       return slope;
     };
@@ -63,12 +77,12 @@ Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
 BranchEquations autonomous_equations(AutonomousFlowAt flow_at, Vec scale, EndSlopeAt end_slope) {
   BranchEquations equations;
   if (end_slope) {
-    equations.slope = [end_slope = std::move(end_slope), scale](const Vec& x, double value) -> Vec {
-      const Eigen::Index n = scale.size();
-      const auto end = end_slope(value, scale.cwiseProduct(x.head(n)), x(n));
+    equations.slope = [n = scale.size(), end_slope = over_scale(std::move(end_slope), scale)](
+                          const Vec& x, double value) -> Vec {
+      const auto end = end_slope(value, x.head(n), x(n));
       if (!end) return {};
       Vec slope = Vec::Zero(n + 1);  // nothing moves along the flow
-      slope.head(n) = end->cwiseQuotient(scale);
+      slope.head(n) = *end;
       return slope;
     };
   }
