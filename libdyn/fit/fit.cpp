@@ -132,6 +132,23 @@ void add_errors(Fit& fit, const FitSearch& search, const Sparse& J) {
   }
 }
 
+/// Why a search has not ended at a fit.
+std::string why_not_of(const ceres::Solver::Summary& summary, int iterations) {
+  switch (summary.termination_type) {
+    case ceres::CONVERGENCE:
+      return "";
+    case ceres::NO_CONVERGENCE:
+      return fmt::format(
+          "the search still moves after {} iterations: the model may not explain the records",
+          iterations);
+    case ceres::USER_FAILURE:
+      return fmt::format("it was stopped after {} iterations", iterations);
+    default:
+      return fmt::format("motions fail at all values that the search tries after {} iterations",
+                         iterations);
+  }
+}
+
 /// One search.
 Fit fit_from(FitSearch& search, const FitOptions& options) {
   FitLeastSquares squares(search);
@@ -149,22 +166,14 @@ Fit fit_from(FitSearch& search, const FitOptions& options) {
                                  : squares.solve(between, rough_iterations, rough_change);
     fit.iterations = squares.iterations();
     fit.has_converged = summary.termination_type == ceres::CONVERGENCE;
-    const bool is_out_of_time = summary.termination_type == ceres::NO_CONVERGENCE;
-    if (!fit.has_converged) {
-      fit.why_not = is_out_of_time ? fmt::format(
-                                         "the search still moves after {} iterations: the "
-                                         "model may not explain the records",
-                                         fit.iterations)
-                                   : summary.message;
-    }
-    if (!fit.has_converged && !is_out_of_time) break;
+    fit.why_not = why_not_of(summary, fit.iterations);
+    if (!fit.has_converged && summary.termination_type != ceres::NO_CONVERGENCE) break;
     if (options.progress) options.progress(++done, std::ssize(stages));
   }
   search.make_systems();
   add_residuals(fit, search);
   add_errors(fit, search, squares.jacobian());
   if (!fit.has_converged) return fit;
-  fit.why_not.clear();
   const double most =
       std::sqrt(1.0 + improbable * std::sqrt(2.0 / static_cast<double>(fit.readings)));
   if (options.is_noise_known && fit.residual > most) {

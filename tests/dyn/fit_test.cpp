@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -193,6 +194,18 @@ TEST(Fit, SaysThatAModelDoesNotExplainARecord) {
   EXPECT_FALSE(found.has_converged);
   EXPECT_GT(found.residual, 1.5);
   EXPECT_FALSE(found.why_not.empty());
+}
+
+TEST(Fit, SaysThatItWasStopped) {
+  Rig rig;
+  rig.revolutions = 3;
+  const auto free = rig.free(0.8);
+  int asked = 0;
+  const Fit found = fit({rig.source(rig.record(6), free)}, free,
+                        {.is_stopped = [&asked] { return ++asked > 12; }});
+  EXPECT_FALSE(found.has_converged);
+  EXPECT_TRUE(std::regex_match(found.why_not, std::regex("it was stopped after \\d+ iterations")))
+      << found.why_not;
 }
 
 // A ring that is never touched says nothing of its friction.
