@@ -1,6 +1,7 @@
 #include "libdyn/measured/measured_record.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -70,15 +71,21 @@ std::optional<Eigen::Index> MeasuredRecord::channel(const std::string& name) con
   return static_cast<Eigen::Index>(number - 1);
 }
 
+std::string Gaps::text(const MeasuredRecord& record) const {
+  return fmt::format("channel{} \"{}\": {} of {} samples are missing, the first at {:.6g} s",
+                     channels.size() > 1 ? "s" : "", fmt::join(channels, "\", \""), missing.size(),
+                     samples, record.time(missing.front()));
+}
+
 Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::string& name,
-                 std::vector<std::string>& notes) {
+                 std::vector<Gaps>& gaps) {
   Vec filled = samples;
   const Eigen::Index n = samples.size();
-  Eigen::Index missing = 0, first = -1, last_known = -1;
+  Gaps own{{name}, {}, n};
+  Eigen::Index last_known = -1;
   for (Eigen::Index j = 0; j < n; ++j) {
     if (!std::isfinite(samples(j))) {
-      if (first < 0) first = j;
-      ++missing;
+      own.missing.push_back(j);
       continue;
     }
     for (Eigen::Index k = last_known + 1; k < j; ++k) {
@@ -89,15 +96,20 @@ Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::st
     }
     last_known = j;
   }
-  if (missing == 0) return filled;
-  const std::string what =
-      fmt::format("channel \"{}\": {} of {} samples are missing, the first at {:.6g} s", name,
-                  missing, n, record.time(first));
-  if (static_cast<double>(missing) > most_missing * static_cast<double>(n)) {
-    throw OptionError(fmt::format("{}; expected at most {:g} %", what, 100.0 * most_missing));
+  if (own.missing.empty()) return filled;
+  if (static_cast<double>(own.missing.size()) > most_missing * static_cast<double>(n)) {
+    throw OptionError(
+        fmt::format("{}; expected at most {:g} %", own.text(record), 100.0 * most_missing));
   }
   for (Eigen::Index k = last_known + 1; k < n; ++k) filled(k) = samples(last_known);
-  notes.push_back(what + "; straight lines are in their place");
+  const auto alike = std::find_if(gaps.begin(), gaps.end(),
+                                  [&](const Gaps& g) { return g.missing == own.missing; });
+  if (alike == gaps.end()) {
+    gaps.push_back(std::move(own));
+  } else if (std::find(alike->channels.begin(), alike->channels.end(), name) ==
+             alike->channels.end()) {
+    alike->channels.push_back(name);
+  }
   return filled;
 }
 

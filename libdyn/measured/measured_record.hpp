@@ -32,13 +32,23 @@ struct MeasuredRecord {
 /// Share of the samples of a channel that may be missing.
 constexpr double most_missing = 0.05;
 
+/// Samples that are missing, and the channels that miss just these.
+struct Gaps {
+  std::vector<std::string> channels;
+  std::vector<Eigen::Index> missing;  ///< one or more
+  Eigen::Index samples = 0;           ///< of a channel
+
+  /// How many, and when first.
+  std::string text(const MeasuredRecord& record) const;
+};
+
 /// Fills missing samples of a channel by straight lines between their neighbors.
 ///
-/// @param name   of the channel, for notes
-/// @param notes  receives how many were missing, and when first
+/// @param name  of the channel
+/// @param gaps  of the channels before; receives its own
 /// @throws OptionError  if more than a twentieth is missing
 Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::string& name,
-                 std::vector<std::string>& notes);
+                 std::vector<Gaps>& gaps);
 
 /// Whether a signal was cut off: at its largest or smallest value it rests for three samples or more,
 /// and comes there by steps of more than two of the smallest that it makes. What was digitized coarsely

@@ -76,6 +76,7 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
   ProbeReadings readings{.rate = record.rate, .start = record.start};
   readings.displacement.resize(record.samples.rows(), std::ssize(setup.probes));
   std::vector<Eigen::Index> channels;
+  std::vector<Gaps> gaps;
   for (std::size_t i = 0; i < setup.probes.size(); ++i) {
     const MeasuredProbe& p = setup.probes[i];
     const auto c = channel_of(record, p.channel, fmt::format("probe \"{}\"", p.probe.name));
@@ -87,15 +88,21 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
                                            setup.probes[j].probe.name, p.probe.name));
     }
     channels.push_back(c);
-    const Vec samples = without_gaps(record.samples.col(c), record, channel.name, readings.notes);
+    const Vec samples = without_gaps(record.samples.col(c), record, channel.name, gaps);
     note_channel(samples, record, channel.name, readings.notes);
     readings.displacement.col(static_cast<Eigen::Index>(i)) = metres_per_unit(channel, p) * samples;
     readings.probes.push_back(p.probe);
   }
+  Vec pulses;
   if (const auto& key = setup.key_phasor) {
     const auto c = channel_of(record, key->channel, "key-phasor");
-    const Vec samples = without_gaps(record.samples.col(c), record, key->channel, readings.notes);
-    readings.clock.emplace(pulse_times(samples, record, *key), *key, readings.notes);
+    pulses = without_gaps(record.samples.col(c), record, key->channel, gaps);
+  }
+  for (const Gaps& g : gaps) {
+    readings.notes.push_back(g.text(record) + "; straight lines are in their place");
+  }
+  if (const auto& key = setup.key_phasor) {
+    readings.clock.emplace(pulse_times(pulses, record, *key), *key, readings.notes);
   }
   return readings;
 }

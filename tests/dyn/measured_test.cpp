@@ -116,15 +116,16 @@ TEST(MeasuredRecord, FillsGapsByStraightLines) {
   const MeasuredRecord record{.rate = 10.0};
   Vec samples = Vec::LinSpaced(101, 0.0, 100.0);
   samples(0) = samples(40) = samples(41) = samples(100) = std::nan("");
-  std::vector<std::string> notes;
-  const Vec filled = without_gaps(samples, record, "x", notes);
+  std::vector<Gaps> gaps;
+  const Vec filled = without_gaps(samples, record, "x", gaps);
   EXPECT_EQ(filled(0), 1.0);
   EXPECT_DOUBLE_EQ(filled(40), 40.0);
   EXPECT_DOUBLE_EQ(filled(41), 41.0);
   EXPECT_EQ(filled(100), 99.0);
-  EXPECT_TRUE(has_note(notes, "4 of 101 samples are missing, the first at 0 s"));
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_EQ(gaps[0].text(record), "channel \"x\": 4 of 101 samples are missing, the first at 0 s");
   samples.head(10).setConstant(std::nan(""));
-  EXPECT_THROW(without_gaps(samples, record, "x", notes), OptionError);
+  EXPECT_THROW(without_gaps(samples, record, "x", gaps), OptionError);
 }
 
 TEST(MeasuredRecord, TellsClippedSignalsFromCoarseOnes) {
@@ -251,6 +252,32 @@ TEST(ProbeReadings, TakesChannelsByGainAndUnit) {
   EXPECT_THROW(probe_readings(record, setup), OptionError);
   setup.probes = {{{"px", test::node(1)}, "x"}};
   EXPECT_THROW(probe_readings(record, setup), OptionError) << "a voltage without a gain";
+}
+
+TEST(ProbeReadings, TellRowsThatAreLeftOutOnce) {
+  MeasuredRecord record{.rate = 100.0};
+  record.channels = {{"x", "m"}, {"y", "m"}, {"z", "m"}};
+  record.samples = Mat::Random(200, 3);
+  record.samples.row(7).setConstant(std::nan(""));
+  record.samples.row(9).setConstant(std::nan(""));
+  MeasurementSetup setup;
+  for (const char* name : {"x", "y", "z"}) {
+    setup.probes.push_back({{name, test::node(1)}, name, {ProbeGain::Of::length, 1.0}});
+  }
+  const auto told = [&] {
+    std::string lines;
+    for (const std::string& note : probe_readings(record, setup).notes) lines += note + "\n";
+    return lines;
+  };
+  EXPECT_EQ(told(),
+            "channels \"x\", \"y\", \"z\": 2 of 200 samples are missing, the first at 0.07 s; "
+            "straight lines are in their place\n");
+  record.samples(3, 1) = std::nan("");  // of one channel more
+  EXPECT_EQ(told(),
+            "channels \"x\", \"z\": 2 of 200 samples are missing, the first at 0.07 s; straight "
+            "lines are in their place\n"
+            "channel \"y\": 3 of 200 samples are missing, the first at 0.03 s; straight lines are "
+            "in their place\n");
 }
 
 // ---- orders -------------------------------------------------------------------------------------

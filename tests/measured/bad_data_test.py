@@ -78,7 +78,7 @@ class Bench:
 
 def try_samples(b):
     n, choose = len(b.good), random.Random(1)
-    missing = ["channel \"%s\": 7 of" % name.split(" [")[0] for name in NAMES[1:]]
+    missing = "channels %s: 7 of" % ", ".join('"%s"' % name.split(" [")[0] for name in NAMES[1:])
     rows = b.rows()
     for j in choose.sample(range(n), 20):
         rows[j][DE_X] = None
@@ -88,7 +88,7 @@ def try_samples(b):
         rows[j][DE_Y] = "NaN"
     b.try_record(rows, 'channel "DE y": 10 of')
     gap = next(j for j in range(700, n) if b.good[j][KEY] > 0.5 >= b.good[j - 1][KEY]) + 20  # between two pulses
-    b.try_record(b.good[:gap] + b.good[gap + 7:], *missing)
+    b.try_record(b.good[:gap] + b.good[gap + 7:], missing)
     b.try_record(b.good[:700] + b.good[1000:], "error: 300 of")
     b.try_record(b.good[:700] + b.good[699:], "error: sample 701 is at")
     b.try_record(b.good[:700] + b.good[800:700:-1] + b.good[801:], "error: expected times that ascend")
