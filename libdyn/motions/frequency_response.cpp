@@ -17,6 +17,7 @@ namespace {
 
 constexpr int shown_modes = 8;
 constexpr int even_frequencies = 400;
+constexpr double silent_share = 1e-10;  ///< of the largest response, with room for large rotors
 
 /// What a direction is made of: factors of x, y, theta_x, theta_y.
 std::array<Complex, 4> force_parts(Direction direction) {
@@ -72,6 +73,36 @@ Complex motion_of(const ResponseEnd& end, const DofMap& dofs, const CVec& full) 
   return sum;
 }
 
+bool is_tilt(Direction direction) {
+  return direction == Direction::theta_x || direction == Direction::theta_y;
+}
+
+/// Largest responses of any point to a force, over all frequencies.
+struct LargestResponse {
+  double displacement = 0.0, tilt = 0.0;  ///< [m, rad]
+
+  void take(const CVec& full, const DofMap& dofs) {
+    for (const Point& point : dofs.points()) {
+      for (const Component c : {X, Y, THETA_X, THETA_Y}) {
+        const int k = dofs.full_index(point, c);
+        double& largest = c < THETA_X ? displacement : tilt;
+        if (k >= 0) largest = std::max(largest, std::abs(full(k)));
+      }
+    }
+  }
+};
+
+/// Makes a response zero that is rounding; where it is not bounded it stays so.
+void silence(ResponsePair& pair, double largest) {
+  const auto is_heard = [&](const Complex& H) { return std::abs(H) > silent_share * largest; };
+  if (std::any_of(pair.receptance.begin(), pair.receptance.end(), is_heard)) return;
+  for (CVec* response : {&pair.receptance, &pair.mobility, &pair.accelerance}) {
+    for (Complex& H : *response) {
+      if (std::isfinite(std::abs(H))) H = 0.0;
+    }
+  }
+}
+
 bool is_tilt(const std::string& end) {
   return end.ends_with(fmt::format(" {}", name_of(Direction::theta_x))) ||
          end.ends_with(fmt::format(" {}", name_of(Direction::theta_y)));
@@ -114,9 +145,8 @@ std::vector<ResponseEnd> select_ends(const Model& model, const Assembler& assemb
       }
       direction = *known;
     }
-    const bool is_tilt = direction == Direction::theta_x || direction == Direction::theta_y;
     for (const NamedPoint& point : select_points(model, assembler, entry.substr(0, colon))) {
-      if (is_tilt && assembler.dofs().full_index(point.point, THETA_X) < 0) {
+      if (is_tilt(direction) && assembler.dofs().full_index(point.point, THETA_X) < 0) {
         throw ModelError({}, entry, "this body does not tilt; give it tilts = true");
       }
       ends.push_back({point, direction});
@@ -141,6 +171,7 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
       result.pairs.push_back({from[f].label(), end.label(), none, none, none});
     }
   }
+  std::vector<LargestResponse> largest(from.size());
   DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
   for (Eigen::Index k = 0; k < count; ++k) {
     const double w = frequencies[static_cast<std::size_t>(k)];
@@ -153,6 +184,7 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
       const auto q = stiffness.solve(w, Omega, loads.col(static_cast<Eigen::Index>(f)));
       is_bounded = is_bounded && q.has_value();
       const CVec full = q ? CVec(dofs.T * *q) : CVec();
+      if (q) largest[f].take(full, dofs);
       for (std::size_t t = 0; t < to.size(); ++t) {
         const Complex H = q ? motion_of(to[t], dofs, full) : Complex(nan, nan);
         ResponsePair& pair = result.pairs[f * to.size() + t];
@@ -163,11 +195,14 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
     }
     if (!is_bounded) result.unbounded.push_back(w);
   }
+  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+    const LargestResponse& all = largest[i / to.size()];
+    silence(result.pairs[i], is_tilt(to[i % to.size()].direction) ? all.tilt : all.displacement);
+  }
   return result;
 }
 
 std::vector<bool> FrequencyResponse::silent_pairs() const {
-  constexpr double rounding = 1e-10;  // of the largest response, with room for large rotors
   const auto group_of = [](const ResponsePair& pair) {
     return std::pair(pair.from, is_tilt(pair.to));
   };
@@ -182,7 +217,7 @@ std::vector<bool> FrequencyResponse::silent_pairs() const {
   }
   std::vector<bool> silent;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    silent.push_back(sizes[i] <= rounding * largest.at(group_of(pairs[i])));
+    silent.push_back(sizes[i] <= silent_share * largest.at(group_of(pairs[i])));
   }
   return silent;
 }

@@ -77,8 +77,8 @@ struct FrequencyResponse {
   std::vector<ResponsePair> pairs;
   std::vector<double> unbounded;  ///< undamped resonances, where responses are NaN [rad/s]
 
-  /// For each pair, whether its response is zero but for rounding: nowhere above 1e-10 of the largest one
-  /// to the same force, displacements and tilts each by themselves.
+  /// For each pair, whether its response is zero, or only rounding in files of before: nowhere above 1e-10
+  /// of the largest one to the same force, displacements and tilts each by themselves.
   std::vector<bool> silent_pairs() const;
 
   static constexpr std::string_view group = "/frf";
@@ -98,7 +98,9 @@ struct FrequencyResponse {
 
 /// Solves (K - w^2 M + i w (C + Omega G)) q = f for a force at each end of `from`.
 ///
-/// Coefficients of bearings are those of a journal that whirls with the frequency of the force.
+/// Coefficients of bearings are those of a journal that whirls with the frequency of the force. A response
+/// that is nowhere above 1e-10 of the largest one of any point to the same force, displacements and tilts
+/// each by themselves, is rounding and becomes zero.
 /// @param Omega        spin speed [rad/s]
 /// @param frequencies  0 or more [rad/s]
 FrequencyResponse frequency_response(const Assembler& assembler, double Omega,

@@ -614,21 +614,25 @@ TEST_F(Plot, ASagTellsWhatOilFilmsBear) {
   EXPECT_EQ(arrows.end()[-1], fmt::format("↑ {:.4g} kN", -1e-3 * load(1, 1)));
 }
 
-// An isotropic rotor does not whirl backward by a forward force: rounding is neither a peak nor a line.
+// An isotropic rotor does not whirl backward by a forward force: rounding is neither a peak nor a line,
+// beside a response or alone.
 TEST_F(Plot, AResponseThatIsNoneIsNotDrawn) {
-  const std::vector<std::string> call{"frf",     WHIRL_SOURCE_DIR "/models/two_disk_mac.toml",
-                                      "--speed", "3000rpm",
-                                      "--from",  "7:forward",
-                                      "--to",    "7:forward,7:backward",
-                                      "--out",   "f.h5"};
-  const std::string text = whirl(call).out;
-  EXPECT_TRUE(std::regex_search(text, std::regex(" backward +none +0 +- +-"))) << text;
-  const std::vector<Figure> figures = figures_in("frf", ResultView(folder / "f.h5"));
-  ASSERT_EQ(figures.size(), 3u);
-  for (const Figure& f : figures) {
-    for (const Panel& p : f.panels) EXPECT_EQ(p.curves.size(), 1u);
-    ASSERT_EQ(f.notes.size(), 1u);
-    EXPECT_TRUE(has(f.notes[0], "no response")) << f.notes[0];
+  for (const std::string others : {"7:forward,", ""}) {
+    const std::vector<std::string> call{"frf",     WHIRL_SOURCE_DIR "/models/two_disk_mac.toml",
+                                        "--speed", "3000rpm",
+                                        "--from",  "7:forward",
+                                        "--to",    others + "7:backward",
+                                        "--out",   "f.h5"};
+    const std::string text = whirl(call).out;
+    EXPECT_TRUE(std::regex_search(text, std::regex(" backward +none +0 +- +-"))) << text;
+    const std::vector<Figure> figures = figures_in("frf", ResultView(folder / "f.h5"));
+    ASSERT_EQ(figures.size(), 3u);
+    for (const Figure& f : figures) {
+      for (const Panel& p : f.panels) EXPECT_EQ(p.curves.size(), others.empty() ? 0u : 1u);
+      ASSERT_EQ(f.notes.size(), 1u);
+      EXPECT_TRUE(has(f.notes[0], "no response")) << f.notes[0];
+    }
+    EXPECT_EQ(whirl({"plot", "f.h5", "frf", "--out", "f.svg"}).status, 0);
   }
 }
 

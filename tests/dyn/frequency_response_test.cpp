@@ -113,9 +113,29 @@ TEST(FrequencyResponse, SensesOfWhirlDoNotMixInAnIsotropicRotor) {
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Complex ff = f.pairs[0].receptance(i), xx = f.pairs[6].receptance(i),
                   yx = f.pairs[7].receptance(i);
-    EXPECT_LT(std::abs(f.pairs[1].receptance(i)), 1e-12 * std::abs(ff));
+    EXPECT_EQ(f.pairs[1].receptance(i), 0.0);  // but for rounding
+    EXPECT_EQ(f.pairs[1].mobility(i), 0.0);
     EXPECT_LT(std::abs(ff - (xx + Complex(0.0, 1.0) * yx)), 1e-10 * std::abs(ff));
   }
+}
+
+// It is told from the motion of the whole rotor: no other response need be asked for.
+TEST(FrequencyResponse, ThatIsRoundingAloneIsZero) {
+  const Assembler assembler(test::two_disk(test::isotropic(2e7, 1e3)));
+  const auto at = [](Direction d) { return end(3, d); };
+  using enum Direction;
+  for (const auto& [from, to] : {std::pair{forward, backward}, {backward, forward}}) {
+    const FrequencyResponse f =
+        frequency_response(assembler, 600.0, {100.0, 500.0}, {at(from)}, {at(to)});
+    EXPECT_EQ(f.pairs.at(0).receptance.cwiseAbs().maxCoeff(), 0.0);
+    EXPECT_EQ(f.silent_pairs(), std::vector<bool>{true});
+  }
+  const FrequencyResponse still =
+      frequency_response(assembler, 0.0, {100.0}, {at(x)}, {at(theta_x)});
+  EXPECT_EQ(still.pairs.at(0).receptance(0), 0.0);  // planes do not mix
+  const FrequencyResponse heard =
+      frequency_response(assembler, 0.0, {100.0}, {at(x)}, {at(theta_y)});
+  EXPECT_EQ(heard.silent_pairs(), std::vector<bool>{false});
 }
 
 // Static receptance of a cantilever's tip: L^3 / (3 E I).
