@@ -5,7 +5,6 @@
 
 #include "libbase/constants.hpp"
 #include "libbase/quadrature.hpp"
-#include "libdyn/system/probes.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -16,13 +15,19 @@ constexpr int quadrature_points = 10;  ///< of a step, whose series have order 1
 
 /// Rows that are asked for at every instant.
 struct Instants {
-  Instants(const Scene& scene, std::span<const Point> stations)
+  Instants(const Scene& scene, std::span<const Point> stations, OrbitFrame frame)
       : cosine(scene.reduced.M * scene.contacts.cosine_load()),
         sine(scene.reduced.M * scene.contacts.sine_load()),
         oscillations(scene.contacts.oscillations()),
-        rows(2 * std::ssize(stations), scene.contacts.coordinates()) {
+        rows(2 * std::ssize(stations), scene.contacts.coordinates()),
+        across(0, scene.contacts.coordinates()) {
     const Mat map = scene.displacement_map();
     probes = probe_rows(scene, map);
+    if (frame == OrbitFrame::rotating) {
+      std::vector<Probe> at_right_angles = probes_of(scene);
+      for (Probe& probe : at_right_angles) probe.angle += 0.25 * turn;
+      across = probe_rows(at_right_angles, scene, map);
+    }
     least = most = Vec::Constant(probes.rows(), nan);
     Eigen::Index k = 0;
     for (const Point& p : stations) {
@@ -60,25 +65,36 @@ struct Instants {
       found.radii[i] = std::max(found.radii[i], std::hypot(places(k), places(k + 1)));
     }
     if (probes.rows() == 0) return;
-    const Vec readings = probes * eta;
-    for (Eigen::Index i = 0; i < readings.size(); ++i) {
-      least(i) = std::fmin(least(i), readings(i));
-      most(i) = std::fmax(most(i), readings(i));
+    const Vec along = probes * eta, beside = across * eta;
+    for (Eigen::Index i = 0; i < along.size(); ++i) {
+      const bool turns = beside.size() > 0;
+      const double size = turns ? std::hypot(along(i), beside(i)) : along(i);
+      least(i) = std::fmin(least(i), turns ? -size : size);
+      most(i) = std::fmax(most(i), size);
     }
   }
 
   Vec cosine, sine;                       ///< of the unbalance, generalized forces
   std::vector<Oscillation> oscillations;  ///< likewise
   Mat rows, probes;                       ///< what stations and probes read of the coordinates
+  Mat across;                             ///< and probes at right angles to these; empty: not asked
   Vec least, most;                        ///< readings of the probes so far
   OrbitMeasure found;
 };
 
+std::vector<OrbitProbe> with_labels(const Scene& scene, const std::vector<double>& peak_to_peak) {
+  std::vector<OrbitProbe> probes;
+  for (const Probe& probe : probes_of(scene)) {
+    probes.push_back({probe, peak_to_peak[probes.size()]});
+  }
+  return probes;
+}
+
 }  // namespace
 
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, const Vec& y,
-                           double revolutions) {
-  Instants instants(scene, stations);
+                           double revolutions, OrbitFrame frame) {
+  Instants instants(scene, stations, frame);
   const Eigen::Index n = scene.contacts.coordinates();
   const Quadrature gauss = Quadrature::gauss(quadrature_points);
   const double end = revolutions * turn;  // within the last revolution
@@ -108,7 +124,7 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
 
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
                            const Periodic& motion) {
-  Instants instants(scene, stations);
+  Instants instants(scene, stations, OrbitFrame::stationary);
   const int samples = 8 * motion.harmonics() + 8;
   const double weight = turn / motion.rate * motion.period / samples;
   for (int k = 0; k < samples; ++k) {
@@ -121,6 +137,17 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
     instants.found.sections.col(k) = instants.rows * motion.at(turn * k / motion.period).x;
   }
   return instants.result(motion.period);
+}
+
+std::vector<OrbitProbe> probes_along(const Scene& scene, const Vec& y, double revolutions,
+                                     OrbitFrame frame) {
+  if (probes_of(scene).empty()) return {};
+  return with_labels(scene, measure_orbit(scene, {}, y, revolutions, frame).probe_peak_to_peak);
+}
+
+std::vector<OrbitProbe> probes_along(const Scene& scene, const Periodic& motion) {
+  if (probes_of(scene).empty()) return {};
+  return with_labels(scene, measure_orbit(scene, {}, motion).probe_peak_to_peak);
 }
 
 }  // namespace whirl::inline dyn

@@ -4,7 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "libbase/column.hpp"
 #include "libbase/fourier.hpp"
+#include "libdyn/orbits/orbit_frame.hpp"
+#include "libdyn/system/probes.hpp"
 #include "libdyn/system/scene.hpp"
 
 namespace whirl::inline dyn {
@@ -14,19 +17,38 @@ struct OrbitMeasure {
   /// Work that unbalance and forces do in a revolution: what damping, contacts and films take, less what
   /// friction at the rim brings in from the spin [J].
   double work = 0.0;
-  /// Largest reading of each probe of the model less its smallest, over the period [m]. As the radii, of
-  /// ten instants a step of the integrator, or eight a harmonic.
+  /// Largest reading of each probe of the model less its smallest, over the period [m]; of an orbit that
+  /// repeats as seen from the rotor over a long time, in which it comes by the probe at all its places: twice
+  /// its largest distance from the axis. As the radii, of ten instants a step of the integrator, or eight a
+  /// harmonic.
   std::vector<double> probe_peak_to_peak;
   Mat sections;  ///< x and y of the stations in turn (rows) after every whole revolution (columns) [m]
 };
 
 /// Of the motion from a state at phase 0.
 /// @param revolutions  its period, any positive number
+/// @param frame        in which it repeats
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, const Vec& y,
-                           double revolutions);
+                           double revolutions, OrbitFrame frame = OrbitFrame::stationary);
 
 /// Of a Fourier series of the reduced displacements.
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations,
                            const Periodic& motion);
+
+/// What a probe reads of an orbit, as a row of a result.
+struct OrbitProbe : ProbeLabel {
+  double peak_to_peak = 0.0;  ///< as of OrbitMeasure [m]
+
+  static constexpr auto columns() {
+    return joined(
+        ProbeLabel::columns(),
+        ColumnList{column("peak_to_peak", &OrbitProbe::peak_to_peak, "m", "of the reading")});
+  }
+};
+
+/// Readings of the probes of a scene's model, of orbits as above; empty without probes.
+std::vector<OrbitProbe> probes_along(const Scene& scene, const Vec& y, double revolutions,
+                                     OrbitFrame frame = OrbitFrame::stationary);
+std::vector<OrbitProbe> probes_along(const Scene& scene, const Periodic& motion);
 
 }  // namespace whirl::inline dyn

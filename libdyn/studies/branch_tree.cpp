@@ -97,7 +97,8 @@ class TreeEquations {
     } else {
       // the state in the basis of this value; in most cases the first one's
       start = point.state(layout.scale);
-      found = measure_orbit(*at, options_.stations, change.to(start), layout.period(period, point));
+      found = measure_orbit(*at, options_.stations, change.to(start), layout.period(period, point),
+                            options_.frame);
     }
     if (layout.is_rotating) found.sections.resize(found.sections.rows(), 0);
     to.measures.push_back(std::move(found));

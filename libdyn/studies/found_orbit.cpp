@@ -10,7 +10,6 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/orbits/hill.hpp"
-#include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {
@@ -36,14 +35,6 @@ std::vector<Vec> every_revolution(const ContactSystem& system, const PeriodicOrb
   return states;
 }
 
-std::vector<OrbitProbe> probes_along(const Scene& scene, const OrbitMeasure& measure) {
-  std::vector<OrbitProbe> probes;
-  for (const Probe& probe : probes_of(scene)) {
-    probes.push_back({probe, measure.probe_peak_to_peak[probes.size()]});
-  }
-  return probes;
-}
-
 FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
   const Flow flow = flow_of(scene.contacts);
   PeriodicOrbit orbit = find_orbit(flow, start, {.period = period});
@@ -59,9 +50,7 @@ FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
   found.exponents = orbit.exponents();
   found.is_stable = orbit.is_stable();
   found.modes = modes_of_multipliers(scene, orbit);
-  if (!probes_of(scene).empty()) {
-    found.probes = probes_along(scene, measure_orbit(scene, {}, found.state(), period));
-  }
+  found.probes = probes_along(scene, found.state(), period);
   return found;
 }
 
@@ -126,9 +115,7 @@ FoundOrbit find_by_harmonic_balance(const Scene& scene, const Vec& start,
   found.series->averaged_multipliers = hill.averaged;
   found.series->stability_failure = hill.failure;
   add_amplitudes(scene, orbit, *found.series);
-  if (!probes_of(scene).empty()) {
-    found.probes = probes_along(scene, measure_orbit(scene, {}, orbit.motion));
-  }
+  found.probes = probes_along(scene, orbit.motion);
   if (options.is_verified) found.series->gap = gap_of(scene, found);
   return found;
 }
@@ -183,7 +170,11 @@ RotatingOrbit find_rotating_orbit(const AutonomousFlow& flow, const Scene& scene
                                   const Vec& start) {
   const AutonomousOrbit cycle =
       shorten(flow, find_autonomous_orbit(flow, start, guessed_period(scene, start)));
-  return {cycle, cycle.period / scene.contacts.period()};
+  RotatingOrbit found{cycle, cycle.period / scene.contacts.period()};
+  if (found.is_good()) {
+    found.probes = probes_along(scene, found.state, found.revolutions, OrbitFrame::rotating);
+  }
+  return found;
 }
 
 }  // namespace whirl::inline dyn

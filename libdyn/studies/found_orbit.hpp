@@ -14,7 +14,7 @@
 #include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
 #include "libdyn/orbits/multiplier_modes.hpp"
-#include "libdyn/system/probes.hpp"
+#include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/taylor/batch.hpp"
 
@@ -25,13 +25,6 @@ enum class OrbitMethod { shooting, harmonic_balance };
 constexpr auto choices(OrbitMethod) {
   return std::array{Choice<OrbitMethod>{"shooting", OrbitMethod::shooting},
                     Choice<OrbitMethod>{"harmonic-balance", OrbitMethod::harmonic_balance}};
-}
-
-/// Where orbits are seen from, to be closed.
-enum class OrbitFrame { stationary, rotating };
-constexpr auto choices(OrbitFrame) {
-  return std::array{Choice<OrbitFrame>{"stationary", OrbitFrame::stationary},
-                    Choice<OrbitFrame>{"rotating", OrbitFrame::rotating}};
 }
 
 /// Of an orbit in the stationary frame.
@@ -96,17 +89,6 @@ struct OrbitSeries {
   }
 };
 
-/// What a probe reads of an orbit.
-struct OrbitProbe : ProbeLabel {
-  double peak_to_peak = 0.0;  ///< over the period, see OrbitMeasure [m]
-
-  static constexpr auto columns() {
-    return joined(
-        ProbeLabel::columns(),
-        ColumnList{column("peak_to_peak", &OrbitProbe::peak_to_peak, "m", "of the reading")});
-  }
-};
-
 /// An orbit, or how far the search for it got.
 struct FoundOrbit {
   int period = 1, shortest_period = 1;  ///< [revolutions]
@@ -149,7 +131,8 @@ struct FoundOrbit {
 
 /// An orbit that repeats as seen from the rotor.
 struct RotatingOrbit : AutonomousOrbit {
-  double revolutions = 0.0;  ///< of its period
+  double revolutions = 0.0;          ///< of its period
+  std::vector<OrbitProbe> probes{};  ///< those of the model; empty: there is no orbit
 
   long steps() const;                     ///< of Newton's method
   std::optional<bool> stability() const;  ///< nothing: there is no orbit
@@ -164,6 +147,7 @@ struct RotatingOrbit : AutonomousOrbit {
         column("floquet", &O::multipliers, "", "multipliers of the period, the largest first"),
         column("stable", &O::stability, "", "null: there is no orbit"),
         column("state", &O::state, "", "reduced, at phase 0"),
+        rows(&O::probes, "probes").only(Written::in_json).maybe(),
         column("failure", &O::failure, "", "why there is none").only(Written::in_json).maybe()};
   }
 };

@@ -73,7 +73,7 @@ OrbitSearch gathered(const Starts& starts, const Vec& scale) {
       ++known->starts;
     } else {
       const int shortest = shortest_period(*orbit, scale);
-      all.push_back({std::move(*orbit), shortest, 1});
+      all.push_back({std::move(*orbit), shortest});
     }
   }
   std::stable_sort(all.begin(), all.end(), [](const SearchedOrbit& a, const SearchedOrbit& b) {
@@ -109,7 +109,11 @@ OrbitSearch search_orbits(const Scene& scene, const MotionState& around,
     return std::vector{orbit_near(flow, begun, options, stops)};
   };
   run_points(work, starts, monitor.of<Starts>());
-  return gathered(starts, flow.scale);
+  OrbitSearch search = gathered(starts, flow.scale);
+  for (SearchedOrbit& s : search.orbits) {
+    s.probes = probes_along(scene, s.orbit.states[0], options.period);
+  }
+  return search;
 }
 
 }  // namespace whirl::inline dyn

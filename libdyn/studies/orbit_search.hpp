@@ -6,6 +6,7 @@
 
 #include "libbase/column.hpp"
 #include "libdyn/motions/run_result.hpp"
+#include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/system/scene.hpp"
@@ -26,6 +27,7 @@ struct SearchedOrbit {
   PeriodicOrbit orbit{};    ///< without its tangents
   int shortest_period = 1;  ///< [revolutions]
   long starts = 1;
+  std::vector<OrbitProbe> probes{};  ///< those of the model
 
   bool is_stable() const { return orbit.is_stable(); }
   double impacts() const;  ///< of all contacts in the period of the search
@@ -42,7 +44,8 @@ struct SearchedOrbit {
                       column(
                           "state", [](const S& s) -> const Vec& { return s.orbit.states[0]; }, "",
                           "reduced, at phase 0"),
-                      rows(&S::contact_shares, "contacts")};
+                      rows(&S::contact_shares, "contacts"),
+                      rows(&S::probes, "probes").only(Written::in_json).maybe()};
   }
 };
 

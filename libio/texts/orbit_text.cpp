@@ -78,6 +78,22 @@ std::string multipliers_table(const FoundOrbit& orbit) {
   return table.text();
 }
 
+/// What probes read of all orbits; empty without probes.
+std::string readings_table(const OrbitSearch& search) {
+  if (search.orbits.empty() || search.orbits[0].probes.empty()) return "";
+  std::vector<std::string> head{"orbit"};
+  for (const OrbitProbe& probe : search.orbits[0].probes) head.push_back(probe.name);
+  Table table(head);
+  for (std::size_t i = 0; i < search.orbits.size(); ++i) {
+    std::vector<std::string> row{std::to_string(i + 1)};
+    for (const OrbitProbe& p : search.orbits[i].probes) {
+      row.push_back(reading_text(p.peak_to_peak, p));
+    }
+    table.row(row);
+  }
+  return "\n  Along the probes, peak to peak\n\n" + table.text();
+}
+
 }  // namespace
 
 std::string text_of(const FoundOrbit& orbit) {
@@ -110,7 +126,7 @@ std::string text_of(const RotatingOrbit& orbit) {
              "length scales after {} steps of Newton's method\n\n",
              orbit.is_stable() ? "stable" : "unstable", orbit.revolutions,
              turn / orbit.period / rpm, orbit.residual, orbit.steps()) +
-         table.text();
+         table.text() + text_of(orbit.probes);
 }
 
 std::string text_of(const OrbitSearch& search) {
@@ -124,7 +140,7 @@ std::string text_of(const OrbitSearch& search) {
         [](const S& s) { return fmt::format("{:.0f}/{}", s.impacts(), s.orbit.period); }},
        {"largest multiplier", [](const S& s) { return pair_text(s.orbit.multipliers(0)); }},
        shown("starts").as("of starts")});
-  return (search.orbits.empty() ? "" : table + "\n") +
+  return (search.orbits.empty() ? "" : table + readings_table(search) + "\n") +
          fmt::format("  {} starts led to none\n", search.failed);
 }
 

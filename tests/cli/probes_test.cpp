@@ -162,6 +162,47 @@ TEST_F(Probes, TellOrbits) {
   EXPECT_FALSE(result({"orbit", "plain.toml", "--speed", "60rad/s"}).contains("probes"));
 }
 
+TEST_F(Probes, TellEveryOrbitOfASearch) {
+  constexpr double of_instants = 5e-3;  // as above
+  const double size = 2.0 * std::abs(circle(60.0));
+  const std::vector<std::string> call{"orbit", "rotor.toml", "--speed", "60rad/s", "--starts", "3"};
+  const json r = result(call);
+  ASSERT_EQ(r["orbits"].size(), 1u);
+  const json& probes = r["orbits"][0]["probes"];
+  ASSERT_EQ(probes.size(), 2u);
+  EXPECT_EQ(probes[1]["name"], "1Y");
+  for (const json& probe : probes) EXPECT_NEAR(probe["peak_to_peak_m"], size, of_instants * size);
+  EXPECT_TRUE(has(whirl(call).out, "Along the probes, peak to peak"));
+  write("plain.toml", jeffcott);
+  EXPECT_FALSE(
+      result({"orbit", "plain.toml", "--speed", "60rad/s", "--starts", "1"})["orbits"][0].contains(
+          "probes"));
+}
+
+// Bouncing repeats as seen from the rotor and never from outside: in time every probe at a station reads
+// as much, which is what a long simulation finds.
+TEST_F(Probes, TellOrbitsThatRepeatSeenFromTheRotor) {
+  write("two.toml", content(WHIRL_SOURCE_DIR "/models/two_disk_mac.toml") +
+                        "\n[[probe]]\nname = \"a\"\nnode = 4\nangle = \"20 deg\"\n"
+                        "[[probe]]\nname = \"b\"\nnode = 4\nangle = \"110 deg\"\n");
+  const std::vector<std::string> call{"orbit", "two.toml", "--frame", "rotating", "--out", "o.h5"};
+  const json orbit = result(call);
+  const json run =
+      result({"simulate", "two.toml", "--from", "o.h5", "--discard", "0", "--revolutions", "300"});
+  ASSERT_EQ(orbit["probes"].size(), 2u);
+  constexpr double of_crests = 1e-2;  // that samples and 300 revolutions miss
+  for (const int i : {0, 1}) {
+    const double size = orbit["probes"][i]["peak_to_peak_m"];
+    EXPECT_NEAR(run["probes"][i]["peak_to_peak_m"], size, of_crests * size);
+    EXPECT_DOUBLE_EQ(size, orbit["probes"][0]["peak_to_peak_m"]);
+  }
+  EXPECT_TRUE(has(whirl(call).out, "peak to peak"));
+  const json branch = result({"continue", "two.toml", "--frame", "rotating", "--over",
+                              "operation.speed=4420:4430:10rpm", "--at", "4430rpm"});
+  const json& sizes = branch["points"][0]["probe_peak_to_peak_m"];
+  EXPECT_NEAR(sizes[0], orbit["probes"][0]["peak_to_peak_m"], 1e-6 * sizes[0].get<double>());
+}
+
 // Orbits of the rotor along its speed: circles, peak to peak twice their radius.
 TEST_F(Probes, TellBranches) {
   const json r = result(

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <array>
+
+#include "libbase/field.hpp"
+
+namespace whirl::inline dyn {
+
+/// Where orbits are seen from, to be closed.
+enum class OrbitFrame { stationary, rotating };
+constexpr auto choices(OrbitFrame) {
+  return std::array{Choice<OrbitFrame>{"stationary", OrbitFrame::stationary},
+                    Choice<OrbitFrame>{"rotating", OrbitFrame::rotating}};
+}
+
+}  // namespace whirl::inline dyn
