@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -66,6 +67,16 @@ TEST(Verbs, UnbalanceIsNamedNowhereElse) {
   const auto places = places_of("\"unbalance\"|unbalance_verb|run_unbalance");
   EXPECT_EQ(places,
             (std::map<std::string, int>{{"verbs/unbalance.cpp", 4}, {"verbs/verbs.cpp", 1}}));
+}
+
+// What is longer computes, reads or writes something that belongs into a library below.
+TEST(Verbs, AreShort) {
+  constexpr int most = 120;  // lines
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(WHIRL_SOURCE_DIR) / "libverbs" / "verbs")) {
+    std::ifstream file(entry.path());
+    EXPECT_LE(std::count(std::istreambuf_iterator<char>(file), {}, '\n'), most) << entry.path();
+  }
 }
 
 TEST(Figures, EachIsDescribedInOneFileAndALineOfTheList) {
