@@ -1,42 +1,13 @@
 #pragma once
-/// Periodic orbits as Fourier series: harmonic balance, with the forces' places as unknowns.
+/// Periodic orbits as Fourier series: harmonic balance.
 
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "libbase/column.hpp"
-#include "libbase/dense.hpp"
 #include "libbase/failure.hpp"
-#include "libdyn/system/contact_measures.hpp"
-#include "libdyn/system/port_forces.hpp"
+#include "libdyn/orbits/harmonic_equations.hpp"
 
 namespace whirl::inline dyn {
-
-/// Equations of motion, forces of few displacements apart.
-///
-///   eta'' + D eta' + K eta = f0 + fc cos(phase) + fs sin(phase) + sum_j B_j g_j(phase, U_j eta, U_j eta')
-struct HarmonicProblem {
-  Mat K, D;
-  Vec f0, fc, fs;
-  /// A load of another order than 1: cosine cos(order phase) + sine sin(order phase).
-  struct OrderLoad {
-    double order = 0.0;
-    Vec cosine, sine;
-  };
-  std::vector<OrderLoad> orders{};
-  double rate = 1.0;          ///< of the phase [rad/s]
-  double length_scale = 1.0;  ///< of displacements at the forces [m]
-  Vec scale;                  ///< of the state (eta, eta'), size 2 n
-  std::vector<PortForces> forces;
-  /// What contacts do on a motion of eta; empty: there are none.
-  std::function<std::vector<ContactMeasure>(const Periodic& motion)> measures;
-
-  Eigen::Index coordinates() const { return K.rows(); }
-  /// Number of the highest harmonic of a motion that a load has.
-  /// @throws OptionError  where one of them does not repeat with such a period
-  int highest_load(int period) const;
-};
 
 struct HarmonicOptions {
   int period = 1;     ///< of the orbit [revolutions]
@@ -48,67 +19,6 @@ struct HarmonicOptions {
 
   /// @throws OptionError  if a number is outside of what it may be
   void check() const;
-};
-
-/// The equations for so many harmonics, everything linear eliminated.
-///
-///   r = u - u_0 - H g(u),   H_k = U Z_k^-1 B,   Z_k = K + i w_k D - w_k^2,   w_k = k rate / period
-///
-/// The unknowns are the Fourier coefficients of the displacements u where forces act, ports x
-/// (2 H + 1), whatever the number of coordinates. Where the linear part alone does not hold the rotor,
-/// or resonates without damping, springs are added to it and taken off the forces, which changes
-/// nothing.
-///
-/// @source [KrackGross2019], ch. 2 and 3.3
-class HarmonicEquations {
- public:
-  /// @param problem  must live as long as the equations
-  /// @throws NumericalError  at an undamped resonance with a harmonic, or where a load is none of them
-  HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics);
-
-  Eigen::Index ports() const { return U_.rows(); }
-  int harmonics() const { return harmonics_; }
-  int period() const { return period_; }
-  double frequency() const { return problem_.rate / period_; }
-  const HarmonicProblem& problem() const { return problem_; }
-  const Mat& U() const { return U_; }
-  const Mat& B() const { return B_; }
-  /// K with the springs.
-  const Mat& stiffness() const { return K_; }
-
-  /// Forces and slopes at displacements u (ports x (2 H + 1)).
-  struct Evaluation {
-    bool has_force = false;  ///< else nothing of this is known
-    Mat g;                   ///< Fourier coefficients of the forces, springs included
-    Mat residual;            ///< [m]
-    Mat by_u, by_rate;       ///< of g by the coefficients of u and u'; columns of matrices follow
-                             ///< one another; empty: not wanted
-  };
-  Evaluation evaluate(const Mat& u, bool slopes) const;
-  /// dr / du, of size ports (2 H + 1).
-  Mat jacobian(const Evaluation& at) const;
-
-  /// Motion of all coordinates under forces: eta_k = Z_k^-1 (f_k + B g_k).
-  Mat motion(const Mat& g) const;
-  /// Z_k^-1 (b_k + B q_k) of any coefficients b (n x (2 H + 1)) and q (ports x (2 H + 1)).
-  Mat respond(const Mat& b, const Mat& q) const;
-  /// H q.
-  Mat receptance(const Mat& q) const;
-  /// Loads f, n x (2 H + 1).
-  const Mat& loads() const { return loads_; }
-
- private:
-  /// Dynamic stiffnesses of all harmonics; the first that is singular, or -1.
-  int factorize();
-
-  const HarmonicProblem& problem_;
-  int period_, harmonics_;
-  Mat U_, B_;  ///< of all forces
-  Mat K_;
-  Vec springs_;  ///< of the ports
-  std::vector<DenseLu<CMat>> Z_;
-  std::vector<CMat> H_;
-  Mat loads_, free_;  ///< u_0
 };
 
 /// A periodic orbit, or how far the search for it got.
