@@ -56,9 +56,26 @@ HarmonicOrbit orbit_of_unknowns(const HarmonicProblem& problem, const Vec& x, in
 }
 
 BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int harmonics,
-                                   double scale) {
-  return {[problem_at = std::move(problem_at), period, harmonics, scale](const Vec& x, double value,
-                                                                         WithTangent wanted) {
+                                   double scale, HarmonicSlopeAt slope_at) {
+  BranchEquations all;
+  if (slope_at) {
+    all.slope = [problem_at, slope_at = std::move(slope_at), period, harmonics, scale](
+                    const Vec& x, double value) -> Vec {
+      try {
+        const auto by = slope_at(value);
+        if (!by) return {};
+        const auto problem = problem_at(value);
+        const HarmonicEquations equations(*problem, period, harmonics);
+        const auto slope = equations.slope(ports_of(x, equations.ports(), scale), *by);
+        if (!slope) return {};
+        return slope->reshaped() / scale;
+      } catch (const NumericalError&) {
+        return {};
+      }
+    };
+  }
+  all.at = [problem_at = std::move(problem_at), period, harmonics, scale](
+               const Vec& x, double value, WithTangent wanted) {
     BranchEquations::Value result;
     try {
       const auto problem = problem_at(value);
@@ -83,7 +100,8 @@ BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int
       result.failure = error.what();
     }
     return result;
-  }};
+  };
+  return all;
 }
 
 }  // namespace whirl::inline dyn

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "libdyn/branches/branch.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"
@@ -13,6 +14,10 @@ namespace whirl::inline dyn {
 /// May throw NumericalError where there are none.
 using HarmonicProblemAt = std::function<std::shared_ptr<const HarmonicProblem>(double value)>;
 
+/// Derivative of that problem by the value, in its coordinates (HarmonicEquations::slope); nothing
+/// where it is not known. A null function: it never is.
+using HarmonicSlopeAt = std::function<std::optional<HarmonicProblem>(double value)>;
+
 /// Those of harmonic balance for a walk along the parameter, with the same harmonics throughout.
 ///
 /// Unknowns are the Fourier coefficients of the displacements at forces over the length scale, which
@@ -22,7 +27,7 @@ using HarmonicProblemAt = std::function<std::shared_ptr<const HarmonicProblem>(d
 /// @param period, harmonics  of the orbits
 /// @param scale              of displacements [m]
 BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int harmonics,
-                                   double scale);
+                                   double scale, HarmonicSlopeAt slope_at = {});
 
 /// The unknowns of an orbit.
 Vec harmonic_unknowns(const HarmonicOrbit& orbit, double scale);

@@ -39,6 +39,26 @@ HarmonicProblem harmonic_problem(const ContactSystem& system) {
           .measures = [&system](const Periodic& motion) { return measures_on(system, motion); }};
 }
 
+HarmonicProblem harmonic_slope(const ContactSystem& system, const NumberSlopes& slopes) {
+  using S = ContactSystem;
+  HarmonicProblem by{.K = slopes.of([](const S& s) -> const Mat& { return s.K(); }),
+                     .D = slopes.of([](const S& s) -> const Mat& { return s.D(); }),
+                     .f0 = slopes.of([](const S& s) -> const Vec& { return s.constant_load(); }),
+                     .fc = slopes.of([](const S& s) -> const Vec& { return s.cosine_load(); }),
+                     .fs = slopes.of([](const S& s) -> const Vec& { return s.sine_load(); }),
+                     .rate = slopes.of([](const S& s) { return s.phase_rate(); }),
+                     .length_scale = 0.0,
+                     .scale = {},
+                     .forces = port_force_slopes(system, slopes),
+                     .measures = {}};
+  for (std::size_t i = 0; i < system.oscillations().size(); ++i) {
+    by.orders.push_back({system.oscillations()[i].order,
+                         slopes.of([i](const S& s) { return s.oscillations()[i].cosine; }),
+                         slopes.of([i](const S& s) { return s.oscillations()[i].sine; })});
+  }
+  return by;
+}
+
 Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {
   const auto n = system.coordinates();
   const Eigen::Index N = static_cast<Eigen::Index>(first_samples) * revolutions;

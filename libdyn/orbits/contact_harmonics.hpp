@@ -5,6 +5,7 @@
 
 #include "libdyn/orbits/harmonic_balance.hpp"
 #include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/number_slopes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -12,6 +13,10 @@ namespace whirl::inline dyn {
 /// @throws NumericalError  if nothing moves
 /// @throws ModelError      as require_periodic_loads
 HarmonicProblem harmonic_problem(const ContactSystem& system);
+
+/// Its derivative by a parameter, as HarmonicEquations::slope takes it.
+/// @param slopes  of systems in the same coordinates; of contacts and films the system may have others
+HarmonicProblem harmonic_slope(const ContactSystem& system, const NumberSlopes& slopes);
 
 /// Fourier coefficients of the motion of all coordinates over the next revolutions, as if it repeated.
 /// @param y  state at phase 0

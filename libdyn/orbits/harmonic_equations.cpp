@@ -61,24 +61,34 @@ int HarmonicProblem::highest_load(int period) const {
   return highest;
 }
 
-HarmonicEquations::HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics)
-    : problem_(problem), period_(period), harmonics_(harmonics) {
+namespace {
+
+/// U and B of all forces together.
+struct Places {
+  Mat U, B;
+};
+Places places_of(const HarmonicProblem& problem) {
   const auto n = problem.coordinates();
   Eigen::Index ports = 0;
   for (const PortForces& f : problem.forces) ports += f.U.rows();
-  U_.resize(ports, n);
-  B_.resize(n, ports);
+  Places all{Mat(ports, n), Mat(n, ports)};
   Eigen::Index at = 0;
   for (const PortForces& f : problem.forces) {
-    U_.middleRows(at, f.U.rows()) = f.U;
-    B_.middleCols(at, f.U.rows()) = f.B;
+    all.U.middleRows(at, f.U.rows()) = f.U;
+    all.B.middleCols(at, f.U.rows()) = f.B;
     at += f.U.rows();
   }
-  loads_ = Mat::Zero(n, 2 * harmonics + 1);
-  loads_.col(0) = problem.f0;
+  return all;
+}
+
+/// Fourier coefficients of the loads.
+/// @throws NumericalError  where one is none of the harmonics
+Mat loads_of(const HarmonicProblem& problem, int period, int harmonics) {
+  Mat loads = Mat::Zero(problem.coordinates(), 2 * harmonics + 1);
+  loads.col(0) = problem.f0;
   if (period <= harmonics) {
-    loads_.col(2 * period - 1) = problem.fc;
-    loads_.col(2 * period) = problem.fs;
+    loads.col(2 * period - 1) = problem.fc;
+    loads.col(2 * period) = problem.fs;
   }
   for (const HarmonicProblem::OrderLoad& load : problem.orders) {
     const auto k = harmonic_of(load, period);
@@ -87,9 +97,21 @@ HarmonicEquations::HarmonicEquations(const HarmonicProblem& problem, int period,
       throw NumericalError(fmt::format(
           "harmonic balance: a force is harmonic {} of the orbit, there are {}", *k, harmonics));
     }
-    loads_.col(2 * *k - 1) += load.cosine;
-    loads_.col(2 * *k) += load.sine;
+    loads.col(2 * *k - 1) += load.cosine;
+    loads.col(2 * *k) += load.sine;
   }
+  return loads;
+}
+
+}  // namespace
+
+HarmonicEquations::HarmonicEquations(const HarmonicProblem& problem, int period, int harmonics)
+    : problem_(problem), period_(period), harmonics_(harmonics) {
+  Places places = places_of(problem);
+  U_ = std::move(places.U);
+  B_ = std::move(places.B);
+  const Eigen::Index ports = U_.rows();
+  loads_ = loads_of(problem, period, harmonics);
   springs_ = Vec::Zero(ports);
   int unheld = factorize();
   if (unheld >= 0 && ports > 0) {
@@ -195,6 +217,15 @@ void add_integrals(const std::vector<PortSample>& samples, PortMat PortSample::*
   }
 }
 
+/// Adds the Fourier coefficients of sampled forces: integrals with 1, 2 cos, 2 sin.
+void add_coefficients(const std::vector<PortSample>& samples, int harmonics, Eigen::Ref<Mat> to) {
+  for (const PortSample& sample : samples) {
+    Vec weights = 2.0 * sample.share * harmonic_functions(sample.theta, harmonics);
+    weights(0) *= 0.5;
+    to += sample.g * weights.transpose();
+  }
+}
+
 }  // namespace
 
 HarmonicEquations::Evaluation HarmonicEquations::evaluate(const Mat& u, bool slopes) const {
@@ -218,11 +249,7 @@ HarmonicEquations::Evaluation HarmonicEquations::evaluate(const Mat& u, bool slo
       add_integrals(samples, &PortSample::by_u, p, harmonics_, first, P, e.by_u);
       add_integrals(samples, &PortSample::by_rate, p, harmonics_, first, P, e.by_rate);
     }
-    for (const PortSample& sample : samples) {  // coefficients are integrals with 1, 2 cos, 2 sin
-      Vec weights = 2.0 * sample.share * harmonic_functions(sample.theta, harmonics_);
-      weights(0) *= 0.5;
-      e.g.middleRows(first, p) += sample.g * weights.transpose();
-    }
+    add_coefficients(samples, harmonics_, e.g.middleRows(first, p));
     first += p;
   }
   e.residual = u - free_ - receptance(e.g);
@@ -249,6 +276,47 @@ Mat HarmonicEquations::jacobian(const Evaluation& at) const {
     J.middleRows(2 * k * P, P) -= R * s - I * c;
   }
   return J;
+}
+
+Vec HarmonicEquations::spring_slopes(const Mat& U_slope, const Mat& B_slope,
+                                     double rate_slope) const {
+  Vec slopes = Vec::Zero(ports());
+  for (Eigen::Index j = 0; j < ports(); ++j) {
+    if (springs_(j) == 0.0) continue;
+    const double mobility = U_.row(j).dot(B_.col(j)),
+                 changed = U_slope.row(j).dot(B_.col(j)) + U_.row(j).dot(B_slope.col(j));
+    slopes(j) = springs_(j) * (2.0 * rate_slope / problem_.rate - changed / mobility);
+  }
+  return slopes;
+}
+
+std::optional<Mat> HarmonicEquations::slope(const Mat& u, const HarmonicProblem& by) const {
+  const Evaluation at = evaluate(u, false);
+  if (!at.has_force) return std::nullopt;
+  Mat g_slope = Mat::Zero(u.rows(), u.cols());
+  Eigen::Index first = 0;
+  std::vector<PortSample> samples;
+  for (const PortForces& force : by.forces) {
+    const Eigen::Index p = force.U.rows();
+    samples.clear();
+    if (!force.sample({u.middleRows(first, p), period_, problem_.rate}, samples)) {
+      return std::nullopt;
+    }
+    add_coefficients(samples, harmonics_, g_slope.middleRows(first, p));
+    first += p;
+  }
+  const Places places = places_of(by);
+  const Vec springs = spring_slopes(places.U, places.B, by.rate);
+  const Mat x = motion(at.g), rates = differentiated(x);  // by theta
+  const double w = frequency(), w_slope = by.rate / period_;
+  Mat forces =
+      loads_of(by, period_, harmonics_) + places.B * (at.g - springs_.asDiagonal() * U_ * x);
+  forces -= by.K * x + B_ * (springs_.asDiagonal() * (places.U * x));
+  forces -= (w_slope * problem_.D + w * by.D) * rates + 2.0 * w * w_slope * differentiated(rates);
+  g_slope += springs.asDiagonal() * (u - U_ * x);
+  Mat slope = -(places.U * x) - U_ * respond(forces, g_slope);
+  if (!slope.allFinite()) return std::nullopt;
+  return slope;
 }
 
 }  // namespace whirl::inline dyn

@@ -2,6 +2,7 @@
 /// The equations of harmonic balance, with the forces' places as unknowns.
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "libbase/dense.hpp"
@@ -72,6 +73,14 @@ class HarmonicEquations {
   Evaluation evaluate(const Mat& u, bool slopes) const;
   /// dr / du, of size ports (2 H + 1).
   Mat jacobian(const Evaluation& at) const;
+  /// dr / dp at displacements u that are held, p a parameter of the problem.
+  ///
+  ///   dr = -dU x - U dx,   Z dx = df + dB g + B dg - dZ x,   x = Z^-1 (f + B g)
+  ///
+  /// @param by  the problem with its derivative by p in place of each number, of its forces those at
+  ///            displacements that are held
+  /// @return    nothing where a force has none
+  std::optional<Mat> slope(const Mat& u, const HarmonicProblem& by) const;
 
   /// Motion of all coordinates under forces: eta_k = Z_k^-1 (f_k + B g_k).
   Mat motion(const Mat& g) const;
@@ -85,6 +94,8 @@ class HarmonicEquations {
  private:
   /// Dynamic stiffnesses of all harmonics; the first that is singular, or -1.
   int factorize();
+  /// Derivatives of the springs.
+  Vec spring_slopes(const Mat& U_slope, const Mat& B_slope, double rate_slope) const;
 
   const HarmonicProblem& problem_;
   int period_, harmonics_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "libdyn/system/contact_measures.hpp"
+#include "libdyn/system/number_slopes.hpp"
 #include "libdyn/system/port_forces.hpp"
 
 namespace whirl::inline dyn {
@@ -18,6 +19,13 @@ namespace whirl::inline dyn {
 ///
 /// Exact friction slides with the sign of its slip. It cannot stick here: see sticks_on.
 std::vector<PortForces> port_forces(const ContactSystem& system);
+
+/// The derivatives of these forces by a parameter, on motions that are held at their ports: U and B are
+/// those of the rows, g of a sample is that of the force, its slopes are empty.
+///
+/// The series of the motion is held, so that its rates go with the rate of the phase. Jumps move with
+/// h_p / |dh/d(theta)|, as above.
+std::vector<PortForces> port_force_slopes(const ContactSystem& system, const NumberSlopes& slopes);
 
 /// What the contacts do over a period; shares of it.
 /// @param motion  of the coordinates eta

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "libbase/error.hpp"
+#include "libdyn/system/number_slopes.hpp"
 #include "libdyn/taylor/slope_run.hpp"
 
 namespace whirl::inline dyn {
@@ -13,25 +13,6 @@ namespace whirl::inline dyn {
 namespace {
 
 constexpr std::size_t columns_of_pass = 8;  ///< Sloped::columns
-
-/// @throws NumericalError  where a parameter has no derivative, as motions change their kind with it
-void require_smooth(const ContactSystem& system, const SystemSlope& parameter) {
-  const auto sense = [](const ContactSystem& s) { return (s.Omega() > 0.0) - (s.Omega() < 0.0); };
-  for (const ContactSystem& neighbor : parameter.neighbors) {
-    if (sense(neighbor) != sense(system)) {
-      throw NumericalError(parameter.name +
-                           ": no derivative by a speed of zero, around which the rotor turns back");
-    }
-    for (std::size_t i = 0; i < std::min(neighbor.contacts().size(), system.contacts().size());
-         ++i) {
-      const ReducedContact& c = system.contacts()[i];
-      if (neighbor.contacts()[i].friction.is_exact() != c.friction.is_exact()) {
-        throw NumericalError(parameter.name + ": no derivative where contact \"" + c.name +
-                             "\" has no friction that switches, but does beside it");
-      }
-    }
-  }
-}
 
 /// What the systems of a pass have in common.
 Pattern pattern_of(const ContactSystem& system, std::span<const SlopeColumn> columns) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
 
@@ -57,6 +58,12 @@ Model blades(Slip slip, double tolerance) {
   return m;
 }
 
+Model squeeze(FilmTheory theory, FilmExtent extent) {
+  Model m = test::MassOnFilm{}.model();
+  m.films[0].law = Squeeze{.theory = theory, .extent = extent};
+  return m;
+}
+
 Model damped_hertz() {
   Model m = ring(0.0, 1e7, {.mu = 0.1, .slip = Slip::forward});
   std::get<Hertz<>>(m.contacts[0].law).alpha = 8.0;  // it lets go beyond the surface
@@ -82,7 +89,10 @@ std::vector<Case> cases() {
           {"face that creeps", face(Slip::actual, 5.0), 2.0},
           {"blades", blades(Slip::forward, 0.0), 2.0},
           {"blades that creep", blades(Slip::actual, 30.0), 2.0},
-          {"film", test::MassOnFilm{}.model(), 0.3}};
+          {"film", test::MassOnFilm{}.model(), 0.3},
+          {"squeeze film", squeeze(FilmTheory::short_bearing, FilmExtent::full), 0.3},
+          {"long squeeze film", squeeze(FilmTheory::long_bearing, FilmExtent::half), 0.3},
+          {"long full film", squeeze(FilmTheory::long_bearing, FilmExtent::full), 0.3}};
 }
 
 /// A motion of all coordinates with three harmonics, the same for the same seed.
@@ -170,6 +180,155 @@ TEST(PortForces, HaveTheSlopesOfDifferences) {
       }
     }
   }
+}
+
+/// A number of a model that derivatives are taken by.
+struct Knob {
+  std::string name;
+  std::function<double*(Model&)> of;              ///< null: the model has none
+  double size = 0.0;                              ///< what it is compared with; 0: with itself
+  std::function<double*(Model&)> twin = nullptr;  ///< what else is the same number
+};
+
+template <class Law>
+Knob of_law(std::string name, double Law::*member) {
+  return {std::move(name), [member](Model& m) -> double* {
+            Law* law = m.contacts.empty() ? nullptr : std::get_if<Law>(&m.contacts[0].law);
+            return law ? &(law->*member) : nullptr;
+          }};
+}
+Knob of_contact(std::string name, const std::function<double*(Contact&)>& of, double size = 0.0) {
+  return {std::move(name),
+          [of](Model& m) { return m.contacts.empty() ? nullptr : of(m.contacts[0]); }, size};
+}
+Knob of_film(std::string name, const std::function<double*(OilFilm&)>& of, double size = 0.0) {
+  return {std::move(name), [of](Model& m) { return m.films.empty() ? nullptr : of(m.films[0]); },
+          size};
+}
+Knob of_bearing(std::string name, const std::function<double*(ConstantBearing&)>& of) {
+  return {std::move(name), [of](Model& m) -> double* {
+            auto& bearings = m.structure.bearings;
+            return bearings.empty() ? nullptr
+                                    : of(std::get<ConstantBearing>(bearings[0].coefficients));
+          }};
+}
+
+std::vector<Knob> knobs() {
+  using Blade = BladeTip<>;
+  return {
+      of_law("stiffness", &Radial<>::k),
+      of_law("damping", &Radial<>::c),
+      of_law("hertz_stiffness", &Hertz<>::k),
+      of_law("dissipation", &Hertz<>::alpha),
+      of_law("stiffness of a face", &Face<>::k),
+      of_law("face_radius", &Face<>::radius),
+      of_law("stiffness of a blade", &Blade::k),
+      of_law("tip_radius", &Blade::tip_radius),
+      of_law("blade_length", &Blade::blade_length),
+      of_law("bending stiffness", &Blade::bending_stiffness),
+      of_law("line density", &Blade::line_density),
+      of_contact("clearance", [](Contact& c) { return &c.clearance; }),
+      of_contact("friction", [](Contact& c) { return &c.friction.mu; }),
+      of_contact("radius", [](Contact& c) { return &c.friction.radius; }),
+      of_contact("slip_tolerance", [](Contact& c) { return &c.friction.tolerance; }),
+      of_contact(
+          "offset",
+          [](Contact& c) { return takes_offset(geometry_of(c)) ? &c.offset(1) : nullptr; }, 1e-3),
+      of_contact("angle",
+                 [](Contact& c) {
+                   auto* stop = std::get_if<geometry::Stop>(&c.geometry);
+                   return stop ? &stop->angle : nullptr;
+                 }),
+      of_film("viscosity", [](OilFilm& f) { return &f.bearing.viscosity; }),
+      of_film("clearance of a film", [](OilFilm& f) { return &f.bearing.clearance; }),
+      of_film("length", [](OilFilm& f) { return &f.bearing.length; }),
+      of_film("radius of a film", [](OilFilm& f) { return &f.bearing.radius; }),
+      of_film(
+          "offset of a film", [](OilFilm& f) { return &f.offset(0); }, 1e-4),
+      of_bearing("kxx", [](ConstantBearing& b) { return &b.K(0, 0); }),
+      of_bearing("kxy", [](ConstantBearing& b) { return &b.K(0, 1); }),
+      of_bearing("cyy", [](ConstantBearing& b) { return &b.C(1, 1); }),
+      {"unbalance",
+       [](Model& m) {
+         return m.structure.unbalances.empty() ? nullptr : &m.structure.unbalances[0].moment;
+       }},
+      {"force",
+       [](Model& m) { return m.structure.forces.empty() ? nullptr : &m.structure.forces[0].size; }},
+      {"mass",
+       [](Model& m) { return m.structure.bodies.empty() ? nullptr : &m.structure.bodies[0].m.x; },
+       0.0, [](Model& m) { return &m.structure.bodies[0].m.y; }},
+      {"speed", [](Model& m) { return &m.speed; }}};
+}
+
+/// A model with a knob turned to a value.
+Model turned_to(Model m, const Knob& knob, double value) {
+  *knob.of(m) = value;
+  if (knob.twin) *knob.twin(m) = value;
+  return m;
+}
+
+/// Derivative of a residual by its stencil, of the eighth order: at displacements that are held the
+/// residual is smooth but for rounding, which leaves eleven digits and more.
+Mat stencil(const std::function<Mat(double)>& residual, double value, double size) {
+  const double h = std::ldexp(1.0, std::ilogb(size / 2048.0));
+  Mat sum;
+  for (std::size_t j = 0; j < neighbor_places.size(); ++j) {
+    const Mat r = neighbor_weights[j] / h * residual(value + neighbor_places[j] * h);
+    sum = j == 0 ? r : Mat(sum + r);
+  }
+  return sum;
+}
+
+/// A model with forces, and bearings in which no harmonic resonates.
+Model with_loads(Model m) {
+  for (Connection& bearing : m.structure.bearings) {
+    auto* at = std::get_if<ConstantBearing>(&bearing.coefficients);
+    if (at) at->K *= 1.1, at->C += Mat2::Identity() * 3.0;
+  }
+  if (m.structure.bodies.empty()) return m;
+  const Station at = test::body(m.structure.bodies[0].name);
+  m.structure.unbalances = {{.at = at, .moment = 1e-4, .phase = 0.4}};
+  m.structure.forces = {{.name = "second", .at = at, .size = 3.0, .order = 2.0}};
+  return m;
+}
+
+// The exact derivative of the equations by every parameter of every law, jumps at touches and at
+// reversals of slip and springs that hold a free rotor included.
+TEST(PortForces, HaveExactSlopesByParameters) {
+  constexpr double nine_digits = 1e-9;
+  // integrals are exact to 1e-11, and what is left changes as Gauss points move with touches
+  constexpr double of_integrals = 10.0 * rounding;
+  int compared = 0;
+  for (const Case& c : cases()) {
+    const Model model = with_loads(c.model);
+    const Scene scene = make_scene(model);
+    const HarmonicProblem problem = harmonic_problem(scene.contacts);
+    const HarmonicEquations equations(problem, 2, 7);
+    const Mat u =
+        with_harmonics(equations.U() * motion_of(scene.contacts, c.size, 2).coefficients, 7);
+    for (const Knob& knob : knobs()) {
+      Model at = model;
+      const double* number = knob.of(at);
+      if (!number || (*number == 0.0 && knob.size == 0.0)) continue;
+      SCOPED_TRACE(c.name + ", " + knob.name);
+      const double value = *number;
+      const SystemSlope beside = slope_of(knob.name, scene, value, knob.size,
+                                          [&](double p) { return turned_to(model, knob, p); });
+      const auto slope = equations.slope(u, harmonic_slope(scene.contacts, NumberSlopes(beside)));
+      ASSERT_TRUE(slope);
+      const auto residual = [&](double p) {
+        const Scene there = make_scene(turned_to(model, knob, p));
+        const HarmonicProblem beside_it = harmonic_problem(there.contacts);
+        return HarmonicEquations(beside_it, 2, 7).evaluate(u, false).residual;
+      };
+      const double size = knob.size > 0.0 ? knob.size : std::abs(value);
+      const Mat wanted = stencil(residual, value, size);
+      const double left = of_integrals * residual(value).norm() / size;
+      EXPECT_LE((*slope - wanted).norm(), std::max(nine_digits * wanted.norm(), left));
+      if (wanted.norm() > 0.0) ++compared;
+    }
+  }
+  EXPECT_GT(compared, 100);
 }
 
 // x = A cos theta against N = k (x - c): the force's Fourier coefficients are, with c = A cos b,

@@ -1,0 +1,57 @@
+#pragma once
+/// Contacts and films with the derivatives of their numbers by a parameter.
+
+#include <array>
+#include <optional>
+
+#include "libcontact/dual_functions.hpp"
+#include "libdyn/system/number_slopes.hpp"
+
+namespace whirl::inline dyn {
+
+/// A number with its derivative by one parameter.
+using ByParameter = Dual<1>;
+
+/// A contact whose numbers bring their derivatives along.
+///
+/// Those of its rows U, B, V and B_t are none of its force on a motion that is known where it acts.
+struct SlopedContact {
+  ReducedContact contact;
+  AnyContactLaw<ByParameter> law;
+  std::array<ByParameter, 2> offset;  ///< [m]
+  ByParameter clearance;              ///< [m]
+  ByParameter rim_speed;              ///< [m/s]
+  ByParameter mu;
+  ByParameter tolerance;  ///< of a smoothed sign of the slip [m/s]
+  ByParameter tip;        ///< radius of a place about the rotor's axis [m]
+  ByParameter tip_speed;  ///< Omega tip [m/s]
+  Vec2 turned_normal;     ///< derivative of the direction in which it is met, if there is one
+
+  /// Kinematics on a motion.
+  /// @param motion  displacement from the rotor's axis at rest, and rates
+  ContactGap<ByParameter> gap(double phase, GapMotion<ByParameter> motion) const;
+};
+
+/// Contact number i of a system.
+SlopedContact sloped_contact(const ContactSystem& system, std::size_t i,
+                             const NumberSlopes& slopes);
+
+/// A film whose numbers bring their derivatives along.
+struct SlopedFilm {
+  std::array<ByParameter, 2> offset;  ///< [m]
+  ByParameter inverse;                ///< 1 / clearance [1/m]
+  ByParameter inverse_rate;           ///< 1 / (clearance rate) [s/m]
+  ByParameter factor;                 ///< of the force [N]
+  ByParameter spin;                   ///< as of FilmAtSpeed
+  AnyFilmLaw law;
+
+  /// Force on the journal [N]; nothing outside the bearing.
+  /// @param u, u_rate  displacement from the bearing [m] and its rate [m/s]
+  std::optional<std::array<ByParameter, 2>> force(const std::array<ByParameter, 2>& u,
+                                                  const std::array<ByParameter, 2>& u_rate) const;
+};
+
+/// Film number i of a system.
+SlopedFilm sloped_film(const ContactSystem& system, std::size_t i, const NumberSlopes& slopes);
+
+}  // namespace whirl::inline dyn
