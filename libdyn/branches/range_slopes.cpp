@@ -1,10 +1,14 @@
 #include "libdyn/branches/range_slopes.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "libbase/error.hpp"
 #include "libbase/quadrature.hpp"
+#include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/system/system_numbers.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
 
@@ -12,19 +16,18 @@ namespace whirl::inline dyn {
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array point_counts{3, 9};        ///< of a panel: 2 or 8 secants
 constexpr std::array checked{0.0625, 0.90625};  ///< places in a panel where it is compared
 constexpr double exact = 2e-13;  ///< of a block of numbers, to which they are a polynomial
 constexpr int most_halvings = 5;
+// of numbers in shapes that change, each of which takes a reduction:
+constexpr double exact_shapes = 2e-12;
+constexpr int most_halvings_of_shapes = 3;
+/// Errors that halves do not have less of, and less than this, are rounding of the shapes.
+constexpr double rounding_of_shapes = 5e-9;
+constexpr double falls = 0.1;        ///< of errors that halves have less of, over the whole
 constexpr double tolerance = 1e-14;  ///< of steps: impacts let errors grow
-
-/// Whether a motion with slopes is much cheaper than its tangent: steps of both are short where a
-/// force has no Taylor series at its surface, those of the motion alone are not.
-bool is_cheap(const ContactSystem& system) {
-  return system.films().empty() &&
-         std::all_of(system.contacts().begin(), system.contacts().end(),
-                     [](const ReducedContact& c) { return is_analytic(c.law); });
-}
 
 /// Slopes at a place of the polynomials that are 1 at one of some points and 0 at the others.
 Vec lagrange_slopes(const Vec& points, double at) {
@@ -41,21 +44,50 @@ Vec lagrange_slopes(const Vec& points, double at) {
   return slopes;
 }
 
-/// Whether what is interpolated between systems are the numbers of another one.
-bool is_interpolated(const std::vector<std::vector<Vec>>& known, const Vec& shares,
-                     const std::vector<Vec>& wanted) {
+/// Largest difference of what is interpolated between systems from the numbers of another one, over
+/// the largest number of its block.
+double interpolation_error(const std::vector<std::vector<Vec>>& known, const Vec& shares,
+                           const std::vector<Vec>& wanted) {
+  double largest = 0.0;
   for (std::size_t b = 0; b < wanted.size(); ++b) {
     Vec rest = wanted[b];
     double size = rest.size() > 0 ? rest.lpNorm<Eigen::Infinity>() : 0.0;
     for (std::size_t j = 0; j < known.size(); ++j) {
-      if (known[j].size() != wanted.size() || known[j][b].size() != rest.size()) return false;
+      if (known[j].size() != wanted.size() || known[j][b].size() != rest.size()) return infinity;
       if (rest.size() == 0) continue;
       rest -= shares(static_cast<Eigen::Index>(j)) * known[j][b];
       size = std::max(size, known[j][b].lpNorm<Eigen::Infinity>());
     }
-    if (rest.size() > 0 && !(rest.lpNorm<Eigen::Infinity>() <= exact * size)) return false;
+    const double error = rest.size() > 0 ? rest.lpNorm<Eigen::Infinity>() : 0.0;
+    if (!std::isfinite(error)) return infinity;
+    if (error > 0.0) largest = std::max(largest, error / size);
   }
-  return true;
+  return largest;
+}
+
+bool have_same_shapes(const Scene& a, const Scene& b) {
+  const Mat &x = a.reduced.Phi, &y = b.reduced.Phi;
+  return x.rows() == y.rows() && x.cols() == y.cols() && x == y;
+}
+
+/// T of eta = T eta_first.
+Mat coordinates_of(const BasisChange& change) {
+  const Mat& P = change.matrix();
+  return P.topLeftCorner(P.rows() / 2, P.cols() / 2);
+}
+
+/// Tells equations in other coordinates, eta = T eta_first.
+void tell_in_coordinates(const Mat& T, HarmonicProblem& problem) {
+  const Mat back = DenseLu<Mat>(T).solve(Mat::Identity(T.rows(), T.cols()));
+  for (Mat* A : {&problem.K, &problem.D}) *A = T * *A * back;
+  for (Vec* f : {&problem.f0, &problem.fc, &problem.fs}) *f = T * *f;
+  for (HarmonicProblem::OrderLoad& load : problem.orders) {
+    for (Vec* f : {&load.cosine, &load.sine}) *f = T * *f;
+  }
+  for (PortForces& force : problem.forces) {
+    force.U = force.U * back;
+    force.B = T * force.B;
+  }
 }
 
 }  // namespace
@@ -83,26 +115,35 @@ Vec SlopePanel::weights(double value) const {
   return weights;
 }
 
-std::shared_ptr<const Scene> RangeSlopes::scene_at(double value) const {
-  auto scene = at_(value);
-  const Mat &Phi = scene->reduced.Phi, &wanted = first_->reduced.Phi;
-  if (Phi.rows() == wanted.rows() && Phi.cols() == wanted.cols() && Phi == wanted) return scene;
-  throw NumericalError("the parameter changes the shapes that the rotor moves in");
+ContactSystem RangeSlopes::system_at(double value) const {
+  const auto scene = at_(value);
+  if (have_same_shapes(*scene, *first_)) return scene->contacts;
+  if (!model_at_) throw NumericalError("the parameter changes the shapes that the rotor moves in");
+  const Mat T = coordinates_of(BasisChange(*scene, *first_));
+  const auto small = [&](const Mat& A) -> Mat { return T.transpose() * A * T; };
+  const ReducedSystem& own = scene->reduced;
+  const Model model = model_at_(value);
+  return ContactSystem(
+      scene->assembler,
+      {own.Phi * T, small(own.M), small(own.C), small(own.G), small(own.K), own.dofs, own.Omega},
+      model.contacts, model.films);
 }
 
-bool RangeSlopes::keeps_shapes() const {
+void RangeSlopes::look() const {
   for (const double x : checked) {
+    const double value = low_ + x * (high_ - low_);
     try {
-      scene_at(low_ + x * (high_ - low_));
+      system_at(value);
+      is_reshaped_ = is_reshaped_ || !have_same_shapes(*at_(value), *first_);
     } catch (const NumericalError&) {
-      return false;
+      return;
     }
   }
-  return true;
+  has_slopes_ = true;
 }
 
-std::shared_ptr<const SlopePanel> RangeSlopes::made(double low, double high) const {
-  const auto at_place = [&](double x) { return scene_at(low + x * (high - low))->contacts; };
+void RangeSlopes::make(Part& part, double error_of_whole) const {
+  const auto at_place = [&](double x) { return system_at(part.low + x * (part.high - part.low)); };
   std::vector<std::vector<Vec>> compared;
   for (const double x : checked) compared.push_back(numbers_of(at_place(x)));
   const Mat places = Eigen::Map<const Vec>(checked.data(), std::ssize(checked));
@@ -115,26 +156,33 @@ std::shared_ptr<const SlopePanel> RangeSlopes::made(double low, double high) con
       numbers.push_back(numbers_of(systems.back()));
     }
     const Mat shares = rule.interpolation(places);
-    bool is_good = true;
-    for (std::size_t i = 0; i < compared.size() && is_good; ++i) {
+    part.error = 0.0;
+    for (std::size_t i = 0; i < compared.size(); ++i) {
       const Vec row = shares.row(static_cast<Eigen::Index>(i)).transpose();
-      is_good = is_interpolated(numbers, row, compared[i]);
+      part.error = std::max(part.error, interpolation_error(numbers, row, compared[i]));
     }
-    if (is_good) return std::make_shared<const SlopePanel>(low, high, rule.x, systems);
+    const bool is_rounding = is_reshaped_ && count == point_counts.back() &&
+                             part.error > falls * error_of_whole &&
+                             part.error <= rounding_of_shapes;
+    if (part.error <= (is_reshaped_ ? exact_shapes : exact) || is_rounding) {
+      part.panel = std::make_shared<const SlopePanel>(part.low, part.high, rule.x, systems);
+      return;
+    }
   }
-  return nullptr;
 }
 
-std::shared_ptr<const SlopePanel> RangeSlopes::panel_in(Part& part, double value, int depth) const {
+std::shared_ptr<const SlopePanel> RangeSlopes::panel_in(Part& part, double value, int depth,
+                                                        double error_of_whole) const {
   if (!part.is_known) {
     try {
-      part.panel = made(part.low, part.high);
+      make(part, error_of_whole);
     } catch (const NumericalError&) {
     } catch (const ModelError&) {
     }  // without a panel
     part.is_known = true;
   }
-  if (part.panel || depth == most_halvings) return part.panel;
+  const int most = is_reshaped_ ? most_halvings_of_shapes : most_halvings;
+  if (part.panel || depth == most) return part.panel;
   const double middle = 0.5 * (part.low + part.high);
   std::unique_ptr<Part>& half = part.halves[value < middle ? 0 : 1];
   if (!half) {
@@ -142,27 +190,26 @@ std::shared_ptr<const SlopePanel> RangeSlopes::panel_in(Part& part, double value
     half->low = value < middle ? part.low : middle;
     half->high = value < middle ? middle : part.high;
   }
-  return panel_in(*half, value, depth + 1);
+  return panel_in(*half, value, depth + 1, part.error);
 }
 
 std::shared_ptr<const SlopePanel> RangeSlopes::panel_at(double value) const {
   const std::lock_guard lock(mutex_);
   if (!whole_) {
-    whole_.emplace();
-    whole_->low = low_;
-    whole_->high = high_;
-    has_slopes_ = is_cheap(first_->contacts) && keeps_shapes();
+    whole_ = Part{.low = low_, .high = high_};
+    look();
   }
-  return has_slopes_ ? panel_in(*whole_, value, 0) : nullptr;
+  return has_slopes_ ? panel_in(*whole_, value, 0, infinity) : nullptr;
 }
 
 std::optional<Vec> RangeSlopes::end_slope(double value, const MotionState& start,
                                           double revolutions) const {
-  const auto panel = revolutions > 0.0 ? panel_at(value) : nullptr;
+  // films ask for as many steps as tangents do, two plain motions for a fraction of them
+  if (!(revolutions > 0.0) || !first_->contacts.films().empty()) return std::nullopt;
+  const auto panel = panel_at(value);
   if (!panel) return std::nullopt;
   try {
-    const auto scene = scene_at(value);
-    const ContactSystem& system = scene->contacts;
+    const ContactSystem system = system_at(value);
     const double time = revolutions * system.period();
     const MotionSlopes motion =
         motion_slopes(system, start, {&time, 1}, panel->secants(),
@@ -171,6 +218,22 @@ std::optional<Vec> RangeSlopes::end_slope(double value, const MotionState& start
     const Vec slope = motion.by_parameter[0] * panel->weights(value);
     if (!slope.allFinite()) return std::nullopt;
     return slope;
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<HarmonicProblem> RangeSlopes::problem_slope(double value) const {
+  const auto panel = panel_at(value);
+  if (!panel) return std::nullopt;
+  try {
+    const auto scene = at_(value);
+    for (const SystemSlope& secant : panel->secants()) require_smooth(scene->contacts, secant);
+    HarmonicProblem by =
+        harmonic_slope(scene->contacts, NumberSlopes(panel->secants(), panel->weights(value)));
+    const BasisChange change(*scene, *first_);
+    if (!change.is_none()) tell_in_coordinates(coordinates_of(change), by);
+    return by;
   } catch (const NumericalError&) {
     return std::nullopt;
   }

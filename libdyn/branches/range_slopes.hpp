@@ -3,11 +3,13 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "libdyn/orbits/harmonic_equations.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/system/system_slope.hpp"
 
@@ -41,20 +43,31 @@ class SlopePanel {
 /// secants, which take one pass, and the derivative of the motion is their sum with the weights v:
 /// what depends on p is made once for all points of all branches.
 ///
-/// There is no derivative where the parameter changes the shapes Phi that scenes move in, by a
-/// single bit, where its numbers are no smooth function of it (as at the points of bearing tables),
-/// where motion_slopes has none, and of Hertz contacts, blades and films, for which two plain motions are
-/// several times cheaper.
+/// Where the parameter changes the shapes Phi that scenes move in, their systems are told in the
+/// coordinates of the first scene (BasisChange), in which numbers are smooth, whatever signs and order
+/// shapes have: the derivative is that of the reduced equations, what it changes in the shapes included.
+/// It has the rounding of shapes, which are solved for.
+///
+/// There is no derivative where numbers are no smooth function of the parameter (as at the points of
+/// bearing tables, or where the number of modes changes), and of motions where motion_slopes has none, or
+/// on films, for which two plain motions are nearly twice as cheap.
 ///
 /// May be asked by several threads at once; what it says does not depend on who asked before.
 class RangeSlopes {
  public:
   using SceneAt = std::function<std::shared_ptr<const Scene>(double value)>;
+  using ModelAt = std::function<Model(double value)>;
 
-  /// @param at     the scene at a value; asked between low and high
-  /// @param first  whose shapes all of them move in
-  RangeSlopes(SceneAt at, std::shared_ptr<const Scene> first, double low, double high)
-      : at_(std::move(at)), first_(std::move(first)), low_(low), high_(high) {}
+  /// @param at        the scene at a value; asked between low and high
+  /// @param first     whose coordinates all of them are told in
+  /// @param model_at  the model of the scene; null: there are no slopes where shapes change
+  RangeSlopes(SceneAt at, std::shared_ptr<const Scene> first, double low, double high,
+              ModelAt model_at = {})
+      : at_(std::move(at)),
+        model_at_(std::move(model_at)),
+        first_(std::move(first)),
+        low_(low),
+        high_(high) {}
 
   /// The panel that holds a value, low to high; null: there is no slope.
   std::shared_ptr<const SlopePanel> panel_at(double value) const;
@@ -64,26 +77,39 @@ class RangeSlopes {
   /// @param revolutions  that it goes on for, any number above 0
   std::optional<Vec> end_slope(double value, const MotionState& start, double revolutions) const;
 
+  /// Derivative by the parameter of the equations of harmonic balance at a value, as
+  /// HarmonicEquations::slope takes it, in the coordinates of the scene there.
+  std::optional<HarmonicProblem> problem_slope(double value) const;
+
  private:
   struct Part {
     double low = 0.0, high = 0.0;
     std::shared_ptr<const SlopePanel> panel{};
+    double error = std::numeric_limits<double>::infinity();  ///< of the last polynomial tried
     std::array<std::unique_ptr<Part>, 2> halves{};
     bool is_known = false;  ///< whether there is a panel
   };
-  std::shared_ptr<const SlopePanel> panel_in(Part& part, double value, int depth) const;
-  std::shared_ptr<const SlopePanel> made(double low, double high) const;
-  /// Whether scenes move in the shapes of the first one, at two values of the range.
-  bool keeps_shapes() const;
-  /// @throws NumericalError, ModelError  where there is none, or none that moves in the first shapes
-  std::shared_ptr<const Scene> scene_at(double value) const;
+  /// @param error_of_whole  of the part that this is a half of
+  std::shared_ptr<const SlopePanel> panel_in(Part& part, double value, int depth,
+                                             double error_of_whole) const;
+  /// Its panel, if it has one.
+  void make(Part& part, double error_of_whole) const;
+  /// Finds out, at two values of the range, whether there are systems in the coordinates of the first
+  /// one, and whether shapes change.
+  void look() const;
+  /// In the coordinates of the first scene.
+  /// @throws NumericalError, ModelError  where there is none
+  ContactSystem system_at(double value) const;
 
   SceneAt at_;
+  ModelAt model_at_;
   std::shared_ptr<const Scene> first_;
   double low_, high_;
   mutable std::mutex mutex_;
   mutable std::optional<Part> whole_{};  ///< made when it is asked for
-  mutable bool has_slopes_ = false;      ///< then: whether there can be any
+  // then:
+  mutable bool has_slopes_ = false;   ///< whether there can be any slopes
+  mutable bool is_reshaped_ = false;  ///< whether the parameter changes the shapes of scenes
 };
 
 }  // namespace whirl::inline dyn

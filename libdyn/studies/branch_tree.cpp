@@ -51,11 +51,15 @@ class TreeEquations {
                                        revolutions);
     };
   }
+  HarmonicSlopeAt harmonic_slope_at() const {
+    if (!scenes_.slopes) return {};
+    return [this](double value) { return scenes_.slopes->problem_slope(value); };
+  }
 
   BranchEquations of(const BranchLayout& layout) const {
     if (options_.method == OrbitMethod::harmonic_balance) {
       return harmonic_equations([this](double value) { return problem_at(value); }, options_.period,
-                                layout.harmonics, length_scale());
+                                layout.harmonics, length_scale(), harmonic_slope_at());
     }
     return layout.is_rotating
                ? autonomous_equations(autonomous_flow_at(), layout.scale, rotating_end_slope())

@@ -30,7 +30,9 @@ BranchStudyOptions BranchSetup::options() const {
 BranchScenes BranchSetup::scenes() const {
   const SceneAt along = [this](double value) { return parameters.scene(value); };
   const ParameterRange& range = tree.along;
-  return {{scene, along, std::make_shared<const RangeSlopes>(along, scene, range.low, range.high)},
+  const RangeSlopes::ModelAt model = [this](double value) { return parameters.model(value); };
+  return {{scene, along,
+           std::make_shared<const RangeSlopes>(along, scene, range.low, range.high, model)},
           {scene, [this](double a, double b) { return parameters.scene(a, b); }}};
 }
 

@@ -116,8 +116,8 @@ std::shared_ptr<const HarmonicProblem> problem_of(const test::RotorStator& rotor
 }
 
 // The residual is a formula: at displacements that are held it goes straight with stiffness, friction and
-// unbalance, so that values far apart tell its slope. Rounding leaves the difference that branches take nearly nine
-// digits of it.
+// unbalance, so that values far apart tell its slope. Rounding leaves the difference that branches take where
+// they know no slope nearly nine digits of it.
 TEST(HarmonicBranch, HasEightDigitsOfTheDerivativeByTheParameter) {
   constexpr int harmonics = 20;
   constexpr double eight_digits = 1e-8;
