@@ -189,6 +189,7 @@ class Engine {
   HWY_ATTR uint64_t due_lanes(uint64_t ends) const;
   HWY_ATTR void orthonormalize(uint64_t due);
   HWY_ATTR void keep_growths(uint64_t ends);
+  HWY_ATTR void add_divergence(const P& h);
   HWY_ATTR P contact_divergence(size_t i, const P& h);
   template <int Bodies>
   __attribute__((flatten)) HWY_ATTR void move_columns(P* columns, bool any_sticks, const P& h);
@@ -208,6 +209,14 @@ class Engine {
   HWY_ATTR void find_graze(const P* g, const P& first, int degree, double sign, double scale,
                            double h, size_t i, EventKind kind);
   HWY_ATTR void tell_event(size_t i, EventKind kind, bool jumps);
+  HWY_ATTR void load_deviations();
+  HWY_ATTR P end_of_step(const P& h, uint64_t& fell, uint64_t ends);
+  HWY_ATTR P to_same_depth(const P& h);
+  HWY_ATTR P along_event(const ContactLanes<P>& c, EventKind kind, const P* moved,
+                         const P* rates) const;
+  HWY_ATTR void note_jump(size_t i, EventKind kind);
+  HWY_ATTR void jump_deviations();
+  HWY_ATTR void keep_deviations();
 
   // engine_films-inl.h
   HWY_ATTR void fail_by_film(int l, const ReducedFilm& film);
@@ -339,11 +348,11 @@ HWY_ATTR void Engine<P>::unload(int l) {
       m.max_tangential = std::max(m.max_tangential, lane(from.max_friction, l));
     }
   }
-  if (has_tangents()) {
+  if constexpr (!carries_slopes<P>) {
     const double turns = static_cast<double>(record.revolution - record.first_revolution);
     const double start = record.first_phase / t.system->phase_rate();
-    unload_tangents(l, turns * t.system->period() + t.state.phase / t.system->phase_rate() - start,
-                    t);
+    const double end = turns * t.system->period() + t.state.phase / t.system->phase_rate();
+    if (has_tangents()) unload_tangents(l, end - start, t);
   }
   active_ &= ~(uint64_t{1} << l);
   trajectory_[static_cast<size_t>(l)] = nullptr;

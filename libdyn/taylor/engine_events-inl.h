@@ -257,10 +257,11 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
   }
   if (carries_slopes<P> || has_tangents()) {
     const auto jump = saltation(*t.system, event, at, y, before, states);
-    if (has_tangents() && jump) jump_tangents(l, *jump);
     if constexpr (carries_slopes<P>) {
-      if (jump) jump_slopes(i, kind, *jump);
+      if (jump) has_tangents() ? note_jump(i, kind) : jump_slopes(i, kind, *jump);
       tell_event(i, kind, jump.has_value());
+    } else if (jump) {
+      jump_tangents(l, *jump);
     }
   }
   t.system->remove_slip(y.data(), states);

@@ -30,6 +30,12 @@ struct SlopeWork<P, true> {
   typename P::Slopes stretch;  ///< -rate' / rate of the phase: of times at fixed phase
   std::vector<P> sample;
   std::vector<double> passed;  ///< per contact, Graze::margin if its event happens
+
+  // of deviations, whose steps end at the instants of events
+  typename P::Slopes moved{0.0};  ///< of the time beyond those at fixed phase
+  P length;                       ///< of the step
+  std::vector<P> before;  ///< acceleration before a jump of it, until that is known after it
+  std::vector<P> along;   ///< per deviation, by how much earlier it meets the event
 };
 
 /// Gives the numbers of a loaded system the slopes that its neighbors tell, and states their own.
@@ -62,6 +68,7 @@ HWY_ATTR void Engine<P>::load_slopes(const Trajectory& t) {
   int sign = 1;
   slopes.reach = std::exp((std::log(options_.tolerance) + ::lgamma_r(N + 4.0, &sign)) / (N + 3.0));
   slopes.stretch = -(rate_.s * wide(typename P::Value(1.0) / rate_.x));
+  if (has_tangents()) load_deviations();
 }
 
 /// Tells the loads of other frequencies what a revolution begins with beside the system.
@@ -127,7 +134,7 @@ HWY_ATTR P Engine<P>::limit_for_slopes(const P& h) {
 /// Then slopes are those at fixed phase, the time of a state being a number with slopes, too.
 template <class P>
 HWY_ATTR P Engine<P>::to_fixed_phase(const P& h) const {
-  return {h.x, wide(h.x) * slopes_->stretch};
+  return {h.x, wide(h.x) * slopes_->stretch - slopes_->moved};
 }
 
 /// Time since the start [s].
@@ -153,8 +160,9 @@ HWY_ATTR void Engine<P>::take_samples(const P& h) {
     into = std::clamp(into, 0.0, length);
     P place = to_fixed_phase(P(into));
     if (run.held == HeldSample::time) {  // the time before this step, which stretched, is made up
-      place.s = -(wide(typename P::Value(before)) * slopes.stretch);
+      place.s = -(wide(typename P::Value(before)) * slopes.stretch) - slopes.moved;
     }
+    slopes.length = place;
     slopes.sample = y_;
     evaluate<0>(terms_.data(), place, slopes.sample.data());
     Vec y(2 * n_);
@@ -203,6 +211,136 @@ HWY_ATTR void Engine<P>::jump_slopes(size_t i, EventKind kind, const Saltation& 
   for (int j = n_; j < 2 * n_; ++j) {
     P& number = y_[static_cast<size_t>(j)];
     number.s = fma(typename P::Slopes(s.jump(j)), function.s, number.s);
+  }
+}
+
+/// Begins with the deviations that are asked for.
+template <class P>
+HWY_ATTR void Engine<P>::load_deviations() {
+  const Mat& start = slopes_->run->deviations;
+  tangents_->columns.assign(start.data(), start.data() + start.size());
+  slopes_->along.clear();
+}
+
+/// Looks at a step of length h, and says how slopes move its end: to fixed phase, but with deviations
+///
+/// - to the instant of an event. Their rate jumps there, and so would they beside that instant;
+/// - to the same depth close to the surface of a law that has no Taylor series there, unless a revolution
+///   ends: second derivatives of its force grow without bound, but not beside motions that are
+///   equally deep;
+/// - to the last sample, before any event.
+template <class P>
+HWY_ATTR P Engine<P>::end_of_step(const P& h, uint64_t& fell, uint64_t ends) {
+  auto& slopes = *slopes_;
+  const P fixed = to_fixed_phase(h);
+  find_grazes(fixed);
+  take_samples(fixed);
+  if (!has_tangents()) return fixed;
+  if (slopes.run->is_done()) {
+    fell = 0;
+    return slopes.length;
+  }
+  slopes.length = fell != 0 ? h : ends != 0 || is_analytic_ ? fixed : to_same_depth(fixed);
+  slopes.moved = slopes.length.s - fixed.s;
+  return slopes.length;
+}
+
+/// The step to the depth of the contact that is closest to its surface, if one comes from there or goes
+/// there.
+template <class P>
+HWY_ATTR P Engine<P>::to_same_depth(const P& h) {
+  P to = h;
+  double soonest = std::numeric_limits<double>::infinity();
+  for (ContactLanes<P>& c : contacts_) {
+    if ((c.touching & 1) == 0 || c.rows.is_analytic) continue;
+    const P s0 = c.s[0];
+    c.s[0] = c.beyond();
+    P value, rate;
+    horner(c.s, N + 2, P(h.x, typename P::Slopes(0.0)), value, rate);
+    c.s[0] = s0;
+    double bend = 0.0;
+    for (int k = N + 2; k >= 2; --k) bend = bend * lane(h, 0) + k * (k - 1.0) * lane(c.s[k], 0);
+    const double depth = std::abs(lane(value, 0)), speed = std::abs(lane(rate, 0));
+    if (!(speed * speed > std::abs(bend) * depth) || !(depth < soonest * speed)) continue;
+    soonest = depth / speed;
+    to.s = -(value.s * wide(typename P::Value(1.0) / rate.x));
+  }
+  return to;
+}
+
+/// How the function of an event changes along a direction of the state: the distance of a touch times
+/// what it is, and that times the slip.
+///
+/// @param moved, rates  the direction's displacements and velocities
+template <class P>
+HWY_ATTR P Engine<P>::along_event(const ContactLanes<P>& c, EventKind kind, const P* moved,
+                                  const P* rates) const {
+  P x = c.dx[0], y = c.dy[0], u, v;
+  if (!c.rows.is_plane) {
+    c.displacement(y_.data(), x, y);
+    x = x - c.offset_x;
+    y = y - c.offset_y;
+  }
+  c.displacement(moved, u, v);
+  const P outward = fma(x, u, y * v);
+  if (kind == EventKind::touch) return outward;
+  const auto lateral = [&](const P* velocity, P& to_x, P& to_y) HWY_ATTR {
+    c.rub ? c.rub->lateral(velocity, to_x, to_y) : c.displacement(velocity, to_x, to_y);
+  };
+  P a, b;
+  lateral(rates, a, b);
+  const P turned = fnma(y, a, x * b);
+  if (c.rows.is_plane) return turned;
+  lateral(y_.data() + n_, a, b);
+  return turned + fma(u, b, fnma(v, a, c.rim * outward / sqrt(fma(x, x, y * y))));
+}
+
+/// Notes what a jump of the acceleration at an event of contact i does to deviations, as far as it is
+/// known before the next step:  dy+ = dy- + (f+ - f-) (dg / dy dy-) / (dg / dt).
+template <class P>
+HWY_ATTR void Engine<P>::note_jump(size_t i, EventKind kind) {
+  auto& slopes = *slopes_;
+  const ContactLanes<P>& c = contacts_[i];
+  slopes.before.assign(static_cast<size_t>(n_), P(0.0));
+  for (int k = N + 2; k >= 2; --k) {
+    const P* x = term(k);
+    for (size_t j = 0; j < slopes.before.size(); ++j) {
+      slopes.before[j] = fma(slopes.before[j], slopes.length, P(k * (k - 1.0)) * x[j]);
+    }
+  }
+  const P rate = along_event(c, kind, y_.data() + n_, slopes.before.data());
+  const auto& columns = tangents_->columns;
+  slopes.along.clear();
+  for (const P* dy = columns.data(); dy != columns.data() + columns.size(); dy += 2 * n_) {
+    slopes.along.push_back(along_event(c, kind, dy, dy + n_) / rate);
+  }
+}
+
+/// Lets deviations jump, the acceleration after the event being known.
+template <class P>
+HWY_ATTR void Engine<P>::jump_deviations() {
+  auto& slopes = *slopes_;
+  for (size_t d = 0; d < slopes.along.size(); ++d) {
+    P* rates = tangents_->columns.data() + d * 2 * slopes.before.size() + n_;
+    for (size_t j = 0; j < slopes.before.size(); ++j) {
+      const P jump = P(2.0) * term(2)[j] - slopes.before[j];
+      rates[j] = fma(jump, slopes.along[d], rates[j]);
+    }
+  }
+  slopes.along.clear();
+}
+
+/// Tells where deviations have got to, with their slopes.
+template <class P>
+HWY_ATTR void Engine<P>::keep_deviations() {
+  SlopeRun& run = *slopes_->run;
+  for (Eigen::Index d = 0; d < run.deviations.cols(); ++d) {
+    Mat& by = run.deviation_slopes.emplace_back(2 * n_, std::ssize(run.columns));
+    for (int i = 0; i < 2 * n_; ++i) {
+      const P& number = tangents_->columns[static_cast<size_t>(2 * n_ * d + i)];
+      run.deviations(i, d) = lane(number, 0);
+      for (int c = 0; c < by.cols(); ++c) by(i, c) = lane(number.s, c);
+    }
   }
 }
 

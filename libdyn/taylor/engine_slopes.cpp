@@ -26,7 +26,9 @@ namespace HWY_NAMESPACE {
 
 void run_slopes_here(const Pattern& pattern, const BatchOptions& options, Trajectory& trajectory,
                      SlopeRun& run) {
-  const auto engine = std::make_unique<Engine<Sloped>>(pattern, options);
+  BatchOptions how = options;
+  how.tangent = run.deviations.size() > 0;
+  const auto engine = std::make_unique<Engine<Sloped>>(pattern, how);
   engine->carry_slopes(run);
   engine->run({&trajectory, 1}, nullptr);
 }

@@ -94,6 +94,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   constexpr Number too_small = 10.0 * P::rounding;  // of a revolution
   constexpr Number brief_step = 1e4 * P::rounding;  // of a revolution; its square is nothing
   series();
+  if constexpr (carries_slopes<P>) jump_deviations();
   P h = step_length();
   if (has_tangents()) h = limit_for_tangents(h);
   if constexpr (carries_slopes<P>) h = limit_for_slopes(h);
@@ -111,7 +112,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     return;  // the others begin this step again
   }
   h = select(mask_of<P>(active_), h, P(0.0));
-  const uint64_t fell = find_events(h);
+  uint64_t fell = find_events(h);
   ends &= ~fell;
   if (options_.measures) measure(h);
   const uint64_t instant = bits(h, less_equal(h, period_ * P(too_small))) & active_;
@@ -120,11 +121,7 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   }
   bool goes_on = true;
   if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
-  if constexpr (carries_slopes<P>) {
-    h = to_fixed_phase(h);
-    find_grazes(h);
-    take_samples(h);
-  }
+  if constexpr (carries_slopes<P>) h = end_of_step(h, fell, ends);
   if (has_tangents()) move_tangents(h);
   if (pattern_.bodies == 2) {
     evaluate<2>(terms_.data(), h, y_.data());
@@ -163,10 +160,14 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     if (P::is_double && is_alone && films_.empty()) fly_on(l);
     if (record.revolution >= record.last) finished_ |= uint64_t{1} << l;
   }
-  if (has_tangents() && options_.exponents) orthonormalize(due_lanes(ends));
-  if (has_tangents() && options_.growths) keep_growths(ends);
   if constexpr (carries_slopes<P>) {
-    if (slopes_->run->is_done()) finished_ |= 1;
+    if (slopes_->run->is_done()) {
+      keep_deviations();
+      finished_ |= 1;
+    }
+  } else if (has_tangents()) {
+    if (options_.exponents) orthonormalize(due_lanes(ends));
+    if (options_.growths) keep_growths(ends);
   }
   if (!goes_on) {
     trajectory_[0]->outcome = Outcome::stopped_by_observer;

@@ -138,12 +138,28 @@ HWY_ATTR inline void Engine<P>::accelerate_columns(int k, const P* forces, P* to
 template <class P>
 HWY_ATTR void Engine<P>::move_tangents(const P& h) {
   auto& t = *tangents_;
-  const Mask active = mask_of<P>(active_);
   bool any_sticks = false;
+  for (const ContactLanes<P>& c : contacts_) any_sticks = any_sticks || (c.sticking & active_) != 0;
+  if constexpr (!carries_slopes<P>) add_divergence(h);
+  const size_t size = 2 * static_cast<size_t>(n_), count = t.columns.size() / size;
+  for (size_t c = 0; c < count; c += 2) {
+    P* y = t.columns.data() + c * size;
+    if (is_rotor_in_stator()) {
+      move_columns<2>(y, any_sticks, h);
+    } else {
+      move_columns<0>(y, any_sticks, h);
+    }
+  }
+}
+
+/// Adds what the flow diverges by in the step h.
+template <class P>
+HWY_ATTR void Engine<P>::add_divergence(const P& h) {
+  auto& t = *tangents_;
+  const Mask active = mask_of<P>(active_);
   t.divergence = t.divergence + select(active, t.trace * h, P(0.0));
   for (size_t i = 0; i < contacts_.size(); ++i) {
     const ContactLanes<P>& c = contacts_[i];
-    any_sticks = any_sticks || (c.sticking & active_) != 0;
     if ((c.touching & active_) != 0 && t.slopes[i].has_H) {
       t.divergence =
           t.divergence + select(both(active, c.in_touch), contact_divergence(i, h), P(0.0));
@@ -151,15 +167,6 @@ HWY_ATTR void Engine<P>::move_tangents(const P& h) {
   }
   if (!films_.empty()) {
     t.divergence = t.divergence + select(active, film_divergence(h), P(0.0));
-  }
-  const size_t size = 2 * static_cast<size_t>(n_);
-  for (size_t c = 0; c < size; c += 2) {
-    P* y = t.columns.data() + c * size;
-    if (is_rotor_in_stator()) {
-      move_columns<2>(y, any_sticks, h);
-    } else {
-      move_columns<0>(y, any_sticks, h);
-    }
   }
 }
 

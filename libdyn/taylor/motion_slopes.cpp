@@ -25,19 +25,32 @@ Pattern pattern_of(const ContactSystem& system, std::span<const SlopeColumn> col
 }
 
 /// Moves the columns of a pass to where all columns are.
-void put(const SlopeRun& run, std::size_t first, Eigen::Index size, MotionSlopes& to) {
-  for (std::size_t k = 0; k < run.slopes.size(); ++k) {
+///
+/// @param slopes        of the pass, one or several of the same columns
+/// @param by_start      as many; none: they are not wanted
+/// @param by_parameter  as many
+void put(const std::vector<Mat>& slopes, const SlopeRun& run, std::size_t first,
+         std::vector<Mat>& by_start, std::vector<Mat>& by_parameter) {
+  for (std::size_t k = 0; k < slopes.size(); ++k) {
     for (std::size_t c = 0; c < run.columns.size(); ++c) {
-      const auto column = run.slopes[k].col(static_cast<Eigen::Index>(c));
+      const auto column = slopes[k].col(static_cast<Eigen::Index>(c));
       const SlopeColumn& what = run.columns[c];
       if (!what.parameter) {
-        to.by_start[k].col(what.start) = column;
+        by_start[k].col(what.start) = column;
         continue;
       }
-      const auto number = static_cast<Eigen::Index>(first + c) - (to.by_start.empty() ? 0 : size);
-      to.by_parameter[k].col(number) = column / what.parameter->step;
+      const Eigen::Index states = by_start.empty() ? 0 : by_start[k].cols();
+      const auto number = static_cast<Eigen::Index>(first + c) - states;
+      by_parameter[k].col(number) = column / what.parameter->step;
     }
   }
+}
+
+/// Two go side by side.
+Mat in_pairs(const Mat& deviations) {
+  Mat even = Mat::Zero(deviations.rows(), deviations.cols() + deviations.cols() % 2);
+  even.leftCols(deviations.cols()) = deviations;
+  return even;
 }
 
 }  // namespace
@@ -64,7 +77,8 @@ MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start
                              columns.begin() + static_cast<long>(first + count)},
                  .times = times,
                  .held = options.held,
-                 .near = options.near};
+                 .near = options.near,
+                 .deviations = in_pairs(options.deviations)};
     Trajectory t{.system = &system, .state = start, .revolutions = revolutions};
     run_slopes(pattern_of(system, run.columns),
                {.tolerance = options.tolerance, .order = options.order}, t, run);
@@ -77,8 +91,12 @@ MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start
       const Mat none = Mat::Zero(system.size(), static_cast<Eigen::Index>(parameters.size()));
       result.by_parameter.assign(run.states.size(), none);
       if (options.by_start) {
-        result.by_start.assign(run.states.size(), Mat::Zero(system.size(), system.size()));
+        const Mat square = Mat::Zero(system.size(), system.size());
+        result.by_start.assign(run.states.size(), square);
+        result.deviations_by_start.assign(run.deviation_slopes.size(), square);
       }
+      result.deviations_by_parameter.assign(run.deviation_slopes.size(), none);
+      result.deviations = run.deviations.leftCols(options.deviations.cols());
       if (!run.states.empty()) result.end = std::move(run.end);
       const auto is_later = [&](const auto& what) { return what.time > times.back(); };
       std::erase_if(run.events, is_later);
@@ -89,9 +107,15 @@ MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start
       result.failure = std::move(t.failure);
       result.cost = t.cost;
     }
-    put(run, first, system.size(), result);
+    put(run.slopes, run, first, result.by_start, result.by_parameter);
+    put(run.deviation_slopes, run, first, result.deviations_by_start,
+        result.deviations_by_parameter);
     first += count;
   } while (first < columns.size());
+  const auto count = static_cast<std::size_t>(options.deviations.cols());  // one may be too many
+  for (auto* slopes : {&result.deviations_by_start, &result.deviations_by_parameter}) {
+    if (slopes->size() > count) slopes->resize(count);
+  }
   return result;
 }
 

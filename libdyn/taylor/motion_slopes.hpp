@@ -22,6 +22,7 @@ struct SlopeOptions {
   bool by_start = true;      ///< whether derivatives by the start are wanted
   HeldSample held = HeldSample::time;
   double near = 1e-6;  ///< distance to a surface up to which a motion grazes it, see Graze
+  Mat deviations{};  ///< of the start, 2 n x any number: carried to the last sample, see MotionSlopes
 };
 
 /// An event of a motion.
@@ -53,6 +54,11 @@ struct MotionSlopes {
   Mat states;                     ///< 2 n x times
   std::vector<Mat> by_start;      ///< per time, 2 n x 2 n, if wanted
   std::vector<Mat> by_parameter;  ///< per time, 2 n x parameters [state per unit of p]
+  /// What small deviations of the start have become at the last sample: the derivative by the start
+  /// times them. Their own derivatives are second ones of the motion.
+  Mat deviations;
+  std::vector<Mat> deviations_by_start;      ///< per deviation, 2 n x 2 n, if wanted
+  std::vector<Mat> deviations_by_parameter;  ///< per deviation, 2 n x parameters
   std::vector<MotionEvent> events;
   std::vector<Graze> grazes;
   MotionState end;  ///< where the last sample is, for what follows

@@ -21,12 +21,14 @@ struct SlopeRun {
   std::span<const double> times;     ///< as motion_slopes
   HeldSample held = HeldSample::time;
   double near = 0.0;
+  Mat deviations;  ///< 2 n x any even number: of the start, carried to the last sample
 
   std::vector<Vec> states;  ///< of the samples so far
   std::vector<Mat> slopes;  ///< per sample, 2 n x columns [per step of its parameter]
   std::vector<MotionEvent> events;
   std::vector<Graze> grazes;
   MotionState end;
+  std::vector<Mat> deviation_slopes;  ///< per deviation, 2 n x columns [per step of its parameter]
 
   bool is_done() const { return states.size() == times.size(); }
 };

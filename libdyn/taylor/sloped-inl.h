@@ -194,14 +194,21 @@ HWY_ATTR inline void set_lane(Sloped& a, int l, double value) {
   set_lane(a.s, column, lane(a.s, column) + weight * value);
 }
 
-/// By values alone: the slopes of an event are those of the state at it.
+/// By values alone. The slopes of h are then those of the zero,  h' = -g' / (dg / dt).
 HWY_ATTR inline Sloped::Mask first_downward_zero(const Sloped* g, int degree, const Sloped& sign,
                                                  const Sloped& scale, Sloped& h,
                                                  const Sloped::Mask& active,
                                                  const Sloped::Mask& surface) {
   Sloped::Value values[2 * Sloped::most_terms];
   for (int k = 0; k <= degree; ++k) values[k] = g[k].x;
-  return first_downward_zero<Sloped::Value>(values, degree, sign.x, scale.x, h.x, active, surface);
+  const auto fell =
+      first_downward_zero<Sloped::Value>(values, degree, sign.x, scale.x, h.x, active, surface);
+  if (any(h, fell)) {
+    Sloped value, rate;
+    horner(g, degree, Sloped(h.x, Sloped::Slopes(0.0)), value, rate);
+    h.s = -(value.s * wide(Sloped::Value(1.0) / rate.x));
+  }
+  return fell;
 }
 
 #undef WHIRL_PRODUCT
