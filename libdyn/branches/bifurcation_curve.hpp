@@ -6,7 +6,7 @@
 #include <span>
 
 #include "libdyn/branches/branch_equations.hpp"
-#include "libdyn/system/scene.hpp"
+#include "libdyn/branches/plane_slopes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -15,7 +15,12 @@ struct FlowPlane {
   std::function<Flow(double first, double second)> at;
   /// How far the motions of a revolution from each start are from grazing: see nearest_graze. Only
   /// called for grazings.
-  std::function<double(double first, double second, std::span<const Vec> starts)> graze;
+  std::function<NearestGraze(double first, double second, std::span<const Vec> starts)> graze;
+  /// Derivatives of the revolution from a start; nothing where they are not known. A null function:
+  /// they never are.
+  std::function<std::optional<RevolutionSlopes>(double first, double second, const Vec& start,
+                                                const RevolutionAsked& asked)>
+      slopes{};
 };
 
 /// Equations of a bifurcation for the unknowns (x, u): those of its orbit by multiple shooting, the
@@ -28,8 +33,12 @@ struct FlowPlane {
 ///   g = |mu|^2 - 1        Neimark-Sacker, for the complex pair nearest to the unit circle
 ///   g = depth / clearance grazing, of the extremum of a contact's depth nearest to touching
 ///
-/// Derivatives of g are differences. The multipliers are the others: where one of them leaves the
-/// unit circle two bifurcations meet.
+/// With v and w the critical eigenvectors of the tangent T of a period, T v = mu v and w^T T = mu w^T,
+///
+///   d(mu) = w^T dT v / w^T v
+///
+/// where dT v are slopes of the deviation v; exactly, or by differences of tangents. The multipliers
+/// are the others: where one of them leaves the unit circle two bifurcations meet.
 ///
 /// @param kind   a fold, period doubling, Neimark-Sacker point or grazing
 /// @param scale  of the states
@@ -43,7 +52,9 @@ BranchEquations bifurcation_curve_equations(BifurcationKind kind, FlowPlane flow
 /// that touch for good, likewise the other way.
 ///
 /// @param contact  name of the contact; empty: any
-/// @return  the smallest in size; 1e3 where no depth has an extremum
-double nearest_graze(const Scene& scene, const std::string& contact, std::span<const Vec> starts);
+/// @param starts   of a revolution each
+/// @return  the smallest in size
+NearestGraze nearest_graze(const Scene& scene, const std::string& contact,
+                           std::span<const Vec> starts);
 
 }  // namespace whirl::inline dyn

@@ -10,7 +10,6 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/system/system_numbers.hpp"
-#include "libdyn/taylor/motion_slopes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -115,6 +114,17 @@ Vec SlopePanel::weights(double value) const {
   return weights;
 }
 
+MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start,
+                           std::span<const double> times, const SlopePanel& panel, double value,
+                           const SlopeOptions& options) {
+  MotionSlopes motion = motion_slopes(system, start, times, panel.secants(), options);
+  const Vec weights = panel.weights(value);
+  for (auto* by : {&motion.by_parameter, &motion.deviations_by_parameter}) {
+    for (Mat& slopes : *by) slopes = (slopes * weights).eval();
+  }
+  return motion;
+}
+
 ContactSystem RangeSlopes::system_at(double value) const {
   const auto scene = at_(value);
   if (have_same_shapes(*scene, *first_)) return scene->contacts;
@@ -212,10 +222,10 @@ std::optional<Vec> RangeSlopes::end_slope(double value, const MotionState& start
     const ContactSystem system = system_at(value);
     const double time = revolutions * system.period();
     const MotionSlopes motion =
-        motion_slopes(system, start, {&time, 1}, panel->secants(),
+        motion_slopes(system, start, {&time, 1}, *panel, value,
                       {.tolerance = tolerance, .by_start = false, .held = HeldSample::phase});
     if (motion.by_parameter.size() != 1) return std::nullopt;
-    const Vec slope = motion.by_parameter[0] * panel->weights(value);
+    const Vec slope = motion.by_parameter[0];
     if (!slope.allFinite()) return std::nullopt;
     return slope;
   } catch (const NumericalError&) {

@@ -12,6 +12,7 @@
 #include "libdyn/orbits/harmonic_equations.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/system/system_slope.hpp"
+#include "libdyn/taylor/motion_slopes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -33,6 +34,13 @@ class SlopePanel {
   Vec points_;  ///< 0 to 1
   std::vector<SystemSlope> secants_;
 };
+
+/// A motion with its derivatives by the parameter of a panel at a value: by_parameter and
+/// deviations_by_parameter have one column, the sum of those of the secants.
+/// @throws NumericalError  as of any parameters
+MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start,
+                           std::span<const double> times, const SlopePanel& panel, double value,
+                           const SlopeOptions& options);
 
 /// The systems of branches, whose numbers are interpolated over the range of the parameter.
 ///

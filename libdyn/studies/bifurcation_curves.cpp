@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "libbase/error.hpp"
-#include "libdyn/branches/bifurcation_curve.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 
 namespace whirl::inline dyn {
@@ -20,19 +19,23 @@ bool is_followed(const Bifurcation& b) {
   return b.kind != BifurcationKind::grazing || b.at.residual < on_branch;
 }
 
+/// Derivatives of a revolution at a place; nothing where they are not known.
+std::optional<RevolutionSlopes> slopes_at(const PlaneScenes& scenes, double along, double across,
+                                          const Vec& start, const RevolutionAsked& asked) {
+  try {
+    const auto panel = scenes.slopes ? scenes.slopes->panel_at(asked.by, along, across) : nullptr;
+    if (!panel) return std::nullopt;
+    const double value = asked.by == PlaneParameter::first ? along : across;
+    return revolution_slopes(*scenes.at(along, across), *scenes.first, *panel, value, start, asked);
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+}
+
 BranchEquations equations_of(const BegunWalk& curve, const PlaneScenes& scenes,
                              const ParameterRange& along) {
-  const FlowPlane plane{
-      [&scenes](double a, double b) { return flow_of(scenes.at(a, b), *scenes.first); },
-      [&scenes, contact = curve.contact](double a, double b, std::span<const Vec> starts) {
-        const auto scene = scenes.at(a, b);
-        const BasisChange change(*scene, *scenes.first);
-        std::vector<Vec> own;
-        for (const Vec& y : starts) own.push_back(change.to(y));
-        return nearest_graze(*scene, contact, own);
-      }};
-  return bifurcation_curve_equations(curve.kind, plane, scenes.first->contacts.state_scale(),
-                                     along.low, along.high);
+  return bifurcation_curve_equations(curve.kind, flows_of(scenes, curve.contact),
+                                     scenes.first->contacts.state_scale(), along.low, along.high);
 }
 
 ContinuationOptions walk_options(const BegunWalk& curve, const BifurcationCurveOptions& options) {
@@ -63,6 +66,20 @@ Branch begun_at(const Bifurcation& bifurcation, const BegunWalk& curve, const Pl
 }
 
 }  // namespace
+
+FlowPlane flows_of(const PlaneScenes& scenes, const std::string& contact) {
+  return {[&scenes](double a, double b) { return flow_of(scenes.at(a, b), *scenes.first); },
+          [&scenes, contact](double a, double b, std::span<const Vec> starts) {
+            const auto scene = scenes.at(a, b);
+            const BasisChange change(*scene, *scenes.first);
+            std::vector<Vec> own;
+            for (const Vec& y : starts) own.push_back(change.to(y));
+            return nearest_graze(*scene, contact, own);
+          },
+          [&scenes](double a, double b, const Vec& start, const RevolutionAsked& asked) {
+            return slopes_at(scenes, a, b, start, asked);
+          }};
+}
 
 bool BifurcationCurves::is_complete() const {
   return std::all_of(curves.begin(), curves.end(),

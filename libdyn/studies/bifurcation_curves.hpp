@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/branches/branch.hpp"
+#include "libdyn/branches/bifurcation_curve.hpp"
 #include "libdyn/studies/branch_tree.hpp"
 #include "libdyn/studies/parameter_range.hpp"
 
@@ -23,7 +23,13 @@ struct PlaneScenes {
   std::shared_ptr<const Scene> first;
   /// May throw NumericalError where there is none.
   std::function<std::shared_ptr<const Scene>(double along, double across)> at;
+  std::shared_ptr<const PlaneSlopes> slopes{};  ///< of them; null: derivatives are differences
 };
+
+/// Their flows.
+/// @param scenes   must live as long as the flows
+/// @param contact  whose grazings are looked for; empty: any
+FlowPlane flows_of(const PlaneScenes& scenes, const std::string& contact = {});
 
 /// A curve that goes through a bifurcation of a branch, one way along the second parameter.
 struct BifurcationCurve {

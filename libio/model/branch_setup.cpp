@@ -31,9 +31,17 @@ BranchScenes BranchSetup::scenes() const {
   const SceneAt along = [this](double value) { return parameters.scene(value); };
   const ParameterRange& range = tree.along;
   const RangeSlopes::ModelAt model = [this](double value) { return parameters.model(value); };
-  return {{scene, along,
-           std::make_shared<const RangeSlopes>(along, scene, range.low, range.high, model)},
-          {scene, [this](double a, double b) { return parameters.scene(a, b); }}};
+  BranchScenes scenes{
+      {scene, along,
+       std::make_shared<const RangeSlopes>(along, scene, range.low, range.high, model)},
+      {scene, [this](double a, double b) { return parameters.scene(a, b); }}};
+  if (parameters.across) {
+    const ParameterRange& across = parameters.across->range;
+    scenes.plane.slopes =
+        std::make_shared<const PlaneSlopes>(scenes.plane.at, ParameterEnds{range.low, range.high},
+                                            ParameterEnds{across.low, across.high});
+  }
+  return scenes;
 }
 
 BranchResult BranchSetup::result(const BranchTree& found) const {

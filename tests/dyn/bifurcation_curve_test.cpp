@@ -7,8 +7,12 @@
 
 #include <cmath>
 #include <complex>
+#include <map>
+#include <memory>
+#include <optional>
 
 #include "libbase/error.hpp"
+#include "libdyn/studies/bifurcation_curves.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/scenes.hpp"
@@ -94,6 +98,118 @@ TEST(BifurcationCurve, FollowsNeimarkSackerPoints) {
                NumericalError);
 }
 
+/// Derivatives of the residual by the states, by the first parameter and by the second, by differences of
+/// the eighth order.
+Mat differences(const BranchEquations& equations, const Vec& x, double second, double step) {
+  const auto residual = [&](const Vec& at, double b) {
+    return equations.at(at, b, WithTangent::no).residual;
+  };
+  Mat slopes = Mat::Zero(x.size(), x.size() + 1);
+  for (std::size_t j = 0; j < neighbor_places.size(); ++j) {
+    const double by = neighbor_places[j] * step, weight = neighbor_weights[j] / step;
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      slopes.col(k) += weight * residual(x + by * Vec::Unit(x.size(), k), second);
+    }
+    slopes.col(x.size()) += weight / second * residual(x, second * (1.0 + by));
+  }
+  return slopes;
+}
+
+/// Planes of two numbers of a rotor in its stator.
+struct Plane {
+  test::RotorStator rotor;
+  double test::RotorStator::*first, test::RotorStator::*second;
+  double low, high, at_first, at_second;
+  int segments;
+  double step = 0x1p-16;  ///< of differences
+
+  PlaneScenes scenes() const {
+    const auto at = [*this](double a, double b) {
+      test::RotorStator r = rotor;
+      r.*first = a;
+      r.*second = b;
+      return std::make_shared<const Scene>(r.scene());
+    };
+    const ParameterEnds across{0.9 * at_second, 1.1 * at_second};
+    return {at(at_first, at_second), at,
+            std::make_shared<const PlaneSlopes>(at, ParameterEnds{low, high}, across)};
+  }
+  /// On the way of a motion, revolutions that do not quite meet; then u.
+  Vec unknowns() const {
+    const PlaneScenes all = scenes();
+    const Scene& scene = *all.first;
+    Trajectory t{.system = &scene.contacts, .revolutions = 50};
+    t.state = test::start_of(rotor.model(), scene);
+    const Vec scale = scene.contacts.state_scale();
+    const Eigen::Index n = scale.size(), size = segments * n;
+    Vec x(size + 1);
+    for (Eigen::Index k = 0; k < size; k += n) {
+      integrate_single(t, {});
+      t.revolutions = 1;
+      x.segment(k, n) = t.state.y.cwiseQuotient(scale);
+    }
+    x(size) = (at_first - low) / (high - low);
+    return x;
+  }
+};
+
+/// Whether a curve of a kind has the derivatives that differences tend to; nothing where there is no such
+/// multiplier.
+std::optional<bool> has_derivatives(const Plane& plane, BifurcationKind kind) {
+  constexpr double bound = 1e-7;  // tangents have thirteen digits, of which impacts take some
+  const PlaneScenes scenes = plane.scenes();
+  const Vec x = plane.unknowns(), scale = scenes.first->contacts.state_scale();
+  const auto equations =
+      bifurcation_curve_equations(kind, flows_of(scenes), scale, plane.low, plane.high);
+  const auto at = equations.at(x, plane.at_second, WithTangent::yes);
+  if (at.residual.size() == 0) return std::nullopt;
+  const Mat known = differences(equations, x, plane.at_second, plane.step);
+  Mat told(x.size(), x.size() + 1);
+  told << at.jacobian, equations.slope(x, plane.at_second);
+  bool is_right = true;
+  for (Eigen::Index k = 0; k < known.cols(); ++k) {
+    is_right = is_right && (told.col(k) - known.col(k)).norm() < bound * known.col(k).norm();
+  }
+  const auto g = known.rows() - 1;
+  return is_right && (told.row(g) - known.row(g)).norm() < bound * known.row(g).norm();
+}
+
+TEST(BifurcationCurve, HasTheDerivativesThatDifferencesTendTo) {
+  using R = test::RotorStator;
+  const R doubling{.Omega = 138.4, .kC = 64e6, .mu = 0.13};
+  R damped = test::P1, hertz = test::P1;
+  damped.cC = 2e4;
+  hertz.kH = 1.5e8;
+  std::map<BifurcationKind, int> seen;
+  for (const Plane& plane : {Plane{doubling, &R::mu, &R::kC, 0.1, 0.15, 0.13, 64e6, 2, 0x1p-18},
+                             Plane{test::P1, &R::e, &R::Omega, 0.5e-3, 1.5e-3, 1e-3, 136.0, 2},
+                             Plane{damped, &R::cC, &R::Omega, 1e4, 3e4, 2e4, 136.0, 1},
+                             Plane{hertz, &R::kH, &R::mu, 1e8, 2e8, 1.5e8, 0.1, 1}}) {
+    for (const auto kind : {fold, period_doubling, neimark_sacker, grazing}) {
+      if (kind == grazing && plane.segments > 1) continue;  // revolutions hardly differ: which one?
+      const auto right = has_derivatives(plane, kind);
+      EXPECT_TRUE(right.value_or(true)) << static_cast<int>(kind);
+      seen[kind] += right.has_value();
+    }
+  }
+  for (const auto kind : {fold, neimark_sacker, grazing}) EXPECT_GT(seen[kind], 0);
+}
+
+// Of bearings that change the modes differences are left.
+TEST(BifurcationCurve, HasNoDerivativesWhereShapesChange) {
+  const auto slopes = [](int modes) {
+    const auto at = [modes](double k, double mu) {
+      return std::make_shared<const Scene>(
+          test::TwoDiskRub{.k = k, .mu = mu, .modes = modes}.scene());
+    };
+    return std::make_unique<PlaneSlopes>(at, ParameterEnds{3e6, 5e6}, ParameterEnds{0.1, 0.2});
+  };
+  using enum PlaneParameter;
+  EXPECT_FALSE(slopes(8)->panel_at(first, 4e6, 0.15));
+  EXPECT_TRUE(slopes(8)->panel_at(second, 4e6, 0.15));
+  EXPECT_TRUE(slopes(0)->panel_at(first, 4e6, 0.15));
+}
+
 // Below its critical speed the rotor alone turns in a circle, r = e W^2 / |w^2 - W^2 + 2 i d W|, around
 // its sag, m g / k: it grazes the ring where both add up to the clearance. As plane: offset of the
 // unbalance e in units of 1 mm, and the speed.
@@ -108,14 +224,9 @@ TEST(BifurcationCurve, FollowsGrazingsInClosedForm) {
   const auto scene = [&](double e, double W) {
     return std::make_shared<const Scene>(at(e, W).scene());
   };
-  const FlowPlane plane{[&](double e, double W) { return flow_of(scene(e, W), *first); },
-                        [&](double e, double W, std::span<const Vec> starts) {
-                          const auto there = scene(e, W);
-                          std::vector<Vec> own;
-                          for (const Vec& y : starts)
-                            own.push_back(BasisChange(*there, *first).to(y));
-                          return nearest_graze(*there, "ring", own);
-                        }};
+  const PlaneScenes scenes{
+      first, scene,
+      std::make_shared<const PlaneSlopes>(scene, ParameterEnds{0.5, 1.5}, ParameterEnds{110, 130})};
   const auto touching = [&](double W) {  // [mm]
     const test::RotorStator p = test::P1;
     const std::complex<double> D(p.kr - p.mr * W * W, p.cr * W);
@@ -130,7 +241,8 @@ TEST(BifurcationCurve, FollowsGrazingsInClosedForm) {
   integrate_single(t, {});
   const Vec scale = first->contacts.state_scale();
   const Branch curve =
-      border(grazing, plane, scale, t.state.y.cwiseQuotient(scale), 0.9995 * touching(125.0),
+      border(grazing, flows_of(scenes, "ring"), scale, t.state.y.cwiseQuotient(scale),
+             0.9995 * touching(125.0),
              {.low = 110.0, .high = 130.0, .first = 125.0, .direction = -1.0, .largest_step = 2.0});
   EXPECT_EQ(curve.points.back().value, 110.0);
   for (const BranchPoint& p : curve.points)

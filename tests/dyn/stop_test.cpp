@@ -151,7 +151,7 @@ TEST_P(StopInMethod, IsGrazedAtTheForceThatALinearRotorSays) {
     MotionState state = test::state_of({z.real(), z.imag()}, {rate.real(), rate.imag()});
     const Vec start = state.y;
     if (share < 1.0) {
-      EXPECT_NEAR(nearest_graze(scene, "ring", std::vector{start}), share - 1.0, 1e-9);
+      EXPECT_NEAR(nearest_graze(scene, "ring", std::vector{start}).depth, share - 1.0, 1e-9);
     }
     const Integration result = test::run(scene, state, 2, how());
     EXPECT_EQ(result.outcome, Outcome::reached_end) << result.failure;

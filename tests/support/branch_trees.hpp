@@ -26,7 +26,10 @@ struct DoublingRotor {
     return {first, at, std::make_shared<const RangeSlopes>(at, first, low, high)};
   }
   PlaneScenes plane() const {
-    return {scene(0.13, stiffness), [*this](double mu, double k) { return scene(mu, k); }};
+    const auto at = [*this](double mu, double k) { return scene(mu, k); };
+    return {scene(0.13, stiffness), at,
+            std::make_shared<const PlaneSlopes>(at, ParameterEnds{low, high},
+                                                ParameterEnds{62e6, 66e6})};
   }
   BranchTreeOptions options() const {
     return {.along =
