@@ -12,8 +12,7 @@ namespace whirl::inline dyn {
 namespace {
 
 constexpr std::array compared{0.0625, 0.5, 0.90625};  ///< of a range, where numbers are
-constexpr double exact = 2e-13;      ///< of a block of numbers, to which they are a sum
-constexpr double tolerance = 1e-14;  ///< of steps: impacts let errors grow
+constexpr double exact_sum = 2e-13;  ///< of a block of numbers, to which they are a sum
 
 double value_of(PlaneParameter by, double first, double second) {
   return by == PlaneParameter::first ? first : second;
@@ -32,7 +31,7 @@ bool are_a_sum(const std::vector<Vec>& a, const std::vector<Vec>& b, const std::
       largest = std::max(largest, v->lpNorm<Eigen::Infinity>());
     }
     const Vec rest = (a[k] - b[k]) - (c[k] - d[k]);
-    if (!(rest.lpNorm<Eigen::Infinity>() <= exact * largest)) return false;
+    if (!(rest.lpNorm<Eigen::Infinity>() <= exact_sum * largest)) return false;
   }
   return true;
 }
@@ -152,7 +151,7 @@ std::optional<RevolutionSlopes> revolution_slopes(const Scene& scene, const Scen
   if (asked.graze) times.push_back(asked.graze->time);
   times.push_back(system.period());
   const MotionSlopes m = motion_slopes(system, at, times, panel, value,
-                                       {.tolerance = tolerance,
+                                       {.tolerance = slope_tolerance,
                                         .by_start = asked.by_start,
                                         .held = HeldSample::phase,
                                         .deviations = own(asked.deviations)});

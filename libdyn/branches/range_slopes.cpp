@@ -25,8 +25,7 @@ constexpr double exact_shapes = 2e-12;
 constexpr int most_halvings_of_shapes = 3;
 /// Errors that halves do not have less of, and less than this, are rounding of the shapes.
 constexpr double rounding_of_shapes = 5e-9;
-constexpr double falls = 0.1;        ///< of errors that halves have less of, over the whole
-constexpr double tolerance = 1e-14;  ///< of steps: impacts let errors grow
+constexpr double falls = 0.1;  ///< of errors that halves have less of, over the whole
 
 /// Slopes at a place of the polynomials that are 1 at one of some points and 0 at the others.
 Vec lagrange_slopes(const Vec& points, double at) {
@@ -223,7 +222,7 @@ std::optional<Vec> RangeSlopes::end_slope(double value, const MotionState& start
     const double time = revolutions * system.period();
     const MotionSlopes motion =
         motion_slopes(system, start, {&time, 1}, *panel, value,
-                      {.tolerance = tolerance, .by_start = false, .held = HeldSample::phase});
+                      {.tolerance = slope_tolerance, .by_start = false, .held = HeldSample::phase});
     if (motion.by_parameter.size() != 1) return std::nullopt;
     const Vec slope = motion.by_parameter[0];
     if (!slope.allFinite()) return std::nullopt;

@@ -16,6 +16,9 @@
 
 namespace whirl::inline dyn {
 
+/// Of steps of motions whose slopes are wanted: impacts let errors grow.
+inline constexpr double slope_tolerance = 1e-14;
+
 /// A part of a parameter's range in which all numbers of a system are polynomials of it, to
 /// rounding, of degree 2 or 8.
 class SlopePanel {

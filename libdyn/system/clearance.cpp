@@ -13,8 +13,8 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr int moments = 720;        ///< of a period; the largest distance is right to 1e-5
-constexpr double tolerance = 1e-9;  ///< of the ends of a range, relative
+constexpr int moments = 720;  ///< of a period; the largest distance is right to 1e-5
+constexpr double clearance_tolerance = 1e-9;  ///< of the ends of a range, relative
 
 /// The largest distance in a period of an orbit from a point.
 double farthest(Complex x, Complex y, const Vec2& from) {
@@ -124,7 +124,7 @@ std::vector<ClearanceUse> clearance_uses(const Model& model, const Assembler& as
               const auto there = solver.at(Omega);
               return there ? gaps[i].distance(*there, dofs) - gaps[i].clearance : INFINITY;
             },
-            speeds[s - 1], speeds[s], tolerance * speeds[s]);
+            speeds[s - 1], speeds[s], clearance_tolerance * speeds[s]);
         if (std::isfinite(root)) border = root;
       }
       if (excess > 0.0 && before[i] <= 0.0) use.beyond.push_back({border, speeds[s]});
