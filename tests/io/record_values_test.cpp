@@ -10,8 +10,7 @@ TEST(RecordValues, AShareOfASignalIsAPercentageOrANumber) {
   for (const char* text : {"1%", "0.01", "1e0%"}) EXPECT_EQ(*parse_noise_share(text), 0.01) << text;
   EXPECT_EQ(*parse_noise_share("0"), 0.0);
   for (const char* text : {"", "%", "-1%", "x%", "2um", "1%%"}) {
-    EXPECT_EQ(parse_noise_share(text).problem,
-              "expected a share of the signal, such as 1% or 0.01")
+    EXPECT_EQ(parse_noise_share(text).problem, "expected a share of the signal, such as 1% or 0.01")
         << text;
   }
 }
