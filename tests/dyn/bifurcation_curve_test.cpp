@@ -245,8 +245,12 @@ TEST(BifurcationCurve, FollowsGrazingsInClosedForm) {
              0.9995 * touching(125.0),
              {.low = 110.0, .high = 130.0, .first = 125.0, .direction = -1.0, .largest_step = 2.0});
   EXPECT_EQ(curve.points.back().value, 110.0);
-  for (const BranchPoint& p : curve.points)
+  for (const BranchPoint& p : curve.points) {
     EXPECT_NEAR(p.z(8), touching(p.value), located) << p.value;
+    // also where the step ends that touches, or does not, by rounding
+    const std::vector<Vec> start{p.state(scale)};
+    EXPECT_NEAR(nearest_graze(*scene(p.z(8), p.value), "ring", start).depth, 0.0, 1e-9);
+  }
 }
 
 }  // namespace whirl::bifurcation_curve_test
