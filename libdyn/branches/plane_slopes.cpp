@@ -5,6 +5,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
+#include "libdyn/system/number_slopes.hpp"
 #include "libdyn/system/system_numbers.hpp"
 
 namespace whirl::inline dyn {
@@ -36,22 +37,6 @@ bool are_a_sum(const std::vector<Vec>& a, const std::vector<Vec>& b, const std::
   return true;
 }
 
-/// Slope of a number of contacts by the parameter of a panel.
-template <class Number>
-double slope_of(const SlopePanel& panel, double value, const Number& number) {
-  const Vec weights = panel.weights(value);
-  double sum = 0.0;
-  for (Eigen::Index k = 0; k < weights.size(); ++k) {
-    const SystemSlope& secant = panel.secants()[static_cast<std::size_t>(k)];
-    double change = 0.0;
-    for (std::size_t j = 0; j < secant.neighbors.size(); ++j) {
-      change += neighbor_weights[j] * number(secant.neighbors[j]);
-    }
-    sum += weights(k) * change / secant.step;
-  }
-  return sum;
-}
-
 /// Slopes of the depth over the clearance where it grazes, from those of the state there.
 ///
 ///   d(depth) = n . (U dy - d(offset)) - d(clearance)
@@ -66,8 +51,10 @@ void add_depth(const ContactSystem& system, const SlopePanel& panel, double valu
   const ContactForces f =
       kinematics(c, graze.time * system.phase_rate(), y.data(), system.coordinates());
   const Vec by_state = c.U.transpose() * f.n / c.clearance;
-  const auto number = [&](auto of) {
-    return slope_of(panel, value, [&](const ContactSystem& s) { return of(s.contacts()[i]); });
+  const Vec weights = panel.weights(value);
+  const NumberSlopes slopes(panel.secants(), weights);
+  const auto number = [&](auto number_of) {
+    return slopes.of([&](const ContactSystem& s) { return number_of(s.contacts()[i]); });
   };
   const double surface =
       number([&](const ReducedContact& of) { return f.n.dot(of.offset) + of.clearance; });
