@@ -16,6 +16,7 @@
 #include "libdyn/system/contact_ports.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libfe/unbalance.hpp"
+#include "tests/support/bladed_disk.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/overhung_disk.hpp"
@@ -291,12 +292,7 @@ Model with_blades() {
           .model();
   m.contacts[0].clearance = 1e-4;
   m.contacts[0].friction = {.mu = 0.1, .slip = Slip::forward};
-  m.contacts[0].law = BladeTip<>{.blades = 5,
-                                 .tip_radius = 0.1,
-                                 .blade_length = 0.04,
-                                 .bending_stiffness = 20.0,
-                                 .line_density = 0.5,
-                                 .k = 1e10};
+  m.contacts[0].law = test::five_blades();
   return m;
 }
 /// Friction turns round twice a revolution, without sticking: the unbalance is stronger.

@@ -12,6 +12,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/taylor/batch.hpp"
+#include "tests/support/bladed_disk.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/overhung_disk.hpp"
 #include "tests/support/scenes.hpp"
@@ -273,14 +274,6 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesAtAStop) {
   EXPECT_GE(found.events.size(), 50u);
 }
 
-/// Its friction on the face is smoothed.
-Model overhung_disk() {
-  Model m = test::overhung_disk();
-  m.contacts[1].friction.slip = Slip::actual;
-  m.contacts[1].friction.tolerance = 1.0;
-  return m;
-}
-
 TEST(MotionSlopes, AreTheLimitOfDifferencesAtAFace) {
   const Knob face_stiffness{
       "face stiffness", [](Model& m) -> double& { return std::get<Face<>>(m.contacts[1].law).k; }};
@@ -289,34 +282,13 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesAtAFace) {
                          }};
   const Knob disk_mass{"disk", [](Model& m) -> double& { return m.structure.disks[0].m; }};
   const Knob spin_inertia{"Ip", [](Model& m) -> double& { return m.structure.disks[0].Ip; }};
-  const auto found = expect_differences({.model = overhung_disk(), .settle = 20, .revolutions = 8},
-                                        {face_stiffness, face_radius, friction(1), clearance(1),
-                                         stiffness(), speed(), disk_mass, spin_inertia});
+  const auto found = expect_differences(
+      {.model = test::overhung_disk_with_smooth_face(), .settle = 20, .revolutions = 8},
+      {face_stiffness, face_radius, friction(1), clearance(1), stiffness(), speed(), disk_mass,
+       spin_inertia});
   EXPECT_GE(found.events.size(), 50u);
 }
 
-/// A bladed disk on a spring.
-Model bladed_disk() {
-  Model m;
-  m.speed = 450.0;
-  m.has_speed = true;
-  const Station disk = test::body("disk");
-  m.structure.bodies = {{.name = "disk", .m = 2.0, .spins = true}};
-  m.structure.bearings = {test::bearing(disk, test::isotropic(5e5, 300.0))};
-  m.structure.unbalances = {{.at = disk, .moment = 3e-5}};
-  m.structure.gravity = 25.0;
-  m.contacts = {{.name = "tips",
-                 .at = disk,
-                 .clearance = 1e-4,
-                 .friction = {.mu = 0.1, .tolerance = 1.0},
-                 .law = BladeTip<>{.blades = 5,
-                                   .tip_radius = 0.1,
-                                   .blade_length = 0.04,
-                                   .bending_stiffness = 20.0,
-                                   .line_density = 0.5,
-                                   .k = 1e10}}};
-  return m;
-}
 BladeTip<>& tips(Model& m) {
   return std::get<BladeTip<>>(m.contacts[0].law);
 }
@@ -331,7 +303,7 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesOfBlades) {
       clearance(),
       speed()};
   const auto found =
-      expect_differences({.model = bladed_disk(), .settle = 5, .revolutions = 2}, knobs);
+      expect_differences({.model = test::bladed_disk(), .settle = 5, .revolutions = 2}, knobs);
   EXPECT_GE(found.events.size(), 8u);
 }
 

@@ -10,6 +10,7 @@
 
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
+#include "tests/support/bladed_disk.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/overhung_disk.hpp"
 #include "tests/support/scenes.hpp"
@@ -124,32 +125,8 @@ Model at_a_stop(double k) {
   return model;
 }
 Model at_a_face(double speed) {
-  Model m = test::overhung_disk();
-  m.contacts[1].friction.slip = Slip::actual;
-  m.contacts[1].friction.tolerance = 1.0;
+  Model m = test::overhung_disk_with_smooth_face();
   m.speed = speed;
-  return m;
-}
-/// A bladed disk on a spring.
-Model with_blades(double speed) {
-  Model m;
-  m.speed = speed;
-  m.has_speed = true;
-  const Station disk = test::body("disk");
-  m.structure.bodies = {{.name = "disk", .m = 2.0, .spins = true}};
-  m.structure.bearings = {test::bearing(disk, test::isotropic(5e5, 300.0))};
-  m.structure.unbalances = {{.at = disk, .moment = 3e-5}};
-  m.structure.gravity = 25.0;
-  m.contacts = {{.name = "tips",
-                 .at = disk,
-                 .clearance = 1e-4,
-                 .friction = {.mu = 0.1, .tolerance = 1.0},
-                 .law = BladeTip<>{.blades = 5,
-                                   .tip_radius = 0.1,
-                                   .blade_length = 0.04,
-                                   .bending_stiffness = 20.0,
-                                   .line_density = 0.5,
-                                   .k = 1e10}}};
   return m;
 }
 Model on_films(double viscosity) {
@@ -172,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"sticking_by_speed", rotor(slipping, &RotorStator::Omega), 151.8462, 10},
                       Case{"stop", at_a_stop, 150e6, 20},
                       Case{"face", at_a_face, test::overhung_disk().speed, 20},
-                      Case{"blades", with_blades, 450.0, 5, false},
+                      Case{"blades", test::bladed_disk, 450.0, 5, false},
                       Case{"films", on_films, 0.018, 20, false}),
     [](const auto& member) { return member.param.name; });
 

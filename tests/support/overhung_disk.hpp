@@ -32,4 +32,12 @@ inline Model overhung_disk() {
   return m;
 }
 
+/// Its friction on the face is that of the actual slip, smoothed.
+inline Model overhung_disk_with_smooth_face() {
+  Model m = overhung_disk();
+  m.contacts[1].friction.slip = Slip::actual;
+  m.contacts[1].friction.tolerance = 1.0;
+  return m;
+}
+
 }  // namespace whirl::test
