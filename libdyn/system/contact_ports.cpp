@@ -17,7 +17,6 @@ namespace {
 constexpr int gauss_points = 16;
 constexpr double panel = 10.0;    ///< of a span [rad of the product of two highest harmonics]
 constexpr int per_harmonic = 8;   ///< instants of what touches all the time, and of films
-constexpr int fewest = 64;        ///< and of a revolution
 constexpr double nothing = 1e-9;  ///< of a force that does not jump, over that of a clearance
 
 /// Derivative of the rate of the phase, over it.
@@ -140,7 +139,7 @@ void sample_contact(const Samples& by, const ReducedContact& c, const Periodic& 
   };
   for (const ContactPath::Span& span : path.spans()) {
     if (span.is_whole()) {
-      const int N = std::max(fewest * motion.period, per_harmonic * motion.harmonics());
+      const int N = even_instants(motion, per_harmonic);
       for (int i = 0; i < N; ++i) add(span, turn * i / N, 1.0 / N);
       continue;
     }

@@ -8,9 +8,13 @@ namespace whirl::inline dyn {
 
 namespace {
 
-constexpr int fewest_instants = 64;  ///< instants of a period
+constexpr int fewest_instants = 64;  ///< of a revolution
 
 }  // namespace
+
+int even_instants(const Periodic& motion, int number) {
+  return std::max(fewest_instants * motion.period, number * motion.harmonics());
+}
 
 PortForces smooth_force(
     std::string name, Mat U, Mat B,
@@ -19,7 +23,7 @@ PortForces smooth_force(
   PortForces forces{.name = std::move(name), .U = std::move(U), .B = std::move(B)};
   forces.sample = [law = std::move(law), number](const Periodic& motion,
                                                  std::vector<PortSample>& samples) {
-    const int N = std::max(fewest_instants * motion.period, number * motion.harmonics());
+    const int N = even_instants(motion, number);
     const auto ports = motion.coefficients.rows();
     for (int i = 0; i < N; ++i) {
       PortSample s{.theta = 2.0 * std::numbers::pi * i / N,

@@ -38,12 +38,16 @@ struct PortForces {
   std::function<bool(const Periodic& motion, std::vector<PortSample>&)> sample;
 };
 
-/// A smooth force g(phase, u, u') at evenly spaced instants.
+/// How many evenly spaced instants of a motion a smooth force is sampled at.
+/// @param number  per harmonic, 4 or more
+int even_instants(const Periodic& motion, int number);
+
+/// A smooth force g(phase, u, u') at such instants.
 ///
 /// Its Fourier integrals have the accuracy of the motion's series where it is analytic.
 ///
 /// @param law     fills g, by_u and by_rate of the sample; false: there is no force
-/// @param number  instants per harmonic, 4 or more
+/// @param number  as of even_instants
 PortForces smooth_force(
     std::string name, Mat U, Mat B,
     std::function<bool(double phase, const PortVec& u, const PortVec& rate, PortSample&)> law,
