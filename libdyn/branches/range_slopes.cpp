@@ -63,11 +63,6 @@ double interpolation_error(const std::vector<std::vector<Vec>>& known, const Vec
   return largest;
 }
 
-bool have_same_shapes(const Scene& a, const Scene& b) {
-  const Mat &x = a.reduced.Phi, &y = b.reduced.Phi;
-  return x.rows() == y.rows() && x.cols() == y.cols() && x == y;
-}
-
 /// T of eta = T eta_first.
 Mat coordinates_of(const BasisChange& change) {
   const Mat& P = change.matrix();
@@ -126,9 +121,10 @@ MotionSlopes motion_slopes(const ContactSystem& system, const MotionState& start
 
 ContactSystem RangeSlopes::system_at(double value) const {
   const auto scene = at_(value);
-  if (have_same_shapes(*scene, *first_)) return scene->contacts;
+  const BasisChange change(*scene, *first_);
+  if (change.is_none()) return scene->contacts;
   if (!model_at_) throw NumericalError("the parameter changes the shapes that the rotor moves in");
-  const Mat T = coordinates_of(BasisChange(*scene, *first_));
+  const Mat T = coordinates_of(change);
   const auto small = [&](const Mat& A) -> Mat { return T.transpose() * A * T; };
   const ReducedSystem& own = scene->reduced;
   const Model model = model_at_(value);
@@ -143,7 +139,7 @@ void RangeSlopes::look() const {
     const double value = low_ + x * (high_ - low_);
     try {
       system_at(value);
-      is_reshaped_ = is_reshaped_ || !have_same_shapes(*at_(value), *first_);
+      is_reshaped_ = is_reshaped_ || !BasisChange(*at_(value), *first_).is_none();
     } catch (const NumericalError&) {
       return;
     }

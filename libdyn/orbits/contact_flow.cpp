@@ -47,10 +47,10 @@ std::vector<FlowResult> pass(const ContactSystem& system, double tolerance,
 
 BasisChange::BasisChange(const Scene& scene, const Scene& first) {
   const Mat &Phi = scene.reduced.Phi, &Phi_first = first.reduced.Phi;
-  if (Phi == Phi_first) return;
   if (Phi.rows() != Phi_first.rows() || Phi.cols() != Phi_first.cols()) {
     throw NumericalError("the parameter changes the number of degrees of freedom");
   }
+  if (Phi == Phi_first) return;
   const Mat weighted = Phi.transpose() * Mat(scene.system.M);
   const Mat half = DenseLu<Mat>(weighted * Phi).solve(weighted * Phi_first);
   const Eigen::Index n = half.rows();
