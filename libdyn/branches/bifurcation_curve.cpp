@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "libbase/dense.hpp"
@@ -288,36 +289,28 @@ BranchEquations::Value evaluate(const BifurcationCurve& curve, const Vec& x, dou
                                 WithTangent wanted) {
   const Eigen::Index size = x.size() - 1;
   if (x(size) < 0.0 || x(size) > 1.0) return {.failure = "the range of the first parameter ends"};
-  Place here = place_at(curve, x, second);
+  const auto here = std::make_shared<const Place>(place_at(curve, x, second));
   BranchEquations::Value at{
-      .residual = here.residual, .contacts = here.orbit.contacts, .failure = here.failure};
+      .residual = here->residual, .contacts = here->orbit.contacts, .failure = here->failure};
   if (curve.kind == grazing) {  // whether it touches is rounding here
     for (ContactMeasure& c : at.contacts) c.impacts = 0.0;
   }
   if (wanted == WithTangent::no || at.residual.size() == 0) return at;
   at.jacobian = Mat::Zero(size + 1, size + 1);
-  at.jacobian.topLeftCorner(size, size) = shooting_jacobian(here.orbit.tangents);
-  std::optional<Slopes> slopes = exact_slopes(curve, x, second, here, PlaneParameter::first);
-  if (!slopes) slopes = difference_slopes(curve, x, second, here, at.failure);
+  at.jacobian.topLeftCorner(size, size) = shooting_jacobian(here->orbit.tangents);
+  std::optional<Slopes> slopes = exact_slopes(curve, x, second, *here, PlaneParameter::first);
+  if (!slopes) slopes = difference_slopes(curve, x, second, *here, at.failure);
   if (!slopes) return {.failure = at.failure};
   at.jacobian.col(size) = slopes->by_parameter;
   at.jacobian.row(size).head(size) = slopes->by_states.transpose();
-  at.multipliers = [kind = curve.kind, tangents = std::move(here.orbit.tangents)] {
-    return other_multipliers(kind, tangents);
+  at.multipliers = [kind = curve.kind, here] {
+    return other_multipliers(kind, here->orbit.tangents);
+  };
+  at.slope = [curve, x, second, here] {
+    const auto by_second = exact_slopes(curve, x, second, *here, PlaneParameter::second);
+    return by_second ? by_second->by_parameter : Vec();
   };
   return at;
-}
-
-/// The derivative of the residual by the second parameter; empty where it is not known.
-Vec slope_by_second(const BifurcationCurve& curve, const Vec& x, double second) {
-  try {
-    const Place here = place_at(curve, x, second);
-    if (here.residual.size() == 0) return {};
-    const auto slopes = exact_slopes(curve, x, second, here, PlaneParameter::second);
-    return slopes ? slopes->by_parameter : Vec();
-  } catch (const NumericalError&) {
-    return {};
-  }
 }
 
 /// Takes the extremum of a contact's depth in a step, or on its way into it, if that is nearer to touching
@@ -361,16 +354,9 @@ BranchEquations bifurcation_curve_equations(BifurcationKind kind, FlowPlane flow
     throw NumericalError("a pitchfork lives by a symmetry and has no curve of its own in a plane");
   }
   const BifurcationCurve curve{kind, std::move(flows), std::move(scale), low, high};
-  BranchEquations equations{.at = [curve](const Vec& x, double second, WithTangent wanted) {
-    return evaluate(curve, x, second, wanted);
-  }};
-  equations.difference = curve.difference();
-  if (curve.flows.slopes) {
-    equations.slope = [curve](const Vec& x, double second) {
-      return slope_by_second(curve, x, second);
-    };
-  }
-  return equations;
+  return {.at = [curve](const Vec& x, double second,
+                        WithTangent wanted) { return evaluate(curve, x, second, wanted); },
+          .difference = curve.difference()};
 }
 
 NearestGraze nearest_graze(const Scene& scene, const std::string& contact,

@@ -20,12 +20,12 @@ struct BranchEquations {
     Mat jacobian;                          ///< by x, if it is wanted
     std::vector<ContactMeasure> contacts;  ///< shares of the period
     std::function<CVec()> multipliers;     ///< the largest first; likewise, where the residual is 0
+    /// Derivative of the residual by the parameter's value at fixed x, exact; likewise. A null function,
+    /// an empty value or a NumericalError: it is not known, and taken as a difference.
+    std::function<Vec()> slope;
     Failure failure;
   };
   std::function<Value(const Vec& x, double value, WithTangent wanted)> at;
-  /// Derivative of the residual by the parameter's value at fixed x, exact; empty where it is not
-  /// known. A null function, or an empty value: it is taken as a difference.
-  std::function<Vec(const Vec& x, double value)> slope{};
   double difference = 3e-6;  ///< of the parameter's range, for the derivative by it
 };
 

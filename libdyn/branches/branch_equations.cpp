@@ -22,21 +22,8 @@ EndSlopeAt over_scale(EndSlopeAt slope, const Vec& scale) {
 }  // namespace
 
 BranchEquations shooting_equations(FlowAt flow_at, Vec scale, EndSlopeAt end_slope) {
-  BranchEquations equations;
-  if (end_slope) {
-    equations.slope = [n = scale.size(), end_slope = over_scale(std::move(end_slope), scale)](
-                          const Vec& x, double value) -> Vec {
-      Vec slope(x.size());
-      for (Eigen::Index i = 0; i < x.size(); i += n) {
-        const auto end = end_slope(value, x.segment(i, n), 1.0);
-        if (!end) return {};
-        slope.segment(i, n) = *end;
-      }
-      return slope;
-    };
-  }
-  equations.at = [flow_at = std::move(flow_at), scale = std::move(scale)](
-                     const Vec& x, double value, WithTangent wanted) {
+  return {[flow_at = std::move(flow_at), end_slope = over_scale(std::move(end_slope), scale),
+           scale](const Vec& x, double value, WithTangent wanted) {
     const Eigen::Index n = scale.size();
     PeriodicOrbit orbit{.period = static_cast<int>(x.size() / n)};
     for (Eigen::Index i = 0; i < x.size(); i += n) {
@@ -48,12 +35,22 @@ BranchEquations shooting_equations(FlowAt flow_at, Vec scale, EndSlopeAt end_slo
     if (wanted == WithTangent::yes && at.residual.size() > 0) {
       at.jacobian = shooting_jacobian(orbit.tangents);
       at.multipliers = [tangents = std::move(orbit.tangents)] { return multipliers_of(tangents); };
+      if (end_slope) {
+        at.slope = [end_slope, x, value, n]() -> Vec {
+          Vec slope(x.size());
+          for (Eigen::Index i = 0; i < x.size(); i += n) {
+            const auto end = end_slope(value, x.segment(i, n), 1.0);
+            if (!end) return {};
+            slope.segment(i, n) = *end;
+          }
+          return slope;
+        };
+      }
     }
     at.contacts = std::move(orbit.contacts);
     at.failure = std::move(orbit.failure);
     return at;
-  };
-  return equations;
+  }};
 }
 
 Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
@@ -75,19 +72,8 @@ Continuation orbit_continuation(const FlowAt& flow_at, const Vec& start,
 }
 
 BranchEquations autonomous_equations(AutonomousFlowAt flow_at, Vec scale, EndSlopeAt end_slope) {
-  BranchEquations equations;
-  if (end_slope) {
-    equations.slope = [n = scale.size(), end_slope = over_scale(std::move(end_slope), scale)](
-                          const Vec& x, double value) -> Vec {
-      const auto end = end_slope(value, x.head(n), x(n));
-      if (!end) return {};
-      Vec slope = Vec::Zero(n + 1);  // nothing moves along the flow
-      slope.head(n) = *end;
-      return slope;
-    };
-  }
-  equations.at = [flow_at = std::move(flow_at), scale = std::move(scale)](
-                     const Vec& x, double value, WithTangent wanted) {
+  return {[flow_at = std::move(flow_at), end_slope = over_scale(std::move(end_slope), scale),
+           scale](const Vec& x, double value, WithTangent wanted) {
     const Eigen::Index n = scale.size();
     AutonomousFlow flow = flow_at(value);
     const Vec state = scale.cwiseProduct(x.head(n));
@@ -101,12 +87,20 @@ BranchEquations autonomous_equations(AutonomousFlowAt flow_at, Vec scale, EndSlo
     if (wanted == WithTangent::no) return at;
     const Mat tangent = to_scale.asDiagonal() * end.tangent * scale.asDiagonal();
     at.multipliers = [tangent] { return multipliers_across(tangent); };
+    if (end_slope) {
+      at.slope = [end_slope, x, value, n]() -> Vec {
+        const auto moved = end_slope(value, x.head(n), x(n));
+        if (!moved) return {};
+        Vec slope = Vec::Zero(n + 1);  // nothing moves along the flow
+        slope.head(n) = *moved;
+        return slope;
+      };
+    }
     at.jacobian =
         autonomous_jacobian(tangent, flow.rate(state).cwiseProduct(to_scale) * flow.revolution,
                             flow.rate(end.end).cwiseProduct(to_scale) * flow.revolution);
     return at;
-  };
-  return equations;
+  }};
 }
 
 Continuation autonomous_continuation(const AutonomousFlowAt& flow_at, const Vec& start,

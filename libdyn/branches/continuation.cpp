@@ -84,7 +84,9 @@ Continuation::Continuation(BranchEquations equations, Branch branch,
   options_.check();
   const Vec& z = branch_.points.back().z;
   weigh(z.size() - 1);
-  if (!branch_.end && by_parameter_.size() == 0) by_parameter_ = derivative_by_parameter(z);
+  if (!branch_.end && by_parameter_.size() == 0) {
+    by_parameter_ = derivative_by_parameter(z, evaluate(z, WithTangent::yes).slope);
+  }
 }
 
 void Continuation::weigh(Eigen::Index unknowns) {
@@ -108,12 +110,12 @@ BranchEquations::Value Continuation::evaluate(const Vec& z, WithTangent wanted) 
   }
 }
 
-Vec Continuation::derivative_by_parameter(const Vec& z) const {
-  const Eigen::Index size = z.size() - 1;
-  if (equations_.slope) {
-    const Vec slope = equations_.slope(z.head(size), value_of(z(size)));
-    if (slope.size() > 0) return slope * options_.range();
-  }
+Vec Continuation::derivative_by_parameter(const Vec& z, const std::function<Vec()>& slope) const {
+  try {
+    const Vec exact = slope ? slope() : Vec();
+    if (exact.size() > 0) return exact * options_.range();
+  } catch (const NumericalError&) {
+  }  // it is not known
   return difference_by_parameter(z);
 }
 
@@ -135,7 +137,7 @@ Vec Continuation::difference_by_parameter(const Vec& z) const {
 
 bool Continuation::add_tangent(Trial& trial, const Vec& along) const {
   const Eigen::Index size = trial.point.z.size() - 1;
-  trial.by_parameter = derivative_by_parameter(trial.point.z);
+  trial.by_parameter = derivative_by_parameter(trial.point.z, trial.slope);
   Mat M(size + 1, size + 1);
   M << trial.jacobian, trial.by_parameter, along.cwiseProduct(weights_).transpose();
   Vec unit = Vec::Zero(size + 1);
@@ -163,7 +165,9 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
   };
   int corrections = 0;
   const auto step = [&](const Place& p) {
-    if (corrections++ == renewal) by_parameter = derivative_by_parameter(p.z);
+    if (corrections++ == renewal || by_parameter.size() == 0) {
+      by_parameter = derivative_by_parameter(p.z, p.value.slope);
+    }
     Mat M(size + 1, size + 1);
     M << p.value.jacobian, by_parameter, plane.normal.cwiseProduct(weights_).transpose();
     Vec r(size + 1);
@@ -187,6 +191,7 @@ Continuation::Trial Continuation::correct(const Plane& plane, Vec by_parameter) 
                    .residual = at.residual,
                    .contacts = std::move(at.value.contacts)};
     trial.jacobian = std::move(at.value.jacobian);
+    trial.slope = std::move(at.value.slope);
     return trial;
   }
   trial.is_outside = is_outside(at.z);
@@ -213,7 +218,7 @@ Continuation::Trial Continuation::reach(double step) const {
   bool is_end = plane.at(size) >= 1.0 || plane.at(size) <= 0.0;
   if (is_end) plane = range_end_ahead();
   // where branches meet, what leads to either of them is in the derivative near by
-  Trial trial = correct(plane, is_first ? derivative_by_parameter(plane.at) : by_parameter_);
+  Trial trial = correct(plane, is_first ? Vec() : by_parameter_);
   if (trial.is_outside && !is_end && std::abs(last.tangent(size)) > along_range) {
     is_end = true;
     trial = correct(range_end_ahead(), by_parameter_);

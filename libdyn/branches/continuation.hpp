@@ -64,6 +64,7 @@ class Continuation {
     bool is_outside = false;  ///< of the range
     Failure failure;
     Mat jacobian;                  ///< by the unknowns
+    std::function<Vec()> slope;    ///< as of BranchEquations::Value
     Vec by_parameter;              ///< derivative of the residual
     std::optional<BranchEnd> end;  ///< of the branch, which this point is
   };
@@ -77,8 +78,10 @@ class Continuation {
   double dot(const Vec& a, const Vec& b) const;
   BranchEquations::Value evaluate(const Vec& z, WithTangent wanted) const;
   /// Of the residual, over the range.
-  Vec derivative_by_parameter(const Vec& z) const;
+  /// @param slope  as of BranchEquations::Value, at z
+  Vec derivative_by_parameter(const Vec& z, const std::function<Vec()>& slope) const;
   Vec difference_by_parameter(const Vec& z) const;
+  /// @param by_parameter  about there; empty: it is taken where the corrector begins
   Trial correct(const Plane& plane, Vec by_parameter) const;
   /// Tangent at a point of the branch, and the derivative by the parameter.
   bool add_tangent(Trial& trial, const Vec& along) const;

@@ -57,41 +57,32 @@ HarmonicOrbit orbit_of_unknowns(const HarmonicProblem& problem, const Vec& x, in
 
 BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int harmonics,
                                    double scale, HarmonicSlopeAt slope_at) {
-  BranchEquations all;
-  if (slope_at) {
-    all.slope = [problem_at, slope_at = std::move(slope_at), period, harmonics, scale](
-                    const Vec& x, double value) -> Vec {
-      try {
-        const auto by = slope_at(value);
-        if (!by) return {};
-        const auto problem = problem_at(value);
-        const HarmonicEquations equations(*problem, period, harmonics);
-        const auto slope = equations.slope(ports_of(x, equations.ports(), scale), *by);
-        if (!slope) return {};
-        return slope->reshaped() / scale;
-      } catch (const NumericalError&) {
-        return {};
-      }
-    };
-  }
-  all.at = [problem_at = std::move(problem_at), period, harmonics, scale](
-               const Vec& x, double value, WithTangent wanted) {
+  return {[problem_at = std::move(problem_at), slope_at = std::move(slope_at), period, harmonics,
+           scale](const Vec& x, double value, WithTangent wanted) {
     BranchEquations::Value result;
     try {
       const auto problem = problem_at(value);
-      const HarmonicEquations equations(*problem, period, harmonics);
+      const auto equations = std::make_shared<const HarmonicEquations>(*problem, period, harmonics);
       HarmonicOrbit orbit;
-      orbit.ports = {ports_of(x, equations.ports(), scale), period, problem->rate};
-      const auto at = equations.evaluate(orbit.ports.coefficients, wanted == WithTangent::yes);
+      orbit.ports = {ports_of(x, equations->ports(), scale), period, problem->rate};
+      const auto at = equations->evaluate(orbit.ports.coefficients, wanted == WithTangent::yes);
       if (!at.has_force) {
         result.failure = "a force is not defined on the motion";
         return result;
       }
-      orbit.motion = {equations.motion(at.g), period, problem->rate};
+      orbit.motion = {equations->motion(at.g), period, problem->rate};
       result.residual = Eigen::Map<const Vec>(at.residual.data(), at.residual.size()) / scale;
       if (problem->measures) result.contacts = problem->measures(orbit.motion);
       if (wanted == WithTangent::yes) {
-        result.jacobian = equations.jacobian(at);
+        result.jacobian = equations->jacobian(at);
+        if (slope_at) {
+          result.slope = [slope_at, value, scale, problem, equations, u = orbit.ports.coefficients,
+                          g = at.g]() -> Vec {
+            const auto by = slope_at(value);
+            const auto slope = by ? equations->slope(u, g, *by) : std::nullopt;
+            return slope ? Vec(slope->reshaped() / scale) : Vec();
+          };
+        }
         result.multipliers = [problem, orbit = std::move(orbit)] {
           return multipliers_of(*problem, orbit);
         };
@@ -100,8 +91,7 @@ BranchEquations harmonic_equations(HarmonicProblemAt problem_at, int period, int
       result.failure = error.what();
     }
     return result;
-  };
-  return all;
+  }};
 }
 
 }  // namespace whirl::inline dyn

@@ -290,9 +290,8 @@ Vec HarmonicEquations::spring_slopes(const Mat& U_slope, const Mat& B_slope,
   return slopes;
 }
 
-std::optional<Mat> HarmonicEquations::slope(const Mat& u, const HarmonicProblem& by) const {
-  const Evaluation at = evaluate(u, false);
-  if (!at.has_force) return std::nullopt;
+std::optional<Mat> HarmonicEquations::slope(const Mat& u, const Mat& g,
+                                            const HarmonicProblem& by) const {
   Mat g_slope = Mat::Zero(u.rows(), u.cols());
   Eigen::Index first = 0;
   std::vector<PortSample> samples;
@@ -307,10 +306,9 @@ std::optional<Mat> HarmonicEquations::slope(const Mat& u, const HarmonicProblem&
   }
   const Places places = places_of(by);
   const Vec springs = spring_slopes(places.U, places.B, by.rate);
-  const Mat x = motion(at.g), rates = differentiated(x);  // by theta
+  const Mat x = motion(g), rates = differentiated(x);  // by theta
   const double w = frequency(), w_slope = by.rate / period_;
-  Mat forces =
-      loads_of(by, period_, harmonics_) + places.B * (at.g - springs_.asDiagonal() * U_ * x);
+  Mat forces = loads_of(by, period_, harmonics_) + places.B * (g - springs_.asDiagonal() * U_ * x);
   forces -= by.K * x + B_ * (springs_.asDiagonal() * (places.U * x));
   forces -= (w_slope * problem_.D + w * by.D) * rates + 2.0 * w * w_slope * differentiated(rates);
   g_slope += springs.asDiagonal() * (u - U_ * x);

@@ -77,10 +77,11 @@ class HarmonicEquations {
   ///
   ///   dr = -dU x - U dx,   Z dx = df + dB g + B dg - dZ x,   x = Z^-1 (f + B g)
   ///
+  /// @param g   forces on them, as evaluated
   /// @param by  the problem with its derivative by p in place of each number, of its forces those at
   ///            displacements that are held
   /// @return    nothing where a force has none
-  std::optional<Mat> slope(const Mat& u, const HarmonicProblem& by) const;
+  std::optional<Mat> slope(const Mat& u, const Mat& g, const HarmonicProblem& by) const;
 
   /// Motion of all coordinates under forces: eta_k = Z_k^-1 (f_k + B g_k).
   Mat motion(const Mat& g) const;

@@ -165,7 +165,7 @@ std::optional<bool> has_derivatives(const Plane& plane, BifurcationKind kind) {
   if (at.residual.size() == 0) return std::nullopt;
   const Mat known = differences(equations, x, plane.at_second, plane.step);
   Mat told(x.size(), x.size() + 1);
-  told << at.jacobian, equations.slope(x, plane.at_second);
+  told << at.jacobian, at.slope();
   bool is_right = true;
   for (Eigen::Index k = 0; k < known.cols(); ++k) {
     is_right = is_right && (told.col(k) - known.col(k)).norm() < bound * known.col(k).norm();

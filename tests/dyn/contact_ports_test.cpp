@@ -314,7 +314,8 @@ TEST(PortForces, HaveExactSlopesByParameters) {
       const double value = *number;
       const SystemSlope beside = slope_of(knob.name, scene, value, knob.size,
                                           [&](double p) { return turned_to(model, knob, p); });
-      const auto slope = equations.slope(u, harmonic_slope(scene.contacts, NumberSlopes(beside)));
+      const auto slope = equations.slope(u, equations.evaluate(u, false).g,
+                                         harmonic_slope(scene.contacts, NumberSlopes(beside)));
       ASSERT_TRUE(slope);
       const auto residual = [&](double p) {
         const Scene there = make_scene(turned_to(model, knob, p));

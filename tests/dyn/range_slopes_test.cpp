@@ -256,7 +256,7 @@ TEST(RangeSlopes, AreThoseOfHarmonicBalanceWhereShapesChange) {
     const RangeSlopes slopes = c.slopes();
     const auto by = slopes.problem_slope(c.value);
     ASSERT_TRUE(by);
-    const auto slope = equations.slope(u, *by);
+    const auto slope = equations.slope(u, equations.evaluate(u, false).g, *by);
     ASSERT_TRUE(slope);
     const auto residual = [&](double p) -> Mat {
       const auto there = c.scene(p);
