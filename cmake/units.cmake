@@ -4,7 +4,7 @@
 #
 #   whirl_units(<target> <kilobytes>)
 #
-# after its sources are complete; units of a folder are of about the same size and no larger than that. A
+# after its sources are complete; units of a folder are of about the same size, and of about that size at most. A
 # file with SKIP_UNITY_BUILD_INCLUSION is compiled alone, one that has a folder for itself with those of the target's own.
 function(whirl_units target kilobytes)
   get_target_property(sources ${target} SOURCES)
