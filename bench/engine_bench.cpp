@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "libdyn/taylor/batch.hpp"
-#include "libdyn/taylor/motion_slopes.hpp"
 #include "tests/support/trajectories.hpp"
 
 namespace whirl {
@@ -71,38 +70,6 @@ void EightExponents(benchmark::State& state) {
   time_batch(state, points, 50, {.tolerance = tolerance, .threads = 1, .exponents = true});
 }
 BENCHMARK(EightExponents)->ArgName("digits")->Arg(7)->Arg(11)->Unit(benchmark::kMillisecond);
-
-/// 40 revolutions with five impacts each, alone and with the derivatives by eight parameters.
-void EightSlopes(benchmark::State& state) {
-  constexpr long revolutions = 40;
-  const Model model = test::P1.model();
-  const Scene scene = make_scene(model);
-  MotionState start = test::start_of(model, scene);
-  test::run(scene, start, 100, {.tolerance = 1e-12});
-  const std::vector<SystemSlope> parameters(
-      8, slope_of("clearance", scene, test::P1.gap, 0.0, [&](double gap) {
-        Model changed = model;
-        changed.contacts[0].clearance = gap;
-        return changed;
-      }));
-  const std::vector<double> times{revolutions * scene.contacts.period()};
-  const double tolerance = std::pow(10.0, -static_cast<double>(state.range(0)));
-  for (auto _ : state) {
-    if (state.range(1) == 0) {
-      Trajectory t{.system = &scene.contacts, .state = start, .revolutions = revolutions};
-      integrate_single(t, {.tolerance = tolerance});
-      benchmark::DoNotOptimize(t.state.y.data());
-    } else {
-      const MotionSlopes found = motion_slopes(scene.contacts, start, times, parameters,
-                                               {.tolerance = tolerance, .by_start = false});
-      benchmark::DoNotOptimize(found.end.y.data());
-    }
-  }
-}
-BENCHMARK(EightSlopes)
-    ->ArgNames({"digits", "slopes"})
-    ->ArgsProduct({{10, 12}, {0, 1}})
-    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace whirl

@@ -16,6 +16,7 @@
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/taylor/blade_lanes-inl.h"
 #include "libdyn/taylor/convolution_tail-inl.h"
+#include "libdyn/taylor/events-inl.h"
 #include "libdyn/taylor/law_lanes-inl.h"
 #include "libdyn/taylor/pattern.hpp"
 #include "libdyn/taylor/rub_lanes-inl.h"
@@ -62,6 +63,7 @@ struct ContactLanes {
   uint64_t level_slip = 0;  // on the surface, and the rate of the slip is zero too
 
   // this step
+  bool rows_are_flat = false;            // of_x and the others have no slopes that numbers carry
   bool is_evaluated = false;             // whether any lane needs the force
   bool any_has_tau = false;              // whether in any lane tau is more than a share of q
   bool is_ahead = false;                 // whether the force needs geometry one coefficient ahead
@@ -196,11 +198,16 @@ struct ContactLanes {
       to_x = along;
       to_y = across;
     } else {
-      to_x = ux[0] * x[rows.of_x[0]];
-      to_y = uy[0] * x[rows.of_y[0]];
-      for (size_t i = 1; i < ux.size(); ++i) to_x = fma(ux[i], x[rows.of_x[i]], to_x);
-      for (size_t i = 1; i < uy.size(); ++i) to_y = fma(uy[i], x[rows.of_y[i]], to_y);
+      rows_are_flat ? displace<PlainOf<P>>(x, to_x, to_y) : displace<P>(x, to_x, to_y);
     }
+  }
+  /// V is P, or its value alone where rows have no slopes.
+  template <class V>
+  HWY_ATTR inline void displace(const P* x, P& to_x, P& to_y) const {
+    to_x = as<V>(ux[0]) * x[rows.of_x[0]];
+    to_y = as<V>(uy[0]) * x[rows.of_y[0]];
+    for (size_t i = 1; i < ux.size(); ++i) to_x = fma(as<V>(ux[i]), x[rows.of_x[i]], to_x);
+    for (size_t i = 1; i < uy.size(); ++i) to_y = fma(as<V>(uy[i]), x[rows.of_y[i]], to_y);
   }
 
   /// Coefficient 0 of displacement, distance squared, distance.
@@ -224,15 +231,16 @@ struct ContactLanes {
   HWY_ATTR inline void geometry(const P* x, int k, bool with_distance) {
     if (disk) return blade_geometry(k, with_distance);
     if (rows.is_plane) return plane_geometry(x, k);
-    P xk, yk;
-    displacement(x, xk, yk);
-    dx[k] = xk;
-    dy[k] = yk;
+    displacement(x, dx[k], dy[k]);
+    if (!with_distance) {
+      s[k] = square_of<P>(dx, dy, k);
+      return;
+    }
     ConvolutionTail<P> older;
-    with_distance ? older.square(dx, dy, r, k) : older.square(dx, dy, k);
-    const P half_s = fma(dx[0], xk, older.xx) + fma(dy[0], yk, older.yy);
+    older.square(dx, dy, r, k);
+    const P half_s = older.half_of_square(dx, dy, k);
     s[k] = half_s + half_s;
-    if (with_distance) r[k] = (half_s - older.rr) * inverse_r;
+    r[k] = (half_s - older.rr) * inverse_r;
   }
 
   /// The same of a plane, for any k.
@@ -241,6 +249,23 @@ struct ContactLanes {
     displacement(x, xk, yk);
     s[k] = fma(dx[0], xk, dy[0] * yk);
     if (k == 0) s[0] = s[0] - plane_at;
+  }
+
+  /// What s has beyond the surface at time t, and its rate, with slopes: beside touch those of s are left
+  /// out.
+  HWY_ATTR void beyond_at(const P& t, int last, P& value, P& rate_of_it) {
+    if (disk || rows.is_plane) {
+      const P s0 = s[0];
+      s[0] = beyond();
+      horner(s, last, t, value, rate_of_it);
+      s[0] = s0;
+      return;
+    }
+    P x, y, u, v;
+    horner(dx, last, t, x, u);
+    horner(dy, last, t, y, v);
+    value = fma(x, x, y * y) - clearance2;
+    rate_of_it = 2.0 * fma(x, u, y * v);
   }
 
   /// Coefficient 0 of what s has beyond the surface.
@@ -385,44 +410,22 @@ struct ContactLanes {
         y = fnma(by[static_cast<size_t>(i)], of_y, y);
       }
     } else {
-      for (size_t i = 0; i < bx.size(); ++i) {
-        P& a = acceleration[rows.pushed_by_x[i]];
-        a = fnma(bx[i], of_x, a);
-      }
-      for (size_t i = 0; i < by.size(); ++i) {
-        P& a = acceleration[rows.pushed_by_y[i]];
-        a = fnma(by[i], of_y, a);
-      }
+      rows_are_flat ? push_on<PlainOf<P>>(acceleration, of_x, of_y)
+                    : push_on<P>(acceleration, of_x, of_y);
+    }
+  }
+  template <class V>
+  HWY_ATTR inline void push_on(P* acceleration, const P& of_x, const P& of_y) const {
+    for (size_t i = 0; i < bx.size(); ++i) {
+      P& a = acceleration[rows.pushed_by_x[i]];
+      a = fnma(as<V>(bx[i]), of_x, a);
+    }
+    for (size_t i = 0; i < by.size(); ++i) {
+      P& a = acceleration[rows.pushed_by_y[i]];
+      a = fnma(as<V>(by[i]), of_y, a);
     }
   }
 };
-
-/// What the blades of each contact share, known to them.
-template <class P>
-std::vector<std::unique_ptr<BladeLanes<P>>> disks_of(const Pattern& pattern,
-                                                     std::vector<ContactLanes<P>>& contacts) {
-  std::vector<std::unique_ptr<BladeLanes<P>>> disks;
-  for (const Pattern::TurningGroup& group : pattern.turning) {
-    disks.push_back(std::make_unique<BladeLanes<P>>());
-    disks.back()->first = group.first;
-    disks.back()->count = group.count;
-    for (size_t i = 0; i < group.count; ++i) contacts[group.first + i].disk = disks.back().get();
-  }
-  return disks;
-}
-
-/// Coefficient k of the displacement of a disk, and what follows from it for its blades.
-template <class P>
-HWY_ATTR inline void extend(BladeLanes<P>& disk, const std::vector<ContactLanes<P>>& contacts,
-                            const P* x, int k) {
-  const ContactLanes<P>& blade = contacts[disk.first];
-  blade.displacement(x, disk.ux[k], disk.uy[k]);
-  if (k == 0) {
-    disk.ux[0] = disk.ux[0] - blade.offset_x;
-    disk.uy[0] = disk.uy[0] - blade.offset_y;
-  }
-  disk.extend(k);
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace whirl::inline dyn

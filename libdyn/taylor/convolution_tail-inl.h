@@ -17,20 +17,23 @@ namespace HWY_NAMESPACE {
 ///
 /// Pairs i, k - i from the middle outwards: the newest come last, which shortens the chain. Operands
 /// are references, for g++ 12 stores copies of packs and never reads them.
+///
+/// @tparam P  of the sums; operands are of this type, or carry slopes that are left out
 template <class P>
 struct ConvolutionTail {
   P xx{0.0}, yy{0.0}, rr{0.0};  // halves
   P xq{0.0}, yq{0.0}, rq{0.0};
 
-  HWY_ATTR inline void square(const P* x, const P* y, int k) {
+  template <class Q>
+  HWY_ATTR inline void square(const Q* x, const Q* y, int k) {
     if (k % 2 == 0) {
-      const P &xm = x[k / 2], &ym = y[k / 2];
+      const P &xm = as<P>(x[k / 2]), &ym = as<P>(y[k / 2]);
       xx = 0.5 * xm * xm;
       yy = 0.5 * ym * ym;
     }
     for (int i = (k - 1) / 2; i > 0; --i) {
-      xx = fma(x[i], x[k - i], xx);
-      yy = fma(y[i], y[k - i], yy);
+      xx = fma(as<P>(x[i]), as<P>(x[k - i]), xx);
+      yy = fma(as<P>(y[i]), as<P>(y[k - i]), yy);
     }
   }
   HWY_ATTR inline void square(const P* x, const P* y, const P* r, int k) {
@@ -61,8 +64,9 @@ struct ConvolutionTail {
     }
   }
   /// Half of order k of x^2 + y^2, with the newest terms.
-  HWY_ATTR inline P half_of_square(const P* x, const P* y, int k) const {
-    return fma(x[0], x[k], xx) + fma(y[0], y[k], yy);
+  template <class Q>
+  HWY_ATTR inline P half_of_square(const Q* x, const Q* y, int k) const {
+    return fma(as<P>(x[0]), as<P>(x[k]), xx) + fma(as<P>(y[0]), as<P>(y[k]), yy);
   }
   /// Squares and products at once, with one load of every coefficient.
   HWY_ATTR inline void square_and_multiply(const P* x, const P* y, const P* r, const P* q, int k) {
@@ -88,13 +92,13 @@ struct ConvolutionTail {
   }
 };
 
-/// Order k > 0 of x^2 + y^2.
+/// Order k > 0 of x^2 + y^2, without slopes.
 template <class P>
 HWY_ATTR inline P square_of(const P* x, const P* y, int k) {
-  ConvolutionTail<P> older;
+  ConvolutionTail<PlainOf<P>> older;
   older.square(x, y, k);
-  const P half = older.half_of_square(x, y, k);
-  return half + half;
+  const PlainOf<P> half = older.half_of_square(x, y, k);
+  return P(half + half);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -18,6 +18,7 @@
 #include "libdyn/system/failure_text.hpp"
 #include "libdyn/system/saltation.hpp"
 #include "libdyn/taylor/batch.hpp"
+#include "libdyn/taylor/blade_disks-inl.h"
 #include "libdyn/taylor/equation_lanes-inl.h"
 #include "libdyn/taylor/events-inl.h"
 #include "libdyn/taylor/film_lanes-inl.h"
@@ -142,6 +143,7 @@ class Engine {
   // engine_step-inl.h
   HWY_ATTR void step(const Observer* observer);
   HWY_ATTR void fail_steps(uint64_t bad);
+  HWY_ATTR void end_revolutions(uint64_t ends, bool is_observed);
   HWY_ATTR P step_length();
   template <int Bodies>
   HWY_ATTR void evaluate(const P* terms, const P& h, P* y) const;
@@ -156,11 +158,15 @@ class Engine {
   /// Whether series_of_bodies can make this step.
   bool is_rotor_in_stator() const { return pattern_.bodies == 2 && !contacts_[0].any_has_tau; }
   __attribute__((flatten)) HWY_ATTR void series_of_any();
-  template <int Bodies, bool Isotropic, class Law>
+  template <int Bodies, bool Isotropic, class V, class Law>
   __attribute__((flatten)) HWY_ATTR void series_of_bodies(Law& law);
+  template <class V>
   HWY_ATTR inline void accelerate(int k, P* to);
+  template <class V>
   HWY_ATTR void find_load();
-  HWY_ATTR void add_oscillation(const OscillationLanes<P>& load);
+  template <class V>
+  HWY_ATTR inline void oscillate(const V& rate, const V& angle, const std::vector<P>& fc,
+                                 const std::vector<P>& fs, const auto& put) const;
   void find_leaders();
   HWY_ATTR void stick(int k);
   HWY_ATTR void solve_influence();
@@ -212,6 +218,7 @@ class Engine {
   HWY_ATTR void load_deviations();
   HWY_ATTR P end_of_step(const P& h, uint64_t& fell, uint64_t ends);
   HWY_ATTR P to_same_depth(const P& h);
+  HWY_ATTR void move_with_distance(ContactLanes<P>& c, P& h) const;
   HWY_ATTR P along_event(const ContactLanes<P>& c, EventKind kind, const P* moved,
                          const P* rates) const;
   HWY_ATTR void note_jump(size_t i, EventKind kind);
@@ -242,6 +249,7 @@ class Engine {
   std::vector<std::unique_ptr<BladeLanes<P>>> disks_;  // of contacts with blades
   std::vector<std::unique_ptr<FilmLanes<P>>> films_;
   bool is_analytic_ = true;  // all laws are, and there is no film
+  bool is_flat_ = false;     // the linear part has no slopes that numbers carry
   std::vector<AnyLawWork<P>> laws_;
   P rate_{1.0}, period_{1.0};
 

@@ -15,12 +15,12 @@ namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
 /// A contact's displacement along x and y, of bodies whose x and y take turns.
-template <int Bodies, class P>
+template <int Bodies, class V, class P>
 HWY_ATTR HWY_INLINE void displacement(const P* ux, const P* uy, const P* x, P& to_x, P& to_y) {
-  P along = ux[0] * x[0], across = uy[0] * x[1];
+  P along = as<V>(ux[0]) * x[0], across = as<V>(uy[0]) * x[1];
   for (int i = 1; i < Bodies; ++i) {
-    along = fma(ux[i], x[2 * i], along);
-    across = fma(uy[i], x[2 * i + 1], across);
+    along = fma(as<V>(ux[i]), x[2 * i], along);
+    across = fma(as<V>(uy[i]), x[2 * i + 1], across);
   }
   to_x = along;
   to_y = across;
@@ -30,15 +30,17 @@ HWY_ATTR HWY_INLINE void displacement(const P* ux, const P* uy, const P* x, P& t
 /// its own. Loads from memory decide how long this takes, so what is used twice is loaded once:
 /// of isotropic bodies, one coefficient serves x and y.
 ///
+/// V is P, or its value alone where the linear part and the contact's rows have no slopes.
+///
 /// Every number is made by the operations of series_of_any in their order: a lane must not notice
 /// which of the two its neighbors ask for.
 template <class P>
-template <int Bodies, bool Isotropic, class Law>
+template <int Bodies, bool Isotropic, class V, class Law>
 HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
   constexpr int n = 2 * Bodies;
   ContactLanes<P>& c = contacts_[0];
   std::copy(y_.begin(), y_.end(), term(0));
-  find_load();
+  find_load<V>();
   // none of these overlap, which the compiler cannot know of registers in memory
   P* __restrict dx = c.dx, * __restrict dy = c.dy, * __restrict s = c.s, * __restrict r = c.r;
   P* __restrict N_of = c.N, * __restrict q = c.q;
@@ -52,12 +54,12 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
   const auto accelerate = [&](const P* newest) HWY_ATTR {
     each<n>(n, [&](int i) HWY_ATTR {
       const int j = Isotropic ? i & ~1 : i;
-      acceleration[i] = fnma(D[j], newest[i], fnma(K[j], now[i], load[i]));
+      acceleration[i] = fnma(as<V>(D[j]), newest[i], fnma(as<V>(K[j]), now[i], load[i]));
     });
   };
 
-  displacement<Bodies>(ux, uy, now, dx[0], dy[0]);
-  displacement<Bodies>(ux, uy, rate, dx[1], dy[1]);
+  displacement<Bodies, V>(ux, uy, now, dx[0], dy[0]);
+  displacement<Bodies, V>(ux, uy, rate, dx[1], dy[1]);
   dx[0] = dx[0] - c.offset_x;
   dy[0] = dy[0] - c.offset_y;
   s[0] = fma(dx[0], dx[0], dy[0] * dy[0]);
@@ -84,8 +86,8 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
       }
       const P fx = fnma(c.share, py, px), fy = fma(c.share, px, py);
       for (int i = 0; i < Bodies; ++i) {
-        acceleration[2 * i] = fnma(bx[i], fx, acceleration[2 * i]);
-        acceleration[2 * i + 1] = fnma(by[i], fy, acceleration[2 * i + 1]);
+        acceleration[2 * i] = fnma(as<V>(bx[i]), fx, acceleration[2 * i]);
+        acceleration[2 * i + 1] = fnma(as<V>(by[i]), fy, acceleration[2 * i + 1]);
       }
     } else if (k > 0) {
       s[k] = square_of<P>(dx, dy, k);
@@ -93,7 +95,7 @@ HWY_ATTR void Engine<P>::series_of_bodies(Law& law) {
     const Number scale = twice_integrated<P>(k);
     P newest[n];
     each<n>(n, [&](int i) HWY_ATTR { next[i] = newest[i] = acceleration[i] * scale; });
-    displacement<Bodies>(ux, uy, newest, dx[k + 2], dy[k + 2]);
+    displacement<Bodies, V>(ux, uy, newest, dx[k + 2], dy[k + 2]);
     if (k == N) break;
     now = rate;
     rate = next;

@@ -40,10 +40,13 @@ HWY_ATTR uint64_t Engine<P>::find_events(P& h) {
     c.s[0] = c.beyond();
     const uint64_t watched = active_ & (~c.touching | c.continuous);
     const P sign = select(mask_of<P>(c.touching | c.receding), P(1.0), P(-1.0));
-    note(i, &EventMask::distance,
-         first_downward_zero(c.s, N + 2, sign, c.distance_scale, h, mask_of<P>(watched),
-                             mask_of<P>(c.surface_distance)));
+    const Mask fell = first_downward_zero(c.s, N + 2, sign, c.distance_scale, h,
+                                          mask_of<P>(watched), mask_of<P>(c.surface_distance));
     c.s[0] = s0;
+    note(i, &EventMask::distance, fell);
+    if constexpr (carries_slopes<P>) {
+      if (any(h, fell)) move_with_distance(c, h);
+    }
     if (!c.is_evaluated) continue;
     if (((c.touching | c.receding) & active_ & c.damped) != 0) watch_force(i, h);
     if ((c.touching & active_ & c.exact & ~c.sticking) != 0) watch_slip(i, h);

@@ -13,64 +13,70 @@ HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
 namespace HWY_NAMESPACE {
 
-/// Coefficients of the load; where it does not turn they are zero from the second on.
+/// Coefficients of  fc cos(angle) + fs sin(angle),  whose angle moves at a rate:
 ///
-///   f = f0 + fc cos(phase) + fs sin(phase),   f_{k+2} = -rate^2 f_k / ((k + 1) (k + 2))
+///   f_{k+2} = -rate^2 f_k / ((k + 1) (k + 2))
+///
+/// @param put  is called with a coordinate, an order and the coefficient
 template <class P>
-HWY_ATTR void Engine<P>::find_load() {
-  P sine, cosine;
-  sin_cos(rate_ * time_, sine, cosine);
-  const P curvature = -(rate_ * rate_);
-  P* load = load_.data();
+template <class V>
+HWY_ATTR inline void Engine<P>::oscillate(const V& rate, const V& angle, const std::vector<P>& fc,
+                                          const std::vector<P>& fs, const auto& put) const {
+  V sine, cosine;
+  sin_cos(angle, sine, cosine);
+  const V curvature = -(rate * rate);
+  V factors[P::most_terms];
+  for (int k = 0; k < N; ++k) factors[k] = PlainOf<V>(twice_integrated<V>(k)) * curvature;
   for (const int i : pattern_.forced) {
-    const P &of_cosine = equations_.fc[static_cast<size_t>(i)],
-            &of_sine = equations_.fs[static_cast<size_t>(i)];
-    P now = fma(of_cosine, cosine, of_sine * sine);
-    P next = rate_ * fma(of_sine, cosine, -(of_cosine * sine));
-    load[i] = now + equations_.f0[static_cast<size_t>(i)];
+    const V &of_cosine = as<V>(fc[static_cast<size_t>(i)]),
+            &of_sine = as<V>(fs[static_cast<size_t>(i)]);
+    V now = fma(of_cosine, cosine, of_sine * sine);
+    V next = rate * fma(of_sine, cosine, -(of_cosine * sine));
+    put(i, 0, now);
     for (int k = 1; k <= N; ++k) {
-      load[k * n_ + i] = next;
-      const P after = curvature * P(twice_integrated<P>(k - 1)) * now;
+      put(i, k, next);
+      const V after = factors[k - 1] * now;
       now = next;
       next = after;
     }
   }
-  for (const OscillationLanes<P>& o : equations_.oscillations) add_oscillation(o);
 }
 
-/// Adds the coefficients of a load of another frequency.
+/// Coefficients of the load; where it does not turn they are zero from the second on.
+///
+/// @tparam V  P, or its value alone: slopes are left as they are
 template <class P>
-HWY_ATTR void Engine<P>::add_oscillation(const OscillationLanes<P>& o) {
-  P sine, cosine;
-  sin_cos(fma(o.rate, time_, o.start), sine, cosine);
-  const P curvature = -(o.rate * o.rate);
-  P* load = load_.data();
-  for (const int i : pattern_.forced) {
-    const P &of_cosine = o.fc[static_cast<size_t>(i)], &of_sine = o.fs[static_cast<size_t>(i)];
-    P now = fma(of_cosine, cosine, of_sine * sine);
-    P next = o.rate * fma(of_sine, cosine, -(of_cosine * sine));
-    load[i] = load[i] + now;
-    for (int k = 1; k <= N; ++k) {
-      load[k * n_ + i] = load[k * n_ + i] + next;
-      const P after = curvature * P(twice_integrated<P>(k - 1)) * now;
-      now = next;
-      next = after;
-    }
+template <class V>
+HWY_ATTR void Engine<P>::find_load() {
+  const auto load = [&](int i, int k)
+                        HWY_ATTR -> V& { return as<V>(load_[static_cast<size_t>(k * n_ + i)]); };
+  oscillate<V>(as<V>(rate_), as<V>(rate_) * as<V>(time_), equations_.fc, equations_.fs,
+               [&](int i, int k, const V& f) HWY_ATTR {
+                 load(i, k) = k == 0 ? f + as<V>(equations_.f0[static_cast<size_t>(i)]) : f;
+               });
+  for (const OscillationLanes<P>& o : equations_.oscillations) {
+    oscillate<V>(as<V>(o.rate), fma(as<V>(o.rate), as<V>(time_), as<V>(o.start)), o.fc, o.fs,
+                 [&](int i, int k, const V& f) HWY_ATTR { load(i, k) = load(i, k) + f; });
   }
 }
 
 /// Coefficient k of the acceleration, contacts and films apart.
+///
+/// @tparam V  P, or its value alone where the linear part has no slopes
 template <class P>
+template <class V>
 HWY_ATTR inline void Engine<P>::accelerate(int k, P* to) {
   const P *now = term(k), *rate = term(k + 1);  // x' has coefficients (k + 1) x_{k+1}
   const P *kd = equations_.K.data(), *dd = equations_.D.data(), *load = load_.data() + k * n_;
-  const P whole(k + 1.0);
-  for (int i = 0; i < n_; ++i) to[i] = fnma(whole * dd[i], rate[i], fnma(kd[i], now[i], load[i]));
+  const PlainOf<P> whole(k + 1.0);
+  for (int i = 0; i < n_; ++i) {
+    to[i] = fnma(whole * as<V>(dd[i]), rate[i], fnma(as<V>(kd[i]), now[i], load[i]));
+  }
   for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
     const P* a = equations_.A.data() + row.begin;
     P of_x(0.0), of_rate(0.0);
-    for (const int j : row.of_x) of_x = fma(*a++, now[j], of_x);
-    for (const int j : row.of_rate) of_rate = fma(*a++, rate[j], of_rate);
+    for (const int j : row.of_x) of_x = fma(as<V>(*a++), now[j], of_x);
+    for (const int j : row.of_rate) of_rate = fma(as<V>(*a++), rate[j], of_rate);
     to[row.i] = to[row.i] - fma(whole, of_rate, of_x);
   }
 }
@@ -104,7 +110,13 @@ HWY_ATTR void Engine<P>::series() {
   if (!is_rotor_in_stator()) return series_of_any();
   with_alternative(laws_[0], [&](auto& law) HWY_ATTR {
     if constexpr (std::remove_cvref_t<decltype(law)>::is_of_bodies) {
-      pattern_.is_isotropic ? series_of_bodies<2, true>(law) : series_of_bodies<2, false>(law);
+      if constexpr (carries_slopes<P>) {
+        is_flat_&& contacts_[0].rows_are_flat ? series_of_bodies<2, false, PlainOf<P>>(law)
+                                              : series_of_bodies<2, false, P>(law);
+      } else {
+        pattern_.is_isotropic ? series_of_bodies<2, true, P>(law)
+                              : series_of_bodies<2, false, P>(law);
+      }
     }
   });
 }
@@ -113,7 +125,7 @@ HWY_ATTR void Engine<P>::series() {
 template <class P>
 HWY_ATTR void Engine<P>::series_of_any() {
   std::copy(y_.begin(), y_.end(), term(0));
-  find_load();
+  is_flat_ ? find_load<PlainOf<P>>() : find_load<P>();
   bool any_sticks = false;
   for (const ContactLanes<P>& c : contacts_) any_sticks = any_sticks || (c.sticking & active_) != 0;
   for (const auto& disk : disks_) {
@@ -135,7 +147,7 @@ HWY_ATTR void Engine<P>::series_of_any() {
       if (c.rub && c.is_ahead) c.rub->velocity(term(k + 1), k);
       if (c.is_evaluated) c.force(laws_[i], k);
     }
-    accelerate(k, acceleration);
+    is_flat_ ? accelerate<PlainOf<P>>(k, acceleration) : accelerate<P>(k, acceleration);
     for (const ContactLanes<P>& c : contacts_) {
       if (!c.is_evaluated) continue;
       c.push(acceleration, c.fx, c.fy);
@@ -143,8 +155,8 @@ HWY_ATTR void Engine<P>::series_of_any() {
     }
     for (const auto& film : films_) film->add(term(k), term(k + 1), k, acceleration);
     if (any_sticks) stick(k);
-    const P scale(twice_integrated<P>(k));
-    for (int i = 0; i < n_; ++i) acceleration[i] = acceleration[i] * scale;
+    const PlainOf<P> scale(twice_integrated<P>(k));
+    for (int i = 0; i < n_; ++i) acceleration[i] = scale * acceleration[i];
   }
   // to be as good as the state, the square of the distance needs two more
   for (const auto& disk : disks_) extend(*disk, contacts_, term(N + 2), N + 2);

@@ -59,6 +59,15 @@ HWY_ATTR void Engine<P>::load_slopes(const Trajectory& t) {
       }
     }
   }
+  const auto& e = equations_;
+  is_flat_ = !has_tangents() && is_flat(rate_);
+  for (const auto* v : {&e.K, &e.D, &e.A, &e.f0, &e.fc, &e.fs}) is_flat_ = is_flat_ && are_flat(*v);
+  for (const OscillationLanes<P>& o : e.oscillations) {
+    is_flat_ = is_flat_ && is_flat(o.rate) && are_flat(o.fc) && are_flat(o.fs);
+  }
+  for (ContactLanes<P>& c : contacts_) {
+    c.rows_are_flat = are_flat(c.ux) && are_flat(c.uy) && are_flat(c.bx) && are_flat(c.by);
+  }
   const double fastest = fastest_mode(s);
   slopes.fastest2 = fastest * fastest;
   slopes.gain.clear();
@@ -245,6 +254,14 @@ HWY_ATTR P Engine<P>::end_of_step(const P& h, uint64_t& fell, uint64_t ends) {
   return slopes.length;
 }
 
+/// Gives a time at which the distance of a contact is an event the slopes that hold it there.
+template <class P>
+HWY_ATTR void Engine<P>::move_with_distance(ContactLanes<P>& c, P& h) const {
+  P value, rate;
+  c.beyond_at(P(h.x), N + 2, value, rate);
+  h.s = -(value.s * wide(typename P::Value(1.0) / rate.x));
+}
+
 /// The step to the depth of the contact that is closest to its surface, if one comes from there or goes
 /// there.
 template <class P>
@@ -253,11 +270,8 @@ HWY_ATTR P Engine<P>::to_same_depth(const P& h) {
   double soonest = std::numeric_limits<double>::infinity();
   for (ContactLanes<P>& c : contacts_) {
     if ((c.touching & 1) == 0 || c.rows.is_analytic) continue;
-    const P s0 = c.s[0];
-    c.s[0] = c.beyond();
     P value, rate;
-    horner(c.s, N + 2, P(h.x, typename P::Slopes(0.0)), value, rate);
-    c.s[0] = s0;
+    c.beyond_at(P(h.x), N + 2, value, rate);
     double bend = 0.0;
     for (int k = N + 2; k >= 2; --k) bend = bend * lane(h, 0) + k * (k - 1.0) * lane(c.s[k], 0);
     const double depth = std::abs(lane(value, 0)), speed = std::abs(lane(rate, 0));

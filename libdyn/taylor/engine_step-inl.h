@@ -16,38 +16,42 @@ namespace HWY_NAMESPACE {
 /// Step at which the last two terms are as large as the tolerance allows.
 template <class P>
 HWY_ATTR P Engine<P>::step_length() {
-  P last(1e-280), before(1e-280), sum(0.0), size(0.0);
-  const P *a = term(N + 2), *b = term(N + 1), *y = y_.data(), *scale = scale_.data();
+  using V = PlainOf<P>;
+  V last(1e-280), before(1e-280), sum(0.0), size(0.0);
+  const P *a = term(N + 2), *b = term(N + 1), *y = y_.data();
   for (int i = 0; i < n_; ++i) {
-    const P in_a = abs(a[i]) * scale[i], in_b = abs(b[i]) * scale[i];
+    const V& scale = as<V>(scale_[static_cast<size_t>(i)]);
+    const V in_a = abs(as<V>(a[i])) * scale, in_b = abs(as<V>(b[i])) * scale;
     last = max(last, in_a);
     before = max(before, in_b);
     sum = sum + in_a + in_b;  // unlike a maximum, it never loses what is no number
-    size = max(size, abs(y[i]) * scale[i]);
+    size = max(size, abs(as<V>(y[i])) * scale);
   }
   // quadruple numbers reach further, and need to: with a law that has no Taylor series at a surface,
   // the last of thirty terms gets there
-  const P huge(1e300);
+  const V huge(1e300);
   finite_ = less(sum, P::is_double ? huge : huge * huge * huge);
-  bounded_ = less(size, P(boundless));
-  const P e(log2_tolerance_);
-  const P h1 = (e - rough_log2(last)) * P(1.0 / (N + 2));
-  const P h2 = (e - rough_log2(before)) * P(1.0 / (N + 1));
-  P h = min(min(h1, h2), P(900.0));
+  bounded_ = less(size, V(boundless));
+  const V e(log2_tolerance_);
+  const V h1 = (e - rough_log2(last)) * V(1.0 / (N + 2));
+  const V h2 = (e - rough_log2(before)) * V(1.0 / (N + 1));
+  V h = min(min(h1, h2), V(900.0));
   if (!is_analytic_) {  // steps get short at a surface: the last term of the velocity counts too
-    const P speed = rough_log2(rate_) - P(std::log2(N + 2.0));
-    h = min(h, (e + speed - rough_log2(last)) * P(1.0 / (N + 1)));
+    const V speed = rough_log2(as<V>(rate_)) - V(std::log2(N + 2.0));
+    h = min(h, (e + speed - rough_log2(last)) * V(1.0 / (N + 1)));
   }
-  return P(0.95) * rough_exp2(h);
+  return P(V(0.95) * rough_exp2(h));
 }
 
-/// Values at h of series and of their derivatives, in all active lanes; Bodies as in series_of.
+/// Values at h of series and of their derivatives, in all active lanes; Bodies as in series_of. Slopes of h
+/// come last:  x' += v h',  v' += a h'.
 template <class P>
 template <int Bodies>
 HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
   constexpr int at_once = Bodies > 0 ? 2 * Bodies : 2;  // coordinates, whose chains overlap
   const int n = Bodies > 0 ? 2 * Bodies : n_;
   const Mask active = mask_of<P>(active_);
+  const auto& t = as<PlainOf<P>>(h);
   for (int first = 0; first < n; first += at_once) {
     const auto place = [&](int i) { return Bodies > 0 ? i : std::min(first + i, n - 1); };
     P x[at_once], v[at_once];
@@ -59,8 +63,8 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
     for (int k = N + 1; k >= 0; --k) {
       now -= n;
       each<at_once>(0, [&](int i) HWY_ATTR {
-        v[i] = fma(v[i], h, x[i]);
-        x[i] = fma(x[i], h, now[place(i)]);
+        v[i] = fma(t, v[i], x[i]);
+        x[i] = fma(t, x[i], now[place(i)]);
       });
     }
     each<at_once>(0, [&](int i) HWY_ATTR {
@@ -68,6 +72,17 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
       to_x = select(active, x[i], to_x);
       to_v = select(active, v[i], to_v);
     });
+  }
+  if constexpr (carries_slopes<P>) {
+    if (is_flat(h)) return;
+    for (int i = 0; i < n; ++i) {
+      PlainOf<P> a(0.0);
+      for (int k = N + 2; k >= 2; --k) {
+        a = fma(a, t, PlainOf<P>(k * (k - 1.0)) * terms[k * n + i].x);
+      }
+      y[i].s = fma(wide(y[n + i].x), h.s, y[i].s);
+      y[n + i].s = fma(wide(a), h.s, y[n + i].s);
+    }
   }
 }
 
@@ -140,7 +155,25 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
     }
   }
   if (fell != 0) apply_events(instant);
+  end_revolutions(ends, observer != nullptr);
+  if constexpr (carries_slopes<P>) {
+    if (slopes_->run->is_done()) {
+      keep_deviations();
+      finished_ |= 1;
+    }
+  } else if (has_tangents()) {
+    if (options_.exponents) orthonormalize(due_lanes(ends));
+    if (options_.growths) keep_growths(ends);
+  }
+  if (!goes_on) {
+    trajectory_[0]->outcome = Outcome::stopped_by_observer;
+    finished_ |= 1;
+  }
+}
 
+/// Ends a revolution in lanes: the next one begins, or the trajectory is done.
+template <class P>
+HWY_ATTR void Engine<P>::end_revolutions(uint64_t ends, bool is_observed) {
   for (uint64_t rest = ends; rest != 0; rest &= rest - 1) {
     const int l = __builtin_ctzll(rest);
     LaneRecord& record = records_[static_cast<size_t>(l)];
@@ -156,22 +189,9 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
       std::vector<double>& sections = trajectory_[static_cast<size_t>(l)]->sections;
       for (const P& y : y_) sections.push_back(lane(y, l));
     }
-    const bool is_alone = !observer && !has_tangents() && !carries_slopes<P>;
+    const bool is_alone = !is_observed && !has_tangents() && !carries_slopes<P>;
     if (P::is_double && is_alone && films_.empty()) fly_on(l);
     if (record.revolution >= record.last) finished_ |= uint64_t{1} << l;
-  }
-  if constexpr (carries_slopes<P>) {
-    if (slopes_->run->is_done()) {
-      keep_deviations();
-      finished_ |= 1;
-    }
-  } else if (has_tangents()) {
-    if (options_.exponents) orthonormalize(due_lanes(ends));
-    if (options_.growths) keep_growths(ends);
-  }
-  if (!goes_on) {
-    trajectory_[0]->outcome = Outcome::stopped_by_observer;
-    finished_ |= 1;
   }
 }
 

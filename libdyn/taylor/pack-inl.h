@@ -13,6 +13,7 @@
 
 #include <cstring>
 #include <numbers>
+#include <type_traits>
 
 HWY_BEFORE_NAMESPACE();
 namespace whirl::inline dyn {
@@ -27,7 +28,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// The alignment is written out: where code without this instruction set (std::vector) asks for it,
 /// g++ would answer with less.
 template <size_t L, int B>
-struct alignas(8 * L) Pack {
+struct alignas(8 * L) alignas(hn::Vec<hn::CappedTag<double, L>>) Pack {
   using D = hn::CappedTag<double, L>;
   using Register = hn::Vec<D>;
   using MaskRegister = hn::Mask<D>;
@@ -67,6 +68,29 @@ template <class P>
 constexpr bool carries_slopes = requires {
   typename P::Slopes;
 };
+
+/// A number without the slopes that it may carry.
+template <class P>
+struct Plain {
+  using type = P;
+};
+template <class P>
+requires carries_slopes<P>
+struct Plain<P> {
+  using type = typename P::Value;
+};
+template <class P>
+using PlainOf = typename Plain<P>::type;
+
+/// A number itself, as a V that is its type or that without slopes.
+template <class V, class P>
+HWY_ATTR inline auto& as(P& x) {
+  if constexpr (std::is_same_v<V, std::remove_const_t<P>>) {
+    return x;
+  } else {
+    return x.x;
+  }
+}
 
 #define WHIRL_UNARY(name, expression)                    \
   template <size_t L, int B>                             \

@@ -15,7 +15,7 @@
 #include "libdyn/system/equal_steps.hpp"
 #include "libdyn/system/failure_text.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libdyn/taylor/contact_lanes-inl.h"
+#include "libdyn/taylor/blade_disks-inl.h"
 #include "libdyn/taylor/equation_lanes-inl.h"
 #include "libdyn/taylor/film_lanes-inl.h"
 

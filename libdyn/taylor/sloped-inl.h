@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <vector>
 
 #include "libdyn/system/system_slope.hpp"
 #include "libdyn/taylor/events-inl.h"
@@ -46,6 +47,7 @@ struct alignas(64) Sloped {
 
   Sloped() = default;
   HWY_ATTR Sloped(double value) : s(0.0), x(value) {}
+  HWY_ATTR explicit Sloped(const Value& value) : s(0.0), x(value) {}
   HWY_ATTR Sloped(const Value& value, const Slopes& slopes) : s(slopes), x(value) {}
 };
 
@@ -103,6 +105,28 @@ WHIRL_PRODUCT Sloped fma(const Sloped& a, const Sloped& b, const Sloped& c) {
 /// c - a b.
 WHIRL_PRODUCT Sloped fnma(const Sloped& a, const Sloped& b, const Sloped& c) {
   return {fnma(a.x, b.x, c.x), fnma(wide(a.x), b.s, fnma(wide(b.x), a.s, c.s))};
+}
+
+/// The same with a number that has no slopes.
+HWY_ATTR inline Sloped operator*(const Sloped::Value& a, const Sloped& b) {
+  return {a * b.x, wide(a) * b.s};
+}
+HWY_ATTR inline Sloped fma(const Sloped::Value& a, const Sloped& b, const Sloped& c) {
+  return {fma(a, b.x, c.x), fma(wide(a), b.s, c.s)};
+}
+HWY_ATTR inline Sloped fnma(const Sloped::Value& a, const Sloped& b, const Sloped& c) {
+  return {fnma(a, b.x, c.x), fnma(wide(a), b.s, c.s)};
+}
+
+/// Whether all slopes are zero.
+HWY_ATTR inline bool is_flat(const Sloped& a) {
+  return !any(a.s, less(Sloped::Slopes(0.0), abs(a.s)));
+}
+HWY_ATTR inline bool are_flat(const std::vector<Sloped>& all) {
+  for (const Sloped& a : all) {
+    if (!is_flat(a)) return false;
+  }
+  return true;
 }
 
 /// f(a) of value and f'(a).
