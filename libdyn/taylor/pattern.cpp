@@ -1,6 +1,8 @@
 #include "libdyn/taylor/pattern.hpp"
 
 #include <algorithm>
+#include <concepts>
+#include <type_traits>
 
 #include "libbase/error.hpp"
 
@@ -92,6 +94,11 @@ void insert_friction(Pattern::ContactRows& rows, const ReducedContact& c, int n)
   }
 }
 
+template <class... Geometry>
+constexpr bool only_blade_rows_turn(std::type_identity<std::variant<Geometry...>>) {
+  return ((Geometry::turns == std::same_as<Geometry, geometry::BladeRow>)&&...);
+}
+
 /// What all systems of a batch must have in common, of the first one.
 Pattern begin_pattern(const ContactSystem& first) {
   Pattern p;
@@ -107,6 +114,10 @@ Pattern begin_pattern(const ContactSystem& first) {
     p.contacts[c].rubs_apart = contact.rubs_apart();
     p.contacts[c].is_plane = direction_of(contact.geometry).has_value();
     if (!contact.turns()) continue;
+    static_assert(
+        only_blade_rows_turn(std::type_identity<AnyGeometry>()),
+        "lanes keep what turns as rows of blades: blade_lanes-inl.h and contact_lanes-inl.h "
+        "of libdyn/taylor and sloped_contact.cpp have to know of another geometry first");
     if (contact.place == 0) p.turning.push_back({c, 0});
     ++p.turning.back().count;
     p.contacts[c].group = static_cast<int>(p.turning.size()) - 1;
