@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "libbase/interruption.hpp"
@@ -14,6 +13,7 @@
 #include "libfe/elements/connection.hpp"
 #include "libfe/elements/disk.hpp"
 #include "libfe/modal_damping.hpp"
+#include "libfe/rigid_ties.hpp"
 #include "libfe/shaft_elements.hpp"
 
 namespace whirl::inline fe {
@@ -69,45 +69,6 @@ std::vector<int> indices(const DofMap& dofs, const Point& from, const Point& to)
   index.insert(index.end(), other.begin(), other.end());
   return index;
 }
-
-/// Groups of dofs that rigid connections hold together; group 0 is the ground.
-class Ties {
- public:
-  explicit Ties(int dofs) : parent_(static_cast<std::size_t>(dofs) + 1) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  /// Ties two indices of the full vector (-1: ground); false if they were tied already.
-  bool tie(int a, int b) {
-    int from = root(a + 1), to = root(b + 1);
-    if (from == to) return false;
-    if (from == 0) std::swap(from, to);
-    parent_[from] = to;
-    return true;
-  }
-  /// full = T q with one coordinate per group that is not the ground.
-  Sparse transformation() {
-    const int n = static_cast<int>(parent_.size()) - 1;
-    std::vector<int> coordinate(parent_.size(), -1);
-    std::vector<Triplet> entries;
-    int count = 0;
-    for (int i = 0; i < n; ++i) {
-      const int group = root(i + 1);
-      if (group == 0) continue;
-      if (coordinate[group] < 0) coordinate[group] = count++;
-      entries.emplace_back(i, coordinate[group], 1.0);
-    }
-    Sparse T(n, count);
-    T.setFromTriplets(entries.begin(), entries.end());
-    return T;
-  }
-
- private:
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<int> parent_;
-};
 
 bool is_identity(const Sparse& T) {
   return T.rows() == T.cols();
@@ -201,85 +162,66 @@ Sparse condensation(const Sparse& K, const std::vector<int>& condensed) {
   return result;
 }
 
+/// Numbers of the freedoms of nodes and bodies.
+DofMap freedoms_of_points(const Structure& structure, const Mesh& mesh) {
+  DofMap dofs;
+  dofs.nodes = mesh.nodes();
+  dofs.full_size = 4 * dofs.nodes;
+  for (const Body& body : structure.bodies) {
+    dofs.body_start.push_back(dofs.full_size);
+    dofs.body_tilts.push_back(body.tilts);
+    dofs.full_size += body.tilts ? 4 : 2;
+  }
+  return dofs;
+}
+
+/// Adds shaft, disks and bodies; internal functions of the shaft get the next numbers.
+void add_rotor(const Structure& structure, const Mesh& mesh, DofMap& dofs, Collector& to) {
+  for (const MeshElement& element : mesh.elements) {
+    const auto e = matrices(beam_of(element, structure, mesh));
+    std::vector<int> index =
+        indices(dofs, {Point::Kind::node, element.left}, {Point::Kind::node, element.right});
+    while (static_cast<Eigen::Index>(index.size()) < e.M.rows()) {
+      index.push_back(dofs.full_size++);
+    }
+    to.add(e, index);
+  }
+  for (const MeshLayer& piece : mesh.layers) {
+    const MeshElement& beside = mesh.elements[static_cast<std::size_t>(piece.element)];
+    to.add(matrices(beam_of(piece, structure, mesh)),
+           indices(dofs, {Point::Kind::node, beside.left}, {Point::Kind::node, beside.right}));
+  }
+  for (const Disk& disk : structure.disks) {
+    to.add(matrices(disk), indices(dofs, resolve(disk.at, structure, mesh)));
+  }
+  for (std::size_t i = 0; i < structure.bodies.size(); ++i) {
+    to.add(matrices(structure.bodies[i]), indices(dofs, {Point::Kind::body, static_cast<int>(i)}));
+  }
+}
+
 }  // namespace
 
 Assembler::Assembler(Structure structure)
     : structure_(std::move(structure)), mesh_(make_mesh(structure_)) {
-  const int nodes = mesh_.nodes();
-  dofs_.nodes = nodes;
-  int next = 4 * nodes;
-  for (const Body& body : structure_.bodies) {
-    dofs_.body_start.push_back(next);
-    dofs_.body_tilts.push_back(body.tilts);
-    next += body.tilts ? 4 : 2;
-  }
-
+  dofs_ = freedoms_of_points(structure_, mesh_);
   Collector collector;
-  for (const MeshElement& element : mesh_.elements) {
-    const auto e = matrices(beam_of(element, structure_, mesh_));
-    std::vector<int> index =
-        indices(dofs_, {Point::Kind::node, element.left}, {Point::Kind::node, element.right});
-    while (static_cast<Eigen::Index>(index.size()) < e.M.rows()) index.push_back(next++);
-    collector.add(e, index);
-  }
-  dofs_.full_size = next;
-  for (const MeshLayer& piece : mesh_.layers) {
-    const MeshElement& beside = mesh_.elements[static_cast<std::size_t>(piece.element)];
-    collector.add(
-        matrices(beam_of(piece, structure_, mesh_)),
-        indices(dofs_, {Point::Kind::node, beside.left}, {Point::Kind::node, beside.right}));
-  }
-  for (const Disk& disk : structure_.disks) {
-    collector.add(matrices(disk), indices(dofs_, point(disk.at)));
-  }
-  for (std::size_t i = 0; i < structure_.bodies.size(); ++i) {
-    collector.add(matrices(structure_.bodies[i]),
-                  indices(dofs_, {Point::Kind::body, static_cast<int>(i)}));
-  }
+  add_rotor(structure_, mesh_, dofs_, collector);
+  const int n = dofs_.full_size;
+  weighing_ = collector.M(n);
 
-  weighing_ = collector.M(next);
-
-  std::vector<Problem> problems;
-  Ties ties(next);
+  dofs_.T = freedoms_left(structure_, mesh_, dofs_);
   for (const auto& [kind, list] : structure_.connections()) {
     for (const Connection& c : list) {
-      const Point from = point(c.from), to = point(c.to);
-      if (from == to) {
-        problems.push_back({c.where, c.name, "both ends are at the same place"});
-        continue;
-      }
       if (whirl::depends_on_speed(c.coefficients)) {
         depends_on_speed_ = true;
         if (whirl::depends_on_whirl(c.coefficients)) depends_on_whirl_ = true;
       } else {
-        collector.add(matrices(coefficients(c.coefficients, 0.0)), indices(dofs_, from, to));
-      }
-      if (!c.is_rigid && !c.is_clamped) continue;
-      for (int k = 0; k < (c.is_clamped ? 4 : 2); ++k) {
-        const int a = dofs_.full_index(from, k), b = dofs_.full_index(to, k);
-        const bool lacks = (a < 0 && from.kind != Point::Kind::ground) ||
-                           (b < 0 && to.kind != Point::Kind::ground);
-        if (lacks) {
-          problems.push_back(
-              {c.where, c.name, "cannot clamp to a body without tilts; give it tilts = true"});
-          break;
-        }
-        if (!ties.tie(a, b)) {
-          problems.push_back(
-              {c.where, c.name,
-               "its ends are held together already by another rigid bearing or link"});
-          break;
-        }
+        collector.add(matrices(coefficients(c.coefficients, 0.0)),
+                      indices(dofs_, point(c.from), point(c.to)));
       }
     }
   }
-  if (!problems.empty()) throw ModelError(problems);
-  dofs_.T = ties.transformation();
-  if (next > 0 && dofs_.size() == 0) {
-    throw ModelError({}, "", "nothing can move: rigid bearings and links hold every point");
-  }
-  fixed_ = {collector.M(next), collector.C(next), collector.G(next), collector.K(next),
-            collector.H(next)};
+  fixed_ = {collector.M(n), collector.C(n), collector.G(n), collector.K(n), collector.H(n)};
   if (fixed_.H.nonZeros() > 0 || !structure_.linearized.empty()) depends_on_speed_ = true;
   if (!structure_.modal_damping.ratios.empty()) {
     // modes at rest, where films carry nothing; with the added mass of tables

@@ -106,90 +106,104 @@ class SpaceView {
     this.radius = Math.max(radius / this.size, clear) + 0.14;  // of what moves, in units of the drawing
     this.length3 = (last - first) / this.size;
     this.meshes = [];
-    const color = (name) => new three.Color(paint(name));
-    const add = (rings, facets, isClosed, paintName, options, place) => {
-      const geometry = new three.BufferGeometry(), n = rings * facets;
-      const positions = new three.BufferAttribute(new Float32Array(3 * n), 3);
-      positions.setUsage(three.DynamicDrawUsage);
-      geometry.setAttribute("position", positions);
-      const index = [], last = isClosed ? rings : rings - 1;
-      for (let r = 0; r < last; ++r) {
-        const next = (r + 1) % rings;
-        for (let f = 0; f < facets; ++f) {
-          const g = (f + 1) % facets;
-          index.push(r * facets + f, next * facets + f, next * facets + g, r * facets + f, next * facets + g, r * facets + g);
-        }
-      }
-      geometry.setIndex(index);
-      const material = new three.MeshStandardMaterial({ color: color(paintName), roughness: 0.55, metalness: 0.15, side: three.DoubleSide, flatShading: false, ...options });
-      const mesh = new three.Mesh(geometry, material);
-      mesh.frustumCulled = false;
-      this.scene.add(mesh);
-      const entry = { mesh, positions, place, paintName, facets };
-      this.meshes.push(entry);
-      return entry;
-    };
-    const facets = 72, parts = 5;
-    for (const piece of shaft) {
-      add(parts + 1, 24, false, "shaft", {}, (array) => {
-        for (let s = 0; s <= parts; ++s) {
-          const q = this.between(piece, s / parts), r = piece.left_radius + (s / parts) * (piece.right_radius - piece.left_radius);
-          for (let f = 0; f < 24; ++f) this.around(array, s * 24 + f, q, r, (2 * Math.PI * f) / 24, 0);
-        }
-      });
-    }
-    for (const disk of disks) {
-      const ring = [[disk.inner, -0.5], [disk.outer, -0.5], [disk.outer, 0.5], [disk.inner, 0.5]];
-      add(4, facets, true, "disk", { flatShading: true }, (array) => {
-        const q = this.state(disk.point);
-        ring.forEach(([r, side], s) => {
-          for (let f = 0; f < facets; ++f) this.around(array, s * facets + f, q, r, (2 * Math.PI * f) / facets, side * disk.width);
-        });
-      });
-    }
-    this.stators = stators.map((s, i) => {
-      const width = 0.16 * s.radius;
-      const entry = add(4, 64, true, "stator", { transparent: true, opacity: 0.45, depthWrite: false }, (array) => {
-        const base = s.point >= 0 ? this.state(s.point) : { x: 0, y: 0, tx: 0, ty: 0, z: s.z };
-        const scale = this.scale, inner = s.radius + scale * s.clearance, outer = inner + width;
-        const q = { x: base.x + scale * s.x, y: base.y + scale * s.y, tx: 0, ty: 0, z: s.z };
-        const half = Math.max(0.12 * s.radius, 0.012 * this.size);
-        [[inner, -half], [outer, -half], [outer, half], [inner, half]].forEach(([r, dz], k) => {
-          for (let f = 0; f < 64; ++f) {
-            const angle = (2 * Math.PI * f) / 64;
-            if (!s.direction) {
-              this.around(array, k * 64 + f, q, r, angle, dz);
-              continue;
-            }
-            // a plate: there and back along the line that is r away
-            const [nx, ny] = s.direction, along = s.radius * Math.cos(angle);
-            this.set(array, k * 64 + f, q.x + r * nx - along * ny, q.y + r * ny + along * nx, q.z + dz);
-          }
-        });
-      });
-      const flash = new three.Mesh(new three.SphereGeometry(0.018, 20, 12), new three.MeshBasicMaterial({ color: color("alarm") }));
-      flash.visible = false;
-      this.scene.add(flash);
-      return { ...s, number: i, entry, flash };
-    });
-    // rest line
-    const rest = new three.BufferGeometry(), ends = new Float32Array(6);
-    this.set(ends, 0, 0, 0, first - 0.04 * this.size);
-    this.set(ends, 1, 0, 0, last + 0.04 * this.size);
-    rest.setAttribute("position", new three.BufferAttribute(ends, 3));
-    this.restLine = new three.Line(rest, new three.LineDashedMaterial({ color: color("gray"), dashSize: 0.02, gapSize: 0.012 }));
-    this.restLine.computeLineDistances();
-    this.scene.add(this.restLine);
+    for (const piece of shaft) this.addPiece(piece);
+    for (const disk of disks) this.addDisk(disk);
+    this.stators = stators.map((s, i) => this.addStator(s, i));
+    this.addRestLine(first - 0.04 * this.size, last + 0.04 * this.size);
     // trails of disks and contacts
     this.trailPoints = [...new Set([...disks.map((d) => d.point), ...stators.map((s) => s.rotor)])];
-    this.trailLines = this.trailPoints.map(() => {
-      const line = new three.Line(new three.BufferGeometry(), new three.LineBasicMaterial({ color: color("alarm") }));
-      line.frustumCulled = false;
-      line.renderOrder = 2;
-      line.material.depthTest = false;
-      this.scene.add(line);
-      return line;
+    this.trailLines = this.trailPoints.map(() => this.addTrail());
+  }
+
+  /** A body of rings with as many facets each, whose corners a function places; closed: the last ring meets the first. */
+  addRings(rings, facets, isClosed, paintName, options, place) {
+    const geometry = new three.BufferGeometry(), n = rings * facets;
+    const positions = new three.BufferAttribute(new Float32Array(3 * n), 3);
+    positions.setUsage(three.DynamicDrawUsage);
+    geometry.setAttribute("position", positions);
+    const index = [], last = isClosed ? rings : rings - 1;
+    for (let r = 0; r < last; ++r) {
+      const next = (r + 1) % rings;
+      for (let f = 0; f < facets; ++f) {
+        const g = (f + 1) % facets;
+        index.push(r * facets + f, next * facets + f, next * facets + g, r * facets + f, next * facets + g, r * facets + g);
+      }
+    }
+    geometry.setIndex(index);
+    const material = new three.MeshStandardMaterial({ color: new three.Color(paint(paintName)), roughness: 0.55, metalness: 0.15, side: three.DoubleSide, flatShading: false, ...options });
+    const mesh = new three.Mesh(geometry, material);
+    mesh.frustumCulled = false;
+    this.scene.add(mesh);
+    const entry = { mesh, positions, place, paintName, facets };
+    this.meshes.push(entry);
+    return entry;
+  }
+
+  addPiece(piece) {
+    const facets = 24, parts = 5;
+    this.addRings(parts + 1, facets, false, "shaft", {}, (array) => {
+      for (let s = 0; s <= parts; ++s) {
+        const q = this.between(piece, s / parts), r = piece.left_radius + (s / parts) * (piece.right_radius - piece.left_radius);
+        for (let f = 0; f < facets; ++f) this.around(array, s * facets + f, q, r, (2 * Math.PI * f) / facets, 0);
+      }
     });
+  }
+
+  addDisk(disk) {
+    const facets = 72, ring = [[disk.inner, -0.5], [disk.outer, -0.5], [disk.outer, 0.5], [disk.inner, 0.5]];
+    this.addRings(4, facets, true, "disk", { flatShading: true }, (array) => {
+      const q = this.state(disk.point);
+      ring.forEach(([r, side], s) => {
+        for (let f = 0; f < facets; ++f) this.around(array, s * facets + f, q, r, (2 * Math.PI * f) / facets, side * disk.width);
+      });
+    });
+  }
+
+  /** A stator with the flash where it is touched. */
+  addStator(s, number) {
+    const facets = 64, width = 0.16 * s.radius;
+    const entry = this.addRings(4, facets, true, "stator", { transparent: true, opacity: 0.45, depthWrite: false }, (array) => {
+      const base = s.point >= 0 ? this.state(s.point) : { x: 0, y: 0, tx: 0, ty: 0, z: s.z };
+      const scale = this.scale, inner = s.radius + scale * s.clearance, outer = inner + width;
+      const q = { x: base.x + scale * s.x, y: base.y + scale * s.y, tx: 0, ty: 0, z: s.z };
+      const half = Math.max(0.12 * s.radius, 0.012 * this.size);
+      [[inner, -half], [outer, -half], [outer, half], [inner, half]].forEach(([r, dz], k) => {
+        for (let f = 0; f < facets; ++f) {
+          const angle = (2 * Math.PI * f) / facets;
+          if (!s.direction) {
+            this.around(array, k * facets + f, q, r, angle, dz);
+            continue;
+          }
+          // a plate: there and back along the line that is r away
+          const [nx, ny] = s.direction, along = s.radius * Math.cos(angle);
+          this.set(array, k * facets + f, q.x + r * nx - along * ny, q.y + r * ny + along * nx, q.z + dz);
+        }
+      });
+    });
+    const flash = new three.Mesh(new three.SphereGeometry(0.018, 20, 12), new three.MeshBasicMaterial({ color: new three.Color(paint("alarm")) }));
+    flash.visible = false;
+    this.scene.add(flash);
+    return { ...s, number, entry, flash };
+  }
+
+  /** The line of the shaft at rest, between two places along it. */
+  addRestLine(from, to) {
+    const rest = new three.BufferGeometry(), ends = new Float32Array(6);
+    this.set(ends, 0, 0, 0, from);
+    this.set(ends, 1, 0, 0, to);
+    rest.setAttribute("position", new three.BufferAttribute(ends, 3));
+    this.restLine = new three.Line(rest, new three.LineDashedMaterial({ color: new three.Color(paint("gray")), dashSize: 0.02, gapSize: 0.012 }));
+    this.restLine.computeLineDistances();
+    this.scene.add(this.restLine);
+  }
+
+  addTrail() {
+    const line = new three.Line(new three.BufferGeometry(), new three.LineBasicMaterial({ color: new three.Color(paint("alarm")) }));
+    line.frustumCulled = false;
+    line.renderOrder = 2;
+    line.material.depthTest = false;
+    this.scene.add(line);
+    return line;
   }
 
   /** Displacement of a point of the scene now, enlarged. */

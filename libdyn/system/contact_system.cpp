@@ -6,60 +6,12 @@
 #include <numbers>
 
 #include "libbase/dense.hpp"
-#include "libcontact/blade.hpp"
-#include "libdyn/system/oscillations.hpp"
-#include "libfe/forces.hpp"
 
 namespace whirl::inline dyn {
 
 namespace {
 
 constexpr double rest_slip = 1e-12;  ///< of the rim speed: as good as no slip
-/// Relative difference of rows, centers and rim speeds up to which contacts slip alike: more than
-/// rounding in a reduction, less than anybody can mean.
-constexpr double alike = 1e-9;
-
-/// Whether the slip of two contacts is the same in every motion.
-bool slip_alike(const ReducedContact& a, const ReducedContact& b) {
-  if (!a.friction.is_exact() || !b.friction.is_exact()) return false;
-  if (!(a.geometry == b.geometry)) return false;
-  const bool is_plane = direction_of(a.geometry).has_value();  // which is the same anywhere
-  return (a.U - b.U).cwiseAbs().maxCoeff() <= alike * a.U.cwiseAbs().maxCoeff() &&
-         (is_plane || (a.offset - b.offset).norm() <= alike * std::min(a.clearance, b.clearance)) &&
-         std::abs(a.rim_speed - b.rim_speed) <= alike * std::abs(a.rim_speed);
-}
-
-PlaneRows rows_of(Closing closing, const DofMap& dofs, const Point& p) {
-  PlaneRows r(2, dofs.size());
-  switch (closing) {
-    case Closing::lateral:
-      r.row(0) = dofs.row(p, X).transpose();
-      r.row(1) = dofs.row(p, Y).transpose();
-      break;
-    case Closing::tilts:
-      r.row(0) = -dofs.row(p, THETA_Y).transpose();
-      r.row(1) = dofs.row(p, THETA_X).transpose();
-      break;
-  }
-  return r;
-}
-PlaneRows relative_rows(Closing closing, const DofMap& dofs, const Point& at,
-                        const Point& against) {
-  return rows_of(closing, dofs, at) - rows_of(closing, dofs, against);
-}
-
-/// Speed of the rotor's surface in the slip; what turns has its own in the gap's motion.
-double rim_speed_of(const AnyGeometry& geometry, double Omega, const Friction& friction) {
-  return turns(geometry) ? 0.0 : Omega * rim_radius_of(geometry).value_or(friction.radius);
-}
-
-/// A law with what follows from the operation: how much friction bends a blade.
-AnyContactLaw<> law_at(double Omega, AnyContactLaw<> any, const Friction& friction) {
-  if (auto* law = std::get_if<BladeTip<>>(&any)) {
-    law->bend = blade_shortening(*law, friction.mu, Omega) * law->k * law->k;
-  }
-  return any;
-}
 
 }  // namespace
 
@@ -97,12 +49,6 @@ std::optional<Polynomial> beyond_surface(const ReducedContact& c, const PathPowe
   return std::visit([&](const auto& geometry) { return geometry.beyond(x, y); }, c.geometry);
 }
 
-PlaneRows closing_rows(const Contact& contact, const Assembler& assembler, const DofMap& dofs) {
-  const AnyGeometry geometry = geometry_of(contact);
-  return arm_of(geometry) * relative_rows(closing_of(geometry), dofs, assembler.point(contact.at),
-                                          assembler.point(contact.against));
-}
-
 double sliding_friction(const ReducedContact& c, const ContactState& state,
                         const ContactForces& f) {
   if (c.friction.mu == 0.0) return 0.0;
@@ -119,116 +65,6 @@ void push(const ReducedContact& c, const ContactForces& f, double T, Eigen::Ref<
   a.noalias() -= c.B_t * (T * f.t());
 }
 
-ContactSystem::ContactSystem(const Assembler& assembler, const ReducedSystem& reduced,
-                             const std::vector<Contact>& contacts,
-                             const std::vector<OilFilm>& films)
-    : Omega_(reduced.Omega) {
-  const DenseLu<Mat> mass(reduced.M);
-  K_ = mass.solve(reduced.K);
-  D_ = mass.solve(reduced.D());
-  const Mat back = reduced.dofs.T * reduced.Phi;  // full displacement of each coordinate
-  const auto load = [&](const Vec& full) -> Vec { return mass.solve(back.transpose() * full); };
-  const CVec u = synchronous_load(assembler, Omega_);
-  f0_ = load(static_load(assembler));
-  fc_ = load(u.real());  // Re(u e^(i phase)) = Re u cos - Im u sin
-  fs_ = load(-u.imag());
-  if (Omega_ == 0.0) {  // what turns with the rotor stands still with it
-    f0_ += fc_;
-    fc_.setZero();
-    fs_.setZero();
-  }
-  for (const OscillatingLoad& f : oscillating_loads(assembler)) {
-    if (f.amplitude.isZero(0.0)) continue;
-    const Vec cosine = load(f.amplitude.real()), sine = load(-f.amplitude.imag());
-    if (f.at(Omega_) == 0.0) {  // an order of a speed that is zero
-      f0_ += cosine;
-      continue;
-    }
-    const double ratio = frequency_ratio(assembler.structure(), f, phase_rate());
-    oscillations_.push_back({f.order, f.at(Omega_), ratio, cosine, sine});
-  }
-
-  double clearance = std::numeric_limits<double>::infinity();
-  for (const Contact& c : contacts) {
-    const AnyGeometry geometry = geometry_of(c);
-    assert(may_stick(geometry) || !c.friction.is_exact());
-    ReducedContact r{.name = c.name,
-                     .offset = c.offset,
-                     .clearance = c.clearance,
-                     .rim_speed = rim_speed_of(geometry, Omega_, c.friction),
-                     .friction = c.friction,
-                     .law = law_at(Omega_, c.law, c.friction),
-                     .geometry = geometry,
-                     .owner = static_cast<int>(&c - contacts.data())};
-    r.U = closing_rows(c, assembler, reduced.dofs) * reduced.Phi;
-    r.B = mass.solve(r.U.transpose());
-    if (whirl::rubs_apart(geometry)) {
-      r.V = relative_rows(Closing::lateral, reduced.dofs, assembler.point(c.at),
-                          assembler.point(c.against)) *
-            reduced.Phi;
-      r.B_t = mass.solve(r.V.transpose());
-    }
-    add_places(std::move(r), geometry);
-    clearance = std::min(clearance, c.clearance);
-  }
-  find_slip_groups();
-
-  for (const OilFilm& film : films) {
-    ReducedFilm r{at_speed(film, Omega_), film.name, {}, {}};
-    r.U = relative_rows(Closing::lateral, reduced.dofs, assembler.point(film.at),
-                        assembler.point(film.against)) *
-          reduced.Phi;
-    r.B = mass.solve(r.U.transpose());
-    films_.push_back(std::move(r));
-    clearance = std::min(clearance, film.bearing.clearance);
-  }
-
-  // scales: clearances, else what the loads do
-  if (contacts_.empty() && films_.empty()) {
-    const Vec sag = least_squares(K_, f0_);
-    const double turn = phase_rate();
-    double size = std::max({(back * sag).cwiseAbs().maxCoeff(),
-                            (back * fc_).cwiseAbs().maxCoeff() / (turn * turn),
-                            (back * fs_).cwiseAbs().maxCoeff() / (turn * turn)});
-    for (const Oscillation& o : oscillations_) {
-      for (const Vec* f : {&o.cosine, &o.sine}) {  // as if slow, or as if nothing held it
-        const double slow = (back * least_squares(K_, *f)).cwiseAbs().maxCoeff(),
-                     fast = (back * *f).cwiseAbs().maxCoeff() / (o.frequency * o.frequency);
-        size = std::max(size, slow > 0.0 ? std::min(slow, fast) : fast);
-      }
-    }
-    clearance = size > 0.0 && std::isfinite(size) ? size : 1e-3;
-  }
-  length_scale_ = clearance;
-  const int n = coordinates();
-  scale_.resize(2 * n);
-  for (int i = 0; i < n; ++i) {
-    double largest = 0.0;
-    for (const Point& p : reduced.dofs.points()) {
-      for (const int component : {X, Y}) {
-        largest = std::max(largest, std::abs(back(reduced.dofs.full_index(p, component), i)));
-      }
-    }
-    for (const ReducedContact& c : contacts_) {
-      if (closing_of(c.geometry) == Closing::lateral) continue;
-      largest = std::max(largest, c.U.col(i).cwiseAbs().maxCoeff());
-    }
-    scale_(i) = largest > 0.0 ? clearance / largest : clearance;
-    scale_(n + i) = scale_(i) * phase_rate();
-  }
-}
-
-void ContactSystem::find_slip_groups() {
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    contacts_[i].slip_group = static_cast<int>(i);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!whirl::slip_alike(contacts_[i], contacts_[j])) continue;
-      contacts_[i].slip_group = contacts_[j].slip_group;
-      break;
-    }
-  }
-}
-
 bool ContactSystem::leads(const ContactStates& states, std::size_t i) const {
   if (states[i].touch != Touch::sticking) return false;
   for (std::size_t j = 0; j < i; ++j) {
@@ -240,14 +76,6 @@ bool ContactSystem::leads(const ContactStates& states, std::size_t i) const {
 void ContactSystem::set_group(ContactStates& states, int i, const ContactState& to) const {
   for (std::size_t j = 0; j < states.size(); ++j) {
     if (states[j].in_touch() && slip_alike(j, static_cast<std::size_t>(i))) states[j] = to;
-  }
-}
-
-void ContactSystem::add_places(ReducedContact r, const AnyGeometry& geometry) {
-  for (int i = 0; i < places_of(geometry); ++i) {
-    r.geometry = place_of(geometry, i, Omega_);
-    r.place = i;
-    contacts_.push_back(r);
   }
 }
 

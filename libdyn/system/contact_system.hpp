@@ -184,11 +184,18 @@ class ContactSystem {
   void remove_slip(double* y, const ContactStates& states) const;
 
  private:
+  struct Reduction;
+  void add_loads(const Reduction& by);
+  /// Adds a contact at every place of its geometry.
+  /// @param owner  number of the contact in the model, from 0
+  void add_contact(const Reduction& by, const Contact& contact, int owner);
+  void add_film(const Reduction& by, const OilFilm& film);
+  /// How far the loads move a rotor without contacts and films [m], or a millimeter if they do not.
+  double size_of_motion(const Reduction& by) const;
+  void find_scales(const Reduction& by);
   void find_slip_groups();
   /// Shares what the leaders of slip groups hold among all that stick.
   void share_friction(const ContactStates& states, std::vector<ContactForces>& forces) const;
-  /// Adds a contact at every place of its geometry.
-  void add_places(ReducedContact contact, const AnyGeometry& geometry);
   /// Without contacts.
   void smooth_acceleration(const Instant& at, const double* y, double* a) const;
 

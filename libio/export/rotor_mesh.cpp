@@ -49,36 +49,23 @@ void write_array(std::string& out, const MeshArray& array) {
   out += "</DataArray>\n";
 }
 
-}  // namespace
-
-RotorMesh line_mesh(const Model& model, const Assembler& assembler,
-                    const std::vector<MeshField>& fields, const std::string& group) {
+/// What is at the nodes of a rotor.
+std::vector<MeshArray> arrays_of_nodes(const Model& model, const Assembler& assembler) {
   const Structure& s = model.structure;
-  const Mesh& mesh = assembler.mesh();
-  if (mesh.elements.empty()) {
-    throw ModelError({}, "", "the model has no shaft, of which a mesh could be written");
-  }
-  RotorMesh result;
+  const auto at_its_ends = [](const auto& c) { return std::vector{c.from, c.to}; };
   MeshArray node{"node"}, mass{"disk_mass_kg"};
-  for (const double z : mesh.z) {
-    result.points.emplace_back(0.0, 0.0, z);
-    node.values.push_back(static_cast<double>(result.points.size()));
+  for (std::size_t i = 0; i < assembler.mesh().z.size(); ++i) {
+    node.values.push_back(static_cast<double>(i + 1));
   }
-  mass.values.assign(mesh.z.size(), 0.0);
+  mass.values.assign(node.values.size(), 0.0);
   for (const Disk& d : s.disks) {
     mass.values[static_cast<std::size_t>(assembler.point(d.at).index)] += d.m;
   }
-  result.point_data = {
+  std::vector<MeshArray> arrays{
       node,
       numbers_at_nodes(
-          "disk", s.disks, [](const Disk& d) { return std::vector<Station>{d.at}; }, assembler),
-      mass,
-      numbers_at_nodes(
-          "bearing", s.bearings,
-          [](const Connection& c) {
-            return std::vector{c.from, c.to};
-          },
-          assembler),
+          "disk", s.disks, [](const Disk& d) { return std::vector{d.at}; }, assembler),
+      mass, numbers_at_nodes("bearing", s.bearings, at_its_ends, assembler),
       numbers_at_nodes(
           "contact", model.contacts,
           [](const Contact& c) {
@@ -86,28 +73,21 @@ RotorMesh line_mesh(const Model& model, const Assembler& assembler,
           },
           assembler)};
   if (!s.seals.empty()) {
-    result.point_data.push_back(numbers_at_nodes(
-        "seal", s.seals,
-        [](const Connection& c) {
-          return std::vector{c.from, c.to};
-        },
-        assembler));
+    arrays.push_back(numbers_at_nodes("seal", s.seals, at_its_ends, assembler));
   }
-  for (const MeshField& field : fields) {
-    MeshArray displacement{field.name, 3}, tilt{field.name + "_tilt", 3};
-    for (Eigen::Index i = 0; i < std::ssize(mesh.z); ++i) {
-      append(displacement.values, {field.motion(i, 0), field.motion(i, 1), 0.0});
-      append(tilt.values, {field.motion(i, 2), field.motion(i, 3), 0.0});
-    }
-    result.point_data.insert(result.point_data.end(), {displacement, tilt});
-  }
+  return arrays;
+}
 
+/// What the elements and layers are made of, a cell for each.
+struct CellArrays {
   MeshArray segment{"segment"}, outer_left{"outer_diameter_left_m"},
       outer_right{"outer_diameter_right_m"}, inner_left{"inner_diameter_left_m"},
-      inner_right{"inner_diameter_right_m"}, modulus{"youngs_modulus_pa"}, density{"density_kg_m3"};
-  MeshArray number{"layer"};
-  const auto add_cell = [&](const MeshElement& e, const auto& part, double from, double to) {
-    result.cells.push_back({e.left, e.right, 0});
+      inner_right{"inner_diameter_right_m"}, modulus{"youngs_modulus_pa"}, density{"density_kg_m3"},
+      layer{"layer"};
+
+  /// Adds a piece of a segment or a layer between fractions of its length.
+  /// @param number  of the layer, from 1; 0: a segment
+  void add(const MeshElement& e, const auto& part, double from, double to, int number) {
     const Section left = between(part.left, part.right, from),
                   right = between(part.left, part.right, to);
     segment.values.push_back(e.segment + 1);
@@ -117,21 +97,52 @@ RotorMesh line_mesh(const Model& model, const Assembler& assembler,
     inner_right.values.push_back(right.inner);
     modulus.values.push_back(part.material.E);
     density.values.push_back(part.material.rho);
+    layer.values.push_back(number);
+  }
+};
+
+/// Adds the cells of elements and layers with what they are made of.
+/// @param group  name of one more array, which holds the segments; empty: none
+void add_cells(const Structure& s, const Mesh& mesh, const std::string& group, RotorMesh& to) {
+  CellArrays cells;
+  const auto add = [&](const MeshElement& e, const auto& part, double from, double end,
+                       int number) {
+    to.cells.push_back({e.left, e.right, 0});
+    cells.add(e, part, from, end, number);
   };
   for (const MeshElement& e : mesh.elements) {
-    add_cell(e, s.shaft[static_cast<std::size_t>(e.segment)], e.from, e.to);
-    number.values.push_back(0);
+    add(e, s.shaft[static_cast<std::size_t>(e.segment)], e.from, e.to, 0);
   }
   for (const MeshLayer& piece : mesh.layers) {
-    add_cell(mesh.elements[static_cast<std::size_t>(piece.element)],
-             s.layers[static_cast<std::size_t>(piece.layer)], piece.from, piece.to);
-    number.values.push_back(piece.layer + 1);
+    add(mesh.elements[static_cast<std::size_t>(piece.element)],
+        s.layers[static_cast<std::size_t>(piece.layer)], piece.from, piece.to, piece.layer + 1);
   }
-  result.cell_data = {segment, outer_left, outer_right, inner_left, inner_right, modulus, density};
-  if (!s.layers.empty()) result.cell_data.push_back(number);
-  if (!group.empty()) {
-    result.cell_data.push_back({group, 1, segment.values, true});
+  to.cell_data = {cells.segment,     cells.outer_left, cells.outer_right, cells.inner_left,
+                  cells.inner_right, cells.modulus,    cells.density};
+  if (!s.layers.empty()) to.cell_data.push_back(cells.layer);
+  if (!group.empty()) to.cell_data.push_back({group, 1, cells.segment.values, true});
+}
+
+}  // namespace
+
+RotorMesh line_mesh(const Model& model, const Assembler& assembler,
+                    const std::vector<MeshField>& fields, const std::string& group) {
+  const Mesh& mesh = assembler.mesh();
+  if (mesh.elements.empty()) {
+    throw ModelError({}, "", "the model has no shaft, of which a mesh could be written");
   }
+  RotorMesh result;
+  for (const double z : mesh.z) result.points.emplace_back(0.0, 0.0, z);
+  result.point_data = arrays_of_nodes(model, assembler);
+  for (const MeshField& field : fields) {
+    MeshArray displacement{field.name, 3}, tilt{field.name + "_tilt", 3};
+    for (Eigen::Index i = 0; i < std::ssize(mesh.z); ++i) {
+      append(displacement.values, {field.motion(i, 0), field.motion(i, 1), 0.0});
+      append(tilt.values, {field.motion(i, 2), field.motion(i, 3), 0.0});
+    }
+    result.point_data.insert(result.point_data.end(), {displacement, tilt});
+  }
+  add_cells(model.structure, mesh, group, result);
   return result;
 }
 
