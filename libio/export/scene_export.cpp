@@ -16,6 +16,7 @@
 #include "libio/results/dataset_path.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/option_values.hpp"
+#include "libio/texts/model_text.hpp"
 
 namespace whirl::inline io {
 
@@ -91,14 +92,14 @@ Exported export_csv(const SceneSource& source, const ExportOptions& options, con
   return written;
 }
 
-/// The matrices at the operating speed.
+/// The matrices at the operating speed, of the rotor as linear analyses have it.
 Exported export_matrices(const SceneSource& source, const ExportOptions& options,
                          const fs::path& stem) {
   const auto write = options.format.name == "mat" ? write_matlab : write_matrix_market;
   const double Omega = source.model.speed;
-  Exported written{
-      write(stem, source.model, source.assembler, Omega, options.replaces),
-      fmt::format("M q'' + (C + Omega G) q' + K q = f at {:.6g} rpm\n\n", Omega / rpm)};
+  Exported written{write(stem, source.model, source.assembler, Omega, options.replaces),
+                   fmt::format("M q'' + (C + Omega G) q' + K q = f at {:.6g} rpm\n\n", Omega / rpm),
+                   linear_notes(source.model, {Omega})};
   for (const fs::path& file : written.files) written.text += fmt::format("  {}\n", file.string());
   return written;
 }

@@ -32,12 +32,14 @@ struct ExportOptions {
 /// What an export wrote.
 struct Exported {
   std::vector<std::filesystem::path> files;
-  std::string text;  ///< for people, lines
+  std::string text;                  ///< for people, lines
+  std::vector<std::string> notes{};  ///< what matrices leave out or linearize
 };
 
 /// Writes the motion and the modes of a source, or its tables.
-/// @throws ModelError  for tables of a model, and for a window where nothing moves
-/// @throws FileError   if a file cannot be written
+/// @throws ModelError      for tables of a model, and for a window where nothing moves
+/// @throws FileError       if a file cannot be written
+/// @throws NumericalError  for matrices and modes where oil films carry nothing, as at rest
 Exported export_scene(const SceneSource& source, const ExportOptions& options);
 
 }  // namespace whirl::inline io

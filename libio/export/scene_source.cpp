@@ -15,7 +15,7 @@ namespace whirl::inline io {
 SceneSource::SceneSource(Model of_model, std::unique_ptr<ResultReader> of)
     : result(std::move(of)),
       model(std::move(of_model)),
-      assembler(model.structure),
+      assembler(linear_structure(model)),
       scene(vtk_scene(model, assembler)) {}
 
 MotionSamples SceneSource::samples(const MotionWindow& window, double usual) const {
@@ -54,9 +54,8 @@ std::vector<VtkFrame> SceneSource::motion(const MotionSamples& samples, long mos
 void SceneSource::each_mode(
     long count, int frames,
     const std::function<void(int, const Mode&, const std::vector<VtkFrame>&)>& use) const {
-  const Assembler linear(linear_structure(model));
-  const System system = linear.at(model.speed);
-  const Modes modes = complex_modes(linear, model.speed, static_cast<int>(count));
+  const System system = assembler.at(model.speed);
+  const Modes modes = complex_modes(assembler, model.speed, static_cast<int>(count));
   int number = 0;
   for (const Mode& mode : modes.oscillatory) {
     ++number;

@@ -18,7 +18,7 @@ namespace whirl::inline io {
 struct SceneSource {
   std::unique_ptr<ResultReader> result;  ///< none: a model
   Model model;
-  Assembler assembler;
+  Assembler assembler;  ///< of its linear_structure: with oil films as linear analyses have them
   VtkScene scene;
 
   /// @param of  the result that the model is of; none: the model alone

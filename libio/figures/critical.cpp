@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/critical_map.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
@@ -99,7 +98,7 @@ std::vector<Figure> critical_figures(const ResultView& result) {
   if (found.criticals.empty()) return {};
   const CriticalOptions options{.count = static_cast<int>(found.criticals.size()),
                                 .order = found.order};
-  const CriticalMap map = critical_map(linear_structure(*result.model),
+  const CriticalMap map = critical_map(result.assembler->structure(),
                                        {.critical = options, .film_speeds = speeds_of(found)});
   if (map.branches.empty()) return {};
   Figure f{.height = 500.0};

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/drawn_grid.hpp"
 #include "libio/model/model_file.hpp"
@@ -73,7 +74,7 @@ ResultView::ResultView(const std::filesystem::path& file_path)
     if (file.has_attribute("/model", "path")) model_path = file.string_attribute("/model", "path");
     model = parse_model(file.strings("/model").at(0), path, {},
                         std::filesystem::path(model_path).parent_path());
-    assembler.emplace(model->structure);
+    assembler.emplace(linear_structure(*model));
     const auto contacts = static_cast<Eigen::Index>(model->contacts.size());
     if (file.has("/contacts/name") && file.shape("/contacts/name").at(0) != contacts) {
       throw FileError(fmt::format("{}: /contacts/name is not of the contacts of its model", path));

@@ -27,10 +27,10 @@ struct ResultView {
 
   std::string path;
   ResultReader file;
-  std::string title;           ///< of the model, or the file's name
-  std::string model_path;      ///< where the model came from
-  std::optional<Model> model;  ///< none: see problem
-  std::optional<Assembler> assembler;
+  std::string title;                   ///< of the model, or the file's name
+  std::string model_path;              ///< where the model came from
+  std::optional<Model> model;          ///< none: see problem
+  std::optional<Assembler> assembler;  ///< of its linear_structure, as linear results are
   std::string problem;  ///< why there is no model, such as a bearing table that is gone
   DisplayUnit frequency{"Hz", 1.0 / hertz};  ///< of frequency axes; speeds are in rpm
   MotionWindow window;  ///< of motions that are drawn in time; left open: their end

@@ -39,6 +39,7 @@ Report run_export(const Invocation& call, const ExportVerbOptions& options) {
                                                  .replaces = call.picture_replaces()});
   Report report = begin_report(call, source.model);
   report.text = written.text;
+  report.add_notes(written.notes);
   report.record.set("files", file_list(written.files));
   return report;
 }

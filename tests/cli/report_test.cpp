@@ -3,8 +3,10 @@
 #include <cstring>
 #include <regex>
 
+#include "libdyn/motions/unbalance_study.hpp"
 #include "libio/figures/comparison.hpp"
 #include "libio/figures/figures.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/pictures.hpp"
 
@@ -109,6 +111,36 @@ damping = 500
     EXPECT_NEAR(v[2], -(v[4 + 1] - v[1]) / length, rounding) << part;
     EXPECT_NEAR(v[3], (v[4] - v[0]) / length, rounding) << part;
     EXPECT_GT(std::abs(v[2]) + std::abs(v[3]), 1e3 * rounding) << part;
+  }
+}
+
+// With oil films a response moves the page's rotor as the verb found it, with their stiffness and
+// damping: without films this rotor floats, and its journals move less than half as far. Stations
+// are all points in their order.
+TEST_F(Report, AResponseOnOilFilmsMovesThePagesRotorAsTheVerbSays) {
+  const std::string films = WHIRL_SOURCE_DIR "/models/two_disk_oil_film.toml";
+  make({"unbalance", films, "--speeds", "2600:3600:50rpm"}, "u.h5");
+  ASSERT_EQ(whirl({"report", "u.h5"}).status, 0);
+  const json data = page_data(content(folder / "u.html"));
+  const json& motions = data["results"][0]["motion"]["motions"];
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_EQ(motions[0]["name"], "Unbalance response at 3050 rpm");
+  const auto part = [&](const char* key) {
+    return numbers_of(data["arrays"][motions[0][key].get<std::size_t>()]);
+  };
+  const std::vector<double> re = part("re"), im = part("im");
+  const auto study = read_result<UnbalanceStudy>(ResultReader(folder / "u.h5"));
+  const auto at = std::find_if(study.speeds.begin(), study.speeds.end(),
+                               [](double speed) { return std::abs(speed - 3050.0 * rpm) < 1e-6; });
+  ASSERT_NE(at, study.speeds.end());
+  const auto k = at - study.speeds.begin();
+  ASSERT_EQ(re.size(), 4 * study.stations.size());
+  constexpr double rounding = 1e-9;  // of the same equations, with the equilibrium found again
+  for (std::size_t i = 0; i < study.stations.size(); ++i) {
+    const StationResponse& s = study.stations[i];
+    const double near = rounding * std::abs(s.major(k));
+    EXPECT_LE(std::abs(Complex(re[4 * i], im[4 * i]) - s.x(k)), near) << s.label;
+    EXPECT_LE(std::abs(Complex(re[4 * i + 1], im[4 * i + 1]) - s.y(k)), near) << s.label;
   }
 }
 

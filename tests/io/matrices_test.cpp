@@ -8,6 +8,8 @@
 
 #include <fstream>
 
+#include "libdyn/system/film_equilibrium.hpp"
+#include "libio/export/scene_export.hpp"
 #include "libio/model/model_file.hpp"
 
 namespace whirl::matrices_test {
@@ -76,6 +78,22 @@ Mat market(const fs::path& file) {
   return A;
 }
 
+/// A sparse matrix of an open MATLAB file.
+Mat matlab(mat_t* file, const char* name) {
+  matvar_t* variable = Mat_VarRead(file, name);
+  EXPECT_NE(variable, nullptr) << name;
+  if (!variable) return {};
+  const auto* data = static_cast<const mat_sparse_t*>(variable->data);
+  Mat A = Mat::Zero(static_cast<int>(variable->dims[0]), static_cast<int>(variable->dims[1]));
+  for (int j = 0; j < A.cols(); ++j) {
+    for (mat_uint32_t k = data->jc[j]; k < data->jc[j + 1]; ++k) {
+      A(data->ir[k], j) = static_cast<const double*>(data->data)[k];
+    }
+  }
+  Mat_VarFree(variable);
+  return A;
+}
+
 TEST_F(Matrices, OfMatrixMarketAreThoseOfTheRotor) {
   const auto files =
       write_matrix_market(folder / "rotor", model, assembler, Omega, Replaces::own_pictures);
@@ -105,19 +123,7 @@ TEST_F(Matrices, OfMatlabAreThoseOfTheRotor) {
   ASSERT_NE(file, nullptr);
   const std::pair<const char*, const Sparse*> matrices[] = {
       {"M", &system.M}, {"C", &system.C}, {"G", &system.G}, {"K", &system.K}};
-  for (const auto& [name, expected] : matrices) {
-    matvar_t* variable = Mat_VarRead(file, name);
-    ASSERT_NE(variable, nullptr) << name;
-    const auto* data = static_cast<const mat_sparse_t*>(variable->data);
-    Mat A = Mat::Zero(static_cast<int>(variable->dims[0]), static_cast<int>(variable->dims[1]));
-    for (int j = 0; j < A.cols(); ++j) {
-      for (mat_uint32_t k = data->jc[j]; k < data->jc[j + 1]; ++k) {
-        A(data->ir[k], j) = static_cast<const double*>(data->data)[k];
-      }
-    }
-    EXPECT_EQ(A, Mat(*expected)) << name;
-    Mat_VarFree(variable);
-  }
+  for (const auto& [name, expected] : matrices) EXPECT_EQ(matlab(file, name), Mat(*expected));
   matvar_t* speed = Mat_VarRead(file, "Omega");
   EXPECT_EQ(*static_cast<const double*>(speed->data), Omega);
   Mat_VarFree(speed);
@@ -125,6 +131,55 @@ TEST_F(Matrices, OfMatlabAreThoseOfTheRotor) {
   EXPECT_EQ(names->dims[0], static_cast<std::size_t>(system.size()));
   Mat_VarFree(names);
   Mat_Close(file);
+}
+
+// Exported are those of linear analyses: oil films add the coefficients that they have about the
+// equilibrium of their journals to K and C, and nothing else; it is told, and what is left out.
+TEST_F(Matrices, OfAModelHaveItsOilFilms) {
+  const std::string film = R"([operation]
+speed = "300 rad/s"
+[[oil_film]]
+name = "journal"
+node = 3
+radius = "25 mm"
+length = "12 mm"
+clearance = "0.1 mm"
+viscosity = 0.02
+[[contact]]
+name = "ring"
+node = 2
+clearance = "1 mm"
+stiffness = 1e7
+)";
+  const Model on_film = parse_model("gravity = 9.81\n" + std::string(text) + film);
+  const System linear = Assembler(linear_structure(on_film)).uncondensed(Omega);
+  const SceneSource source(on_film);
+  const Exported market_files =
+      export_scene(source, {.format = export_format("mtx"), .stem = folder / "film"});
+  export_scene(source, {.format = export_format("mat"), .stem = folder / "film"});
+  mat_t* file = Mat_Open((folder / "film.mat").c_str(), MAT_ACC_RDONLY);
+  ASSERT_NE(file, nullptr);
+  const std::pair<const char*, const Sparse*> matrices[] = {
+      {"M", &linear.M}, {"C", &linear.C}, {"G", &linear.G}, {"K", &linear.K}};
+  for (const auto& [name, expected] : matrices) {
+    EXPECT_EQ(market(folder / ("film_" + std::string(name) + ".mtx")), Mat(*expected)) << name;
+    EXPECT_EQ(matlab(file, name), Mat(*expected)) << name;
+  }
+  Mat_Close(file);
+  EXPECT_EQ(Mat(linear.M), Mat(system.M));
+  const RunningFilm journal = FilmEquilibrium(on_film).at(Omega)->films.at(0);
+  // node 1 is clamped, node 2 has the first four coordinates
+  const Mat K = Mat(linear.K - system.K).block(4, 4, 2, 2) - journal.stiffness;
+  const Mat C = Mat(linear.C - system.C).block(4, 4, 2, 2) - journal.damping;
+  constexpr double rounding = 1e-14;
+  EXPECT_LE(K.norm(), rounding * linear.K.norm());
+  EXPECT_LE(C.norm(), rounding * linear.C.norm());
+  EXPECT_GT(journal.stiffness.norm(), 1e6 * rounding * linear.K.norm());
+  EXPECT_GT(journal.damping.norm(), 1e6 * rounding * linear.C.norm());
+  EXPECT_EQ(market_files.notes,
+            (std::vector<std::string>{
+                "linearized about the static equilibrium at each speed: oil film journal",
+                "left out: contact ring"}));
 }
 
 TEST_F(Matrices, NameTheCoordinates) {
