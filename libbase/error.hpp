@@ -39,11 +39,18 @@ class ModelError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// An option of an analysis means nothing, whatever the model; says which one and what would be
-/// right.
+/// An option of an analysis means nothing; says which one and what would be right.
 class OptionError : public ModelError {
  public:
-  explicit OptionError(std::string message) : ModelError({}, "", std::move(message)) {}
+  explicit OptionError(std::string message) : OptionError("", std::move(message)) {}
+  /// @param option  its name, in words with hyphens; the key of the problem
+  OptionError(std::string option, std::string message)
+      : ModelError({}, option, std::move(message)), option_(std::move(option)) {}
+
+  const std::string& option() const { return option_; }  ///< empty: the message says which one
+
+ private:
+  std::string option_;
 };
 
 /// The model is well-formed, but a computation on it failed; says what was tried.

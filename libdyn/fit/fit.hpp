@@ -32,7 +32,7 @@ struct FittedParameter {
   static constexpr auto columns() {
     using P = FittedParameter;
     return ColumnList{
-        column("path", &P::path, "", "value of the model, as --set names it").axis(),
+        column("path", &P::path, "", "of the value in the model").axis(),
         column("value", &P::value, "", "that explains the records, in its SI unit"),
         column("standard_deviation", &P::standard_deviation, "",
                "of the value; infinite: the records cannot tell it; NaN: its bound holds it"),

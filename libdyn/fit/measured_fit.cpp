@@ -243,7 +243,7 @@ void add_notes(MeasuredFit& found) {
   if (!names.empty()) {
     found.notes.push_back(fmt::format(
         "{}: up to {:.3g} times more is left than the noise that their upper frequencies show: the "
-        "model may not explain the records, or another start finds more (--starts)",
+        "model may not explain the records, or a search from more starts finds more",
         names, most));
   }
   for (Eigen::Index i = 0; i < found.correlation.rows(); ++i) {

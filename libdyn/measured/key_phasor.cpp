@@ -117,7 +117,7 @@ TurnClock::TurnClock(std::vector<double> pulses, const KeyPhasor& key,
   if (n < 3) {
     throw OptionError(fmt::format(
         "key-phasor \"{}\": found {} pulse{}, expected three or more: set its threshold "
-        "and slope, or give the speed by --speed and leave [keyphasor] out",
+        "and slope, or leave the key-phasor out and give the speed",
         key.channel, n, n == 1 ? "" : "s"));
   }
   pulses_ = mended_pulses(pulses_, key, notes);

@@ -198,8 +198,7 @@ void note_speed(const MeasuredSpectra& spectra, double Omega, std::vector<std::s
   }
   if (there > no_line * median_of(std::move(beside))) return;
   notes.push_back(fmt::format(
-      "nothing in the record turns with {:.6g} rpm: is that its speed? A [keyphasor] or --speed "
-      "says it",
+      "nothing in the record turns with {:.6g} rpm: is that its speed? A key-phasor tells it",
       Omega / rpm));
 }
 
@@ -220,7 +219,7 @@ void note_probes(const std::vector<ProbedStation>& stations, std::vector<std::st
 MeasuredIdentification identify(const Model& model, const Scene& scene,
                                 const ProbeReadings& readings, const IdentifyOptions& options) {
   if (readings.probes.empty()) {
-    throw OptionError("no probes: give --probes FILE.toml, or the model a [[probe]]");
+    throw OptionError("probes", "there are none: expected some of a file or of the model");
   }
   if (readings.displacement.rows() < fewest_samples) {
     throw OptionError(fmt::format("the record has {} samples, expected {} or more",

@@ -33,9 +33,9 @@ Vec pulses_of(const Recording& recording, const KeyPhasor& key) {
   const double between = static_cast<double>(recording.samples) / key.pulses;
   constexpr double needed = 2.0 * (1.5 * edge_samples + pulse_samples);
   if (between < needed) {
-    throw OptionError(fmt::format(
-        "{} pulses of the key-phasor per revolution need {:.0f} samples or more, --samples is {}",
-        key.pulses, key.pulses * needed, recording.samples));
+    throw OptionError("samples", fmt::format("{} pulses of the key-phasor per revolution need "
+                                             "{:.0f} samples or more, there are {}",
+                                             key.pulses, key.pulses * needed, recording.samples));
   }
   Vec pulses(recording.eta.cols());
   for (Eigen::Index j = 0; j < pulses.size(); ++j) {

@@ -82,20 +82,19 @@ void require_periodic_loads(const ContactSystem& system) {
       {}, "force",
       follow_the_speed
           ? "an order that is no fraction of small whole numbers makes a torus of every motion: "
-            "there are no orbits and no return map; see whirl simulate and classify"
+            "there are no orbits and no return map, but motions to simulate and classify"
           : "a force with a frequency of its own makes a torus of every motion that has the "
-            "frequency "
-            "of the speed too, but at speeds in a simple ratio to it: there are no orbits of whole "
-            "revolutions and no return map; see whirl simulate and classify, or give the force an "
-            "order of the speed");
+            "frequency of the speed too, but at speeds in a simple ratio to it: there are no "
+            "orbits of whole revolutions and no return map, but motions to simulate and classify; "
+            "or give the force an order of the speed");
 }
 
 void require_loads_of_a_revolution(const Flow& flow) {
   if (flow.repeats == 1) return;
   throw ModelError({}, "force",
                    fmt::format("the forces repeat after {} revolutions only: expected orders that "
-                               "are whole numbers; whirl orbit --period {} takes others",
-                               flow.repeats, flow.repeats));
+                               "are whole numbers; others go with one orbit of that period",
+                               flow.repeats));
 }
 
 Flow flow_of(const ContactSystem& system, double tolerance) {

@@ -79,9 +79,9 @@ class TreeEquations {
   Vec unknowns_of(const HarmonicOrbit& orbit) const {
     const Vec unknowns = harmonic_unknowns(orbit, length_scale());
     if (unknowns.size() > 0) return unknowns;
-    throw NumericalError(
-        "harmonic balance: without contacts or films there is one motion for each value, which "
-        "whirl unbalance has");
+    throw ModelError({}, "",
+                     "harmonic balance: without contacts or films there is one motion for each "
+                     "value, which is the linear response to unbalance");
   }
 
   /// Adds what the orbit of a point does, and its state at phase 0.

@@ -107,9 +107,8 @@ std::vector<NamedPoint> select_points(const Model& model, const Assembler& assem
     if (const int nodes = assembler.mesh().nodes(); nodes > 0) {
       names.push_back(fmt::format("nodes 1 to {}", nodes));
     }
-    throw ModelError(
-        {"--stations " + list}, "",
-        fmt::format("there is no station \"{}\"; there are {}", part, fmt::join(names, ", ")));
+    throw OptionError("stations", fmt::format("there is no station \"{}\"; there are {}", part,
+                                              fmt::join(names, ", ")));
   }
   return chosen;
 }

@@ -46,7 +46,7 @@ std::vector<NamedPoint> named_points(const Model& model, const Assembler& assemb
 /// Points asked for by a list "seal,left disk,7,all": names, node numbers, or "all".
 ///
 /// An empty list stands for everything with a contact, a disk or a bearing, and all bodies.
-/// @throws ModelError  for an unknown name, with the nearest one
+/// @throws OptionError  for an unknown name, with those that there are
 std::vector<NamedPoint> select_points(const Model& model, const Assembler& assembler,
                                       const std::string& list);
 

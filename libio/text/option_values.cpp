@@ -19,7 +19,8 @@ constexpr int default_speeds = 101, default_frequencies = 401;
 }  // namespace
 
 ModelError wrong_option(const std::string& option, const std::string& value, std::string problem) {
-  return ModelError({fmt::format("--{} {}", option, value)}, "", std::move(problem));
+  return ModelError({fmt::format("--{}{}{}", option, value.empty() ? "" : " ", value)}, "",
+                    std::move(problem));
 }
 
 Parsed<long> parse_whole(std::string_view text, long least) {

@@ -13,6 +13,7 @@ namespace whirl::inline io {
 
 /// An option that means nothing.
 /// @param option   without dashes
+/// @param value    as it was given; empty: it was not
 /// @param problem  what would be right
 ModelError wrong_option(const std::string& option, const std::string& value, std::string problem);
 

@@ -9,6 +9,7 @@
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/bare_speed.hpp"
+#include "libio/text/option_values.hpp"
 #include "libio/text/terminal.hpp"
 #include "libio/texts/problems_text.hpp"
 #include "libverbs/command/exit_status.hpp"
@@ -52,8 +53,14 @@ SpeedOptions speed_options(const CommandLine& line) {
   return given;
 }
 
-/// Problems of values of --speed and --over are told under these names.
+/// A problem of an option that a library names is told of what was given, where the verb has it;
+/// problems of values of --speed and --over are told under these names.
 ModelError under_its_option(const ModelError& error, const CommandLine& line) {
+  if (const auto* wrong = dynamic_cast<const OptionError*>(&error);
+      wrong && option_named(*verb_named(line.call.verb), wrong->option())) {
+    return wrong_option(wrong->option(), line.call.text(wrong->option()),
+                        wrong->problems().front().message);
+  }
   const ModelError told = under_over(error, line.call.values("over"), line.call.sets);
   if (!line.speed) return told;
   return renamed(told, "--set operation.speed=" + *line.speed, "--speed " + *line.speed);

@@ -132,6 +132,24 @@ TEST(Architecture, ALibraryDeclaresInItsNamespaceOrInOneBelow) {
   EXPECT_GT(found, 400u);
 }
 
+// They serve programs of any kind: what is wrong they say in words of the field, and the program adds
+// which of its options does it (OptionError).
+TEST(Architecture, LibrariesThatComputeDoNotSpeakCommandLine) {
+  const std::regex option(R"("[^"]*--[a-z])");
+  const std::regex verb(
+      R"("[^"]*\bwhirl (?:bench|classify|continue|map|orbit|simulate|sweep|torus|unbalance)\b)");
+  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn"}) {
+    for (const std::regex* spoken : {&option, &verb}) {
+      for (const auto& [file, words] : lines_in(folder, *spoken)) {
+        // what was not given for a check is told as an option in JSON and files, which stays
+        if (file == "libdyn/motions/lateral_report.cpp") continue;
+        ADD_FAILURE() << file << " speaks of the command line: " << words;
+      }
+    }
+  }
+  EXPECT_FALSE(lines_in("libverbs", option).empty());  // where it may
+}
+
 TEST(Architecture, NoFileIsTooLong) {
   constexpr int most = 450;  // beyond 400 lines look for the second idea; a little slack for tables
   for (const char* folder : folders) {

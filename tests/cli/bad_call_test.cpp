@@ -97,7 +97,8 @@ TEST_F(BadCall, ValuesOfOptions) {
   EXPECT_TRUE(has(with("--discard", "-1"), "whole number of 0 or more"));
   EXPECT_TRUE(has(with("--samples", "2"), "whole number of 4 or more"));
   EXPECT_TRUE(has(with("--revolutions", "1000000000"), "record fewer"));
-  EXPECT_TRUE(has(with("--stations", "seal"), "there is no station \"seal\"; there are "));
+  EXPECT_EQ(with("--stations", "seal"),
+            "--stations seal: there is no station \"seal\"; there are shaft, rotor\n");
   EXPECT_TRUE(has(with("--stations", "shaft, seal"), "there is no station \"seal\""));
   EXPECT_TRUE(has(with("--from", "nothing.h5"), "nothing.h5: there is no such file"));
 }

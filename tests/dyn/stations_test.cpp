@@ -66,7 +66,8 @@ TEST(Stations, ThatAreNotThereAreRefused) {
     try {
       names(wrong);
       ADD_FAILURE() << wrong;
-    } catch (const ModelError& error) {
+    } catch (const OptionError& error) {
+      EXPECT_EQ(error.option(), "stations");
       EXPECT_NE(std::string(error.what()).find("left disk"), std::string::npos) << error.what();
     }
   }
