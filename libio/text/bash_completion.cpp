@@ -38,8 +38,8 @@ std::string bash_completion(const std::string& program, const std::vector<Comple
   std::string words, cases;
   std::set<std::string> with_value;
   for (const CompletedVerb& verb : verbs) {
-    words += verb.name + ' ';
-    cases += fmt::format("    {}) options=\"", verb.name);
+    for (const std::string& name : verb.names) words += name + ' ';
+    cases += fmt::format("    {}) options=\"", fmt::join(verb.names, "|"));
     for (const std::string& option : verb.options) cases += option + ' ';
     cases += "--help\" ;;\n";
     with_value.insert(verb.with_value.begin(), verb.with_value.end());

@@ -8,7 +8,7 @@ namespace whirl::inline io {
 
 /// A verb whose options are completed.
 struct CompletedVerb {
-  std::string name;
+  std::vector<std::string> names;       ///< its name and its aliases
   std::vector<std::string> options;     ///< "--speed"
   std::vector<std::string> with_value;  ///< those of them that want a value that is no file
 };

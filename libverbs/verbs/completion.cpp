@@ -12,10 +12,16 @@ constexpr std::string_view completion_usage =
     "Usage: whirl completion\n\nPrints a script that completes verbs, options and names of files "
     "in bash:\nput  source <(whirl completion)  into ~/.bashrc\n";
 
-int run_completion(const std::vector<std::string>&, const Ranks*) {
+int run_completion(const std::vector<std::string>& words, const Ranks*) {
+  if (!words.empty()) {
+    fmt::print(stderr, "{}", completion_usage);
+    return exit_status::wrong_input;
+  }
   std::vector<CompletedVerb> completed;
   for (const Verb& verb : verbs()) {
-    CompletedVerb& to = completed.emplace_back(CompletedVerb{std::string(verb.name), {}, {}});
+    CompletedVerb& to = completed.emplace_back();
+    to.names.emplace_back(verb.name);
+    if (!verb.alias.empty()) to.names.emplace_back(verb.alias);
     for (const OptionSpec& o : options_of(verb)) {
       to.options.push_back("--" + std::string(o.name));
       const bool is_file = o.value.find("FILE") != std::string_view::npos || o.name == "out";

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "libio/model/model_schema.hpp"
 #include "libio/results/replace_file.hpp"
@@ -12,25 +13,49 @@ namespace whirl::inline cli {
 namespace {
 
 constexpr std::string_view schema_usage =
-    "Usage: whirl schema [--out FILE.json [--force]]\n\nWrites a JSON Schema of model files. An "
+    "Usage: whirl schema [--out FILE.json [--force]] [--quiet]\n\nWrites a JSON Schema of model "
+    "files. An "
     "editor that knows TOML completes and checks\nkeys with it; in a model's first line: "
     "#:schema ./FILE.json\n";
 
+struct SchemaOptions {
+  std::string out;  ///< empty: standard output
+  bool is_forced = false;
+};
+
+/// What words ask for, in any order; nothing where they mean nothing.
+std::optional<SchemaOptions> options_in(const std::vector<std::string>& words) {
+  constexpr std::string_view out = "--out";
+  SchemaOptions asked;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (word == out && i + 1 < words.size()) {
+      asked.out = words[++i];
+    } else if (word.starts_with(out) && word.substr(out.size(), 1) == "=") {
+      asked.out = word.substr(out.size() + 1);
+    } else if (word == "--force") {
+      asked.is_forced = true;
+    } else if (word != "--quiet") {  // it says nothing anyway
+      return std::nullopt;
+    }
+  }
+  return asked;
+}
+
 /// The schema of model files, to a file or to standard output.
 int run_schema(const std::vector<std::string>& words, const Ranks*) {
-  const bool is_forced = words.size() == 3 && words[2] == "--force";
-  const bool has_file = (words.size() == 2 || is_forced) && words[0] == "--out";
-  if (!words.empty() && !has_file) {
+  const auto asked = options_in(words);
+  if (!asked) {
     fmt::print(stderr, "{}", schema_usage);
     return exit_status::wrong_input;
   }
   const std::string text = model_schema().json();
-  if (!has_file) {
+  if (asked->out.empty()) {
     std::fputs(text.c_str(), stdout);
     return after_printing(exit_status::done);
   }
   try {
-    replace_file(words[1], text, is_forced ? Replaces::anything : Replaces::own_pictures);
+    replace_file(asked->out, text, asked->is_forced ? Replaces::anything : Replaces::own_pictures);
   } catch (const FileError& error) {
     return refused(error);
   }

@@ -75,6 +75,10 @@ TEST_F(Help, CompletesInBash) {
   EXPECT_EQ(completes("modes rotor.toml --speed ''"), "\n");
   EXPECT_EQ(completes("rer"), "rerun\n");
   EXPECT_EQ(completes("schema --o"), "--out\n");
+  EXPECT_EQ(completes("modal"), "modal-content\n");
+  EXPECT_EQ(completes("modal-content rotor.toml --meas"), completes("identify rotor.toml --meas"));
+  EXPECT_NE(completes("modal-content rotor.toml --meas"), "\n");
+  EXPECT_EQ(whirl({"completion", "--shell"}).status, 2);
 }
 
 TEST_F(Help, SchemaIsPrintedOrWritten) {
@@ -88,6 +92,10 @@ TEST_F(Help, SchemaIsPrintedOrWritten) {
   EXPECT_TRUE(has(whirl({"schema", "--help"}).out, "Usage: whirl schema"));
   EXPECT_EQ(whirl({"help", "schema"}).out, whirl({"schema", "--help"}).out);
   EXPECT_EQ(whirl({"schema", "rotor.toml"}).status, 2);
+  write("taken.json", "not whirl's");
+  EXPECT_EQ(whirl({"schema", "--out=taken.json"}).status, 2);
+  EXPECT_EQ(whirl({"schema", "--force", "--out=taken.json", "--quiet"}).status, 0);
+  EXPECT_EQ(content(folder / "taken.json"), printed.out);
   EXPECT_EQ(whirl({"schema", "--out", "nowhere/x.json"}).status, 2);
 }
 

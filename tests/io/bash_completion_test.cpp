@@ -16,8 +16,9 @@ class BashCompletion : public InResultFolder {
  protected:
   /// What is offered for the last of some words, one a line.
   std::string offered(const std::string& words, int last) const {
-    std::ofstream(folder / "script") << bash_completion(
-        "spin", {{"run", {"--speed", "--out"}, {"--speed"}}, {"draw", {"--size"}, {"--size"}}});
+    std::ofstream(folder / "script")
+        << bash_completion("spin", {{{"run", "go"}, {"--speed", "--out"}, {"--speed"}},
+                                    {{"draw"}, {"--size"}, {"--size"}}});
     const std::string ask = "source " + (folder / "script").string() + "; COMP_WORDS=(" + words +
                             "); COMP_CWORD=" + std::to_string(last) +
                             "; _spin; printf '%s\\n' \"${COMPREPLY[@]}\"";
@@ -27,9 +28,10 @@ class BashCompletion : public InResultFolder {
 };
 
 TEST_F(BashCompletion, OffersVerbsAndTheOptionsOfEach) {
-  EXPECT_EQ(offered("spin ''", 1), "run\ndraw\nhelp\n--help\n--version\n");
+  EXPECT_EQ(offered("spin ''", 1), "run\ngo\ndraw\nhelp\n--help\n--version\n");
   EXPECT_EQ(offered("spin r", 1), "run\n");
   EXPECT_EQ(offered("spin run --", 2), "--speed\n--out\n--help\n");
+  EXPECT_EQ(offered("spin go --", 2), offered("spin run --", 2));  // another name of it
   EXPECT_EQ(offered("spin draw --s", 2), "--size\n");
 }
 
