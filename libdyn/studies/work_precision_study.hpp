@@ -36,14 +36,24 @@ struct WorkPrecisionStudy {
     using enum Written;
     using Study = WorkPrecisionStudy;
     constexpr std::string_view both = "methods tolerances";
-    constexpr auto methods = [](const Study& s) { return s.options.methods; };
-    constexpr auto tolerances = [](const Study& s) { return s.options.tolerances; };
+    constexpr auto methods = [](auto& s) -> auto& {
+      return s.options.methods;
+    };
+    constexpr auto tolerances = [](auto& s) -> auto& {
+      return s.options.tolerances;
+    };
     constexpr auto revolutions = [](const Study& s) {
       return static_cast<double>(s.options.revolutions);
     };
-    constexpr auto made_by = [](const Study& s) { return s.reference.made_by; };
-    constexpr auto error = [](const Study& s) { return s.reference.error; };
-    constexpr auto growth = [](const Study& s) { return s.reference.growth; };
+    constexpr auto made_by = [](auto& s) -> auto& {
+      return s.reference.made_by;
+    };
+    constexpr auto error = [](auto& s) -> auto& {
+      return s.reference.error;
+    };
+    constexpr auto growth = [](auto& s) -> auto& {
+      return s.reference.growth;
+    };
     constexpr auto counted = [](const Study& s) { return s.options.revolutions; };
     constexpr auto discard = [](const Study& s) { return s.options.discard; };
     return ColumnList{

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libdyn/studies/resonance_study.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 
@@ -83,14 +84,14 @@ double between(const std::vector<double>& x, const Mat& m, Eigen::Index i, doubl
 /// was found are named.
 void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
   constexpr std::size_t most = 10;  // that are named and told although nothing was found there
-  const auto speeds = result.file.numbers("/resonances/speed"),
-             seen = result.file.numbers("/resonances/frequency"),
-             bouncing = result.file.numbers("/resonances/bouncing_speed"),
-             revolutions = result.file.numbers("/resonances/bouncing_period"),
-             stable = result.file.numbers("/resonances/bouncing_stable");
-  const auto p = result.file.integers("/resonances/p"), q = result.file.integers("/resonances/q"),
-             fast = result.file.integers("/resonances/fast"),
-             slow = result.file.integers("/resonances/slow");
+  const std::vector<ResonancePlace>& places = result_of<ResonanceStudy>(result).places;
+  // of a bouncing motion files have these numbers alone
+  const auto numbers_of = [&](auto member) {
+    return result.file.numbers(dataset_of<ResonanceStudy>(member));
+  };
+  const auto bouncing = numbers_of(&ResonancePlace::bouncing_speed),
+             revolutions = numbers_of(&ResonancePlace::bouncing_period),
+             stable = numbers_of(&ResonancePlace::bouncing_stable);
   Panel& panel = f.panels.at(0);
   Curve possible{.name = "p:q resonance seen from the rotor", .paint = Paint::gray};
   possible.width = 0.8;
@@ -105,10 +106,11 @@ void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
   f.table.header = {"resonance [rpm]",   "ratio",       "modes", "from the rotor [rpm]",
                     "bouncing at [rpm]", "period [rev]"};
   std::size_t left_out = 0;
-  for (std::size_t i = 0; i < speeds.size(); ++i) {
-    const double speed = speeds[i] / rpm;
-    const Eigen::Index branches[] = {fast[i] - 1, slow[i] - 1};
-    const std::string ratio = fmt::format("{}:{}", p[i], q[i]);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const ResonancePlace& at = places[i];
+    const double speed = at.speed / rpm, seen = at.frequency / rpm;
+    const Eigen::Index branches[] = {at.fast, at.slow};
+    const std::string ratio = fmt::format("{}:{}", at.p, at.q);
     const bool is_found = stable[i] >= 0.0;
     const std::string motion = is_found ? fmt::format("{} at {:.1f} rpm, {:.4f} revolutions",
                                                       stable[i] > 0.0 ? "stable" : "unstable",
@@ -126,21 +128,20 @@ void add_resonances(const ResultView& result, const Branches& b, Figure& f) {
     c.x.push_back(not_set);  // the next one is a line of its own
     c.y.push_back(not_set);
     c.hover.emplace_back();
-    if (!is_found && speeds.size() > most) {
+    if (!is_found && places.size() > most) {
       ++left_out;
       continue;
     }
     Label label{speed, top, ratio, Anchor::end, -6.0, -6.0};
     label.paint = is_found ? Paint::alarm : Paint::gray;
     if (top <= panel.y.last) panel.labels.push_back(label);
-    f.table.rows.push_back(
-        {fmt::format("{:.1f}", speed), ratio,
-         fmt::format("{}, {}", b.name(branches[0]), b.name(branches[1])),
-         fmt::format("{:.0f}, {:.0f}", p[i] * seen[i] / rpm, q[i] * seen[i] / rpm),
-         is_found
-             ? fmt::format("{:.1f}, {}", bouncing[i] / rpm, stable[i] > 0.0 ? "stable" : "unstable")
-             : "none found",
-         is_found ? fmt::format("{:.4f}", revolutions[i]) : ""});
+    f.table.rows.push_back({fmt::format("{:.1f}", speed), ratio,
+                            fmt::format("{}, {}", b.name(branches[0]), b.name(branches[1])),
+                            fmt::format("{:.0f}, {:.0f}", at.p * seen, at.q * seen),
+                            is_found ? fmt::format("{:.1f}, {}", bouncing[i] / rpm,
+                                                   stable[i] > 0.0 ? "stable" : "unstable")
+                                     : "none found",
+                            is_found ? fmt::format("{:.4f}", revolutions[i]) : ""});
   }
   for (Curve* c : {&possible, &found}) {
     if (!c->x.empty()) panel.curves.push_back(std::move(*c));
@@ -199,7 +200,7 @@ std::vector<Figure> campbell_figures(const ResultView& result) {
   }
   p.cursor = "speed";
   f.panels.push_back(p);
-  if (!result.file.has("/resonances/speed")) return {f};
+  if (!result.file.has(dataset_of<ResonanceStudy>(&ResonancePlace::speed))) return {f};
   Figure resonances = f;
   resonances.variant = "resonances";
   resonances.subtitle = "Campbell diagram with the internal resonances seen from the rotor";

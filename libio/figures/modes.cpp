@@ -233,11 +233,13 @@ std::vector<Figure> mac_figures(const ResultView& result) {
 }
 
 std::vector<Figure> exponent_figures(const ResultView& result) {
-  const Vec exponents = result.file.vector("/classify/exponent");
+  using Result = ClassificationResult;
+  const std::string group(Result::group);
+  const Vec exponents = result.file.vector(dataset_of<Result>(&Result::exponents));
   Figure f{.height = 380.0};
   f.subtitle = "Lyapunov exponents";
-  if (result.file.has_attribute("/classify", "motion")) {
-    f.subtitle += ": " + result.file.string_attribute("/classify", "motion") + " motion";
+  if (result.file.has_attribute(group, "motion")) {
+    f.subtitle += ": " + result.file.string_attribute(group, "motion") + " motion";
   }
   if (!speed_text(result).empty()) f.subtitle += " at " + speed_text(result);
   Panel p;

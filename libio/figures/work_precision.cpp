@@ -72,13 +72,15 @@ Figure work_precision_figure(const WorkPrecision& data) {
 namespace {
 
 std::vector<Figure> work_precision_figures(const ResultView& result) {
+  using Study = WorkPrecisionStudy;
+  const auto& study = figures::result_of<Study>(result);  // without its runs
   WorkPrecision data;
-  data.methods = result.file.strings("/bench/method");
-  data.tolerances = figures::numbers(result.file.vector("/bench/tolerance"));
-  data.error = result.file.numbers("/bench/error");
-  data.time = result.file.numbers("/bench/time");
-  data.revolutions = result.file.number_attribute("/bench", "revolutions");
-  data.reference_error = result.file.number_attribute("/bench", "reference_error");
+  data.methods = study.options.methods;
+  data.tolerances = study.options.tolerances;
+  data.error = result.file.numbers(dataset_of<Study>(&Study::errors));
+  data.time = result.file.numbers(dataset_of<Study>(&Study::times));
+  data.revolutions = result.file.number_attribute(std::string(Study::group), "revolutions");
+  data.reference_error = study.reference.error;
   data.unit =
       !result.model || result.model->contacts.empty() ? "sizes of the motion" : "clearances";
   data.title = result.title;

@@ -8,6 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/motions/run_result.hpp"
+#include "libdyn/studies/classification_result.hpp"
 #include "libfe/properties.hpp"
 #include "libio/drawing/figure_json.hpp"
 #include "libio/figures/comparison.hpp"
@@ -15,6 +16,7 @@
 #include "libio/page/machine_report.hpp"
 #include "libio/page/motion_json.hpp"
 #include "libio/page/page_assets.hpp"
+#include "libio/results/study_status.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/xml.hpp"
 
@@ -79,13 +81,14 @@ Record facts_of(const ResultView& result) {
     const auto& run = figures::result_of<RunFacts>(result);
     add("recorded", fmt::format("{:g} revolutions, {} samples each", run.revolutions,
                                 run.samples_per_revolution));
-    if (result.file.has_attribute("/trajectory", "steps")) {
+    if (run.steps > 0.0) {
       add("cost", fmt::format("{:.0f} steps, {:.0f} evaluations, {:.0f} events", run.steps,
                               run.evaluations, run.events));
     }
   }
-  if (result.file.has_attribute("/classify", "motion")) {
-    add("motion", result.file.string_attribute("/classify", "motion"));
+  if (const std::string group(ClassificationResult::group);
+      result.file.has_attribute(group, "motion")) {
+    add("motion", result.file.string_attribute(group, "motion"));
   }
   add("rotor", parts_of(result));
   return facts;
@@ -99,11 +102,8 @@ Record warnings_of(const ResultView& result, const std::vector<std::string>& mis
   if (const auto& run = figures::result_of<RunFacts>(result); run.failure) {
     warnings.add("the run failed: " + run.failure.text());
   }
-  for (const char* group : {"/sweep", "/map", "/basins"}) {
-    if (result.file.has_attribute(group, "complete") &&
-        result.file.number_attribute(group, "complete") == 0.0) {
-      warnings.add("the study is not complete: run its command again to go on");
-    }
+  if (!says_complete(result.file)) {
+    warnings.add("the study is not complete: run its command again to go on");
   }
   for (const std::string& text : missing) warnings.add(text);
   return warnings;
@@ -255,7 +255,7 @@ struct PageBuilder {
     r.set("facts", attempt("facts", missing, [&] { return facts_of(result); }));
     const Record motion =
         attempt("picture in space", missing, [&] { return motion_record(result, arrays); });
-    moves = moves || motion.json().find("motions") != std::string::npos;
+    moves = moves || !motion.is_empty();
     r.set("figures", list).set("motion", motion);
     r.set("contacts", attempt("table of contacts", missing, [&] { return contacts_of(result); }));
     r.set("model", result.file.strings("/model").at(0));

@@ -38,20 +38,6 @@ bool is_alive(int process) {
   return !std::getline(file, name) || name.starts_with("whirl");
 }
 
-/// Whether all groups say that nothing is left, of those that say something.
-bool says_complete(const ResultReader& file) {
-  for (const std::string_view group :
-       {MapResult::group, SweepResult::group, BasinsResult::group, BranchResult::group,
-        CurveResult::group, TorusResult::group}) {
-    const std::string name(group);
-    if (file.has(name) && file.has_attribute(name, "complete") &&
-        file.number_attribute(name, "complete") == 0.0) {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// Counts the points of a grid.
 /// @param stripe  those that count
 /// @return  false: the file has none
@@ -94,6 +80,19 @@ bool count_walk(const ResultReader& file, StudyStatus& status) {
 }
 
 }  // namespace
+
+bool says_complete(const ResultReader& file) {
+  for (const std::string_view group :
+       {MapResult::group, SweepResult::group, BasinsResult::group, BranchResult::group,
+        CurveResult::group, TorusResult::group}) {
+    const std::string name(group);
+    if (file.has(name) && file.has_attribute(name, "complete") &&
+        file.number_attribute(name, "complete") == 0.0) {
+      return false;
+    }
+  }
+  return true;
+}
 
 StudyWork this_work(double seconds) {
   return {.seconds = seconds, .host = own_host(), .process = static_cast<int>(::getpid())};

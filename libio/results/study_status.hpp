@@ -26,6 +26,10 @@ void write_work(ResultWriter& file, const StudyWork& work);
 /// Nothing: the file is of an early version, or of no study.
 std::optional<StudyWork> read_work(const ResultReader& file);
 
+/// Whether all groups say that nothing is left to be computed, of those that say something; a part
+/// of a study never says so.
+bool says_complete(const ResultReader& file);
+
 /// How far a study is.
 struct StudyStatus {
   std::string file{}, verb{};

@@ -68,6 +68,12 @@ void Record::add(Record item) {
   std::get<Array>(value_).push_back(std::move(item));
 }
 
+bool Record::is_empty() const {
+  const auto* array = std::get_if<Array>(&value_);
+  const auto* object = std::get_if<Object>(&value_);
+  return (array && array->empty()) || (object && object->empty());
+}
+
 bool Record::is_flat() const {
   if (const auto* array = std::get_if<Array>(&value_)) {
     return std::all_of(array->begin(), array->end(), [](const Record& r) {

@@ -38,6 +38,8 @@ class Record {
   /// Adds an item to an array.
   void add(Record item);
   static Record array() { return Record(Array{}); }
+  /// Whether it is an object or array without entries.
+  bool is_empty() const;
 
   /// Text of the tree; small objects and arrays of numbers stay on one line.
   std::string json() const;

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <thread>
 
+#include "libdyn/studies/work_precision_study.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
@@ -94,6 +96,12 @@ TEST_F(Bench, WritesTheSameNumbersToTheResultFile) {
     EXPECT_DOUBLE_EQ(20.0 * steps(i / 2, i % 2), run["steps"].get<double>());
   }
   EXPECT_EQ(file.string_attribute("/bench", "reference"), "taylor in quadruple precision at 1e-26");
+  // what it is of is read back with it
+  const auto read = read_result<WorkPrecisionStudy>(file);
+  EXPECT_EQ(read.options.methods, file.strings("/bench/method"));
+  EXPECT_EQ(read.options.tolerances, (std::vector<double>{1e-6, 1e-10}));
+  EXPECT_EQ(read.reference.error, file.number_attribute("/bench", "reference_error"));
+  EXPECT_EQ(read.reference.made_by, file.string_attribute("/bench", "reference"));
 }
 
 // A damper of 1e6 N.s/m on 2 kg decays with 5e5 1/s, too fast for steps of 0.2 ms of RK4; the

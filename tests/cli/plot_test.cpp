@@ -235,6 +235,16 @@ TEST_F(Plot, LinesAtTheRatiosThatARotationPasses) {
   }
 }
 
+// A page says of every study that was stopped that there is more of it, of a torus, too.
+TEST_F(Plot, APageSaysThatAStudyIsNotComplete) {
+  for (const int complete : {0, 1}) {
+    write_torus("t.h5", 1, complete);
+    ASSERT_EQ(whirl({"report", "t.h5"}).status, 0);
+    const json warnings = page_data(content(folder / "t.html"))["results"][0]["warnings"];
+    EXPECT_EQ(has(warnings.dump(), "the study is not complete"), complete == 0) << warnings;
+  }
+}
+
 // A free vibration at omega = 100 rad/s dies out as exp(-zeta omega t) beside the steady response
 // at the speed: from one spectrum to the next its line falls by that, the other one stays.
 TEST_F(Plot, AWaterfallShowsAFreeVibrationDieOut) {

@@ -19,8 +19,8 @@ class Plot : public Pictures {
   }
 
   /// A result of a torus with circles at rotations from 0.3 to 0.45, after each of `period`
-  /// revolutions.
-  void write_torus(const std::string& file, int period) const {
+  /// revolutions; `complete` 0: it was stopped.
+  void write_torus(const std::string& file, int period, int complete = 1) const {
     ResultWriter to(folder / file, Replaces::anything);
     to.dataset("/model", std::vector<std::string>{rubbing}, {"", "model", {""}});
     to.attribute("/model", "path", "rub.toml");
@@ -36,6 +36,7 @@ class Plot : public Pictures {
       to.dataset(std::string("/torus/") + name, values, {"", name, {"/torus/value"}});
     }
     to.attribute("/torus", "period_revolutions", period);
+    to.attribute("/torus", "complete", complete);
     to.commit();
   }
 

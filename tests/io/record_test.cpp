@@ -40,6 +40,16 @@ TEST(Record, NumbersComeBackBitForBit) {
   }
 }
 
+// Only objects and arrays have entries: what has one is not empty, and neither is an empty text.
+TEST(Record, IsEmptyWithoutEntries) {
+  EXPECT_TRUE(Record().is_empty());
+  EXPECT_TRUE(Record::array().is_empty());
+  EXPECT_FALSE(Record().set("motions", Record::array()).is_empty());
+  EXPECT_FALSE(Record(Record::Array{Record()}).is_empty());
+  EXPECT_FALSE(Record("").is_empty());
+  EXPECT_FALSE(Record(nullptr).is_empty());
+}
+
 TEST(Record, WhatIsNoNumberIsNull) {
   Record r;
   r.set("a", std::nan("")).set("b", infinity).set("c", -infinity);
