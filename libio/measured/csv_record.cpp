@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -74,10 +75,13 @@ std::vector<Cell> csv_cells(std::string_view line, const CsvForm& form) {
   return cells;
 }
 
+/// In the order in which they are tried: commas may be decimal ones.
+constexpr std::array delimiters{Delimiter::semicolon, Delimiter::tab, Delimiter::bar,
+                                Delimiter::comma, Delimiter::blanks};
+
 /// The form in which a line is one of numbers, one at least; nothing: it is none.
 std::optional<CsvForm> number_form(std::string_view line) {
-  for (const Delimiter delimiter :
-       {Delimiter::semicolon, Delimiter::tab, Delimiter::comma, Delimiter::blanks}) {
+  for (const Delimiter delimiter : delimiters) {
     for (const bool has_commas : {false, true}) {
       if (has_commas && delimiter == Delimiter::comma) continue;
       CsvForm form{delimiter, has_commas};
@@ -166,8 +170,7 @@ class CsvHeader {
   static std::vector<std::string> header_cells(std::string_view line, std::size_t count) {
     const auto begin = line.find_first_not_of("#%! ");
     if (begin == std::string_view::npos) return {};
-    for (const Delimiter delimiter :
-         {Delimiter::semicolon, Delimiter::tab, Delimiter::comma, Delimiter::blanks}) {
+    for (const Delimiter delimiter : delimiters) {
       std::vector<Cell> cells = cells_of(line.substr(begin), delimiter);
       if (cells.size() == count + 1 && cells.back().text.empty()) cells.pop_back();
       if (cells.size() != count) continue;
@@ -192,7 +195,8 @@ std::size_t first_of_numbers(const std::vector<CsvLine>& lines) {
 ModelError no_numbers(const std::string& file, const std::vector<CsvLine>& lines) {
   const std::string message = "has no two lines of numbers, expected a column for each channel";
   if (lines.empty()) return ModelError({file}, "", "is empty: " + message);
-  for (const Delimiter delimiter : {Delimiter::semicolon, Delimiter::tab, Delimiter::comma}) {
+  for (const Delimiter delimiter : delimiters) {
+    if (delimiter == Delimiter::blanks) continue;
     const std::vector<Cell> cells = cells_of(lines.back().text, delimiter);
     if (cells.size() < 2) continue;
     for (const Cell& cell : cells) {

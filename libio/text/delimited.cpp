@@ -48,6 +48,8 @@ bool delimits(char c, Delimiter delimiter) {
       return c == ';';
     case Delimiter::tab:
       return c == '\t';
+    case Delimiter::bar:
+      return c == '|';
     case Delimiter::blanks:
       return c == ' ' || c == '\t';
   }

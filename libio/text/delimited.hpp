@@ -16,7 +16,7 @@ namespace whirl::inline io {
 /// column, and what is wrong.
 using ReportProblem = std::function<void(int, std::string, std::string)>;
 
-enum class Delimiter { comma, semicolon, tab, blanks };
+enum class Delimiter { comma, semicolon, tab, bar, blanks };
 
 /// What stands between two delimiters, without blanks and quotes around it.
 struct Cell {

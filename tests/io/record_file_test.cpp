@@ -99,6 +99,10 @@ TEST_F(RecordFile, ReadsTablesOfLoggers) {
   EXPECT_EQ(lines_of_units.channels[1].unit, "m");
   EXPECT_NEAR(lines_of_units.samples(1, 1), 4 * 25.4e-6, 1e-18);
 
+  const MeasuredRecord bars = read_record(file("e.csv", "t [s]|x [um]\n0|1,5\n0,1|2,5\n"));
+  EXPECT_EQ(bars.channels[0].name, "x");
+  EXPECT_NEAR(bars.samples(1, 0), 2.5e-6, 1e-20);
+
   const MeasuredRecord rate = read_record(file("c.csv", "# Sample rate: 5 kHz\n1 2\n3 4\nnan 5\n"));
   EXPECT_EQ(rate.rate, 5000.0);
   EXPECT_EQ(rate.channels[1].name, "2");
