@@ -18,24 +18,29 @@ std::size_t planes_of(const std::vector<ParameterAxis>& axes) {
   return axes.size() == 3 ? axes[2].values.size() : 1;
 }
 
+/// Whether a map lists a period by itself.
+bool has_common_period(const ClassifiedMotion& motion) {
+  return motion.period > 0 && (motion.period <= 6 || motion.period == 8);
+}
+
 /// What a point counts as: its motion, and the period of a periodic one.
 std::string kind_of(const MapPoint& point) {
   if (!point) return "not computed";
   if (point->has_failed()) return "failed";
   if (point->kind != MotionKind::periodic) return std::string(name_of(*point->kind));
-  const int period = point->period;
-  const bool is_common = period > 0 && (period <= 6 || period == 8);
-  return is_common ? fmt::format("period {}", period) : "other periods";
+  return has_common_period(*point) ? fmt::format("period {}", point->period) : "other periods";
 }
 
-/// By period, then as they get wilder.
-int rank_of(const std::string& kind) {
-  if (kind == name_of(MotionKind::equilibrium)) return 0;
-  if (kind.starts_with("period ")) return std::stoi(kind.substr(7));
-  std::vector<std::string> rest{"other periods"};
-  for (const auto& [name, unused] : choices(MotionKind{})) rest.emplace_back(name);
-  rest.insert(rest.end(), {"failed", "not computed"});
-  return 1000 + static_cast<int>(std::find(rest.begin(), rest.end(), kind) - rest.begin());
+/// Order of the kinds: by period, then as they get wilder, then what is not known.
+int rank_of(const MapPoint& point) {
+  constexpr int other_periods = 1000, wilder = 1001, failed = 2000, not_computed = 2001;
+  if (!point) return not_computed;
+  if (point->has_failed()) return failed;
+  if (point->kind == MotionKind::equilibrium) return 0;
+  if (point->kind == MotionKind::periodic) {
+    return has_common_period(*point) ? point->period : other_periods;
+  }
+  return wilder + static_cast<int>(*point->kind);
 }
 
 /// Shares of something [%], per plane.
@@ -60,7 +65,7 @@ MapShares shares_of(const PointRows<ClassifiedMotion>& points, std::size_t plane
     Shares*& shares = known[{kind, point ? point->period : 0}];
     if (!shares) {
       const std::string name = kind_of(point);
-      shares = &all.kinds[{rank_of(name), name}];
+      shares = &all.kinds[{rank_of(point), name}];
       shares->resize(planes);
     }
     (*shares)[plane] += each;
