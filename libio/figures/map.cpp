@@ -227,10 +227,10 @@ std::vector<Category> basin_categories(const PointRows<BasinsPoint>& points,
   return all;
 }
 
-/// Displacements at the starts [m, rad], a row per start; NaN where there is none.
+/// Displacements at the starts [m, rad], a row per start, x and y at least; NaN where there is none.
 Mat starts_of(const PointRows<BasinsPoint>& points) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::Index width = 0;
+  Eigen::Index width = 2;
   for (const auto& p : points) width = std::max(width, p ? p->start.displacement.size() : 0);
   Mat starts = Mat::Constant(count, width, std::nan(""));
   for (Eigen::Index i = 0; i < count; ++i) {
