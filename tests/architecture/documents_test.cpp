@@ -124,6 +124,41 @@ TEST(Documents, LinkToFilesAndHeadingsThatAreThere) {
   EXPECT_GT(found, 100);
 }
 
+// docs/cpp.md names an example before each passage of it; examples are programs that the tests run.
+TEST(Documents, QuoteExamplesAsTheyAre) {
+  static const std::regex example("`(examples/[0-9a-z_]+\\.cpp)`"), indent("\\n +");
+  const auto flush = [&](const std::string& code) {
+    return std::regex_replace("\n" + code, indent, "\n");
+  };
+  std::ifstream document(root / "docs/cpp.md");
+  std::set<std::string> quoted;
+  std::string named, passage;
+  bool is_code = false;
+  for (std::string line; std::getline(document, line);) {
+    std::smatch name;
+    if (line == "```cpp") {
+      is_code = true;
+      passage.clear();
+    } else if (is_code && line == "```") {
+      is_code = false;
+      quoted.insert(named);
+      EXPECT_NE(flush(content(root / named)).find(flush(passage)), std::string::npos)
+          << named << " has not\n"
+          << passage;
+    } else if (is_code) {
+      passage += line + "\n";
+    } else if (std::regex_search(line, name, example)) {
+      named = name[1];
+    }
+  }
+  std::set<std::string> all;
+  for (const auto& entry : fs::directory_iterator(root / "examples")) {
+    if (entry.path().extension() == ".cpp")
+      all.insert("examples/" + entry.path().filename().string());
+  }
+  EXPECT_EQ(quoted, all);
+}
+
 TEST(Documents, HaveHeadingsOfDifferentNames) {
   for (const fs::path& document : documents()) {
     if (document.filename() == "CHANGELOG.md") continue;  // the same for every version
