@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
 #include "libbase/error.hpp"
 #include "libbase/roots.hpp"
 #include "libfe/campbell.hpp"
+#include "libfe/shape_branches.hpp"
 
 namespace whirl::inline fe {
 
@@ -18,7 +20,7 @@ namespace {
 
 constexpr double alike = 1e-3;       ///< relative difference of stiffnesses that count as one
 constexpr double same_curve = 1e-9;  ///< likewise of curves, which would lie on each other
-constexpr int curve_points = 200;    ///< at which curves are compared
+constexpr int curve_points = 200;    ///< steps of speed of a curve
 constexpr double crossing_tolerance = 1e-10;  ///< of log10 of a stiffness
 constexpr int most_criticals = 1000;          ///< below the top, before something is wrong
 
@@ -190,47 +192,50 @@ std::vector<std::pair<std::string, StiffnessOverSpeed>> flexible_connections(con
   return all;
 }
 
-/// A curve for every stiffness that is not like another one at these speeds [rad/s].
-std::vector<StiffnessCurve> stiffness_curves(const Structure& s, double low, double high) {
-  struct Group {
-    StiffnessCurve curve;
-    std::vector<std::string> bearings, directions;
-  };
-  const auto is_same = [&](const StiffnessCurve& a, const StiffnessCurve& b) {
-    for (int k = 0; k <= curve_points; ++k) {
-      const double Omega = low * std::pow(high / low, static_cast<double>(k) / curve_points);
-      const double ka = a.at(Omega), kb = b.at(Omega);
-      if (std::isfinite(ka) != std::isfinite(kb)) return false;
-      if (std::abs(ka - kb) > same_curve * std::abs(ka)) return false;
-    }
-    return true;
-  };
+/// A curve of the map, at every speed: the samples that it shows are beside it.
+struct OwnStiffness {
+  StiffnessCurve curve;
+  std::function<double(double Omega)> at;  ///< [N/m]; NaN where an oil film has none
+  std::vector<std::string> bearings, directions;
+
+  /// Whether it has the samples of this one, too.
+  bool has(const std::vector<double>& stiffness) const {
+    return std::equal(stiffness.begin(), stiffness.end(), curve.stiffness.begin(),
+                      [](double a, double b) {
+                        return std::isfinite(a) == std::isfinite(b) &&
+                               !(std::abs(a - b) > same_curve * std::abs(a));
+                      });
+  }
+};
+
+/// One for every stiffness that is not like another one at these speeds [rad/s].
+std::vector<OwnStiffness> own_stiffnesses(const Structure& s, const std::vector<double>& speeds) {
   const auto add = [](std::vector<std::string>& list, const std::string& name) {
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
   };
-  std::vector<Group> groups;
+  std::vector<OwnStiffness> all;
   const auto flexible = flexible_connections(s);
   for (const auto& [name, stiffness] : flexible) {
     for (const Eigen::Index direction : {0, 1}) {
-      const StiffnessCurve c{"", [of = stiffness, direction](double Omega) {
-                               return of(Omega)(direction, direction);
-                             }};
-      auto group = std::find_if(groups.begin(), groups.end(),
-                                [&](const Group& g) { return is_same(c, g.curve); });
-      if (group == groups.end()) group = groups.insert(groups.end(), Group{c, {}, {}});
-      add(group->bearings, name);
-      add(group->directions, direction == 0 ? "Kxx" : "Kyy");
+      OwnStiffness one{{}, [of = stiffness, direction](double Omega) {
+                         return of(Omega)(direction, direction);
+                       }};
+      for (const double Omega : speeds) one.curve.stiffness.push_back(one.at(Omega));
+      auto like = std::find_if(all.begin(), all.end(), [&](const OwnStiffness& known) {
+        return known.has(one.curve.stiffness);
+      });
+      if (like == all.end()) like = all.insert(all.end(), std::move(one));
+      add(like->bearings, name);
+      add(like->directions, direction == 0 ? "Kxx" : "Kyy");
     }
   }
-  std::vector<StiffnessCurve> curves;
-  for (Group& g : groups) {
-    g.curve.name = fmt::format("{}", fmt::join(g.directions, ", "));
-    if (g.bearings.size() < flexible.size()) {
-      g.curve.name += fmt::format(" of {}", fmt::join(g.bearings, ", "));
+  for (OwnStiffness& one : all) {
+    one.curve.name = fmt::format("{}", fmt::join(one.directions, ", "));
+    if (one.bearings.size() < flexible.size()) {
+      one.curve.name += fmt::format(" of {}", fmt::join(one.bearings, ", "));
     }
-    curves.push_back(std::move(g.curve));
   }
-  return curves;
+  return all;
 }
 
 /// The critical speed at log10 of a stiffness, on a branch between two of its points.
@@ -251,11 +256,12 @@ double speed_between(const ShapeBranch& branch, std::size_t i, double at, const 
   return speed;
 }
 
-void add_crossings(CriticalMap& map, const std::vector<ShapeBranch>& branches,
-                   const SolveShapes& solve, const Sparse& W) {
-  for (std::size_t c = 0; c < map.curves.size(); ++c) {
+void add_crossings(CriticalMap& map, const std::vector<OwnStiffness>& curves,
+                   const std::vector<ShapeBranch>& branches, const SolveShapes& solve,
+                   const Sparse& W) {
+  for (std::size_t c = 0; c < curves.size(); ++c) {
     const auto gap = [&](double at, double speed) {
-      const double k = map.curves[c].at(speed);
+      const double k = curves[c].at(speed);
       return k > 0.0 ? std::log10(k) - at : std::nan("");
     };
     for (std::size_t b = 0; b < branches.size(); ++b) {
@@ -286,6 +292,23 @@ Whirl usual_sense(const ShapeBranch& branch, const DofMap& dofs) {
   return most_frequent(seen);
 }
 
+/// Branches over all values of x at which any of them was found.
+void add_branches(CriticalMap& map, const std::vector<ShapeBranch>& branches, const DofMap& dofs) {
+  std::vector<double> all;
+  for (const ShapeBranch& b : branches) all.insert(all.end(), b.at.begin(), b.at.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  for (const double at : all) map.x.push_back(std::pow(10.0, at));
+  for (const ShapeBranch& b : branches) {
+    CriticalMapBranch branch{usual_sense(b, dofs), std::vector<double>(all.size(), std::nan(""))};
+    for (std::size_t i = 0; i < b.at.size(); ++i) {
+      const auto place = std::lower_bound(all.begin(), all.end(), b.at[i]) - all.begin();
+      branch.speed[static_cast<std::size_t>(place)] = b.found[i].value;
+    }
+    map.branches.push_back(std::move(branch));
+  }
+}
+
 }  // namespace
 
 CriticalMap critical_map(const Structure& given, const CriticalMapOptions& options) {
@@ -304,7 +327,9 @@ CriticalMap critical_map(const Structure& given, const CriticalMapOptions& optio
   const auto stiff = first_found({at.rbegin(), at.rend()}, solve);
   const auto soft = first_found(at, solve);
   if (!stiff || !soft) {
-    follow_shapes(at, solve, Sparse(), 0.0).gaps.swap(map.gaps);
+    for (const ShapeGap& gap : follow_shapes(at, solve, Sparse(), 0.0).gaps) {
+      map.gaps.push_back({gap.at, gap.reason});
+    }
     return map;
   }
   map.top = stiff->found.back().value;
@@ -316,21 +341,30 @@ CriticalMap critical_map(const Structure& given, const CriticalMapOptions& optio
   ShapeBranches followed = follow_shapes(at, solve, system.M, map.top);
   std::erase_if(followed.branches,
                 [&](const ShapeBranch& b) { return b.found.front().value > map.top; });
-  for (const ShapeBranch& b : followed.branches) {
-    CriticalMapBranch branch{.whirl = usual_sense(b, system.dofs)};
-    for (std::size_t i = 0; i < b.at.size(); ++i) {
-      branch.x.push_back(std::pow(10.0, b.at[i]));
-      branch.speed.push_back(b.found[i].value);
-    }
-    map.branches.push_back(std::move(branch));
+  add_branches(map, followed.branches, system.dofs);
+  for (ShapeGap& gap : followed.gaps) {
+    map.gaps.push_back({std::pow(10.0, gap.at), std::move(gap.reason)});
   }
-  map.gaps = std::move(followed.gaps);
-  for (ShapeGap& gap : map.gaps) gap.at = std::pow(10.0, gap.at);
-  if (map.is_common && !map.branches.empty()) {
-    map.curves = stiffness_curves(structure, map.branches.front().speed.front(), map.top);
-    add_crossings(map, followed.branches, solve, system.M);
+  if (!map.is_common || map.branches.empty()) return map;
+  double low = map.top;
+  for (const ShapeBranch& b : followed.branches) low = std::min(low, b.found.front().value);
+  for (int k = 0; k <= curve_points; ++k) {
+    map.curve_speeds.push_back(low *
+                               std::pow(map.top / low, static_cast<double>(k) / curve_points));
   }
+  std::vector<OwnStiffness> curves = own_stiffnesses(structure, map.curve_speeds);
+  add_crossings(map, curves, followed.branches, solve, system.M);
+  for (OwnStiffness& one : curves) map.curves.push_back(std::move(one.curve));
   return map;
+}
+
+CriticalMap critical_map_of(const Structure& structure, const CriticalSpeeds& found) {
+  if (found.criticals.empty()) return {};
+  CriticalMapOptions options;
+  options.critical.count = static_cast<int>(found.criticals.size());
+  options.critical.order = found.order;
+  for (const Critical& c : found.criticals) options.film_speeds.push_back(c.speed);
+  return critical_map(structure, options);
 }
 
 }  // namespace whirl::inline fe

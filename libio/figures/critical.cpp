@@ -21,11 +21,14 @@ std::vector<Curve> branch_curves(const CriticalMap& map) {
   for (const CriticalMapBranch& branch : map.branches) {
     const WhirlStyle style = whirl_style(branch.whirl);
     const std::string name = fmt::format("{}{}", ++seen[branch.whirl], style.letter);
+    Curve c{.name = style.name, .paint = style.paint};
+    for (std::size_t i = 0; i < map.x.size(); ++i) {
+      if (!std::isfinite(branch.speed[i])) continue;
+      c.x.push_back(map.x[i]);
+      c.y.push_back(branch.speed[i] / rpm);
+    }
     // those that leave the picture at its top would have their names there, upon each other
-    const bool is_seen = branch.speed.back() <= map.top;
-    Curve c{
-        .name = style.name, .end_name = is_seen ? name : "", .paint = style.paint, .x = branch.x};
-    c.y = scaled(branch.speed, 1.0 / rpm);
+    if (!c.y.empty() && c.y.back() <= map.top / rpm) c.end_name = name;
     c.width = 1.8;
     c.dash = style.dash;
     c.has_marker = true;
@@ -37,7 +40,7 @@ std::vector<Curve> branch_curves(const CriticalMap& map) {
 }
 
 /// Stiffness of the bearings over speed, and where it crosses the critical speeds of the map.
-void draw_bearings(const CriticalMap& map, double low, Panel& p) {
+void draw_bearings(const CriticalMap& map, Panel& p) {
   Curve crossings{.name = "crossings", .paint = Paint::ink, .has_line = false};
   crossings.has_marker = true;
   crossings.marker = Marker::cross;
@@ -48,12 +51,8 @@ void draw_bearings(const CriticalMap& map, double low, Panel& p) {
     constexpr Dash dashes[] = {Dash::solid, Dash::dashed, Dash::dash_dot, Dash::dotted};
     c.dash = dashes[number++ % 4];
     c.width = 1.4;
-    constexpr int points = 200;
-    for (int k = 0; k <= points; ++k) {
-      const double Omega = low * std::pow(map.top / low, static_cast<double>(k) / points);
-      c.x.push_back(stiffness.at(Omega) > 0.0 ? stiffness.at(Omega) : std::nan(""));
-      c.y.push_back(Omega / rpm);
-    }
+    for (const double k : stiffness.stiffness) c.x.push_back(k > 0.0 ? k : std::nan(""));
+    c.y = scaled(map.curve_speeds, 1.0 / rpm);
     p.curves.push_back(std::move(c));
   }
   for (const StiffnessCrossing& at : map.crossings) {
@@ -68,8 +67,8 @@ void draw_bearings(const CriticalMap& map, double low, Panel& p) {
 void add_gaps(const CriticalMap& map, Figure& f) {
   constexpr std::size_t most = 3;  // told one by one
   for (std::size_t i = 0; i < std::min(most, map.gaps.size()); ++i) {
-    f.notes.push_back(fmt::format("Left out at {:.4g}{}: {}.", map.gaps[i].at,
-                                  map.is_common ? " N/m" : "", map.gaps[i].reason));
+    f.notes.push_back(fmt::format("Left out at {:.4g}{}: {}.", map.gaps[i].x,
+                                  map.is_common ? " N/m" : "", map.gaps[i].why));
   }
   if (map.gaps.size() > most) {
     f.notes.push_back(fmt::format("Left out likewise at {} more.", map.gaps.size() - most));
@@ -86,37 +85,36 @@ FigureTable table_of(const std::vector<Critical>& criticals) {
   return table;
 }
 
-/// Speeds at which oil films say what the map goes over: those that were found critical.
-std::vector<double> speeds_of(const CriticalSpeeds& found) {
-  std::vector<double> speeds;
-  for (const Critical& c : found.criticals) speeds.push_back(c.speed);
-  return speeds;
+/// Without one in the file: it is of a version that drew what it had solved.
+const CriticalMap& map_of(const ResultView& result, const CriticalSpeeds& found,
+                          CriticalMap& solved) {
+  if (result.file.has(std::string(CriticalMap::group))) return result_of<CriticalMap>(result);
+  return solved = critical_map_of(result.assembler->structure(), found);
 }
 
 std::vector<Figure> critical_figures(const ResultView& result) {
   const auto& found = result_of<CriticalSpeeds>(result);
-  if (found.criticals.empty()) return {};
-  const CriticalOptions options{.count = static_cast<int>(found.criticals.size()),
-                                .order = found.order};
-  const CriticalMap map = critical_map(result.assembler->structure(),
-                                       {.critical = options, .film_speeds = speeds_of(found)});
+  CriticalMap solved;
+  const CriticalMap& map = map_of(result, found, solved);
   if (map.branches.empty()) return {};
   Figure f{.height = 500.0};
   f.subtitle =
-      fmt::format("Undamped critical speeds of order {:g} over bearing stiffness", options.order);
+      fmt::format("Undamped critical speeds of order {:g} over bearing stiffness", found.order);
   Panel p;
   p.x = {.title =
              map.is_common ? "stiffness of each bearing [N/m]" : "stiffness of the bearings, times",
          .scale = Scale::logarithmic};
   p.y = {.title = "critical speed [rpm]", .scale = Scale::logarithmic};
-  double low = map.top;
-  for (const CriticalMapBranch& branch : map.branches) low = std::min(low, branch.speed.front());
-  const Axis shown = axis_around({low / rpm, map.top / rpm}, Scale::logarithmic);
+  p.curves = branch_curves(map);
+  double low = map.top / rpm;
+  for (const Curve& c : p.curves) {
+    for (const double speed : c.y) low = std::min(low, speed);
+  }
+  const Axis shown = axis_around({low, map.top / rpm}, Scale::logarithmic);
   p.y.first = shown.first;
   p.y.last = map.top / rpm;  // branches leave the map here: above it not all are known
-  p.curves = branch_curves(map);
   if (map.is_common) {
-    draw_bearings(map, low, p);
+    draw_bearings(map, p);
   } else {
     p.rules.push_back({Rule::Kind::vertical, 1.0, "of the model", Paint::gray, Dash::dashed});
   }

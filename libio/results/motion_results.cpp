@@ -5,6 +5,7 @@
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libfe/critical_map.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/result_schema.hpp"
 
@@ -78,6 +79,16 @@ void write_rest(ResultWriter& file, const StaticStudy& study) {
   write_result(file, study.at_rest);
   if (!study.on_films.films.empty()) write_result(file, study.on_films);
   if (study.line.z.size() > 0) write_result(file, study.line);
+}
+
+void write_criticals(ResultWriter& file, const Structure& structure, const CriticalSpeeds& found) {
+  write_result(file, found);
+  try {
+    const CriticalMap map = critical_map_of(structure, found);
+    if (!map.branches.empty()) write_result(file, map);
+  } catch (const NumericalError&) {
+    return;
+  }
 }
 
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler) {

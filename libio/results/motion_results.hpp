@@ -1,5 +1,5 @@
 #pragma once
-/// Rest, motions and where they end, to a result file and back.
+/// Rest, critical speeds, motions and where they end, to a result file and back.
 
 #include <optional>
 #include <string>
@@ -8,6 +8,7 @@
 #include "libdyn/motions/start.hpp"
 #include "libdyn/motions/static_study.hpp"
 #include "libdyn/studies/resonance_study.hpp"
+#include "libfe/critical.hpp"
 
 namespace whirl::inline io {
 
@@ -15,6 +16,11 @@ class ResultWriter;
 
 /// Groups of a rotor at rest: what its bearings and films carry, and how its shaft bends.
 void write_rest(ResultWriter& file, const StaticStudy& study);
+
+/// Groups /critical and /critical_map, which is solved here: nothing but a file shows it. A map that
+/// cannot be solved is left out; who draws it tells why.
+/// @param structure  that the speeds were found of
+void write_criticals(ResultWriter& file, const Structure& structure, const CriticalSpeeds& found);
 
 /// Group /points: nodes and bodies with their positions and names.
 void write_points(ResultWriter& file, const Model& model, const Assembler& assembler);

@@ -29,7 +29,7 @@
 #include "libdyn/system/stations.hpp"
 #include "libfe/bending.hpp"
 #include "libfe/campbell.hpp"
-#include "libfe/critical.hpp"
+#include "libfe/critical_map.hpp"
 #include "libfe/static.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/study_columns.hpp"
@@ -72,6 +72,7 @@ std::vector<ResultSet> stated_schema() {
   add(schema_of<OrbitSeries>());
   add(schema_of<ClassificationResult>());
   add(schema_of<CriticalSpeeds>());
+  add(schema_of<CriticalMap>());
   add(schema_of<UnbalanceStudy>());
   add(schema_of<ModesOver>());
   add(schema_of<CriticalOver>());

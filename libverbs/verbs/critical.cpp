@@ -2,6 +2,7 @@
 
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
+#include "libio/results/motion_results.hpp"
 #include "libio/texts/modes_text.hpp"
 #include "libio/texts/over_text.hpp"
 #include "libverbs/command/reporting.hpp"
@@ -36,11 +37,11 @@ Report run_critical_over(const Invocation& call, const CriticalVerbOptions& opti
 Report run_critical(const Invocation& call, const CriticalVerbOptions& options) {
   if (runs_over(options.axes)) return run_critical_over(call, options);
   const Model model = call.model();
+  const Structure structure = linear_structure(model);
   const CriticalSpeeds found{
-      critical_speeds(Assembler(linear_structure(model)),
-                      {.count = *options.modes,
-                       .order = *options.order,
-                       .start = has_linear_films(model) ? model.speed : 0.0}),
+      critical_speeds(Assembler(structure), {.count = *options.modes,
+                                             .order = *options.order,
+                                             .start = has_linear_films(model) ? model.speed : 0.0}),
       *options.order};
   Report report = begin_report(call, model, record_of(found));
   report.text = text_of(found);
@@ -48,7 +49,8 @@ Report run_critical(const Invocation& call, const CriticalVerbOptions& options) 
   for (const Critical& c : found.criticals) speeds.push_back(c.speed);
   if (speeds.empty()) speeds = {model.speed};
   report.add_notes(linear_notes(model, speeds));
-  write_file(call, model, report, [&](ResultWriter& file) { write_result(file, found); });
+  write_file(call, model, report,
+             [&](ResultWriter& file) { write_criticals(file, structure, found); });
   return report;
 }
 

@@ -82,7 +82,7 @@ Report run_lateral(const Invocation& call, const LateralVerbOptions& options) {
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
     write_result(file, study.report);
-    write_result(file, study.criticals);
+    write_criticals(file, linear_structure(model), study.criticals);
     write_result(file, study.campbell);
     write_rest(file, rest);
   });
