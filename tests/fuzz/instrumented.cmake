@@ -7,6 +7,7 @@ target_compile_options(whirl_options INTERFACE
 target_link_options(whirl_options INTERFACE -fsanitize=address,undefined -fno-sanitize=vptr)
 
 find_package(SUNDIALS 6.4 REQUIRED)
+find_package(Ceres 2.1 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(highway REQUIRED IMPORTED_TARGET GLOBAL libhwy)
@@ -15,7 +16,7 @@ target_link_libraries(whirl_solvers INTERFACE
   ${WHIRL_FUZZ_SOLVERS}/libdyn/libwhirl_dyn.a ${WHIRL_FUZZ_SOLVERS}/libfe/libwhirl_fe.a
   ${WHIRL_FUZZ_SOLVERS}/libbase/libwhirl_base.a
   SUNDIALS::cvode SUNDIALS::arkode SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunmatrixdense
-  SUNDIALS::sunlinsoldense SUNDIALS::sunnonlinsolfixedpoint PkgConfig::highway quadmath
+  SUNDIALS::sunlinsoldense SUNDIALS::sunnonlinsolfixedpoint Ceres::ceres PkgConfig::highway quadmath
   Threads::Threads)
 
 # Meshing, errors and readings of records, which see what was read, are compiled for the fuzzer too. The solvers' library may hold
