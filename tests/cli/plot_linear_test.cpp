@@ -105,6 +105,29 @@ table = "k.csv"
     for (const json& c : r["criticals"]) is_critical |= near(c["speed_rpm"]);
     EXPECT_TRUE(is_critical) << Omega / rpm;
   }
+  // what is drawn is in the file
+  const auto stored = read_result<CriticalMap>(view.file);
+  const CriticalMap solved = critical_map_of(view.assembler->structure(),
+                                             read_result<CriticalSpeeds>(view.file));
+  EXPECT_EQ(stored.x, solved.x);
+  EXPECT_EQ(stored.top, solved.top);
+  ASSERT_EQ(stored.branches.size(), solved.branches.size());
+  for (std::size_t i = 0; i < solved.branches.size(); ++i) {
+    for (std::size_t k = 0; k < solved.x.size(); ++k) {
+      const double speed = stored.branches[i].speed.at(k);
+      EXPECT_TRUE(speed == solved.branches[i].speed[k] || std::isnan(speed)) << i << " " << k;
+      EXPECT_EQ(std::isnan(speed), std::isnan(solved.branches[i].speed[k]));
+    }
+  }
+  ASSERT_EQ(stored.curves.size(), 2u);
+  EXPECT_EQ(stored.curves[1].name, "Kyy");
+  EXPECT_EQ(stored.curves[1].stiffness, solved.curves[1].stiffness);
+  ASSERT_EQ(stored.crossings.size(), crossings.y.size());
+  for (std::size_t i = 0; i < crossings.y.size(); ++i) {
+    EXPECT_EQ(stored.crossings[i].curve, solved.crossings[i].curve);
+    EXPECT_EQ(stored.crossings[i].branch, solved.crossings[i].branch);
+    EXPECT_EQ(stored.crossings[i].speed / rpm, crossings.y[i]);
+  }
 }
 
 // The sag of a shaft between bearings: reactions bear the rotor's weight, the moment is zero at both
