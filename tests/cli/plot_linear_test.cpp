@@ -4,6 +4,8 @@
 
 #include <regex>
 
+#include "libfe/critical_map.hpp"
+#include "libio/results/columns.hpp"
 #include "tests/cli/plots.hpp"
 
 namespace whirl::test {
