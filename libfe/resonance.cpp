@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "libbase/roots.hpp"
+
 namespace whirl::inline fe {
 
 namespace {
@@ -26,52 +28,65 @@ double interpolated(const std::vector<double>& speeds, const std::vector<double>
   return sum;
 }
 
-/// Senses in which a mode is seen: 1 forward, -1 backward.
-std::vector<int> senses(Whirl whirl) {
-  if (whirl == Whirl::forward) return {1};
-  if (whirl == Whirl::backward) return {-1};
-  return {1, -1};
+/// A branch, seen from the rotor with its motion in one sense: |Omega - s omega|.
+struct SeenBranch {
+  int number = 0;
+  int sense = 1;  ///< s: 1 forward, -1 backward
+  const std::vector<double>& speeds;
+  const std::vector<double>& frequency;
+
+  bool is_between(std::size_t i) const { return std::isfinite(frequency[i] + frequency[i + 1]); }
+  /// @param i  of the speed below
+  double at(std::size_t i, double Omega) const {
+    return std::abs(Omega - sense * interpolated(speeds, frequency, i, Omega));
+  }
+};
+
+/// All branches in all senses that they may have; those of mixed or no sense twice.
+std::vector<SeenBranch> seen_branches(const Campbell& diagram) {
+  std::vector<SeenBranch> all;
+  for (std::size_t b = 0; b < diagram.branches.size(); ++b) {
+    const CampbellBranch& branch = diagram.branches[b];
+    for (const int sense : {1, -1}) {
+      if (branch.whirl == (sense == 1 ? Whirl::backward : Whirl::forward)) continue;
+      all.push_back({static_cast<int>(b), sense, diagram.speeds, branch.frequency});
+    }
+  }
+  return all;
+}
+
+/// Adds where q times one frequency is p times the other.
+void add_meetings(const SeenBranch& a, const SeenBranch& b, int p, int q,
+                  std::vector<InternalResonance>& found) {
+  constexpr double tolerance = 1e-12;  // of the speed
+  constexpr double still = 1e-6;       // of the speed: a motion that does not move on the rotor
+  const std::vector<double>& speeds = a.speeds;
+  for (std::size_t i = 0; i + 1 < speeds.size(); ++i) {
+    if (!a.is_between(i) || !b.is_between(i)) continue;
+    const auto gap = [&](double Omega) { return q * a.at(i, Omega) - p * b.at(i, Omega); };
+    const double before = gap(speeds[i]), after = gap(speeds[i + 1]);
+    if ((before > 0.0) == (after > 0.0)) continue;
+    const double Omega = bracketed_root(gap, speeds[i], before, speeds[i + 1], after,
+                                        tolerance * std::abs(speeds[i + 1]));
+    const double frequency = b.at(i, Omega) / q;
+    if (Omega > 0.0 && frequency > still * Omega) {
+      found.push_back({Omega, p, q, a.number, b.number, frequency});
+    }
+  }
 }
 
 }  // namespace
 
 std::vector<InternalResonance> internal_resonances(const Campbell& diagram, int largest) {
-  const std::vector<double>& speeds = diagram.speeds;
+  const std::vector<SeenBranch> branches = seen_branches(diagram);
   std::vector<InternalResonance> found;
-  const int branches = static_cast<int>(diagram.branches.size());
-  for (int a = 0; a < branches; ++a) {
-    for (int b = 0; b < branches; ++b) {
-      const CampbellBranch &A = diagram.branches[static_cast<std::size_t>(a)],
-                           &B = diagram.branches[static_cast<std::size_t>(b)];
-      if (a == b) continue;
+  for (const SeenBranch& a : branches) {
+    for (const SeenBranch& b : branches) {
+      if (a.number == b.number) continue;
       for (int p = 1; p <= largest; ++p) {
         for (int q = 1; q <= p; ++q) {
-          if (std::gcd(p, q) != 1 || (p == q && a > b)) continue;
-          for (const int s : senses(A.whirl)) {
-            for (const int t : senses(B.whirl)) {
-              const auto seen = [&](const CampbellBranch& of, int sense, std::size_t i, double W) {
-                return std::abs(W - sense * interpolated(speeds, of.frequency, i, W));
-              };
-              for (std::size_t i = 0; i + 1 < speeds.size(); ++i) {
-                if (!std::isfinite(A.frequency[i] + A.frequency[i + 1] + B.frequency[i] +
-                                   B.frequency[i + 1])) {
-                  continue;
-                }
-                const auto gap = [&](double W) {
-                  return q * seen(A, s, i, W) - p * seen(B, t, i, W);
-                };
-                double low = speeds[i], high = speeds[i + 1];
-                const double at_low = gap(low);
-                if ((at_low > 0.0) == (gap(high) > 0.0)) continue;
-                for (int k = 0; k < 60 && high - low > 1e-12 * high; ++k) {
-                  const double middle = 0.5 * (low + high);
-                  ((gap(middle) > 0.0) == (at_low > 0.0) ? low : high) = middle;
-                }
-                const double W = 0.5 * (low + high), frequency = seen(B, t, i, W) / q;
-                if (W > 0.0 && frequency > 1e-6 * W) found.push_back({W, p, q, a, b, frequency});
-              }
-            }
-          }
+          const bool is_other_way_round = p == q && a.number > b.number;
+          if (std::gcd(p, q) == 1 && !is_other_way_round) add_meetings(a, b, p, q, found);
         }
       }
     }

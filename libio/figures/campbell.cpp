@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libbase/interpolation.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
@@ -71,13 +72,11 @@ void mark_operation(const ResultView& result, Panel& panel) {
       {Rule::Kind::vertical, speed, "operating speed", Paint::gray, Dash::dotted});
 }
 
-/// A number along a row at a place between its columns.
+/// A number along a row at a place between its columns; NaN beyond them.
 double between(const std::vector<double>& x, const Mat& m, Eigen::Index i, double at) {
-  const auto upper = std::upper_bound(x.begin(), x.end(), at);
-  if (upper == x.begin() || upper == x.end()) return std::nan("");
-  const auto k = static_cast<Eigen::Index>(upper - x.begin());
-  const double share = (at - *(upper - 1)) / (*upper - *(upper - 1));
-  return m(i, k - 1) + share * (m(i, k) - m(i, k - 1));
+  if (x.empty() || at < x.front() || at > x.back()) return std::nan("");
+  const std::vector<double> row = numbers(Vec(m.row(i)));
+  return interpolated(x, row, at, Interpolation::linear);
 }
 
 /// Marks of internal resonances, a line between both branches, and their table. Those at which bouncing

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "libbase/constants.hpp"
+#include "libbase/interpolation.hpp"
 #include "libdyn/measured/measured_identification.hpp"
 #include "libdyn/measured/order_tracking.hpp"
 #include "libdyn/measured/station_motion.hpp"
@@ -108,15 +110,6 @@ std::vector<Figure> order_polar_figures(const ResultView& result) {
   return figures;
 }
 
-/// A number between the samples of a signal, by a straight line.
-double between(const Vec& time, const Vec& signal, double t) {
-  const double* begin = time.data();
-  const double* above = std::upper_bound(begin + 1, begin + time.size() - 1, t);
-  const Eigen::Index i = above - begin - 1;
-  const double share = (t - time(i)) / (time(i + 1) - time(i));
-  return signal(i) + share * (signal(i + 1) - signal(i));
-}
-
 /// A record's last revolutions.
 struct LastRevolutions {
   double from = 0.0;  ///< when they begin [s]
@@ -161,10 +154,15 @@ std::vector<Figure> measured_orbit_figures(const ResultView& result) {
     c.width = 1.2;
     Curve dots{.name = "key-phasor", .paint = Paint::alarm, .has_line = false};
     dots.has_marker = true;
+    const auto at = [&](const Vec& signal, double t) {
+      const auto size = static_cast<std::size_t>(n);
+      return interpolated(std::span(record.time.data(), size), std::span(signal.data(), size), t,
+                          Interpolation::linear);
+    };
     for (const double t : record.turns) {
       if (t < record.time(from) || t > record.time(n - 1)) continue;
-      dots.x.push_back(unit.factor * between(record.time, s.x, t));
-      dots.y.push_back(unit.factor * between(record.time, s.y, t));
+      dots.x.push_back(unit.factor * at(s.x, t));
+      dots.y.push_back(unit.factor * at(s.y, t));
     }
     p.curves = {std::move(c)};
     if (!dots.x.empty()) p.curves.push_back(std::move(dots));
