@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
   double least = 1.0, most = 0.0;
   for (const Trajectory& t : motions) {
     if (t.outcome != Outcome::reached_end) return 1;
-    const double duty = t.contacts.at(0).duty / (50 * t.system->period());  // a time here
+    const double duty = t.contacts.at(0).in_touch / (50 * t.system->period());
     least = std::min(least, duty);
     most = std::max(most, duty);
   }

@@ -207,8 +207,7 @@ AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double toleranc
                 t,
                 {.tolerance = tolerance, .measures = true, .tangent = wanted == WithTangent::yes});
             if (t.outcome != Outcome::reached_end) return {.failure = t.failure};
-            to_shares(t.contacts, time);
-            AutonomousFlow::Result at{.end = t.state.y, .contacts = std::move(t.contacts)};
+            AutonomousFlow::Result at{.end = t.state.y, .contacts = shares_of(t.contacts, time)};
             if (wanted == WithTangent::yes) at.tangent = t.tangent * R;
             return at;
           },

@@ -7,13 +7,11 @@
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
 #include "libdyn/system/require_coordinates.hpp"
-#include "libdyn/taylor/batch.hpp"
+#include "libdyn/taylor/mixed.hpp"
 
 namespace whirl::inline dyn {
 
 namespace {
-
-constexpr std::size_t few = 2;  ///< trajectories that are faster one by one than in lanes
 
 std::vector<FlowResult> pass(const ContactSystem& system, double tolerance,
                              std::span<const Vec> starts, long revolutions, WithTangent tangents) {
@@ -27,11 +25,7 @@ std::vector<FlowResult> pass(const ContactSystem& system, double tolerance,
                          .threads = 1,
                          .measures = true,
                          .tangent = tangents == WithTangent::yes};
-  if (all.size() > few) {
-    integrate_batch(all, how);
-  } else {
-    for (Trajectory& t : all) integrate_single(t, how);
-  }
+  integrate_mixed(all, how);
   std::vector<FlowResult> passages;
   for (Trajectory& t : all) {
     FlowResult p{std::move(t.state.y), std::move(t.tangent), std::move(t.contacts), {}};

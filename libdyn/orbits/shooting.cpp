@@ -20,21 +20,11 @@ constexpr double same_state = 1e-6;  ///< of states after a shorter period
 
 /// Sums of what contacts did in the segments, as shares of the whole.
 std::vector<ContactMeasure> shares(const std::vector<FlowResult>& passages, double whole) {
-  std::vector<ContactMeasure> sum = passages.front().contacts;
+  std::vector<ContactTimes> sum = passages.front().contacts;
   for (std::size_t i = 1; i < passages.size(); ++i) {
-    for (std::size_t c = 0; c < sum.size(); ++c) {
-      const ContactMeasure& m = passages[i].contacts[c];
-      sum[c].duty += m.duty;
-      sum[c].impacts += m.impacts;
-      sum[c].sticking += m.sticking;
-      sum[c].max_normal = std::max(sum[c].max_normal, m.max_normal);
-      sum[c].max_tangential = std::max(sum[c].max_tangential, m.max_tangential);
-      sum[c].touch_time += m.touch_time;
-    }
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c].append(passages[i].contacts[c]);
   }
-  for (ContactMeasure& m : sum) m.mean_slip = std::numeric_limits<double>::quiet_NaN();
-  to_shares(sum, whole);
-  return sum;
+  return shares_of(sum, whole);
 }
 
 /// @throws OptionError  where segments are not as long as the map takes to repeat, or a multiple

@@ -15,8 +15,8 @@ namespace whirl::inline dyn {
 /// What becomes of one start.
 struct FlowResult {
   Vec end;
-  Mat tangent;                           ///< derivative of the end by the start
-  std::vector<ContactMeasure> contacts;  ///< times, not shares; empty: there are no contacts
+  Mat tangent;                         ///< derivative of the end by the start
+  std::vector<ContactTimes> contacts;  ///< empty: there are no contacts
   Failure failure;
 };
 

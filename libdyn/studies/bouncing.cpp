@@ -147,7 +147,7 @@ std::optional<Bouncing> find_bouncing(
     int tried = 0;
     for (const Trajectory& t : motions) {
       const bool bounces = std::any_of(t.contacts.begin(), t.contacts.end(),
-                                       [](const ContactMeasure& c) { return c.impacts > 1.0; });
+                                       [](const ContactTimes& c) { return c.impacts > 1.0; });
       if (t.outcome != Outcome::reached_end || !bounces || tried == tried_orbits) continue;
       ++tried;
       const auto guess = recurrence(*scene, t.state.y, most_recurrence);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "libbase/constants.hpp"
 #include "libbase/dense.hpp"
@@ -159,13 +158,7 @@ class BatchClassifier {
   static void append(const Trajectory& later, Trajectory& to) {
     to.sections.insert(to.sections.end(), later.sections.begin(), later.sections.end());
     for (std::size_t i = 0; i < later.contacts.size(); ++i) {
-      ContactMeasure& m = to.contacts[i];
-      const ContactMeasure& add = later.contacts[i];
-      m.duty += add.duty;
-      m.impacts += add.impacts;
-      m.sticking += add.sticking;
-      m.max_normal = std::max(m.max_normal, add.max_normal);
-      m.max_tangential = std::max(m.max_tangential, add.max_tangential);
+      to.contacts[i].append(later.contacts[i]);
     }
   }
 
@@ -173,9 +166,7 @@ class BatchClassifier {
   void take_measures(const Trajectory& t, Classification& to) const {
     to.contacts.clear();
     if (to.revolutions == 0) return;
-    to.contacts = t.contacts;
-    for (ContactMeasure& m : to.contacts) m.mean_slip = std::numeric_limits<double>::quiet_NaN();
-    to_shares(to.contacts, t.system->period() * static_cast<double>(to.revolutions));
+    to.contacts = shares_of(t.contacts, t.system->period() * static_cast<double>(to.revolutions));
     if (options_.sections == 0) return;
     const auto size = static_cast<std::ptrdiff_t>(2 * t.system->coordinates());
     const auto kept = std::min(std::ssize(t.sections), options_.sections * size);

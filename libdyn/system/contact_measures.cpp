@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "libbase/constants.hpp"
+
 namespace whirl::inline dyn {
 
 namespace {
@@ -23,7 +25,7 @@ ContactMeter::ContactMeter(const ContactSystem& system)
       sums_(static_cast<std::size_t>(system.owners())),
       was_in_touch_(system.contacts().size()) {
   for (const ReducedContact& c : system.contacts()) {
-    sums_[static_cast<std::size_t>(c.owner)].name = c.name;
+    sums_[static_cast<std::size_t>(c.owner)].times.name = c.name;
   }
 }
 
@@ -33,7 +35,7 @@ void ContactMeter::add(const Step& step) {
                                [](const ContactState& c) { return c.in_touch(); });
   const auto contacts = step.contacts.size();
   std::vector<std::array<double, points + 1>> normal(contacts), friction(contacts);
-  const auto sum_of = [&](std::size_t i) -> ContactMeasure& {
+  const auto sum_of = [&](std::size_t i) -> Sum& {
     return sums_[static_cast<std::size_t>(system_.contacts()[i].owner)];
   };
   if (any) {
@@ -47,7 +49,7 @@ void ContactMeter::add(const Step& step) {
         normal[i][static_cast<std::size_t>(k)] = forces[i].normal;
         friction[i][static_cast<std::size_t>(k)] = std::abs(forces[i].friction);
         const double weight = (k == 0 || k == points ? 0.5 : 1.0) / points;
-        if (step.contacts[i].in_touch()) sum_of(i).mean_slip += weight * step.h * forces[i].slip;
+        if (step.contacts[i].in_touch()) sum_of(i).slip += weight * step.h * forces[i].slip;
       }
     }
   }
@@ -55,11 +57,12 @@ void ContactMeter::add(const Step& step) {
   for (std::size_t i = 0; i < contacts; ++i) {
     const bool in_touch = step.contacts[i].in_touch();
     if (in_touch) {
-      ContactMeasure& m = sum_of(i);
+      Sum& sum = sum_of(i);
+      ContactTimes& m = sum.times;
       char& touches_already = touches[static_cast<std::size_t>(system_.contacts()[i].owner)];
-      if (!touches_already) m.duty += step.h;
+      if (!touches_already) m.in_touch += step.h;
       touches_already = 1;
-      m.touch_time += step.h;
+      sum.touches += step.h;
       if (step.contacts[i].touch == Touch::sticking) m.sticking += step.h;
       for (std::size_t k = 1; k < points; ++k) {
         m.max_normal =
@@ -75,20 +78,38 @@ void ContactMeter::add(const Step& step) {
 }
 
 std::vector<ContactMeasure> ContactMeter::measures() const {
-  std::vector<ContactMeasure> result = sums_;
-  for (ContactMeasure& m : result) {
-    m.mean_slip = m.touch_time > 0.0 ? m.mean_slip / m.touch_time : 0.0;
+  std::vector<ContactTimes> times;
+  for (const Sum& sum : sums_) times.push_back(sum.times);
+  std::vector<ContactMeasure> all = shares_of(times, time_);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].touch_time = sums_[i].touches;
+    all[i].mean_slip = sums_[i].touches > 0.0 ? sums_[i].slip / sums_[i].touches : 0.0;
   }
-  to_shares(result, time_);
-  return result;
+  return all;
 }
 
-void to_shares(std::vector<ContactMeasure>& times, double whole) {
-  for (ContactMeasure& m : times) {
+void ContactTimes::append(const ContactTimes& later) {
+  in_touch += later.in_touch;
+  sticking += later.sticking;
+  impacts += later.impacts;
+  max_normal = std::max(max_normal, later.max_normal);
+  max_tangential = std::max(max_tangential, later.max_tangential);
+}
+
+std::vector<ContactMeasure> shares_of(const std::vector<ContactTimes>& times, double whole) {
+  std::vector<ContactMeasure> all;
+  for (const ContactTimes& t : times) {
     // summed in another order than the whole, "always" may miss one by rounding
-    m.duty = m.duty > (1.0 - 1e-12) * whole ? 1.0 : m.duty / whole;
-    m.sticking /= whole;
+    const bool is_always = t.in_touch > (1.0 - 1e-12) * whole;
+    all.push_back({.name = t.name,
+                   .duty = is_always ? 1.0 : t.in_touch / whole,
+                   .impacts = t.impacts,
+                   .sticking = t.sticking / whole,
+                   .max_normal = t.max_normal,
+                   .max_tangential = t.max_tangential,
+                   .mean_slip = nan});
   }
+  return all;
 }
 
 ContactDoing contact_doing(const ContactMeasure& measure, long revolutions) {

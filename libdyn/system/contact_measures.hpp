@@ -18,6 +18,19 @@ constexpr auto choices(Regime) {
                     Choice<Regime>{"permanent", Regime::permanent}};
 }
 
+/// What a contact of the model did over a stretch of motion: times, which add up.
+struct ContactTimes {
+  std::string name;
+  double in_touch = 0.0;        ///< with any of its blades [s]
+  double sticking = 0.0;        ///< [s]
+  double impacts = 0.0;         ///< times it began to touch, all blades together
+  double max_normal = 0.0;      ///< of one blade [N]
+  double max_tangential = 0.0;  ///< of one blade [N]
+
+  /// Adds what it did in the stretch that follows.
+  void append(const ContactTimes& later);
+};
+
 /// What a contact of the model does; of one with blades, what they do together.
 struct ContactMeasure {
   std::string name;
@@ -57,8 +70,8 @@ struct ContactDoing {
 /// @param revolutions  that the measure is of; impacts of none are those of one
 ContactDoing contact_doing(const ContactMeasure& measure, long revolutions);
 
-/// Turns times in touch and sticking into shares of a whole [s].
-void to_shares(std::vector<ContactMeasure>& times, double whole);
+/// Times as shares of a whole [s]; nothing is known of slips then: NaN.
+std::vector<ContactMeasure> shares_of(const std::vector<ContactTimes>& times, double whole);
 
 /// Collects measures from the steps of a motion.
 class ContactMeter {
@@ -71,8 +84,14 @@ class ContactMeter {
   std::vector<ContactMeasure> measures() const;
 
  private:
+  struct Sum {
+    ContactTimes times;
+    double touches = 0.0;  ///< time in touch, summed over blades [s]
+    double slip = 0.0;     ///< over that time [m]
+  };
+
   const ContactSystem& system_;
-  std::vector<ContactMeasure> sums_;  // times instead of shares
+  std::vector<Sum> sums_;
   std::vector<bool> was_in_touch_;
   bool has_begun_ = false;
   double time_ = 0.0;

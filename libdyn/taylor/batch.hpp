@@ -22,9 +22,9 @@ struct Trajectory {
   Outcome outcome = Outcome::reached_end;
   Failure failure;
   Cost cost;
-  std::vector<double> sections;          ///< states at the ends of revolutions, if asked for
-  std::vector<ContactMeasure> contacts;  ///< of all revolutions, if asked for (times, not shares)
-  Vec exponents;                         ///< Lyapunov exponents, descending, if asked for [1/s]
+  std::vector<double> sections;        ///< states at the ends of revolutions, if asked for
+  std::vector<ContactTimes> contacts;  ///< of all revolutions, if asked for
+  Vec exponents;                       ///< Lyapunov exponents, descending, if asked for [1/s]
   /// Logarithms of what the columns of tangents have grown by at the ends of revolutions, 2 n after
   /// 2 n, if asked for; the last ones over the time are the exponents, before they are sorted.
   std::vector<double> growths;

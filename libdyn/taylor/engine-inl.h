@@ -347,9 +347,9 @@ HWY_ATTR void Engine<P>::unload(int l) {
     for (size_t c = 0; c < contacts_.size(); ++c) {
       const ContactLanes<P>& from = contacts_[c];
       const ReducedContact& contact = t.system->contacts()[c];
-      ContactMeasure& m = t.contacts[static_cast<size_t>(contact.owner)];
+      ContactTimes& m = t.contacts[static_cast<size_t>(contact.owner)];
       m.name = contact.name;
-      m.duty += lane(from.duty, l);
+      m.in_touch += lane(from.duty, l);
       m.sticking += lane(from.stuck, l);
       m.impacts += record.impacts[c];
       m.max_normal = std::max(m.max_normal, lane(from.max_normal, l));

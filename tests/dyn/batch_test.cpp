@@ -31,9 +31,9 @@ test::Trajectories random_rotors(int size, bool are_damped = false, bool are_her
   return sample;
 }
 
-bool is_same(const std::vector<ContactMeasure>& a, const std::vector<ContactMeasure>& b) {
+bool is_same(const std::vector<ContactTimes>& a, const std::vector<ContactTimes>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.duty == y.duty && x.sticking == y.sticking && x.impacts == y.impacts &&
+    return x.in_touch == y.in_touch && x.sticking == y.sticking && x.impacts == y.impacts &&
            x.max_normal == y.max_normal && x.max_tangential == y.max_tangential;
   });
 }
@@ -177,8 +177,8 @@ TEST(Batch, MeasuresContactsAsTheMeterDoes) {
       return true;
     });
     const ContactMeasure expected = meter.measures()[0];
-    const ContactMeasure& m = batch[i].contacts[0];
-    EXPECT_NEAR(m.duty / (10.0 * system.period()), expected.duty, 1e-12);
+    const ContactTimes& m = batch[i].contacts[0];
+    EXPECT_NEAR(m.in_touch / (10.0 * system.period()), expected.duty, 1e-12);
     EXPECT_NEAR(m.sticking / (10.0 * system.period()), expected.sticking, 1e-12);
     EXPECT_EQ(m.impacts, expected.impacts);
     EXPECT_NEAR(m.max_normal, expected.max_normal, sampling * expected.max_normal);

@@ -272,7 +272,7 @@ TEST(BladeTips, AreMeasuredAsOneContact) {
   EXPECT_EQ(measures[1].name, "seal");
   const double time = 4.0 * scene.contacts.period();
   for (const std::size_t i : {0u, 1u}) {
-    EXPECT_NEAR(measures[i].duty, t.contacts[i].duty / time, 1e-9);
+    EXPECT_NEAR(measures[i].duty, t.contacts[i].in_touch / time, 1e-9);
     EXPECT_GT(measures[i].duty, 0.01);
     EXPECT_NEAR(measures[i].max_normal, t.contacts[i].max_normal, 1e-9 * t.contacts[i].max_normal);
     EXPECT_NEAR(measures[i].impacts, t.contacts[i].impacts, 1.0);

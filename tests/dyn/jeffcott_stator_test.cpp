@@ -53,10 +53,10 @@ TEST(JeffcottStator, ContactBeginsWhereTheLinearResponseReachesTheGap) {
     rotors.push_back({.Omega = Omega, .kC = 100e6});
   }
   const auto [scenes, all] = motions_of(rotors, 1000, 50, {.measures = true});
-  EXPECT_EQ(all[0].contacts[0].duty, 0.0);
-  EXPECT_EQ(all[1].contacts[0].duty, 0.0);
-  EXPECT_GT(all[2].contacts[0].duty, 0.0);
-  EXPECT_GT(all[3].contacts[0].duty, 0.0);
+  EXPECT_EQ(all[0].contacts[0].in_touch, 0.0);
+  EXPECT_EQ(all[1].contacts[0].in_touch, 0.0);
+  EXPECT_GT(all[2].contacts[0].in_touch, 0.0);
+  EXPECT_GT(all[3].contacts[0].in_touch, 0.0);
 }
 
 // At mu = 0.1 and 100 MN/m the rotor stays in contact all around between 142.5 and 160 rad/s (paper:
@@ -68,7 +68,7 @@ TEST(JeffcottStator, RubsAllAroundAtMediumSpeeds) {
   }
   const auto [scenes, all] = motions_of(rotors, 1000, 50, {.measures = true});
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double share = all[i].contacts[0].duty / (50.0 * all[i].system->period());
+    const double share = all[i].contacts[0].in_touch / (50.0 * all[i].system->period());
     EXPECT_EQ(share > 1.0 - 1e-9, i > 0) << share;
   }
 }

@@ -404,7 +404,7 @@ Rub carried_to(double Omega, MotionState& state, long revolutions) {
   integrate_single(t, options);
   EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
   state = t.state;
-  return {t.contacts[0].impacts / 16.0, t.contacts[0].duty / (16.0 * scene.contacts.period())};
+  return {t.contacts[0].impacts / 16.0, t.contacts[0].in_touch / (16.0 * scene.contacts.period())};
 }
 
 // "Double-rotor system under the coupling of rubbing and oil-film force", found with the usual set of

@@ -181,7 +181,7 @@ TEST(BladeSeal, ComesBackToRubByAJumpNear5400Rpm) {
     integrate_single(t, {.tolerance = 1e-9, .measures = true});
     EXPECT_EQ(t.outcome, Outcome::reached_end) << t.failure;
     state = t.state;
-    return std::max(t.contacts.at(0).duty, t.contacts.at(1).duty);
+    return std::max(t.contacts.at(0).in_touch, t.contacts.at(1).in_touch);
   };
   EXPECT_EQ(duty_at(5600.0), 0.0);
   EXPECT_EQ(duty_at(5450.0), 0.0);

@@ -80,7 +80,7 @@ inline void expect_same_alone(const std::vector<Scene>& scenes,
       integrate_single(alone[i], options);
       EXPECT_EQ(batch[i].state.y, alone[i].state.y) << i;
       for (std::size_t c = 0; c < alone[i].contacts.size(); ++c) {
-        EXPECT_EQ(batch[i].contacts[c].duty, alone[i].contacts[c].duty) << i;
+        EXPECT_EQ(batch[i].contacts[c].in_touch, alone[i].contacts[c].in_touch) << i;
         EXPECT_EQ(batch[i].contacts[c].max_normal, alone[i].contacts[c].max_normal) << i;
       }
       if (tangent) {
