@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <utility>
 
@@ -36,6 +37,17 @@ Mat readings_in(const FitMeasurement& m) {
   return m.readings.displacement.middleRows(m.span.first, m.span.samples).transpose();
 }
 
+/// Samples of the span at which a probe reads nothing.
+std::vector<Eigen::Index> missing_in(const FitMeasurement& m, Eigen::Index probe) {
+  std::vector<Eigen::Index> all;
+  if (m.readings.missing.empty()) return all;
+  for (const Eigen::Index sample : m.readings.missing[static_cast<std::size_t>(probe)]) {
+    const Eigen::Index place = sample - m.span.first;
+    if (place >= 0 && place < m.span.samples) all.push_back(place);
+  }
+  return all;
+}
+
 FitRecord fit_record(const FitMeasurement& m, const MeasuredFitOptions& options) {
   const auto& noise = options.noise;
   const FitSpan& span = m.span;
@@ -57,6 +69,11 @@ FitRecord fit_record(const FitMeasurement& m, const MeasuredFitOptions& options)
     if (own > 0.0) continue;
     throw OptionError(fmt::format("{}: probe \"{}\" reads one value all the time: take it out",
                                   m.name, m.readings.probes[static_cast<std::size_t>(probe)].name));
+  }
+  for (Eigen::Index probe = 0; probe < record.readings.rows(); ++probe) {
+    for (const Eigen::Index place : missing_in(m, probe)) {
+      record.readings(probe, place) = std::nan("");
+    }
   }
   if (options.period == 0) return record;
   return steady_record(record, span.speed, {.revolutions = options.period}).period;
@@ -170,6 +187,13 @@ Vec padded(const Vec& values, Eigen::Index size) {
   return all;
 }
 
+std::vector<double> finite(const Vec& values) {
+  std::vector<double> all;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(all),
+               [](double v) { return std::isfinite(v); });
+  return all;
+}
+
 /// Motions of stations, from readings of the span.
 /// @param displacement  samples x probes
 StationRecord stations_of(const FitMeasurement& m, Mat displacement) {
@@ -203,15 +227,17 @@ void add_motions(MeasuredFit& found, const std::vector<FitMeasurement>& measurem
       probe.noise = record.noise(row);
       probe.residual = found.records[i].of_probe(row);
       const Vec measured = record.readings.row(row).transpose();
-      probe.floor = noise_floor(measured);
+      probe.floor = noise_floor(filled(measured));
       probe.offset = found.records[i].offset(row);
       probe.offset_deviation = found.records[i].offset_deviation(row);
       probe.measured = padded(measured, samples);
       probe.predicted = padded(predicted.row(row).transpose(), samples);
-      const double squares = probe.residual * probe.residual * static_cast<double>(measured.size());
+      const std::vector<double> there = finite(measured);
+      const double squares = probe.residual * probe.residual * static_cast<double>(there.size());
       left += squares;
       over_floors += squares / (probe.floor * probe.floor);
-      all += (measured.array() - measured.mean()).square().sum();
+      const auto known = Vec::Map(there.data(), std::ssize(there)).array();
+      all += (known - known.mean()).square().sum();
       found.probes.push_back(std::move(probe));
     }
     const StationRecord measured = stations_of(m, record.readings.transpose());
@@ -232,7 +258,29 @@ void add_motions(MeasuredFit& found, const std::vector<FitMeasurement>& measurem
   }
 }
 
+void note_missing(MeasuredFit& found, const std::vector<FitMeasurement>& measurements) {
+  std::size_t count = 0;
+  for (const FitMeasurement& m : measurements) {
+    for (Eigen::Index p = 0; p < std::ssize(m.readings.probes); ++p)
+      count += missing_in(m, p).size();
+  }
+  if (count == 0) return;
+  found.notes.push_back(
+      fmt::format("{} missing sample{} left out of the fit, which lines are in place of elsewhere",
+                  count, count == 1 ? " is" : "s are"));
+}
+
+/// Notes a fit that is worse than no motion at all.
+void note_nonsense(MeasuredFit& found) {
+  if (found.explained > 0.0) return;
+  found.notes.push_back(
+      "the motion found explains less of the records than none would: are probes swapped, or is a "
+      "gain, a unit or the sign of an angle wrong? Do they read gaps, so that offsets are to be "
+      "found, too?");
+}
+
 void add_notes(MeasuredFit& found) {
+  note_nonsense(found);
   std::string names;
   double most = 0.0;
   for (const FittedProbe& p : found.probes) {
@@ -352,6 +400,7 @@ MeasuredFit fit(const std::vector<FitMeasurement>& measurements,
     found.log_likelihood = concentrated_likelihood(sources, found);
   }
   add_motions(found, measurements, sources);
+  note_missing(found, measurements);
   add_notes(found);
   return found;
 }

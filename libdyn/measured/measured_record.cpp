@@ -77,31 +77,36 @@ std::string Gaps::text(const MeasuredRecord& record) const {
                      samples, record.time(missing.front()));
 }
 
-Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::string& name,
-                 std::vector<Gaps>& gaps) {
-  Vec filled = samples;
+Vec filled(const Vec& samples) {
+  Vec all = samples;
   const Eigen::Index n = samples.size();
-  Gaps own{{name}, {}, n};
   Eigen::Index last_known = -1;
   for (Eigen::Index j = 0; j < n; ++j) {
-    if (!std::isfinite(samples(j))) {
-      own.missing.push_back(j);
-      continue;
-    }
+    if (!std::isfinite(samples(j))) continue;
     for (Eigen::Index k = last_known + 1; k < j; ++k) {
       const double share =
           static_cast<double>(k - last_known) / static_cast<double>(j - last_known);
       const double before = last_known < 0 ? samples(j) : samples(last_known);
-      filled(k) = before + share * (samples(j) - before);
+      all(k) = before + share * (samples(j) - before);
     }
     last_known = j;
   }
-  if (own.missing.empty()) return filled;
+  if (last_known >= 0) all.tail(n - 1 - last_known).setConstant(samples(last_known));
+  return all;
+}
+
+Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::string& name,
+                 std::vector<Gaps>& gaps) {
+  const Eigen::Index n = samples.size();
+  Gaps own{{name}, {}, n};
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (!std::isfinite(samples(j))) own.missing.push_back(j);
+  }
+  if (own.missing.empty()) return samples;
   if (static_cast<double>(own.missing.size()) > most_missing * static_cast<double>(n)) {
     throw OptionError(
         fmt::format("{}; expected at most {:g} %", own.text(record), 100.0 * most_missing));
   }
-  for (Eigen::Index k = last_known + 1; k < n; ++k) filled(k) = samples(last_known);
   const auto alike = std::find_if(gaps.begin(), gaps.end(),
                                   [&](const Gaps& g) { return g.missing == own.missing; });
   if (alike == gaps.end()) {
@@ -110,7 +115,7 @@ Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::st
              alike->channels.end()) {
     alike->channels.push_back(name);
   }
-  return filled;
+  return filled(samples);
 }
 
 bool is_clipped(const Vec& samples) {

@@ -42,6 +42,9 @@ struct Gaps {
   std::string text(const MeasuredRecord& record) const;
 };
 
+/// Samples with straight lines where there is no number; at the ends with the next number.
+Vec filled(const Vec& samples);
+
 /// Fills missing samples of a channel by straight lines between their neighbors.
 ///
 /// @param name  of the channel

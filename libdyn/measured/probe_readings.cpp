@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "libbase/error.hpp"
 
@@ -89,6 +90,10 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
     }
     channels.push_back(c);
     const Vec samples = without_gaps(record.samples.col(c), record, channel.name, gaps);
+    readings.missing.emplace_back();
+    for (Eigen::Index k = 0; k < samples.size(); ++k) {
+      if (!std::isfinite(record.samples(k, c))) readings.missing.back().push_back(k);
+    }
     note_channel(samples, record, channel.name, readings.notes);
     readings.displacement.col(static_cast<Eigen::Index>(i)) = metres_per_unit(channel, p) * samples;
     readings.probes.push_back(p.probe);

@@ -38,6 +38,8 @@ struct ProbeReadings {
   double start = 0.0;  ///< [s]
   std::vector<Probe> probes;
   Mat displacement;  ///< samples x probes [m]
+  std::vector<std::vector<Eigen::Index>>
+      missing{};  ///< per probe: samples that a line is in place of
   std::optional<TurnClock> clock{};
   std::vector<std::string> notes{};  ///< what is wrong with the record and could be helped
 

@@ -34,10 +34,25 @@ std::shared_ptr<const Scene> scene_for(const ModelFamily& family, const FreePara
       corrected_scene(*family.scene(starts), family.model(starts), others));
 }
 
+/// @throws OptionError  where a record sets what is to be found
+void require_free(const RecordSource& source, const FreeParameters& free) {
+  for (const std::string& set : source.sets) {
+    const std::string path = set.substr(0, set.find('='));
+    for (const ParameterAxis& axis : free.axes) {
+      const std::vector<std::string> paths = axis.paths();
+      if (std::find(paths.begin(), paths.end(), path) == paths.end()) continue;
+      throw OptionError(fmt::format(
+          "sets {}, which is to be found: expected it to be free, or set by records, not both",
+          path));
+    }
+  }
+}
+
 FitMeasurement fit_measurement(const Model& model, const FreeParameters& free,
                                const SourcedRecord& record, const FitWindow& window,
                                std::vector<std::string>& notes) {
   const RecordSource& source = record.source;
+  require_free(source, free);
   Measurement m = measurement_of(with_values(model, source.sets), record);
   if (m.readings.probes.empty()) {
     throw OptionError("no probes read it: give --probes FILE.toml, or the model a [[probe]]");

@@ -1,6 +1,8 @@
 // Values of a model found in records: what the verb takes, says and refuses.
 
+#include <cctype>
 #include <cmath>
+#include <sstream>
 
 #include "tests/cli/program.hpp"
 
@@ -123,6 +125,59 @@ TEST_F(FitVerb, FitsSeveralRecordsAtOnce) {
             alone.at("parameters")[1].at("standard_deviation").get<double>());
 }
 
+// A thirtieth of the samples is missing, a stretch of each channel: what stands there for spectra is no
+// reading, and the values are those that the rest tells.
+TEST_F(FitVerb, LeavesMissingSamplesOut) {
+  std::istringstream whole(content(folder / "run.csv"));
+  std::string text;
+  int row = 0;
+  for (std::string line; std::getline(whole, line); ++row) {
+    const bool is_gap = row > 300 && row % 120 < 4;
+    if (const auto last = line.rfind(','); is_gap) {  // key stays
+      line = line.substr(0, line.find(',')) + ",,,," + line.substr(last);
+    }
+    text += line + "\n";
+  }
+  write("gaps.csv", text);
+  const json tree = found({"--measured", "gaps.csv", "--free",
+                           "contact.ring.stiffness,contact.ring.friction=0:0.3", "--set",
+                           "contact.ring.stiffness=5.5MN/m"});
+  ASSERT_TRUE(tree.at("converged").get<bool>());
+  EXPECT_TRUE(has_note(tree, "missing samples are left out of the fit")) << tree.at("notes");
+  EXPECT_NEAR(tree.at("residual").get<double>(), 1.0, 0.15);
+  expect_truth(tree.at("parameters")[0], 4e6);
+  expect_truth(tree.at("parameters")[1], 0.05);
+}
+
+// A probe reads its gap, a millimeter: no motion explains that, and the user is told where to look.
+TEST_F(FitVerb, SaysThatItExplainsNothing) {
+  std::istringstream whole(content(folder / "run.csv"));
+  std::string text;
+  for (std::string line; std::getline(whole, line);) {
+    const auto first = line.find(','), second = line.find(',', first + 1);
+    if (!line.empty() && std::isdigit(static_cast<unsigned char>(line.front()))) {
+      const double reading = std::stod(line.substr(first + 1));
+      line = line.substr(0, first + 1) + std::to_string(1000.0 + reading) + line.substr(second);
+    }
+    text += line + "\n";
+  }
+  write("gap.csv", text);
+  const std::vector<std::string> words{"--measured", "gap.csv", "--free",
+                                       "contact.ring.friction=0:0.3"};
+  const json tree = json::parse([&] {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--json", "-"});
+    return fit(all).out;
+  }());
+  EXPECT_LT(tree.at("explained").get<double>(), 0.0);
+  EXPECT_TRUE(has_note(tree, "so that offsets are to be found, too")) << tree.at("notes");
+  std::vector<std::string> with_offsets = words;
+  with_offsets.push_back("--offsets");
+  const json right = found(with_offsets);
+  EXPECT_FALSE(has_note(right, "offsets are to be found")) << right.at("notes");
+  expect_truth(right.at("parameters")[0], 0.05);
+}
+
 // Friction alone cannot make up for a ring that is twice as stiff: the likelihood tells.
 TEST_F(FitVerb, TellsModelsByTheirLikelihood) {
   const std::string text = content(model), stiffness = "\"4 MN/m\"";
@@ -164,6 +219,11 @@ TEST_F(FitVerb, SaysWhatIsWrong) {
     EXPECT_EQ(ran.status, 2) << ran.out << ran.err;
     EXPECT_TRUE(has(ran.err, c.says)) << ran.err;
   }
+  write("set.toml", "[[record]]\nfile = \"run.csv\"\nset = [\"contact.ring.friction=0.1\"]\n");
+  const Outcome both = fit({"--measured", "set.toml", "--free", free});
+  EXPECT_EQ(both.status, 2) << both.out;
+  EXPECT_TRUE(has(both.err, "run.csv: sets contact.ring.friction, which is to be found"))
+      << both.err;
   const Outcome blind = whirl({"fit", model, "--measured", "run.csv", "--free", free});
   EXPECT_EQ(blind.status, 2);
   EXPECT_TRUE(has(blind.err, "run.csv: no probes read it")) << blind.err;
