@@ -89,12 +89,22 @@ CMat readings_of(const std::vector<Mode>& modes, const std::vector<Probe>& probe
   return readings;
 }
 
+/// Readings of modes, those that no probe sees as none at all: what is left of these is rounding,
+/// and would be like something.
+CMat seen(CMat shapes) {
+  for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
+    if (shapes.col(i).cwiseAbs().maxCoeff() < unseen_reading) shapes.col(i).setZero();
+  }
+  return shapes;
+}
+
 /// What the probes cannot tell of modes.
+/// @param shapes  as they are seen
 void add_doubts(MeasuredIdentification& result, const CMat& shapes, const Sparse& weights) {
   const Eigen::Index modes = shapes.cols();
   std::vector<bool> is_seen;
   for (Eigen::Index i = 0; i < modes; ++i) {
-    is_seen.push_back(shapes.col(i).cwiseAbs().maxCoeff() >= unseen_reading);
+    is_seen.push_back(!shapes.col(i).isZero(0.0));
     if (!is_seen.back()) result.unseen.push_back(static_cast<int>(i) + 1);
   }
   result.auto_mac.resize(modes, modes);
@@ -245,12 +255,12 @@ MeasuredIdentification identify(const Model& model, const Scene& scene,
     return 2.0 * spectra.probes.row(spectra.row(std::abs(k))).transpose();
   };
   std::vector<Mode> modes = compared_modes(model, scene, options);
-  const CMat shapes = readings_of(modes, readings.probes, scene);
+  const CMat read = readings_of(modes, readings.probes, scene), shapes = seen(read);
   Sparse weights(shapes.rows(), shapes.rows());
   weights.setIdentity();
   result.found = identify(lines, std::move(modes), shapes, weights,
                           forced_lines(scene.assembler, model.speed), model.speed, options);
-  result.mode_readings = shapes.transpose();
+  result.mode_readings = read.transpose();
   add_doubts(result, shapes, weights);
 
   result.deflection.resize(std::ssize(result.found.peaks), shapes.rows());

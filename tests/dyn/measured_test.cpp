@@ -225,6 +225,12 @@ TEST(MeasuredIdentification, SaysWhichModesTheProbesCannotTellApart) {
   ASSERT_EQ(found.auto_mac.rows(), 4);
   EXPECT_EQ(found.auto_mac, Mat(found.auto_mac.transpose()));
   EXPECT_EQ(found.unseen, (std::vector<int>{3, 4}));
+  ASSERT_FALSE(found.found.peaks.empty());
+  for (const IdentifiedPeak& peak : found.found.peaks) {  // nor is any motion like them
+    ASSERT_EQ(peak.mac.size(), 4u);
+    EXPECT_EQ(peak.mac[2] + peak.mac[3], 0.0);
+    EXPECT_LT(peak.mode, 2);
+  }
   EXPECT_NEAR(found.auto_mac(0, 0), 1.0, 1e-12);
   const SeenEllipse along_one{.first = 30.0, .second = 210.0};
   const MeasuredIdentification planar = along_one.found();
