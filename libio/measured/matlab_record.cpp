@@ -44,13 +44,26 @@ std::vector<double> numbers_of(const matvar_t& v) {
       return as_doubles<std::int32_t>(v);
     case MAT_C_UINT32:
       return as_doubles<std::uint32_t>(v);
+    case MAT_C_INT64:
+      return as_doubles<std::int64_t>(v);
+    case MAT_C_UINT64:
+      return as_doubles<std::uint64_t>(v);
     default:
       return {};
   }
 }
 
-/// Rows of a matrix of characters, which stand column by column.
+/// Rows of a matrix of characters, which stand column by column, or of cells of these.
 std::vector<std::string> texts_of(const matvar_t& v) {
+  if (v.data && v.class_type == MAT_C_CELL && v.rank == 2) {
+    std::vector<std::string> all;
+    const auto* cells = static_cast<matvar_t* const*>(v.data);
+    for (std::size_t k = 0; k < elements_of(v); ++k) {
+      const auto rows = cells[k] ? texts_of(*cells[k]) : std::vector<std::string>();
+      all.push_back(rows.empty() ? "" : rows.front());
+    }
+    return all;
+  }
   if (!v.data || v.class_type != MAT_C_CHAR || v.rank != 2) return {};
   const auto* bytes = static_cast<const char*>(v.data);
   const std::size_t count = elements_of(v), size = count > 0 ? v.nbytes / count : 0;
@@ -85,9 +98,56 @@ bool is_possible(const matvar_t& v, std::size_t file_size) {
   return bytes <= most_compressed * static_cast<double>(file_size);
 }
 
+/// @throws ModelError  where the file ends within a variable: matio reads zeros there
+void require_whole(const std::string& bytes, const std::string& file) {
+  constexpr std::size_t head = 128, tag = 8;
+  const bool is_level_5 = bytes.size() >= head &&
+                          (bytes.compare(126, 2, "IM") == 0 || bytes.compare(126, 2, "MI") == 0);
+  if (!is_level_5 || bytes.compare(0, 10, "MATLAB 7.3") == 0) return;
+  const bool is_swapped = bytes[126] == 'M';
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto byte = static_cast<unsigned char>(bytes[at + (is_swapped ? i : 3 - i)]);
+      number = number << 8 | byte;
+    }
+    return number;
+  };
+  for (std::size_t at = head; at < bytes.size();) {
+    const bool has_tag = at + tag <= bytes.size();
+    const std::size_t size = has_tag ? tag + number_at(at + 4) : tag;
+    if (at + size > bytes.size()) {
+      throw ModelError({file}, "",
+                       fmt::format("is cut off: it ends after {} bytes, and a variable that begins "
+                                   "at byte {} has {}",
+                                   bytes.size(), at, has_tag ? fmt::format("{}", size) : "more"));
+    }
+    at += size;
+  }
+}
+
+/// Gives channels the texts of a variable, those of times left out where they have none.
+void name_channels(RawRecord& raw, const char* variable, const std::vector<std::string>& texts,
+                   std::string RawChannel::*member) {
+  if (texts.empty()) return;
+  std::vector<RawChannel*> named;
+  for (RawChannel& c : raw.channels) named.push_back(&c);
+  if (texts.size() != named.size()) {
+    std::erase_if(named, [](const RawChannel* c) { return names_time(c->name); });
+  }
+  if (texts.size() != named.size()) {
+    throw ModelError(
+        {raw.file}, variable,
+        fmt::format("has {} texts, expected one for each of {}", texts.size(), named.size()));
+  }
+  for (std::size_t i = 0; i < named.size(); ++i) named[i]->*member = texts[i];
+}
+
 RawRecord matlab_record(const std::filesystem::path& path) {
-  const std::size_t file_size = record_bytes(path).size();
+  const std::string bytes = record_bytes(path);
+  const std::size_t file_size = bytes.size();
   RawRecord raw{.file = path.string()};
+  require_whole(bytes, raw.file);
   const MatlabFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close);
   if (!file) throw ModelError({raw.file}, "", "is no MATLAB file, or a damaged one");
   std::vector<std::string> names, units;
@@ -110,6 +170,9 @@ RawRecord matlab_record(const std::filesystem::path& path) {
     } else if (numbers.size() > 1) {
       add_channels(raw, *v, name, numbers);
     } else if (name == "channels" || name == "units") {
+      if (v->class_type != MAT_C_CHAR && v->class_type != MAT_C_CELL) {
+        throw ModelError({raw.file}, name, "expected rows of text, or cells of them");
+      }
       (name == "units" ? units : names) = texts_of(*v);
     } else {
       others += (others.empty() ? "" : ", ") + name;
@@ -121,10 +184,8 @@ RawRecord matlab_record(const std::filesystem::path& path) {
                                  "none either; it has {}",
                                  others.empty() ? "nothing" : others));
   }
-  for (std::size_t i = 0; i < raw.channels.size(); ++i) {
-    if (names.size() == raw.channels.size()) raw.channels[i].name = names[i];
-    if (units.size() == raw.channels.size()) raw.channels[i].unit = units[i];
-  }
+  name_channels(raw, "units", units, &RawChannel::unit);
+  name_channels(raw, "channels", names, &RawChannel::name);
   return raw;
 }
 

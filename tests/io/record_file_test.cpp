@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "libio/measured/channel_unit.hpp"
+#include "libio/results/matlab_variables.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::record_file_test {
@@ -301,6 +302,58 @@ TEST_F(RecordFile, ReadsMatlabFilesOfOtherWriters) {
   EXPECT_EQ(record.samples(1, 0), 2.5);
   expect_problem("a.mat", matlab_file("x", 2000000000), "larger than the file can hold");
   expect_problem("a.mat", matlab_file("", 2), "a.mat");
+  const std::string whole = matlab_file("x", 2);
+  for (const std::size_t bytes : {whole.size() - 1, whole.size() - 20, std::size_t(131)}) {
+    expect_problem("a.mat", whole.substr(0, bytes), "is cut off");
+  }
+}
+
+// Names and units in cells, as MATLAB has texts, of the channels beside one of times; whole numbers.
+TEST_F(RecordFile, ReadsCellsAndWholeNumbersOfMatlab) {
+  const auto text = [](std::string of) {
+    std::size_t size[] = {1, of.size()};
+    return Mat_VarCreate(nullptr, MAT_C_CHAR, MAT_T_UINT8, 2, size, of.data(), 0);
+  };
+  const auto cells = [&](const char* name, const std::vector<std::string>& texts) {
+    std::vector<matvar_t*> all;
+    for (const std::string& one : texts) all.push_back(text(one));
+    std::size_t size[] = {1, all.size()};
+    return MatlabVariable(Mat_VarCreate(name, MAT_C_CELL, MAT_T_CELL, 2, size, all.data(), 0),
+                          &Mat_VarFree);
+  };
+  const auto write_file = [&](const std::vector<std::string>& units) {
+    const std::string place = folder / "b.mat";
+    std::filesystem::remove(place);
+    const MatlabFile mat(Mat_CreateVer(place.c_str(), nullptr, MAT_FT_MAT5), &Mat_Close);
+    std::int64_t rate = 1000;
+    std::size_t one[] = {1, 1};
+    std::vector<MatlabVariable> variables;
+    variables.emplace_back(Mat_VarCreate("fs", MAT_C_INT64, MAT_T_INT64, 2, one, &rate, 0),
+                           &Mat_VarFree);
+    variables.push_back(matlab_numbers("t", {0.0, 0.001, 0.002}, 3, 1));
+    variables.push_back(matlab_numbers("data", {1, 2, 3, 4, 5, 6}, 3, 2));
+    variables.push_back(cells("channels", {"left", "right"}));
+    variables.push_back(cells("units", units));
+    for (const MatlabVariable& v : variables) {
+      ASSERT_EQ(Mat_VarWrite(mat.get(), v.get(), MAT_COMPRESSION_NONE), 0);
+    }
+  };
+  write_file({"um", "mm"});
+  const MeasuredRecord record = read_record(folder / "b.mat");
+  EXPECT_EQ(record.rate, 1000.0);
+  ASSERT_EQ(record.channels.size(), 2u);
+  EXPECT_EQ(record.channels[1].name, "right");
+  EXPECT_EQ(record.channels[1].unit, "m");
+  EXPECT_NEAR(record.samples(2, 0), 3e-6, 1e-20);
+  EXPECT_NEAR(record.samples(0, 1), 4e-3, 1e-17);
+  write_file({"um", "mm", "V", "V"});
+  try {
+    read_record(folder / "b.mat");
+    ADD_FAILURE();
+  } catch (const ModelError& error) {
+    EXPECT_NE(std::string(error.what()).find("units: has 4 texts"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST_F(RecordFile, SaysWhatIsWrongInOtherFiles) {
