@@ -209,18 +209,18 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesOfHertzContacts) {
   RotorStator p = test::P1;
   p.kH = 1.5e8;
   const auto found =
-      expect_differences({.model = p.model(), .settle = 50, .revolutions = 5},
+      expect_differences({.model = p.model(), .settle = 50, .revolutions = 30},
                          {hertz(), dissipation(1.0), friction(), clearance(), speed()});
-  EXPECT_GE(found.events.size(), 8u);
+  EXPECT_GE(found.events.size(), 50u);
 }
 
 TEST(MotionSlopes, AreTheLimitOfDifferencesOfDampedHertzContacts) {
   RotorStator p = test::P1;
   p.kH = 1.5e8;
   p.alpha = 0.5;
-  const auto found = expect_differences({.model = p.model(), .settle = 50, .revolutions = 5},
+  const auto found = expect_differences({.model = p.model(), .settle = 50, .revolutions = 30},
                                         {dissipation(), hertz(), friction(), clearance(), speed()});
-  EXPECT_GE(found.events.size(), 8u);
+  EXPECT_GE(found.events.size(), 50u);
   EXPECT_EQ(jumps(found), 0);
 }
 
@@ -259,8 +259,10 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesWhereContactsStickAndSlip) {
 TEST(MotionSlopes, AreTheLimitOfDifferencesWithSmoothedFriction) {
   RotorStator p = test::P1;
   p.slip_tolerance = 1.0;
-  expect_differences({.model = p.model(), .settle = 50, .revolutions = 5},
-                     {stiffness(), friction(), radius(), slip_tolerance(), speed()});
+  const auto found =
+      expect_differences({.model = p.model(), .settle = 50, .revolutions = 6},
+                         {stiffness(), friction(), radius(), slip_tolerance(), speed()});
+  EXPECT_GE(found.events.size(), 50u);
 }
 
 TEST(MotionSlopes, AreTheLimitOfDifferencesAtAStop) {
@@ -303,8 +305,8 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesOfBlades) {
       clearance(),
       speed()};
   const auto found =
-      expect_differences({.model = test::bladed_disk(), .settle = 5, .revolutions = 2}, knobs);
-  EXPECT_GE(found.events.size(), 8u);
+      expect_differences({.model = test::bladed_disk(), .settle = 5, .revolutions = 13}, knobs);
+  EXPECT_GE(found.events.size(), 50u);
 }
 
 TEST(MotionSlopes, AreTheLimitOfDifferencesOnOilFilms) {
