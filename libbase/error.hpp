@@ -13,6 +13,7 @@ struct Where {
   std::string file;
   int line = 0;  ///< 0: no place within the file
   int column = 0;
+  std::string set = {};  ///< path of the value, where a command line sets one; else empty
 
   bool operator==(const Where&) const = default;
 };

@@ -199,8 +199,8 @@ void unpack(std::string_view bytes, T&... values) {
 
 template <class Bytes>
 void travel(Bytes& bytes, Is<Where> auto& where) {
-  auto& [file, line, column] = where;
-  bytes(file, line, column);
+  auto& [file, line, column, set] = where;
+  bytes(file, line, column, set);
 }
 
 template <class Bytes>

@@ -347,8 +347,9 @@ ConfigNode parse_toml(std::string_view text, const std::string& file) {
 }
 
 void set_value(ConfigNode& root, std::string_view assignment) {
-  const Where where{"--set " + std::string(assignment)};
   const auto equals = assignment.find('=');
+  const Where where{.file = "--set " + std::string(assignment),
+                    .set = std::string(assignment.substr(0, equals))};
   if (equals == std::string_view::npos || equals == 0) {
     throw ModelError(where, "", "expected PATH=VALUE, such as contact.seal.friction=0.1");
   }

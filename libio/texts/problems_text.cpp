@@ -93,11 +93,11 @@ ModelError under_over(const ModelError& error, const std::vector<std::string>& o
                       const std::vector<std::string>& sets) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {
-    const std::string& told = problem.where.file;
-    const bool is_set = std::any_of(sets.begin(), sets.end(),
-                                    [&](const std::string& set) { return told == "--set " + set; });
-    if (is_set || !told.starts_with("--set ")) continue;
-    const std::string path = told.substr(6, told.find('=') - 6);
+    const std::string& path = problem.where.set;
+    const bool is_set = std::any_of(sets.begin(), sets.end(), [&](const std::string& set) {
+      return problem.where.file == "--set " + set;
+    });
+    if (is_set || path.empty()) continue;
     const auto of = std::find_if(over.begin(), over.end(), [&](const std::string& one) {
       const ParameterAxis axis{.path = one.substr(0, one.find('='))};
       const std::vector<std::string> paths = axis.paths();
