@@ -43,12 +43,12 @@ const modelText = (text) => element("details", {}, element("summary", {}, "model
 /** The figures of a result as cards, and what moves in space after its layout, or last. */
 function addFigures(result, grid, link) {
   for (const figures of kindsOf(result)) {
-    const kind = figures[0].kind, name = figures[0].heading;
+    const { subject, heading: name } = figures[0];
     const view = attempt(name, grid, () => new FigureView(figures, result, arrays));
     if (!view) continue;
     grid.append(view.card);
     link(view.card.id, name);
-    if (kind === "layout" && result.motion.motions && !page.machine) addSpace(result, grid, link);
+    if (subject === "rotor" && result.motion.motions && !page.machine) addSpace(result, grid, link);
   }
   if (result.motion.motions && !spaces.some((s) => s.result === result)) addSpace(result, grid, link);
 }

@@ -338,7 +338,7 @@ class FigureView {
         const line = (axis, v) => axis.title && `${withoutUnit(axis.title)} = ${shown(v)} ${unitOf(axis.title)}${
           axis.also ? ` = ${shown(v * axis.also_factor, 4)} ${axis.also}` : ""}`.trim();
         if (c.details) lines.push("click: its multipliers and command");
-        if (this.figure.kind !== "layout") lines.push(line(panel.x, c.x[k]), line(panel.y, c.y[k]));
+        if (this.figure.subject !== "rotor") lines.push(line(panel.x, c.x[k]), line(panel.y, c.y[k]));
       }
       if (c.along) lines.push(`${c.along_title} = ${shown(c.along[k], 7)}${c.along_title === "time" ? " s" : ""}`);
       this.point = { panel, x: d.px(panel, c.x[k]), y: d.py(panel, c.y[k]), c };
@@ -430,7 +430,7 @@ class FigureView {
           drawMarker(ctx, "circle", d.px(p, c.x[low]), d.py(p, c.y[low]), 10);
         }
         // a line of a spectrum is a circle of the orbit
-        if (kind === "frequency" && more.amplitude && LENGTHS[more.unit] && p.equal && this.figure.kind === "orbit" && more.station === this.figure.variant) {
+        if (kind === "frequency" && more.amplitude && LENGTHS[more.unit] && p.equal && this.figure.subject === "orbit" && more.station === this.figure.variant) {
           const r = (more.amplitude * LENGTHS[more.unit]) / LENGTHS[unitOf(p.x.title)];
           ctx.strokeStyle = paint("alarm");
           ctx.lineWidth = 1.6;

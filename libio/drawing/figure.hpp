@@ -158,11 +158,19 @@ struct FigureTable {
   std::vector<std::vector<std::string>> rows{};
 };
 
+/// What the page can add to a figure.
+enum class Subject {
+  numbers,
+  rotor,  ///< a drawing of the rotor: its motion in space beside it; places in it are no values
+  orbit   ///< the path of a station: a line of a spectrum is a circle in it
+};
+
 struct Figure {
-  std::string kind{};                 ///< name in figures.hpp
-  std::string heading{};              ///< title of its kind
-  std::string variant{};              ///< of several of one kind: the station, the mode
-  std::vector<std::string> probes{};  ///< names of those whose readings it shows
+  std::string kind{};                  ///< name in figures.hpp
+  std::string heading{};               ///< title of its kind
+  Subject subject = Subject::numbers;  ///< of its kind
+  std::string variant{};               ///< of several of one kind: the station, the mode
+  std::vector<std::string> probes{};   ///< names of those whose readings it shows
   std::string title{}, subtitle{};
   std::vector<Panel> panels{};
   int columns = 1;  ///< panels beside each other; those below each other share x if it is the same

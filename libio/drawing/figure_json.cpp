@@ -147,6 +147,8 @@ Record ArrayStore::record() const {
 Record record_of(const Figure& figure, ArrayStore& arrays) {
   Record r;
   r.set("kind", figure.kind).set("heading", figure.heading).set("variant", figure.variant);
+  constexpr const char* subjects[] = {"numbers", "rotor", "orbit"};
+  r.set("subject", subjects[static_cast<int>(figure.subject)]);
   r.set("title", figure.title).set("subtitle", figure.subtitle);
   r.set("columns", figure.columns).set("width", figure.width).set("height", figure.height);
   Record panels = Record::array();

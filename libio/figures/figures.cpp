@@ -116,6 +116,7 @@ std::vector<Figure> figures_of(const FigureKind& kind, const ResultView& result)
     if (!note.empty()) f.notes.push_back(note);
     f.kind = kind.name;
     f.heading = kind.title;
+    f.subject = kind.subject;
     if (f.title.empty()) f.title = result.title;
   }
   return figures;

@@ -47,6 +47,7 @@ struct FigureKind {
   std::string_view name;
   std::string_view title;  ///< "Bode", above its card on a page
   std::string_view summary;
+  Subject subject = Subject::numbers;
   std::vector<std::string> needs{};  ///< datasets, see dataset_of(); it draws nothing without one
   bool needs_model = false;
   std::vector<Figure> (*make)(const ResultView&) =

@@ -347,6 +347,7 @@ FigureKind layout_kind() {
       .name = "layout",
       .title = "Layout",
       .summary = "the rotor to scale, with disks, bearings, seals, oil films and contacts",
+      .subject = Subject::rotor,
       .needs_model = true,
       .make = layout_figures,
   };

@@ -316,6 +316,7 @@ FigureKind orbit_kind() {
       .name = "orbit",
       .title = "Orbit",
       .summary = "path of a station, seen from the ground and from the rotor",
+      .subject = Subject::orbit,
       .needs = {dataset_of<MotionRecord>(&StationMotion::x)},
       .make = orbit_figures,
       .takes_window = true,

@@ -16,10 +16,11 @@ namespace documents_test {
 
 namespace fs = std::filesystem;
 const fs::path root = WHIRL_SOURCE_DIR;
-constexpr const char* libraries[] = {"libbase", "libfe", "libcontact", "libdyn", "libio"};
+constexpr const char* libraries[] = {"libbase", "libfe", "libcontact",
+                                     "libdyn",  "libio", "libverbs"};
 
 std::vector<fs::path> documents() {
-  std::vector<fs::path> folders{root, root / "docs"};
+  std::vector<fs::path> folders{root, root / "docs", root / "python"};
   for (const char* library : libraries) folders.push_back(root / library);
   std::vector<fs::path> all;
   for (const fs::path& folder : folders) {
