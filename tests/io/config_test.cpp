@@ -210,7 +210,7 @@ TEST(SetValue, ItsPlaceIsTheCommandLine) {
   ConfigNode root = model();
   set_value(root, "operation.speed=[100, 200]");
   const ConfigNode& speed = *root.find("operation")->find("speed");
-  EXPECT_EQ(speed.where, (Where{"--set operation.speed=[100, 200]", 0, 0}));
+  EXPECT_EQ(speed.where, (Where{"--set operation.speed=[100, 200]", 0, 0, "operation.speed"}));
   EXPECT_EQ(speed.items[1].where, speed.where);
 }
 
