@@ -86,16 +86,14 @@ FigureTable table_of(const std::vector<Critical>& criticals) {
 }
 
 /// Without one in the file: it is of a version that drew what it had solved.
-const CriticalMap& map_of(const ResultView& result, const CriticalSpeeds& found,
-                          CriticalMap& solved) {
+CriticalMap map_of(const ResultView& result, const CriticalSpeeds& found) {
   if (result.file.has(std::string(CriticalMap::group))) return result_of<CriticalMap>(result);
-  return solved = critical_map_of(result.assembler->structure(), found);
+  return critical_map_of(result.assembler->structure(), found);
 }
 
 std::vector<Figure> critical_figures(const ResultView& result) {
   const auto& found = result_of<CriticalSpeeds>(result);
-  CriticalMap solved;
-  const CriticalMap& map = map_of(result, found, solved);
+  const CriticalMap map = map_of(result, found);
   if (map.branches.empty()) return {};
   Figure f{.height = 500.0};
   f.subtitle =
