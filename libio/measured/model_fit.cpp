@@ -39,8 +39,7 @@ void require_free(const RecordSource& source, const FreeParameters& free) {
   for (const std::string& set : source.sets) {
     const std::string path = set.substr(0, set.find('='));
     for (const ParameterAxis& axis : free.axes) {
-      const std::vector<std::string> paths = axis.paths();
-      if (std::find(paths.begin(), paths.end(), path) == paths.end()) continue;
+      if (!axis.has(path)) continue;
       throw OptionError(fmt::format(
           "sets {}, which is to be found: expected it to be free, or set by records, not both",
           path));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "libbase/error.hpp"
 #include "libio/text/option_values.hpp"
 #include "libio/text/value_range.hpp"
@@ -39,6 +41,11 @@ std::vector<std::string> ParameterAxis::paths() const {
     if (one.starts_with('-')) one.erase(0, 1);
   }
   return all;
+}
+
+bool ParameterAxis::has(const std::string& one) const {
+  const std::vector<std::string> all = paths();
+  return std::find(all.begin(), all.end(), one) != all.end();
 }
 
 std::vector<std::string> ParameterAxis::assignments_of(double value) const {

@@ -28,6 +28,8 @@ struct ParameterAxis {
 
   /// Its paths, one by one, without signs.
   std::vector<std::string> paths() const;
+  /// Whether one of its paths is this one.
+  bool has(const std::string& one) const;
   /// A value [SI], as --set takes it, for every path.
   std::vector<std::string> assignments_of(double value) const;
   /// The same of the value at an index.

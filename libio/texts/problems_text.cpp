@@ -99,9 +99,7 @@ ModelError under_over(const ModelError& error, const std::vector<std::string>& o
     });
     if (is_set || path.empty()) continue;
     const auto of = std::find_if(over.begin(), over.end(), [&](const std::string& one) {
-      const ParameterAxis axis{.path = one.substr(0, one.find('='))};
-      const std::vector<std::string> paths = axis.paths();
-      return std::find(paths.begin(), paths.end(), path) != paths.end();
+      return ParameterAxis{.path = one.substr(0, one.find('='))}.has(path);
     });
     if (of != over.end()) problem.where.file = "--over " + *of;
   }
