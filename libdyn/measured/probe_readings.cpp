@@ -71,6 +71,23 @@ void note_channel(const Vec& samples, const MeasuredRecord& record, const std::s
   }
 }
 
+/// Notes channels whose numbers are in a unit that neither they nor, it may be, anybody else said.
+void note_units(const MeasuredRecord& record, const MeasurementSetup& setup,
+                const std::vector<Eigen::Index>& channels, std::vector<std::string>& notes) {
+  const std::string usual = Probe{}.unit;
+  std::string names;
+  for (std::size_t i = 0; i < setup.probes.size(); ++i) {
+    const MeasuredProbe& p = setup.probes[i];
+    const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(channels[i])];
+    if (p.gain.of != ProbeGain::Of::length || !channel.unit.empty() || p.probe.unit != usual) {
+      continue;
+    }
+    names += (names.empty() ? "" : ", ") + channel.name;
+  }
+  if (names.empty()) return;
+  notes.push_back(fmt::format("no unit in the record for {}: taken as {}", names, usual));
+}
+
 }  // namespace
 
 ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup) {
@@ -98,6 +115,7 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
     readings.displacement.col(static_cast<Eigen::Index>(i)) = metres_per_unit(channel, p) * samples;
     readings.probes.push_back(p.probe);
   }
+  note_units(record, setup, channels, readings.notes);
   Vec pulses;
   if (const auto& key = setup.key_phasor) {
     const auto c = channel_of(record, key->channel, "key-phasor");

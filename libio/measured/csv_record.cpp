@@ -1,6 +1,7 @@
 /// Tables as data loggers write them.
 
 #include <fmt/format.h>
+#include <iconv.h>
 
 #include <algorithm>
 #include <array>
@@ -32,6 +33,25 @@ struct CsvForm {
   bool has_decimal_commas = false;
   bool ends_with_delimiter = false;  ///< each line
 };
+
+/// Text in UTF-8, as spreadsheets save in UTF-16, too.
+/// @throws ModelError  for UTF-16 that is none
+std::string in_utf8(std::string text, const std::string& file) {
+  if (!text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF")) return text;
+  const auto failed = [&] {
+    return ModelError({file}, "", "begins as UTF-16 and is none: expected text in UTF-8");
+  };
+  const iconv_t converter = iconv_open("UTF-8", "UTF-16");
+  if (converter == reinterpret_cast<iconv_t>(-1)) throw failed();
+  std::string found(2 * text.size(), '\0');  // two bytes become three at most
+  char *from = text.data(), *to = found.data();
+  std::size_t left = text.size(), room = found.size();
+  const std::size_t result = iconv(converter, &from, &left, &to, &room);
+  iconv_close(converter);
+  if (result == static_cast<std::size_t>(-1)) throw failed();
+  found.resize(found.size() - room);
+  return found;
+}
 
 std::vector<CsvLine> csv_lines(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -223,8 +243,8 @@ void require_other_delimiters(const std::string& file, const CsvLine& header, st
 }  // namespace
 
 RawRecord read_csv_record(const std::filesystem::path& path) {
-  const std::string text = record_bytes(path);
   const std::string file = path.string();
+  const std::string text = in_utf8(record_bytes(path), file);
   const std::vector<CsvLine> lines = csv_lines(text);
   const std::size_t first = first_of_numbers(lines);
   if (first == lines.size()) throw no_numbers(file, lines);

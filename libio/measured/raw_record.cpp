@@ -86,6 +86,16 @@ void spread(std::vector<double>& samples, const std::vector<double>& numbers) {
   samples = std::move(all);
 }
 
+/// The channel of times: by its name, else the first one in a unit of time, in whatever language.
+std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels) {
+  const auto named = std::find_if(channels.begin(), channels.end(),
+                                  [](const RawChannel& c) { return names_time(c.name); });
+  if (named != channels.end()) return named;
+  return std::find_if(channels.begin(), channels.end(), [](const RawChannel& c) {
+    return !c.unit.empty() && parse_as("1 " + c.unit, "s").value.has_value();
+  });
+}
+
 bool is_one_of(const std::string& name, std::initializer_list<std::string_view> known) {
   return std::find(known.begin(), known.end(), plain_name(name)) != known.end();
 }
@@ -93,7 +103,7 @@ bool is_one_of(const std::string& name, std::initializer_list<std::string_view> 
 }  // namespace
 
 bool names_time(const std::string& name) {
-  return is_one_of(name, {"time", "t", "times"});
+  return is_one_of(name, {"time", "t", "times", "zeit", "temps", "tiempo", "tempo"});
 }
 
 bool names_rate(const std::string& name) {
@@ -102,8 +112,7 @@ bool names_rate(const std::string& name) {
 }
 
 MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
-  const auto time = std::find_if(raw.channels.begin(), raw.channels.end(),
-                                 [](const RawChannel& c) { return names_time(c.name); });
+  const auto time = time_in(raw.channels);
   if (time != raw.channels.end() && !raw.has_own_times) {
     const RawChannel times = std::move(*time);
     raw.channels.erase(time);

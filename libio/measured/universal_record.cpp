@@ -12,6 +12,7 @@
 #include <set>
 
 #include "libio/measured/record_formats.hpp"
+#include "libio/measured/universal_format.hpp"
 #include "libio/text/delimited.hpp"
 #include "libio/text/units.hpp"
 
@@ -19,16 +20,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr std::string_view universal_record_head = "    -1\n   164\n         1whirl: SI (m, N)";
-constexpr std::string_view block_mark = "    -1";
-
-/// Numbers of the format.
-struct RecordCode {
-  static constexpr long real_single = 2, real_double = 4, complex_single = 5, complex_double = 6;
-  static constexpr long general = 0, time_response = 1;                 // kinds of functions
-  static constexpr long any_quantity = 1, displacement = 8, time = 17;  // of axes; 0 is unknown
-  static constexpr long little_endian = 1, ieee = 2;
-};
+using namespace universal;
 
 /// Goes through the lines of a file.
 class UniversalText {
@@ -182,6 +174,7 @@ class ResponseDataset {
     is_even_ = whole(form, 20, 10, "spacing of values") != 0;
     start_ = real(form, 30, "first time");
     step_ = real(form, 43, "step of time");
+    take_rate_line();
     is_over_time_ = is_over_time_ && count_ != 1;  // one value is a mean or a setting
     if (!is_over_time_) return;
     time_factor_ = parse_as("1 " + columns_of(time, 47, 20), "s").value.value_or(1.0);
@@ -201,6 +194,14 @@ class ResponseDataset {
       unit_ = "m";
       factor_ = 1.0 / length_factor;
     }
+  }
+
+  /// A rate in the second line has all digits of what the step is.
+  void take_rate_line() {
+    const std::string line = trimmed(records_[1]);
+    if (!line.starts_with(rate_mark)) return;
+    const auto rate = number_in(line.substr(rate_mark.size()));
+    if (rate && std::abs(*rate * step_ - 1.0) < step_digits) step_ = 1.0 / *rate;
   }
 
   /// Its first identification line; the response where that is empty.
@@ -298,7 +299,7 @@ class ResponseDataset {
     start_ *= time_factor_;
     step_ *= time_factor_;
     if (!(step_ > 0.0)) text_.fail(key_, fmt::format("has steps of {} s of time", step_));
-    if (raw.rate && std::abs(*raw.rate * step_ - 1.0) > 1e-5) {
+    if (raw.rate && std::abs(*raw.rate * step_ - 1.0) > step_digits) {
       text_.fail(key_, fmt::format("has {} samples per second, those before have {}", 1.0 / step_,
                                    *raw.rate));
     }
@@ -401,42 +402,6 @@ RawRecord read_universal_record(const std::filesystem::path& path) {
   }
   tell_apart(raw.channels, names);
   return raw;
-}
-
-void write_universal_record(const std::filesystem::path& path, const MeasuredRecord& record,
-                            Replaces replaces) {
-  std::string text = fmt::format("{}{:>14}\n", universal_record_head, 2);
-  const auto add = [&](const std::string& line) { text += fmt::format("{:<80.80}\n", line); };
-  add(fmt::format("{:25.17E}{:25.17E}{:25.17E}", 1.0, 1.0, 1.0));
-  add(fmt::format("{:25.17E}", 273.15));
-  text += fmt::format("{}\n", block_mark);
-  const auto axis = [](long kind, const char* label, const std::string& unit) {
-    return fmt::format("{:10}{:5}{:5}{:5} {:<20.20} {:<20.20}", kind, 0, 0, 0, label,
-                       unit.empty() ? "NONE" : unit);
-  };
-  for (Eigen::Index c = 0; c < record.samples.cols(); ++c) {
-    const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(c)];
-    text += fmt::format("{}\n{:6}\n", block_mark, 58);
-    add(channel.name);
-    for (int i = 0; i < 4; ++i) add("NONE");
-    add(fmt::format("{:5}{:10}{:5}{:10} {:<10}{:10}{:4} {:<10}{:10}{:4}", RecordCode::time_response,
-                    c + 1, 0, 0, "NONE", 0, 0, "NONE", 0, 0));
-    add(fmt::format("{:10}{:10}{:10}{:13.5E}{:13.5E}{:13.5E}", RecordCode::real_double,
-                    record.samples.rows(), 1, record.start, 1.0 / record.rate, 0.0));
-    add(axis(RecordCode::time, "Time", "s"));
-    add(axis(channel.unit == "m" ? RecordCode::displacement : 0, "Signal", channel.unit));
-    add(axis(0, "NONE", ""));
-    add(axis(0, "NONE", ""));
-    std::string line;
-    for (Eigen::Index j = 0; j < record.samples.rows(); ++j) {
-      line += fmt::format("{:20.12E}", record.samples(j, c));
-      if (line.size() < 80 && j + 1 < record.samples.rows()) continue;
-      add(line);
-      line.clear();
-    }
-    text += fmt::format("{}\n", block_mark);
-  }
-  replace_file(path, text, replaces_own(path, universal_record_head, replaces));
 }
 
 }  // namespace whirl::inline io

@@ -87,7 +87,7 @@ struct NameAndUnit {
   bool has_unit = false;
 };
 
-/// Takes a unit in brackets off a cell; one behind a blank, "_" or a comma only if nothing else is
+/// Takes a unit in brackets off a cell; one behind a comma, a blank or "_" only if nothing else is
 /// known.
 /// @param is_known  whether a name with a unit is one of a column; with an empty unit, without one
 NameAndUnit name_and_unit(

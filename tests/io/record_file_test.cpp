@@ -51,14 +51,14 @@ MeasuredRecord example(double rate) {
 }
 
 TEST_F(RecordFile, EveryFormatReadsBackWhatItWrote) {
-  // a step of time and values that universal files have with all their digits, too
-  const MeasuredRecord written = example(4000.0);
-  for (const char* name : {"a.csv", "a.mat", "a.uff", "a.h5", "a.wav"}) {
+  // a step of time that has more digits than universal files have for it
+  const MeasuredRecord written = example(4483.0);
+  for (const char* name : {"a.csv", "a.mat", "a.uff", "a.ufb", "a.h5", "a.wav"}) {
     write_record(folder / name, written, Replaces::own_pictures);
     write_record(folder / name, written,
                  name == std::string("a.wav") ? Replaces::anything : Replaces::own_pictures);
     const MeasuredRecord read = read_record(folder / name);
-    EXPECT_NEAR(read.rate, written.rate, 1e-9 * written.rate) << name;
+    EXPECT_NEAR(read.rate, written.rate, 1e-12 * written.rate) << name;
     ASSERT_EQ(read.channels.size(), 3u) << name;
     const bool is_text = name == std::string("a.uff");  // thirteen digits
     for (std::size_t c = 0; c < 3; ++c) {
@@ -129,6 +129,34 @@ TEST_F(RecordFile, PutsSamplesWhereTheirTimesAre) {
       EXPECT_EQ(record.samples(j, 0), whole.samples(j, 0));
     }
   }
+}
+
+// A unit of time says which column is that of times, in any language and after a comma, too.
+TEST_F(RecordFile, FindsTimesByTheirUnit) {
+  for (const char* head :
+       {"Zeit (s);s1 [um]", "\"Time, s\";\"s1, um\"", "aika [s];s1 [um]", "elapsed time s;s1 um"}) {
+    const MeasuredRecord record =
+        read_record(file("a.csv", std::string(head) + "\n0;1,5\n0,5;2,5\n1;3\n"));
+    EXPECT_NEAR(record.rate, 2.0, 1e-12) << head;
+    ASSERT_EQ(record.channels.size(), 1u) << head;
+    EXPECT_EQ(record.channels[0].name, "s1") << head;
+    EXPECT_NEAR(record.samples(1, 0), 2.5e-6, 1e-20) << head;
+  }
+}
+
+TEST_F(RecordFile, ReadsTablesInUtf16) {
+  const std::string table = "time [s]\ts1 [\xB5m]\n0\t1\n0.5\t2\n";  // Latin-1
+  std::string little = "\xFF\xFE", big = "\xFE\xFF";
+  for (const char c : table) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  for (const std::string& bytes : {little, big}) {
+    const MeasuredRecord record = read_record(file("a.txt", bytes));
+    EXPECT_NEAR(record.rate, 2.0, 1e-12);
+    EXPECT_NEAR(record.samples(1, 0), 2e-6, 1e-20);
+  }
+  expect_problem("b.txt", little + "x", "begins as UTF-16 and is none");
 }
 
 TEST_F(RecordFile, TakesRatesThatAreThoseOfTheFile) {

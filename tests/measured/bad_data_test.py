@@ -128,6 +128,8 @@ def try_probes(b):
     b.try_record(swap(DE_X, RING_X))
     b.try_record(b.rows(), probes=WITH_KEY.replace("node = 4", "node = 4\ngain = -1"))
     b.try_record(b.rows(), names=[name.replace("um", "mil") for name in NAMES])
+    b.try_record(b.rows(), "no unit in the record for DE x, DE y: taken as um",
+                 names=[NAMES[T], "DE x", "DE y", *NAMES[3:]])
     for unit, said in (("furlong", "expected a length"), ("m/s^2", "expected a length"), ("V", "give the probe a gain")):
         b.try_record(b.rows(), f"error: {said}", names=[NAMES[T], f"DE x [{unit}]", *NAMES[2:]])
     b.try_record(b.rows(), 'error: the record has no channel "DE x"; it has DEx [m], DE y [m]',
