@@ -29,6 +29,7 @@ constexpr double changed_phase = 0.02;        ///< of the rotor against an even 
 constexpr double least_floor = 1e-4;          ///< of the deviation of what a probe reads
 constexpr double even_weights = 1.3;          ///< ratio of noises up to which they count as known
 constexpr double unexplained = 3.0;           ///< noise floors, from which what is left is told
+constexpr double least_explained = 0.5;       ///< share of the readings, of a fit that is one
 constexpr double hardly_apart = 0.98;         ///< correlation that is told
 constexpr double range_without_bounds = 0.5;  ///< of a value, to either side
 
@@ -270,17 +271,21 @@ void note_missing(MeasuredFit& found, const std::vector<FitMeasurement>& measure
                   count, count == 1 ? " is" : "s are"));
 }
 
-/// Notes a fit that is worse than no motion at all.
-void note_nonsense(MeasuredFit& found) {
-  if (found.explained > 0.0) return;
+/// A search that ended where the motion found has less than half of what was read has not found a fit.
+void refuse_nonsense(MeasuredFit& found) {
+  if (found.explained >= least_explained) return;
+  if (found.has_converged) {
+    found.has_converged = false;
+    found.why_not = fmt::format(
+        "the motion found explains {} of the variance of the readings",
+        found.explained > 0.0 ? fmt::format("{:.2g} %", 100.0 * found.explained) : "nothing");
+  }
   found.notes.push_back(
-      "the motion found explains less of the records than none would: are probes swapped, or is a "
-      "gain, a unit or the sign of an angle wrong? Do they read gaps, so that offsets are to be "
-      "found, too?");
+      "so little is explained: are probes swapped, or is a gain, a unit or the sign of an angle "
+      "wrong? Do they read gaps, so that offsets are to be found, too? Is the start far off?");
 }
 
 void add_notes(MeasuredFit& found) {
-  note_nonsense(found);
   std::string names;
   double most = 0.0;
   for (const FittedProbe& p : found.probes) {
@@ -401,6 +406,7 @@ MeasuredFit fit(const std::vector<FitMeasurement>& measurements,
   }
   add_motions(found, measurements, sources);
   note_missing(found, measurements);
+  refuse_nonsense(found);
   add_notes(found);
   return found;
 }
@@ -420,11 +426,13 @@ std::vector<FitCandidate> compared(const std::vector<MeasuredFit>& fits,
                    .residual = fit.residual,
                    .log_likelihood = fit.log_likelihood,
                    .information = information});
-    least = std::min(least, information);
+    if (fit.has_converged) least = std::min(least, information);
   }
   double sum = 0.0;
-  for (FitCandidate& c : all) sum += c.weight = std::exp(-0.5 * (c.information - least));
-  for (FitCandidate& c : all) c.weight /= sum;
+  for (FitCandidate& c : all) {
+    if (c.has_converged) sum += c.weight = std::exp(-0.5 * (c.information - least));
+  }
+  for (FitCandidate& c : all) c.weight /= sum;  // none converged: NaN
   return all;
 }
 

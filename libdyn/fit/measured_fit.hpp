@@ -210,7 +210,7 @@ double noise_floor(const Vec& samples);
 /// Finds parameters by multiple shooting through some revolutions of records, see fit().
 ///
 /// Probes are weighted by their noise. If nobody knows it, it is their noise floor first, then what is
-/// left of each.
+/// left of each. A search that ends where less than half of the readings is explained has not converged.
 ///
 /// @throws ModelError, OptionError  as fit() and model_source()
 MeasuredFit fit(const std::vector<FitMeasurement>& measurements,

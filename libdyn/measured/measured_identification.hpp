@@ -42,7 +42,11 @@ struct MeasuredIdentification {
   Identification found;
   double speed = 0.0;     ///< of the rotor in the record [rad/s]
   double duration = 0.0;  ///< of what was transformed [s]
+  /// Whether every station is seen in one direction only. Peaks have no sense then, their frequencies are
+  /// positive, and their amplitudes are those along the directions.
+  bool is_in_one_direction = false;
   std::vector<ProbeLabel> probes;
+  Vec probe_z;    ///< positions of the probes along the shaft; NaN: at a body [m]
   Vec frequency;  ///< signed, ascending [rad/s]
   std::vector<StationFullSpectrum> stations;
   CMat deflection;     ///< peaks x probes: readings Re(u e^(i |w| t)) [m]
@@ -59,7 +63,13 @@ struct MeasuredIdentification {
     return ColumnList{
         column("speed", &M::speed, "rad/s", "speed of the rotor in the record").only(in_file),
         column("duration", &M::duration, "s", "length of the record that was transformed"),
+        column("one_direction", &M::is_in_one_direction, "",
+               "1: stations are seen in one direction only, peaks have no sense of whirl"),
         rows(&M::probes, "probes").prefixed("probe_"),
+        column("probe_z", &M::probe_z, "m", "position of a probe along the shaft; NaN: at a body")
+            .along("probes")
+            .only(in_file)
+            .maybe(),
         column("spectrum_frequency", &M::frequency, "rad/s", "signed frequency, forward > 0")
             .axis("measured_lines+")
             .within(valid::finite)

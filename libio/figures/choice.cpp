@@ -84,8 +84,8 @@ Figure& variant_of(std::vector<Figure>& figures, const std::string& name,
   }
   throw wrong_option(
       "which", name,
-      fmt::format("there is no such figure; there are {}{}{}", fmt::join(names, ", "),
-                  probes.empty() ? "" : "; of probes ", fmt::join(probes, ", ")));
+      fmt::format("there is no such figure; there are {}{}{}", fmt::join(names, " | "),
+                  probes.empty() ? "" : "; of probes ", fmt::join(probes, " | ")));
 }
 
 }  // namespace

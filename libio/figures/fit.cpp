@@ -107,7 +107,8 @@ Panel time_panel(const FittedSamples& samples, const std::vector<double>& time) 
 /// What the probes of a record read in time, and below what is left of all of them.
 Figure fitted_readings(const ResultView& result, const MeasuredFit& fit, int number) {
   const FittedSamples samples(fit, number);
-  Figure f{.variant = fit.files.size() > 1 ? samples.record.file : "readings", .width = 860.0};
+  Figure f{.variant = fit.files.size() > 1 ? samples.record.file + ", readings" : "readings",
+           .width = 860.0};
   f.subtitle = samples.subtitle(fit);
   const std::vector<double> time = samples.of(samples.record.time, 1.0);
   Panel left = time_panel(samples, time);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "libbase/error.hpp"
+#include "libdyn/measured/record_doubts.hpp"
 #include "libdyn/system/corrected_scene.hpp"
 #include "libdyn/system/system_slope.hpp"
 #include "libio/model/model_family.hpp"
@@ -64,6 +65,7 @@ FitMeasurement fit_measurement(const Model& model, const FreeParameters& free,
   const std::string speed = fmt::format("operation.speed={:.17g} rad/s", found.span.speed);
   const auto family = std::make_shared<const ModelFamily>(with_values(m.model, {speed}), free.axes);
   found.scene = scene_for(*family, free);
+  add_doubts(found.readings, found.scene->assembler, found.span.speed, notes);
   found.model_at = [family](const Vec& values) {
     return family->model({values.data(), static_cast<std::size_t>(values.size())});
   };

@@ -1,7 +1,10 @@
 // Values of a model found in records: what the verb takes, says and refuses.
 
+#include <fmt/format.h>
+
 #include <cctype>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "tests/cli/program.hpp"
@@ -115,6 +118,7 @@ TEST_F(FitVerb, FitsSeveralRecordsAtOnce) {
                                       "contact.ring.stiffness,contact.ring.friction=0:0.3"};
   std::vector<std::string> one{"--measured", "run.csv"}, both{"--measured", "records.toml"};
   for (auto* words : {&one, &both}) words->insert(words->end(), free.begin(), free.end());
+  both.insert(both.end(), {"--out", "both.h5"});
   const json alone = found(one), together = found(both);
   ASSERT_TRUE(together.at("converged").get<bool>()) << together.at("why_not");
   EXPECT_EQ(together.at("records").size(), 2u);
@@ -123,6 +127,35 @@ TEST_F(FitVerb, FitsSeveralRecordsAtOnce) {
   expect_truth(together.at("parameters")[1], 0.05);
   EXPECT_LT(together.at("parameters")[1].at("standard_deviation").get<double>(),
             alone.at("parameters")[1].at("standard_deviation").get<double>());
+  const Outcome drawn =
+      whirl({"plot", "both.h5", "fit", "--which", "other.csv, readings", "--out", "r.svg"});
+  EXPECT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_EQ(whirl({"plot", "both.h5", "fit", "--which", "readings", "--out", "s.svg"}).status, 0);
+}
+
+// A rotor that seems to whirl backward with its own speed: no motion of the model does, and what was found
+// is not called a fit.
+TEST_F(FitVerb, DoesNotCallAFitWhatExplainsLittle) {
+  std::string text = "time [s],a [um],b [um],key\n";
+  const int samples = 32;  // of a revolution
+  for (int j = 0; j < 40 * samples; ++j) {
+    const double turns = static_cast<double>(j) / samples, angle = 2.0 * std::numbers::pi * turns;
+    text += fmt::format("{:.17g},{:.17g},{:.17g},{}\n", turns * 60.0 / 4430.0,
+                        500.0 * std::cos(angle), -500.0 * std::sin(angle), j % samples < 2 ? 1 : 0);
+  }
+  write("backward.csv", text);
+  write("two.toml",
+        "[[probe]]\nname = \"a\"\nnode = 7\nangle = 0\n[[probe]]\nname = \"b\"\nnode = 7\n"
+        "angle = \"90 deg\"\n[keyphasor]\nchannel = \"key\"\n");
+  const Outcome ran =
+      whirl({"fit", model, "--measured", "backward.csv", "--probes", "two.toml", "--free",
+             "contact.ring.friction=0:0.3", "--revolutions", "2", "--json", "-"});
+  EXPECT_EQ(ran.status, 3) << ran.err;
+  const json tree = json::parse(ran.out);
+  EXPECT_FALSE(tree.at("converged").get<bool>());
+  EXPECT_LT(tree.at("explained").get<double>(), 0.5);
+  EXPECT_TRUE(has_note(tree, "1X turns backward at a + b")) << tree.at("notes");
+  EXPECT_TRUE(has_note(tree, "so little is explained: are probes swapped")) << tree.at("notes");
 }
 
 // A thirtieth of the samples is missing, a stretch of each channel: what stands there for spectra is no

@@ -382,8 +382,9 @@ TEST_F(Probes, ChooseFigures) {
   EXPECT_EQ(plot("time_history", "rotor").tree()["variant"], "rotor");
   const Outcome refused = plot("time_history", "2X");
   EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(has(refused.err,
-                  "--which 2X: there is no such figure; there are probes, rotor; of probes 1X, 1Y"))
+  EXPECT_TRUE(
+      has(refused.err,
+          "--which 2X: there is no such figure; there are probes | rotor; of probes 1X | 1Y"))
       << refused.err;
   result({"unbalance", "rotor.toml", "--speeds", "0:200:20rad/s", "--out", "run.h5"});
   EXPECT_EQ(plot("bode", "1Y").tree()["variant"], "probes");

@@ -69,7 +69,7 @@ TEST_F(ChosenFigure, IsRefusedWithWhatThereIs) {
   };
   EXPECT_TRUE(says(refusal({"mode"}), "did you mean \"modes\"?"));
   EXPECT_TRUE(says(refusal({"orbit"}), "it can be drawn as layout, modes"));
-  EXPECT_TRUE(says(refusal({"modes", "mode 7"}), "there are all, mode 1, mode 2"));
+  EXPECT_TRUE(says(refusal({"modes", "mode 7"}), "there are all | mode 1 | mode 2"));
   EXPECT_TRUE(says(refusal({"modes"}, {.revolutions = 2.0}), "are of motions in time: orbit,"));
   EXPECT_TRUE(says(refusal({"modes", "", path.string()}), "bifurcation, map,"));
 }
