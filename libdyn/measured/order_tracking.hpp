@@ -8,9 +8,11 @@
 
 namespace whirl::inline dyn {
 
+constexpr double fewest_order_revolutions = 2.0;  ///< that a point can be made of
+
 struct OrderOptions {
   std::vector<double> orders{1.0, 2.0};  ///< frequencies over speed, each above zero
-  double revolutions = 8.0;              ///< that a point is made of, two or more
+  double revolutions = 8.0;              ///< that a point is made of
   /// At whose nearest point the readings are taken off all points of a run-up: runout, which does not
   /// change with speed [rad/s].
   std::optional<double> slow_roll{};

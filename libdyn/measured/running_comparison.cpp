@@ -26,9 +26,12 @@ std::string sense_of(const CVec& readings, const std::vector<ProbedStation>& sta
 }
 
 /// The mode with the largest MAC; of several that probes cannot tell from it, the nearest in frequency.
+/// @return  -1 where none is alike
 int most_like(const RunningMode& running, const std::vector<Mode>& modes) {
   constexpr double same = 0.05;  // difference of MACs
+  constexpr double alike = 0.5;
   const double largest = *std::max_element(running.mac.begin(), running.mac.end());
+  if (!(largest >= alike)) return -1;
   int nearest = -1;
   double least = HUGE_VAL;
   for (std::size_t m = 0; m < modes.size(); ++m) {
@@ -67,6 +70,7 @@ void compare(RunningModes& found, const MeasuredIdentification& measured,
     }
     if (mode.mac.empty()) continue;
     mode.model_mode = most_like(mode, measured.found.modes);
+    if (mode.model_mode < 0) continue;
     const Mode& like = measured.found.modes[static_cast<std::size_t>(mode.model_mode)];
     mode.shift = mode.frequency() / like.frequency() - 1.0;
   }

@@ -40,7 +40,7 @@ struct RunningMode : Pole {
   // where there is a model to compare with: see compare()
   std::string whirl{};        ///< sense of whirl; "": no station shows it
   std::vector<double> mac{};  ///< against each of its modes, by what the probes read
-  int model_mode = -1;        ///< the one that it is most like, from 0; -1: none
+  int model_mode = -1;        ///< the one that it is most like, from 0; -1: none is alike
   double shift = unknown;     ///< frequency over that mode's, less one
 
   static constexpr auto columns() {

@@ -38,6 +38,7 @@
   measured_orbit_kind(), \
   measured_spectrum_kind(), \
   measured_waterfall_kind(), \
+  measured_deflection_kind(), \
   order_bode_kind(),     \
   order_polar_kind(),    \
   poincare_kind(),       \

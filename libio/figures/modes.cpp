@@ -5,83 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 
 #include "libbase/error.hpp"
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/studies/classification_result.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/shaft_line.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
+#include "libio/figures/shaft_shapes.hpp"
 
 namespace whirl::inline io {
 
 using namespace figures;
 
 namespace {
-
-constexpr int parts = 8;  ///< of an element, between which a shape is drawn straight
-
-/// Lateral shapes along the shaft, left to right.
-struct Shapes {
-  std::vector<double> z;           ///< [m]
-  CMat x, y;                       ///< places x modes
-  std::vector<std::string> names;  ///< of the places: "node 3: seal", or nothing between nodes
-};
-
-/// The shapes between the nodes too, by the shape functions of the elements; at the nodes only where
-/// the model cannot be read again.
-Shapes shapes_of(const ResultView& result, const CMat& full) {
-  const auto& at_rest = result_of<PointNames>(result);
-  const Vec& z = at_rest.z;
-  const auto nodes = z.size();
-  if (full.rows() < 4 * nodes) throw FileError("/modes/shape and /points/z do not fit");
-  std::vector<std::string> what = at_rest.node_names;
-  what.resize(static_cast<std::size_t>(nodes));
-  const auto name = [&](Eigen::Index i) {
-    const std::string& at = what.at(static_cast<std::size_t>(i));
-    return fmt::format("node {}{}{}", i + 1, at.empty() ? "" : ": ", at);
-  };
-  Shapes s;
-  if (result.assembler) {
-    if (nodes != result.assembler->mesh().nodes()) {
-      throw FileError("/points/z is not of the nodes of its model");
-    }
-    const ShaftLine line = shaft_line(*result.assembler, parts);
-    if (line.x.cols() == full.rows() && line.z.size() > 0) {
-      const auto places = line.z.size();
-      s.z = numbers(line.z);
-      s.x = line.x * full;
-      s.y = line.y * full;
-      s.names.resize(static_cast<std::size_t>(places));
-      const auto& order = result.assembler->mesh().left_to_right;
-      for (std::size_t i = 0; i < order.size(); ++i) s.names.at(i * parts) = name(order[i]);
-      return s;
-    }
-  }
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(nodes));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return z(a) < z(b); });
-  s.x.resize(nodes, full.cols());
-  s.y.resize(nodes, full.cols());
-  for (Eigen::Index i = 0; i < nodes; ++i) {
-    const Eigen::Index node = order[static_cast<std::size_t>(i)];
-    s.z.push_back(z(node));
-    s.names.push_back(name(node));
-    s.x.row(i) = full.row(4 * node);
-    s.y.row(i) = full.row(4 * node + 1);
-  }
-  return s;
-}
-
-/// The factor that makes the largest entry real and one of size; 0 for nothing.
-Complex turn_of(const CVec& values) {
-  Eigen::Index at = 0;
-  const double top = values.cwiseAbs().maxCoeff(&at);
-  return top > 0.0 ? std::conj(values(at)) / top : Complex(0.0);
-}
 
 /// What a mode is called, the most telling parts first.
 std::string title_of(const ResultView& result, Eigen::Index k, double frequency, double decrement,
@@ -91,7 +29,8 @@ std::string title_of(const ResultView& result, Eigen::Index k, double frequency,
                      decrement);
 }
 
-Panel shape_panel(const ResultView& result, const Shapes& shapes, Eigen::Index k, Whirl whirl) {
+Panel shape_panel(const ResultView& result, const ShaftShapes& shapes, Eigen::Index k,
+                  Whirl whirl) {
   Panel p;
   p.x = {.title = "position along the shaft [mm]"};
   p.y = {.title = "displacement", .first = -1.15, .last = 1.15};
@@ -172,7 +111,7 @@ FigureTable table_of(const Modes& modes, const ResultView& result) {
 
 std::vector<Figure> mode_figures(const ResultView& result) {
   const auto& modes = result_of<ModesAtPoints>(result);
-  const Shapes shapes = shapes_of(result, modes.shape);
+  const ShaftShapes shapes = shaft_shapes(result, modes.shape);
   constexpr Eigen::Index most = 6;  // beside each other
   const std::string speed = speed_text(result).empty() ? "" : " at " + speed_text(result);
   Figure all{.variant = "all", .subtitle = "Mode shapes" + speed, .width = 1080.0};

@@ -33,14 +33,15 @@ std::string mode_heading(const Mode& m, std::size_t number) {
 
 }  // namespace
 
-std::string text_of(const Identification& found, double Omega) {
-  TableColumns<IdentifiedPeak> columns{shown("frequency", "rpm", "+.1f").as("peak"),
-                                       {"from the rotor",
-                                        [=](const IdentifiedPeak& p) {
-                                          return texts::number_text((p.frequency - Omega) / rpm,
-                                                                    "+.1f");
-                                        }},
-                                       shown("amplitude").as("radius")};
+std::string text_of(const Identification& found, double Omega, bool has_sense) {
+  TableColumns<IdentifiedPeak> columns{
+      shown("frequency", "rpm", has_sense ? "+.1f" : ".1f").as("peak")};
+  if (has_sense) {
+    columns.push_back({"from the rotor", [=](const IdentifiedPeak& p) {
+                         return texts::number_text((p.frequency - Omega) / rpm, "+.1f");
+                       }});
+  }
+  columns.push_back(shown("amplitude").as(has_sense ? "radius" : "amplitude"));
   for (std::size_t i = 0; i < found.modes.size(); ++i) {
     columns.push_back({mode_heading(found.modes[i], i + 1), [i](const IdentifiedPeak& p) {
                          return p.mac[i] < 0.005 ? "·" : fmt::format("{:.2f}", p.mac[i]);
@@ -67,6 +68,32 @@ std::string text_of(const MeasuredIdentification& measured) {
       "  probes: {}\n  speed: {:.6g} rpm\n  transformed: {:.4g} s, lines {:.3g} rpm "
       "apart\n",
       probes, measured.speed / rpm, measured.duration, measured.found.bin / rpm);
+}
+
+std::string deflection_text(const MeasuredIdentification& measured) {
+  constexpr std::size_t most = 4;
+  const std::size_t peaks = std::min(most, measured.found.peaks.size());
+  if (peaks == 0 || measured.probes.size() < 2) return "";
+  std::vector<std::string> head{"probe"};
+  for (std::size_t i = 0; i < peaks; ++i) {
+    const double peak = measured.found.peaks[i].frequency / rpm;
+    head.push_back(texts::number_text(peak, measured.is_in_one_direction ? ".1f" : "+.1f") +
+                   " rpm");
+  }
+  Table table(std::move(head));
+  for (std::size_t p = 0; p < measured.probes.size(); ++p) {
+    std::vector<std::string> row{measured.probes[p].name};
+    for (std::size_t i = 0; i < peaks; ++i) {
+      const Complex reading =
+          measured.deflection(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(p));
+      row.push_back(fmt::format("{} {:>6}", format_engineering(std::abs(reading), "m"),
+                                fmt::format("{:+.0f}°", std::arg(reading) / degree)));
+    }
+    table.row(std::move(row));
+  }
+  return fmt::format("\nDeflection shapes at the {}peak{}: amplitude and phase of readings\n\n{}",
+                     peaks < measured.found.peaks.size() ? "strongest " : "", peaks == 1 ? "" : "s",
+                     table.text());
 }
 
 std::string text_of(const OrderTracking& tracking) {

@@ -9,11 +9,15 @@
 namespace whirl::inline io {
 
 /// Table of peaks against modes, the best mode of a peak beside it; the resonance below.
-/// @param Omega  speed of the rotor [rad/s]
-std::string text_of(const Identification& found, double Omega);
+/// @param Omega      speed of the rotor [rad/s]
+/// @param has_sense  whether frequencies have a sense of whirl
+std::string text_of(const Identification& found, double Omega, bool has_sense = true);
 
 /// What was measured: probes, speed and length of the record.
 std::string text_of(const MeasuredIdentification& measured);
+
+/// Deflection shapes at the strongest peaks, a row for each probe; empty: a probe alone has none.
+std::string deflection_text(const MeasuredIdentification& measured);
 
 /// Orders along a record: where each is largest.
 std::string text_of(const OrderTracking& tracking);

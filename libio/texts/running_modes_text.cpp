@@ -24,27 +24,42 @@ std::string with_deviation(double value, double deviation, double unit, const ch
 std::string comparison(const std::vector<RunningMode>& modes) {
   using Mode = RunningMode;
   constexpr double seen = 0.005;  // MAC that is told
-  const auto second = [](const Mode& m) -> std::string {
+  const auto mac = [](const Mode& m, int i) { return m.mac[static_cast<std::size_t>(i)]; };
+  const auto second = [=](const Mode& m) -> std::string {
     int next = -1;
     for (int i = 0; i < static_cast<int>(m.mac.size()); ++i) {
-      const auto mac = [&](int k) { return m.mac[static_cast<std::size_t>(k)]; };
-      if (i != m.model_mode && (next < 0 || mac(i) > mac(next))) next = i;
+      if (i != m.model_mode && (next < 0 || mac(m, i) > mac(m, next))) next = i;
     }
-    if (next < 0 || m.mac[static_cast<std::size_t>(next)] < seen) return "-";
-    return fmt::format("mode {} ({:.2f})", next + 1, m.mac[static_cast<std::size_t>(next)]);
+    if (next < 0 || mac(m, next) < seen) return "-";
+    return fmt::format("mode {} ({:.2f})", next + 1, mac(m, next));
   };
-  return table_of(
-      modes,
-      TableColumns<Mode>{
-          row_number("running mode"),
-          shown("whirl"),
-          {"most like", [](const Mode& m) { return fmt::format("mode {}", m.model_mode + 1); }},
-          {"MAC",
-           [](const Mode& m) {
-             return fmt::format("{:.2f}", m.mac[static_cast<std::size_t>(m.model_mode)]);
-           }},
-          {"shift", [](const Mode& m) { return fmt::format("{:+.1f} %", 100.0 * m.shift); }},
-          {"next", second}});
+  const auto if_alike = [](auto text) {
+    return [text](const Mode& m) { return m.model_mode < 0 ? std::string("-") : text(m); };
+  };
+  std::string table =
+      table_of(modes, TableColumns<Mode>{row_number("running mode"),
+                                         shown("whirl"),
+                                         {"most like",
+                                          [](const Mode& m) {
+                                            return m.model_mode < 0
+                                                       ? "none"
+                                                       : fmt::format("mode {}", m.model_mode + 1);
+                                          }},
+                                         {"MAC", if_alike([=](const Mode& m) {
+                                            return fmt::format("{:.2f}", mac(m, m.model_mode));
+                                          })},
+                                         {"shift", if_alike([](const Mode& m) {
+                                            return fmt::format("{:+.1f} %", 100.0 * m.shift);
+                                          })},
+                                         {"next", second}});
+  if (std::any_of(modes.begin(), modes.end(), [](const Mode& m) { return m.model_mode < 0; })) {
+    table += fmt::format(
+        "\n  none: of the {} modes of the model that are compared none looks like it at the "
+        "probes; "
+        "--modes N compares more\n",
+        modes.front().mac.size());
+  }
+  return table;
 }
 
 }  // namespace

@@ -18,13 +18,21 @@ RecordSource source_of(const Invocation& call, const RecordVerbOptions& options)
 std::optional<OrderTracking> tracked_orders(const MeasuredVerbOptions& options,
                                             const ProbeReadings& readings) {
   if (!options.orders) {
-    if (options.slow_roll) throw options.slow_roll.wrong("is for the orders that --orders names");
+    constexpr const char* alone = "is for the orders that --orders names";
+    if (options.slow_roll) throw options.slow_roll.wrong(alone);
+    if (options.order_revolutions.is_given) throw options.order_revolutions.wrong(alone);
     return std::nullopt;
   }
   if (!readings.clock) {
     throw options.orders.wrong("needs a key-phasor: give the file of --probes a [keyphasor]");
   }
-  return track_orders(readings, {.orders = *options.orders, .slow_roll = options.slow_roll.value});
+  if (*options.order_revolutions < fewest_order_revolutions) {
+    throw options.order_revolutions.wrong(
+        fmt::format("expected {:g} or more", fewest_order_revolutions));
+  }
+  return track_orders(readings, {.orders = *options.orders,
+                                 .revolutions = *options.order_revolutions,
+                                 .slow_roll = options.slow_roll.value});
 }
 
 std::optional<MeasurementSetup> recording_setup(const RecordingVerbOptions& options,

@@ -17,7 +17,7 @@ namespace whirl::inline cli {
 struct RecordVerbOptions {
   Option<std::string> measured{
       "measured", "FILE",
-      "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .h5"};
+      "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .ufb, .h5"};
   Option<std::string> probes{"probes", "FILE.toml",
                              "which channels of it are which probes; left out: those of the model, "
                              "by their names"};
@@ -38,11 +38,14 @@ struct MeasuredVerbOptions {
   Option<double> slow_roll{"slow-roll", "S",
                            "speed of the record whose readings are taken off these orders",
                            parse_frequency};
-  auto fields() { return std::tie(record, orders, slow_roll); }
+  Option<double> order_revolutions{"order-revolutions", "N",
+                                   "of the record that each point of these orders is made of", 8.0,
+                                   parse_revolutions};
+  auto fields() { return std::tie(record, orders, slow_roll, order_revolutions); }
 };
 
 /// The orders that a call asks for; nothing: it asks for none.
-/// @throws ModelError   for a slow roll without orders, and for orders without a key-phasor
+/// @throws ModelError   for options of orders without these, and for orders without a key-phasor
 /// @throws OptionError  as track_orders
 std::optional<OrderTracking> tracked_orders(const MeasuredVerbOptions& options,
                                             const ProbeReadings& readings);
@@ -52,8 +55,9 @@ struct RecordingVerbOptions {
   Option<std::string> measure{"measure", "FILE.toml",
                               "probes whose readings of the motion --measured-out takes; left out: "
                               "those of the model"};
-  Option<std::string> out{"measured-out", "FILE",
-                          "a record as a measurement would have it: .csv, .wav, .mat, .uff, .h5"};
+  Option<std::string> out{
+      "measured-out", "FILE",
+      "a record as a measurement would have it: .csv, .wav, .mat, .uff, .ufb, .h5"};
   Option<double> noise{"noise", "P",
                        "of each of its channels, such as 1%: standard deviation, of "
                        "the signal's",

@@ -34,8 +34,9 @@ Report identify_measured(const Invocation& call, const MeasuredVerbOptions& aske
   Report report = begin_report(call, model, record_of(measured));
   report.record.merge(record_of(measured.found)).merge(record_of(modes));
   report.text = headline("Measured motion", model) + "\n" + text_of(measured) + "\n" +
-                mac_heading(model, options) + text_of(measured.found, model.speed) +
-                doubt_text(measured);
+                mac_heading(model, options) +
+                text_of(measured.found, model.speed, !measured.is_in_one_direction) +
+                doubt_text(measured) + deflection_text(measured);
   if (orders) {
     report.record.set("orders", record_of(*orders));
     report.text += "\n" + text_of(*orders);

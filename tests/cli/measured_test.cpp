@@ -1,6 +1,9 @@
 // Records of measurements: written by simulate, read back by identify.
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <numbers>
 
 #include "tests/cli/program.hpp"
 
@@ -44,27 +47,56 @@ class Measured : public Program {
 // The MAC of a motion is over x and y of every node: probes there read all that it takes.
 TEST_F(Measured, GivesTheSameMacTableAsTheMotionItself) {
   write("probes.toml", probes_at(1, 13));
-  ASSERT_EQ(
-      whirl(words({"simulate", model, "--measure", "probes.toml", "--measured-out", "run.csv"}))
-          .status,
-      0);
   const json motion_itself = found(words({}));
-  const json measured =
-      found({"--measured", "run.csv", "--probes", "probes.toml", "--speed", "4430rpm"});
   ASSERT_GT(motion_itself.at("peaks").size(), 2u);
-  ASSERT_EQ(measured.at("peaks").size(), motion_itself.at("peaks").size());
-  for (std::size_t i = 0; i < measured.at("peaks").size(); ++i) {
-    const json &a = measured.at("peaks")[i], &b = motion_itself.at("peaks")[i];
-    for (const char* key : {"frequency_rpm", "amplitude_m", "shift"}) {
-      EXPECT_NEAR(a.at(key).get<double>(), b.at(key).get<double>(),
-                  1e-9 * std::abs(b.at(key).get<double>()))
-          << key;
-    }
-    EXPECT_EQ(a.at("mode"), b.at("mode"));
-    for (std::size_t m = 0; m < b.at("mac").size(); ++m) {
-      EXPECT_NEAR(a.at("mac")[m].get<double>(), b.at("mac")[m].get<double>(), 1e-9);
+  for (const char* file : {"run.csv", "run.uff", "run.ufb"}) {
+    SCOPED_TRACE(file);
+    ASSERT_EQ(whirl(words({"simulate", model, "--measure", "probes.toml", "--measured-out", file}))
+                  .status,
+              0);
+    const json measured =
+        found({"--measured", file, "--probes", "probes.toml", "--speed", "4430rpm"});
+    ASSERT_EQ(measured.at("peaks").size(), motion_itself.at("peaks").size());
+    for (std::size_t i = 0; i < measured.at("peaks").size(); ++i) {
+      const json &a = measured.at("peaks")[i], &b = motion_itself.at("peaks")[i];
+      for (const char* key : {"frequency_rpm", "amplitude_m", "shift"}) {
+        EXPECT_NEAR(a.at(key).get<double>(), b.at(key).get<double>(),
+                    1e-9 * std::abs(b.at(key).get<double>()))
+            << key;
+      }
+      EXPECT_EQ(a.at("mode"), b.at("mode"));
+      for (std::size_t m = 0; m < b.at("mac").size(); ++m) {
+        EXPECT_NEAR(a.at("mac")[m].get<double>(), b.at("mac")[m].get<double>(), 1e-9);
+      }
     }
   }
+}
+
+// One probe at a station: a line has no sense of whirl, and its amplitude is that of what the probe
+// reads, not the radius of one of the two circles that make it up.
+TEST_F(Measured, TellsNoSenseOfMotionsAlongALine) {
+  std::string text = "time [s],x [um]\n";
+  const double rate = 4430.0 / 60.0 * 32.0;
+  for (int j = 0; j < 32 * 64; ++j) {
+    const double angle = 2.0 * std::numbers::pi * j / 32.0;
+    text += fmt::format("{:.17g},{:.17g}\n", j / rate,
+                        20.0 * std::cos(angle + 0.3) + 5.0 * std::cos(0.5 * angle));
+  }
+  write("line.csv", text);
+  write("x.toml", "[[probe]]\nname = \"x\"\nnode = 4\nangle = 0\n");
+  const std::vector<std::string> call{"--measured", "line.csv", "--probes", "x.toml"};
+  const json tree = found(call);
+  EXPECT_TRUE(tree.at("one_direction").get<bool>());
+  ASSERT_EQ(tree.at("peaks").size(), 2u);
+  EXPECT_NEAR(tree.at("peaks")[0].at("frequency_rpm").get<double>(), 4430.0, 0.1);
+  EXPECT_NEAR(tree.at("peaks")[0].at("amplitude_m").get<double>(), 20e-6, 0.01e-6);
+  EXPECT_EQ(tree.at("peaks")[0].at("forced"), "1X");
+  EXPECT_NEAR(tree.at("peaks")[1].at("frequency_rpm").get<double>(), 2215.0, 0.1);
+  EXPECT_NEAR(tree.at("peaks")[1].at("amplitude_m").get<double>(), 5e-6, 0.01e-6);
+  EXPECT_TRUE(tree.at("resonance").is_null());
+  std::vector<std::string> words{"identify", model};
+  words.insert(words.end(), call.begin(), call.end());
+  EXPECT_FALSE(has(whirl(words).out, "from the rotor"));
 }
 
 TEST_F(Measured, TakesSpeedFromTheKeyPhasor) {

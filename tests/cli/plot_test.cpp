@@ -37,7 +37,7 @@ TEST_F(Plot, DrawsEveryKindOfFigure) {
       {{"identify", disks, "--measured", "run.csv", "--probes", "probes.toml", "--orders", "1",
         "--running-modes"},
        {"layout", "modes", "measured_orbit", "measured_spectrum", "measured_waterfall",
-        "order_bode", "order_polar", "mac", "stabilization"}},
+        "measured_deflection", "order_bode", "order_polar", "mac", "stabilization"}},
       {{"fit", disks, "--measured", "run.csv", "--probes", "probes.toml", "--free",
         "contact.ring.stiffness", "--revolutions", "4"},
        {"layout", "fit"}},

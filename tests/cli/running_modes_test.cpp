@@ -86,6 +86,15 @@ TEST_F(RunningModesVerb, FindsTheModesOfTheModelBesideTheSpeed) {
   EXPECT_EQ(whirl({"plot", "run.h5", "stabilization", "--out", "s.svg"}).status, 0);
   const std::string text = identify({"--running-modes"}).out;
   EXPECT_TRUE(has(text, "The modes of the model that probes see them most like")) << text;
+
+  // of the backward mode alone the forward one is not a likeness, whatever is the nearest
+  const Outcome few = identify({"--running-modes", "--modes", "1", "--json", "-"});
+  const json modes = few.tree().at("running").at("running_modes");
+  ASSERT_EQ(modes.size(), 2u);
+  EXPECT_EQ(modes[0].at("model_mode"), 1);
+  EXPECT_EQ(modes[1].at("model_mode"), 0);
+  EXPECT_TRUE(modes[1].at("shift").is_null());
+  EXPECT_TRUE(has(identify({"--running-modes", "--modes", "1"}).out, "--modes N compares more"));
 }
 
 TEST_F(RunningModesVerb, SaysWhatItsOptionsNeed) {

@@ -1,0 +1,71 @@
+#include "libio/figures/shaft_shapes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "libbase/error.hpp"
+#include "libdyn/system/stations.hpp"
+#include "libfe/shaft_line.hpp"
+#include "libio/figures/common.hpp"
+#include "libio/figures/result_of.hpp"
+
+namespace whirl::inline io {
+
+namespace {
+
+constexpr int parts = 8;  ///< of an element, between which a shape is drawn straight
+
+}  // namespace
+
+ShaftShapes figures::shaft_shapes(const ResultView& result, const CMat& full) {
+  const auto& at_rest = result_of<PointNames>(result);
+  const Vec& z = at_rest.z;
+  const auto nodes = z.size();
+  if (full.rows() < 4 * nodes) throw FileError("/modes/shape and /points/z do not fit");
+  std::vector<std::string> what = at_rest.node_names;
+  what.resize(static_cast<std::size_t>(nodes));
+  const auto name = [&](Eigen::Index i) {
+    const std::string& at = what.at(static_cast<std::size_t>(i));
+    return fmt::format("node {}{}{}", i + 1, at.empty() ? "" : ": ", at);
+  };
+  ShaftShapes s;
+  if (result.assembler) {
+    if (nodes != result.assembler->mesh().nodes()) {
+      throw FileError("/points/z is not of the nodes of its model");
+    }
+    const ShaftLine line = shaft_line(*result.assembler, parts);
+    if (line.x.cols() == full.rows() && line.z.size() > 0) {
+      const auto places = line.z.size();
+      s.z = numbers(line.z);
+      s.x = line.x * full;
+      s.y = line.y * full;
+      s.names.resize(static_cast<std::size_t>(places));
+      const auto& order = result.assembler->mesh().left_to_right;
+      for (std::size_t i = 0; i < order.size(); ++i) s.names.at(i * parts) = name(order[i]);
+      return s;
+    }
+  }
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(nodes));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return z(a) < z(b); });
+  s.x.resize(nodes, full.cols());
+  s.y.resize(nodes, full.cols());
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    const Eigen::Index node = order[static_cast<std::size_t>(i)];
+    s.z.push_back(z(node));
+    s.names.push_back(name(node));
+    s.x.row(i) = full.row(4 * node);
+    s.y.row(i) = full.row(4 * node + 1);
+  }
+  return s;
+}
+
+Complex figures::turn_of(const CVec& values) {
+  Eigen::Index at = 0;
+  const double top = values.cwiseAbs().maxCoeff(&at);
+  return top > 0.0 ? std::conj(values(at)) / top : Complex(0.0);
+}
+
+}  // namespace whirl::inline io

@@ -1,0 +1,27 @@
+#pragma once
+/// Complex shapes along the shaft, as figures draw them.
+
+#include <string>
+#include <vector>
+
+#include "libio/figures/figures.hpp"
+
+namespace whirl::inline io::figures {
+
+/// Lateral shapes along the shaft, left to right.
+struct ShaftShapes {
+  std::vector<double> z;           ///< [m]
+  CMat x, y;                       ///< places x modes
+  std::vector<std::string> names;  ///< of the places: "node 3: seal", or nothing between nodes
+};
+
+/// The shapes between the nodes too, by the shape functions of the elements; at the nodes only where
+/// the model cannot be read again.
+/// @param full     full vectors as columns, see DofMap
+/// @throws FileError  for vectors that are not of the nodes of the result
+ShaftShapes shaft_shapes(const ResultView& result, const CMat& full);
+
+/// The factor that makes the largest entry real and one of size; 0 for nothing.
+Complex turn_of(const CVec& values);
+
+}  // namespace whirl::inline io::figures
