@@ -143,6 +143,19 @@ Vec quad_change(const Rig& rig, const Scene& scene, const MotionState& start,
 /// curvature of motions that are not wild less.
 constexpr double turn = 0x1p-18;
 
+/// That a column is what it is alone, in another lane, bit by bit, and that the motion is, too.
+void expect_same_alone(const ContactSystem& system, const MotionState& start, double end,
+                       const std::vector<SystemSlope>& parameters, const SlopeOptions& options,
+                       const MotionSlopes& together) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const auto alone = motion_slopes(system, start, {{end}}, {&parameters[i], 1}, options);
+    EXPECT_EQ(alone.states, together.states) << i;
+    EXPECT_EQ(alone.by_parameter[0].col(0),
+              together.by_parameter[0].col(static_cast<Eigen::Index>(i)))
+        << i;
+  }
+}
+
 /// Compares derivatives at the end, for all knobs turned together, each so that what it does adds up
 /// with what the first one does.
 MotionSlopes expect_differences(const Rig& rig, const std::vector<Knob>& knobs) {
@@ -152,10 +165,10 @@ MotionSlopes expect_differences(const Rig& rig, const std::vector<Knob>& knobs) 
   std::vector<SystemSlope> parameters;
   for (const Knob& knob : knobs) parameters.push_back(slope(scene, rig.model, knob));
   const double end = static_cast<double>(rig.revolutions) * system.period();
-  const MotionSlopes found =
-      motion_slopes(system, start, {{end}}, parameters,
-                    {.tolerance = 1e-16, .by_start = false, .held = HeldSample::phase});
+  const SlopeOptions options{.tolerance = 1e-16, .by_start = false, .held = HeldSample::phase};
+  const MotionSlopes found = motion_slopes(system, start, {{end}}, parameters, options);
   EXPECT_EQ(found.outcome, Outcome::reached_end) << found.failure;
+  expect_same_alone(system, start, end, parameters, options, found);
 
   const Vec to_scale = system.state_scale().cwiseInverse();
   const auto count = static_cast<Eigen::Index>(knobs.size());
@@ -317,9 +330,16 @@ TEST(MotionSlopes, AreTheLimitOfDifferencesOnOilFilms) {
       speed(),
       unbalance()};
   test::MassOnFilm mass;
-  mass.U = 2e-4;
-  expect_differences({.model = mass.model(), .settle = 5, .revolutions = 2}, knobs);
+  mass.U = 1e-3;
+  Model model = mass.model();
   for (const Knob& knob : {stiffness(), friction(), clearance()}) knobs.push_back(knob);
+  model.contacts.push_back({.name = "ring",
+                            .at = model.films[0].at,
+                            .clearance = 0.4 * mass.bearing.clearance,
+                            .friction = {.mu = 0.1, .slip = Slip::forward},
+                            .law = Radial<>{.k = 1e8}});
+  const auto found = expect_differences({.model = model, .settle = 5, .revolutions = 5}, knobs);
+  EXPECT_GE(found.events.size(), 50u);
   const test::TwoDisksOnFilms disks;
   expect_differences({.model = disks.model(), .settle = 20, .revolutions = 1}, knobs);
 }
