@@ -26,7 +26,9 @@ ContactForces kinematics(const ReducedContact& c, double phase, const double* y,
   return kinematics(c, phase, {{d(0), d(1)}, {w(0), w(1)}, {v(0), v(1)}});
 }
 
-ContactForces kinematics(const ReducedContact& c, double phase, const GapMotion<double>& motion) {
+// Flat: a call for each of geometry and law takes as long as what they compute.
+[[gnu::flatten]] ContactForces kinematics(const ReducedContact& c, double phase,
+                                          const GapMotion<double>& motion) {
   const ContactGap<double> gap = std::visit(
       [&](const auto& geometry) { return geometry.gap(c.space(), phase, motion); }, c.geometry);
   ContactForces f{.n = {gap.n[0], gap.n[1]},
