@@ -81,6 +81,7 @@ class ListReader {
     if (const auto probes = table.string("probes")) found.probes = in_folder(*probes);
     if (const auto rate = table.quantity("rate", "1/s", Range::positive)) found.rate = *rate;
     if (const ConfigNode* sets = table.node("set")) {
+      found.sets_from = sets->where;
       for (const ConfigNode& line : sets->items) {
         if (line.kind == ConfigNode::Kind::string) found.sets.push_back(line.text);
       }
@@ -133,6 +134,19 @@ std::vector<RecordSource> read_list(const std::filesystem::path& path, const Rec
 Model with_values(const Model& model, const std::vector<std::string>& sets) {
   return parse_model(model.source, model.path, sets,
                      std::filesystem::path(model.path).parent_path());
+}
+
+Model model_for(const Model& model, const RecordSource& source) {
+  try {
+    return with_values(model, source.sets);
+  } catch (const ModelError& error) {
+    if (source.sets_from.file.empty()) throw;
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      if (!problem.where.set.empty()) problem.where = source.sets_from;
+    }
+    throw ModelError(std::move(problems));
+  }
 }
 
 Measurement measurement_of(Model model, const SourcedRecord& record) {

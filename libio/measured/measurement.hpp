@@ -17,6 +17,7 @@ struct RecordSource {
   std::optional<double> rate{};     ///< where the record does not say it [1/s]
   bool has_speed = false;           ///< whether somebody said the model's speed for this record
   std::vector<std::string> sets{};  ///< "PATH=VALUE" of the model, for this record
+  Where sets_from{};                ///< where a list of records says them; empty: nowhere
 };
 
 /// A record, and where it is from.
@@ -42,6 +43,10 @@ Measurement read_measurement(Model model, const RecordSource& source);
 /// The model with some values set, "PATH=VALUE" each.
 /// @throws ModelError  as parse_model
 Model with_values(const Model& model, const std::vector<std::string>& sets);
+
+/// The model with the values that a record sets.
+/// @throws ModelError  as parse_model; what is wrong with these values is said of where they stand
+Model model_for(const Model& model, const RecordSource& source);
 
 /// Reads a record, or all of a list, a file that ends with .toml and has a [[record]] each:
 ///

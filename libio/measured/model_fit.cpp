@@ -53,7 +53,7 @@ FitMeasurement fit_measurement(const Model& model, const FreeParameters& free,
                                std::vector<std::string>& notes) {
   const RecordSource& source = record.source;
   require_free(source, free);
-  Measurement m = measurement_of(with_values(model, source.sets), record);
+  Measurement m = measurement_of(model_for(model, source), record);
   if (m.readings.probes.empty()) {
     throw OptionError("no probes read it: give --probes FILE.toml, or the model a [[probe]]");
   }

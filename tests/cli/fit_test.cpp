@@ -257,6 +257,10 @@ TEST_F(FitVerb, SaysWhatIsWrong) {
   EXPECT_EQ(both.status, 2) << both.out;
   EXPECT_TRUE(has(both.err, "run.csv: sets contact.ring.friction, which is to be found"))
       << both.err;
+  write("set.toml", "[[record]]\nfile = \"run.csv\"\nset = [\"disk.nine.mass=1\"]\n");
+  const Outcome unknown = fit({"--measured", "set.toml", "--free", free});
+  EXPECT_EQ(unknown.status, 2) << unknown.out;
+  EXPECT_TRUE(has(unknown.err, "set.toml:3:7: disk.nine.mass: there is no element")) << unknown.err;
   const Outcome blind = whirl({"fit", model, "--measured", "run.csv", "--free", free});
   EXPECT_EQ(blind.status, 2);
   EXPECT_TRUE(has(blind.err, "run.csv: no probes read it")) << blind.err;
