@@ -52,6 +52,12 @@ std::vector<Twin> twins() {
            .points = {node(4), node(9)},
            .paths = ring,
            .truth = {4e6, 0.05, 5e-3}},
+          {.name = "bouncing",
+           .file = "two_disk_mac.toml",
+           .sets = {"contact.ring.friction=0.01"},
+           .points = {node(4), node(9)},
+           .paths = ring,
+           .truth = {4e6, 0.01, 5e-3}},
           {.name = "chaos",
            .file = "jeffcott_stator.toml",
            .sets = {},
@@ -161,7 +167,7 @@ void fit_twin(const Twin& twin, int seeds, double off) {
     std::vector<FreeParameter> free;
     for (std::size_t p = 0; p < twin.paths.size(); ++p) {
       const double start = twin.truth[p] * (1.0 + off * (2.0 * random_share(random) - 1.0));
-      free.push_back({.path = twin.paths[p], .start = start, .size = start});
+      free.push_back({.path = twin.paths[p], .start = start, .size = start, .lower = 0.0});
     }
     const FitSource source =
         model_source(record, measured.scene, measured.rows, free, [&](const Vec& values) {

@@ -156,6 +156,11 @@ Fit fit_from(FitSearch& search, const FitOptions& options) {
   squares.hold_parameters();
   squares.solve(gaps[0], 10, 1e-2);
   squares.free_parameters();
+  if (squares.rouse()) {
+    squares.hold_parameters();
+    squares.solve(gaps[0], 10, 1e-2);
+    squares.free_parameters();
+  }
   std::vector<double> stages(gaps.begin(), gaps.end());
   if (search.has_steady()) stages.insert(stages.end(), closing.begin(), closing.end());
   long done = 0;

@@ -147,6 +147,46 @@ Sparse FitLeastSquares::jacobian() {
       found.rows.data(), found.cols.data(), found.values.data());
 }
 
+std::vector<Eigen::Index> FitLeastSquares::idle_parameters() {
+  std::vector<Eigen::Index> idle;
+  const Sparse J = jacobian();
+  for (Eigen::Index p = 0; p < std::min<Eigen::Index>(search_.x.size(), J.cols()); ++p) {
+    if (J.col(p).squaredNorm() == 0.0) idle.push_back(p);
+  }
+  return idle;
+}
+
+bool FitLeastSquares::does_something_at(double x, Eigen::Index parameter) {
+  const FreeParameter& p = search_.parameters[static_cast<std::size_t>(parameter)];
+  const double value = x * p.size;
+  if (!(value > p.lower && value < p.upper)) return false;
+  search_.x(parameter) = x;
+  const Sparse J = jacobian();
+  return J.cols() > parameter && J.col(parameter).squaredNorm() > 0.0;
+}
+
+bool FitLeastSquares::rouse() {
+  constexpr double explained = 1.5;  // noises that are left
+  constexpr double step = 0.97, furthest = 1.0 / 3.0, beyond = 0.9;
+  double cost = 0.0;
+  if (!problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr)) return false;
+  if (2.0 * cost < explained * explained * static_cast<double>(search_.readings())) return false;
+  const std::vector<Eigen::Index> idle = idle_parameters();
+  for (double factor = step; factor > furthest; factor *= step) {
+    for (const Eigen::Index p : idle) {
+      const double own = search_.x(p);
+      for (const double way : {factor, 1.0 / factor}) {
+        if (!does_something_at(own * way, p)) continue;
+        const double further = way < 1.0 ? beyond : 1.0 / beyond;
+        if (!does_something_at(own * way * further, p)) search_.x(p) = own * way;
+        return true;
+      }
+      search_.x(p) = own;
+    }
+  }
+  return false;
+}
+
 std::vector<Eigen::Map<Vec>> FitLeastSquares::unknowns() {
   const auto map = [](Vec& v) { return Eigen::Map<Vec>(v.data(), v.size()); };
   std::vector<Eigen::Map<Vec>> all{map(search_.x)};

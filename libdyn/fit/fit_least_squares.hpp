@@ -30,6 +30,11 @@ class FitLeastSquares {
   void hold_parameters() { problem_.SetParameterBlockConstant(search_.x.data()); }
   void free_parameters() { problem_.SetParameterBlockVariable(search_.x.data()); }
 
+  /// Moves a parameter where others and itself do nothing, as those of a contact that is out of reach
+  /// do: to the nearest value at which it does something, up to a third or three times its own. Where
+  /// there is none, or the model explains the records as it is, nothing moves.
+  bool rouse();
+
   /// Derivatives of all residuals, the parameters first, then unknown offsets; empty where a motion does
   /// not get through.
   Sparse jacobian();
@@ -48,6 +53,10 @@ class FitLeastSquares {
     const FitOptions& options_;
   };
 
+  /// Numbers of parameters that do nothing.
+  std::vector<Eigen::Index> idle_parameters();
+  /// Whether a parameter does something with another value.
+  bool does_something_at(double x, Eigen::Index parameter);
   /// All that is searched for, in its scales.
   std::vector<Eigen::Map<Vec>> unknowns();
   Vec place();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "libbase/error.hpp"
@@ -71,8 +72,8 @@ ParameterAxis bounds_of(const AskedParameter& asked) {
   return *bounds;
 }
 
-/// The SI unit of the value at a path, where the file has a number without unit; empty: it has none.
-std::string unit_of(const std::string& path) {
+/// What the reader of models asks for at a path; null: no quantity.
+const AskedKey* quantity_at(const std::string& path) {
   static const Key root = model_keys();
   const Key* key = &root;
   for (const std::string& part : split(path, '.')) {
@@ -85,11 +86,23 @@ std::string unit_of(const std::string& path) {
     const Key* next = named(part);
     if (!next) next = named("[]");
     if (!next) next = named("*");
-    if (!next) return "";
+    if (!next) return nullptr;
     key = next;
   }
-  const AskedKey* quantity = key->find(AskedKey::Form::quantity);
-  return quantity ? quantity->unit : "";
+  return key->find(AskedKey::Form::quantity);
+}
+
+/// Below which no value is allowed to be, or none just above zero where it has to be positive.
+double least_of(Range range, double start) {
+  constexpr double next_to_nothing = 1e-6;
+  switch (range) {
+    case Range::nonnegative:
+      return 0.0;
+    case Range::positive:
+      return next_to_nothing * start;
+    default:
+      return -std::numeric_limits<double>::infinity();
+  }
 }
 
 /// @throws ModelError  as free_parameters
@@ -108,10 +121,12 @@ void add(const AskedParameter& asked, const ConfigNode* value, FreeParameters& f
     p.upper = bounds->values[1];
   }
   ParameterAxis axis = own && (!own->unit.empty() || !bounds) ? *own : *bounds;
-  p.unit = axis.unit.empty() ? unit_of(asked.path) : axis.unit;
+  const AskedKey* quantity = quantity_at(asked.path);
+  p.unit = axis.unit.empty() && quantity ? quantity->unit : axis.unit;
   const double start = own ? own->values[0] : 0.0;
   const bool is_in_middle = start == 0.0 && bounds;
   p.start = is_in_middle ? 0.5 * (p.lower + p.upper) : start;
+  if (!bounds && quantity) p.lower = least_of(quantity->range, p.start);
   p.size = p.start != 0.0 ? std::abs(p.start) : bounds ? p.upper - p.lower : 0.0;
   found.parameters.push_back(std::move(p));
   found.axes.push_back(std::move(axis));

@@ -92,6 +92,27 @@ TEST(Fit, FindsStiffnessAndFrictionInNoise) {
   }
 }
 
+// From a clearance that no window's motion reaches nothing of the contact is told, so that a search alone
+// would stay where it is.
+TEST(Fit, MovesAContactThatIsOutOfReach) {
+  const Rig rig;
+  const double truth = rig.truth.gap;
+  const auto with_clearance = [rotor = rig.truth](const Vec& values) {
+    RotorStator other = rotor;
+    other.gap = values(0);
+    return other.model();
+  };
+  for (const double share : {1.6, 2.4}) {
+    const std::vector<FreeParameter> free{
+        {.path = "clearance", .start = share * truth, .size = truth, .lower = 0.0}};
+    const Fit found =
+        fit({model_source(rig.record(8), rig.scene, rig.rows, free, with_clearance)}, free);
+    ASSERT_TRUE(found.has_converged) << found.why_not;
+    EXPECT_NEAR(found.parameters[0].value, truth, chance * found.parameters[0].standard_deviation);
+    EXPECT_EQ(found.parameters[0].start, share * truth);
+  }
+}
+
 // The bound of Cramer and Rao: the inverse of the information that one motion through the whole record
 // has of its start and the parameters. Windows that are tied together keep nothing back.
 TEST(Fit, IsAsSureAsTheNoiseLetsItBe) {
