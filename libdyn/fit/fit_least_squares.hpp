@@ -30,9 +30,9 @@ class FitLeastSquares {
   void hold_parameters() { problem_.SetParameterBlockConstant(search_.x.data()); }
   void free_parameters() { problem_.SetParameterBlockVariable(search_.x.data()); }
 
-  /// Moves a parameter where others and itself do nothing, as those of a contact that is out of reach
-  /// do: to the nearest value at which it does something, up to a third or three times its own. Where
-  /// there is none, or the model explains the records as it is, nothing moves.
+  /// Moves a parameter that does nothing where it is, as the clearance of a contact that is out of reach,
+  /// to a value at which it does something, down to a third and up to three times its own.
+  /// @return  false where there is none, or the model explains the records as it is: nothing has moved
   bool rouse();
 
   /// Derivatives of all residuals, the parameters first, then unknown offsets; empty where a motion does

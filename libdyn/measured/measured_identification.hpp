@@ -64,7 +64,8 @@ struct MeasuredIdentification {
         column("speed", &M::speed, "rad/s", "speed of the rotor in the record").only(in_file),
         column("duration", &M::duration, "s", "length of the record that was transformed"),
         column("one_direction", &M::is_in_one_direction, "",
-               "1: stations are seen in one direction only, peaks have no sense of whirl"),
+               "1: stations are seen in one direction only, peaks have no sense of whirl")
+            .only(in_json),
         rows(&M::probes, "probes").prefixed("probe_"),
         column("probe_z", &M::probe_z, "m", "position of a probe along the shaft; NaN: at a body")
             .along("probes")

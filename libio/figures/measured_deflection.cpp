@@ -177,10 +177,7 @@ std::vector<Figure> measured_deflection_figures(const ResultView& result) {
     const DisplayUnit unit = unit_for(largest, "m");
     const double frequency = peaks[i].frequency * result.frequency.factor;
     const std::string name =
-        fmt::format("{} {}",
-                    measured.is_in_one_direction ? fmt::format("{:.5g}", frequency)
-                                                 : with_minus(fmt::format("{:+.5g}", frequency)),
-                    result.frequency.name);
+        fmt::format("{} {}", with_minus(fmt::format("{:+.5g}", frequency)), result.frequency.name);
     Panel p = deflection_panel(result, shapes, shape, probes, unit);
     p.title = fmt::format("{} | {}", name, likeness(shape));
     Figure f{.variant = name, .height = 380.0};

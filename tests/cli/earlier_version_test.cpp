@@ -1,5 +1,6 @@
-// What version 0.1.0 wrote: it opens, and a study that it began is not gone on with. The file is a
-// map of two by two points, as that version left it.
+// What earlier versions wrote: it opens, and a study that they began is not gone on with. The files are a
+// map of two by two points as 0.1.0 left it, and a record of one probe that 0.2.0 identified, but for most of its
+// samples, from before it told positions of probes.
 
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
@@ -32,6 +33,17 @@ TEST_F(EarlierVersion, ItsResultsAreShown) {
     EXPECT_EQ(o.status, 0) << verb.front() << ": " << o.err;
   }
   EXPECT_NE(content(folder / "map.svg").find("<svg"), std::string::npos);
+}
+
+TEST_F(EarlierVersion, ItsMeasurementsAreShown) {
+  const std::string file = WHIRL_TEST_DATA "/earlier/identify_0.2.0.h5";
+  for (const char* kind : {"measured_spectrum", "measured_orbit", "mac", "modes"}) {
+    const Outcome o = whirl({"plot", file, kind, "--out", "m.svg", "--force"});
+    EXPECT_EQ(o.status, 0) << kind << ": " << o.err;
+  }
+  const Outcome all = whirl({"plot", file});
+  EXPECT_FALSE(has(all.out, "measured_deflection")) << all.out;
+  EXPECT_FALSE(has(all.out, "cannot be drawn")) << all.out;
 }
 
 TEST_F(EarlierVersion, ItsStudiesBeginAnewWhenAsked) {
