@@ -166,13 +166,16 @@ bool FitLeastSquares::does_something_at(double x, Eigen::Index parameter) {
 }
 
 bool FitLeastSquares::rouse() {
-  constexpr double explained = 1.5;  // noises that are left
+  constexpr double noises = 1.5;  // that may be left of records that are explained
   constexpr double step = 0.97, furthest = 1.0 / 3.0, beyond = 0.9;
   double cost = 0.0;
   if (!problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr)) return false;
-  if (2.0 * cost < explained * explained * static_cast<double>(search_.readings())) return false;
-  const std::vector<Eigen::Index> idle = idle_parameters();
+  if (2.0 * cost < noises * noises * static_cast<double>(search_.readings())) return false;
+  std::vector<Eigen::Index> idle = idle_parameters();
+  std::erase_if(idle, [&](Eigen::Index p) { return search_.x(p) == 0.0; });  // times what it may be
+  if (idle.empty()) return false;
   for (double factor = step; factor > furthest; factor *= step) {
+    if (search_.options.is_stopped && search_.options.is_stopped()) return false;
     for (const Eigen::Index p : idle) {
       const double own = search_.x(p);
       for (const double way : {factor, 1.0 / factor}) {

@@ -38,6 +38,8 @@ struct FreeParameter {
   double size = 0.0;   ///< what it is compared with, > 0
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
+  /// Whether the lower bound is that of any such value: nobody says that this one may be near it.
+  bool is_lower_general = false;
 };
 
 /// A system at some values of the parameters, with its slopes by them.

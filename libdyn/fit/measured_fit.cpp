@@ -89,7 +89,9 @@ std::vector<std::vector<FreeParameter>> starts_of(const std::vector<FreeParamete
   for (std::size_t i = 1; i < starts.size(); ++i) {
     for (FreeParameter& p : starts[i]) {
       const double around = range_without_bounds * (p.start != 0.0 ? std::abs(p.start) : p.size);
-      const double low = std::isfinite(p.lower) ? p.lower : std::min(p.start - around, p.upper);
+      const bool is_low_told = std::isfinite(p.lower) && !p.is_lower_general;
+      const double low =
+          is_low_told ? p.lower : std::max(std::min(p.start - around, p.upper), p.lower);
       const double high = std::isfinite(p.upper) ? p.upper : std::max(p.start + around, p.lower);
       const double share = random_share(random);
       p.start = low > 0.0 ? low * std::pow(high / low, share) : low + share * (high - low);
@@ -271,9 +273,11 @@ void note_missing(MeasuredFit& found, const std::vector<FitMeasurement>& measure
                   count, count == 1 ? " is" : "s are"));
 }
 
-/// A search that ended where the motion found has less than half of what was read has not found a fit.
+/// A search that ended where the motion found has less than half of what was read, and what is left is
+/// not noise, has not found a fit.
 void refuse_nonsense(MeasuredFit& found) {
-  if (found.explained >= least_explained) return;
+  if (found.explained >= least_explained || found.residual < unexplained) return;
+  found.same_end = 0;
   if (found.has_converged) {
     found.has_converged = false;
     found.why_not = fmt::format(

@@ -141,8 +141,8 @@ struct FitCandidate {
   double residual = 0.0;
   double log_likelihood = 0.0;
   double information = 0.0;  ///< criterion of Bayes [Schwarz1978]: the smallest is the best
-  /// Share of its likelihood in that of all, each punished for its parameters: where one of them is
-  /// right and none was preferred before, the probability that it is this one.
+  /// Share of its likelihood in that of all that converged, each punished for its parameters: where one of
+  /// them is right and none was preferred before, the probability that it is this one. 0: it did not.
   double weight = 0.0;
 
   static constexpr auto columns() {
@@ -155,7 +155,8 @@ struct FitCandidate {
         column("log_likelihood", &C::log_likelihood, "", "of the records"),
         column("information", &C::information, "",
                "Bayesian information criterion, parameters ln readings - 2 log likelihood"),
-        column("weight", &C::weight, "", "exp(-information / 2) over its sum over the models")};
+        column("weight", &C::weight, "",
+               "exp(-information / 2) over its sum over the models that converged")};
   }
 };
 
@@ -210,7 +211,8 @@ double noise_floor(const Vec& samples);
 /// Finds parameters by multiple shooting through some revolutions of records, see fit().
 ///
 /// Probes are weighted by their noise. If nobody knows it, it is their noise floor first, then what is
-/// left of each. A search that ends where less than half of the readings is explained has not converged.
+/// left of each. A search that ends where less than half of the readings is explained,
+/// and more is left than noise, has not converged.
 ///
 /// @throws ModelError, OptionError  as fit() and model_source()
 MeasuredFit fit(const std::vector<FitMeasurement>& measurements,

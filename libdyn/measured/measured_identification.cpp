@@ -118,7 +118,8 @@ MeasuredIdentification identify(const Model& model, const Scene& scene,
     return halves * spectra.stations.row(spectra.row(k)).cwiseAbs().maxCoeff();
   };
   lines.shape = [&](Eigen::Index k) -> CVec {
-    return 2.0 * spectra.probes.row(spectra.row(std::abs(k))).transpose();
+    const double halves_of_line = k == 0 || 2 * std::abs(k) == n ? 1.0 : 2.0;
+    return halves_of_line * spectra.probes.row(spectra.row(std::abs(k))).transpose();
   };
   std::vector<Mode> modes = compared_modes(model, scene, options);
   const CMat read = readings_of(modes, readings.probes, scene), shapes = seen(read);
@@ -126,7 +127,10 @@ MeasuredIdentification identify(const Model& model, const Scene& scene,
   weights.setIdentity();
   result.found = identify(lines, std::move(modes), shapes, weights,
                           forced_lines(scene.assembler, model.speed), model.speed, options);
-  if (result.is_in_one_direction) result.found.resonance.reset();  // which is of senses
+  if (result.is_in_one_direction) {  // what the rotor would see is of senses
+    result.found.resonance.reset();
+    for (IdentifiedPeak& peak : result.found.peaks) peak.frequency_rotating = std::nan("");
+  }
   result.mode_readings = read.transpose();
   add_doubts(result, shapes, weights);
 

@@ -71,7 +71,7 @@ void note_channel(const Vec& samples, const MeasuredRecord& record, const std::s
   }
 }
 
-/// Notes channels whose numbers are in a unit that neither they nor, it may be, anybody else said.
+/// Notes channels whose numbers are in a unit that nobody said.
 void note_units(const MeasuredRecord& record, const MeasurementSetup& setup,
                 const std::vector<Eigen::Index>& channels, std::vector<std::string>& notes) {
   const std::string usual = Probe{}.unit;
@@ -79,9 +79,7 @@ void note_units(const MeasuredRecord& record, const MeasurementSetup& setup,
   for (std::size_t i = 0; i < setup.probes.size(); ++i) {
     const MeasuredProbe& p = setup.probes[i];
     const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(channels[i])];
-    if (p.gain.of != ProbeGain::Of::length || !channel.unit.empty() || p.probe.unit != usual) {
-      continue;
-    }
+    if (p.gain.of != ProbeGain::Of::length || !channel.unit.empty() || p.is_unit_given) continue;
     names += (names.empty() ? "" : ", ") + channel.name;
   }
   if (names.empty()) return;

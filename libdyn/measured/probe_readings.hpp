@@ -23,7 +23,8 @@ struct MeasuredProbe {
   Probe probe;
   std::string channel;  ///< name or number
   ProbeGain gain{};
-  double unit_length = 1e-6;  ///< of the unit of the probe, for channels without one [m]
+  double unit_length = 1e-6;   ///< of the unit of the probe, for channels without one [m]
+  bool is_unit_given = false;  ///< whether somebody said that unit
 };
 
 /// How a record was measured.

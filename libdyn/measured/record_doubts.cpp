@@ -34,6 +34,11 @@ void note_backward(const MeasuredSpectra& spectra, const std::vector<ProbedStati
     const double b = std::abs(spectra.stations(spectra.row(-line), c));
     const double largest = spectra.stations.col(c).cwiseAbs().maxCoeff();
     if (!(b > turns_backward * f) || b < hardly_there * largest) continue;
+    // else it is the foot of another line
+    const auto beside = [&](Eigen::Index k) {
+      return std::abs(spectra.stations(spectra.row(-line + k), c));
+    };
+    if (!(b > beside(-2) && b > beside(2))) continue;
     ++backward;
     names += (names.empty() ? "" : ", ") + stations[s].name;
   }
@@ -42,7 +47,7 @@ void note_backward(const MeasuredSpectra& spectra, const std::vector<ProbedStati
       "1X turns backward at {}: {}", names,
       backward == open
           ? "probes are swapped, an angle or gain has the wrong sign, the rotor turns the other "
-            "way, or the speed is between criticals of anisotropic supports"
+            "way, a rub drives it back, or the speed is between criticals of anisotropic supports"
           : "and forward elsewhere: are probes swapped there, or has an angle or gain the wrong "
             "sign?"));
 }

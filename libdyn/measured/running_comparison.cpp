@@ -29,9 +29,8 @@ std::string sense_of(const CVec& readings, const std::vector<ProbedStation>& sta
 /// @return  -1 where none is alike
 int most_like(const RunningMode& running, const std::vector<Mode>& modes) {
   constexpr double same = 0.05;  // difference of MACs
-  constexpr double alike = 0.5;
   const double largest = *std::max_element(running.mac.begin(), running.mac.end());
-  if (!(largest >= alike)) return -1;
+  if (!(largest >= least_likeness)) return -1;
   int nearest = -1;
   double least = HUGE_VAL;
   for (std::size_t m = 0; m < modes.size(); ++m) {

@@ -62,6 +62,14 @@ void find_causes(std::vector<IdentifiedPeak>& peaks, const std::vector<ForcedLin
 
 }  // namespace
 
+int most_alike(const std::vector<double>& mac) {
+  const auto most = std::max_element(mac.begin(), mac.end());
+  if (most == mac.end()) return -1;
+  const auto first =
+      std::find_if(mac.begin(), mac.end(), [&](double m) { return m >= *most - same_mac; });
+  return static_cast<int>(first - mac.begin());
+}
+
 std::vector<ForcedLine> forced_lines(const Assembler& assembler, double Omega) {
   std::vector<ForcedLine> lines{{"1X", Omega}};
   const CVec synchronous = synchronous_forces(assembler);
@@ -172,12 +180,8 @@ Identification identify(const MotionLines& lines, std::vector<Mode> modes, const
     for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
       found.mac.push_back(mac(shapes.col(i), shape, weights));
     }
-    // of modes that look the same, as probes of one place may see them, the first
-    const auto most = std::max_element(found.mac.begin(), found.mac.end());
-    const auto best = std::find_if(found.mac.begin(), found.mac.end(),
-                                   [&](double mac) { return mac >= *most - same_mac; });
-    found.mode = static_cast<int>(best - found.mac.begin());
-    if (best != found.mac.end()) {
+    if (const int best = most_alike(found.mac); best >= 0) {
+      found.mode = best;
       const Mode& mode = result.modes[static_cast<std::size_t>(found.mode)];
       found.shift = std::abs(found.frequency) / mode.frequency() - 1.0;
     }

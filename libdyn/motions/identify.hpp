@@ -65,6 +65,11 @@ struct IdentifiedPeak {
   }
 };
 
+/// The mode of the largest MAC, of those that look the same the first, from 0; -1: there is none.
+int most_alike(const std::vector<double>& mac);
+/// MAC from which a shape is told to be like a mode: less than that of a line and a circle, 0.5.
+constexpr double least_likeness = 0.4;
+
 /// Ratio of the two strongest frequencies seen from the rotor.
 struct FrequencyRatio {
   int p = 0, q = 0;              ///< p >= q

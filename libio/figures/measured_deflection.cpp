@@ -19,8 +19,6 @@ namespace {
 
 using namespace figures;
 
-constexpr double alike = 0.5;  ///< MAC from which a mode is drawn beside a shape
-
 /// Probes along the shaft that read in one direction, by their numbers.
 using ProbesByAngle = std::map<long, std::vector<std::size_t>>;
 
@@ -52,15 +50,14 @@ struct PeakShape {
 
   PeakShape(const MeasuredIdentification& m, const IdentifiedPeak& p, Eigen::Index number)
       : measured(m), peak(p), readings(m.deflection.row(number).transpose()) {
-    const auto best = std::max_element(p.mac.begin(), p.mac.end());
-    if (best == p.mac.end() || !(*best >= alike)) return;
-    const auto row = best - p.mac.begin();
-    if (row >= m.mode_readings.rows() || m.mode_readings.cols() != readings.size()) {
+    const int best = most_alike(p.mac);
+    if (best < 0 || !(p.mac[static_cast<std::size_t>(best)] >= least_likeness)) return;
+    if (best >= m.mode_readings.rows() || m.mode_readings.cols() != readings.size()) {
       throw FileError("the readings of the modes are not of the peaks and probes");
     }
-    mode_readings = m.mode_readings.row(row).transpose();
+    mode_readings = m.mode_readings.row(best).transpose();
     factor = mode_readings.dot(readings) / mode_readings.squaredNorm();
-    mode = static_cast<int>(row);
+    mode = best;
   }
   bool has_mode() const { return mode >= 0; }
 };
@@ -204,7 +201,8 @@ FigureKind measured_deflection_kind() {
       .summary = "readings of the probes along the shaft at the peaks, and the modes like them",
       .needs = {dataset_of<MeasuredIdentification>(&MeasuredIdentification::deflection),
                 dataset_of<MeasuredIdentification>(&MeasuredIdentification::probe_z),
-                dataset_of<ModesAtPoints>(&ModesAtPoints::shape)},
+                dataset_of<ModesAtPoints>(&ModesAtPoints::shape),
+                dataset_of<PointNames>(&PointNames::z)},
       .make = measured_deflection_figures,
   };
 }

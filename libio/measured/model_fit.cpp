@@ -65,7 +65,10 @@ FitMeasurement fit_measurement(const Model& model, const FreeParameters& free,
   const std::string speed = fmt::format("operation.speed={:.17g} rad/s", found.span.speed);
   const auto family = std::make_shared<const ModelFamily>(with_values(m.model, {speed}), free.axes);
   found.scene = scene_for(*family, free);
-  add_doubts(found.readings, found.scene->assembler, found.span.speed, notes);
+  ProbeReadings fitted = found.readings;
+  fitted.displacement =
+      found.readings.displacement.middleRows(found.span.first, found.span.samples).eval();
+  add_doubts(fitted, found.scene->assembler, found.span.speed, notes);
   found.model_at = [family](const Vec& values) {
     return family->model({values.data(), static_cast<std::size_t>(values.size())});
   };

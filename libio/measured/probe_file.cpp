@@ -119,8 +119,8 @@ MeasurementSetup parse_probe_file(const std::string& text, const std::string& na
   if (!problems.empty()) throw ModelError(std::move(problems));
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const std::string channel = keys[i].channel.empty() ? probes[i].name : keys[i].channel;
-    setup.probes.push_back(
-        {probes[i], channel, keys[i].gain, *parse_as("1 " + probes[i].unit, "m")});
+    setup.probes.push_back({probes[i], channel, keys[i].gain, *parse_as("1 " + probes[i].unit, "m"),
+                            list->items[i].find("unit") != nullptr});
   }
   return setup;
 }
@@ -132,7 +132,9 @@ MeasurementSetup read_probe_file(const std::filesystem::path& path, const Model&
 MeasurementSetup model_probes(const Model& model) {
   MeasurementSetup setup;
   for (const Probe& probe : model.structure.probes) {
-    setup.probes.push_back({probe, probe.name, {}, *parse_as("1 " + probe.unit, "m")});
+    const bool is_unit_given = probe.unit != Probe{}.unit;  // as far as one can tell
+    setup.probes.push_back(
+        {probe, probe.name, {}, *parse_as("1 " + probe.unit, "m"), is_unit_given});
   }
   return setup;
 }

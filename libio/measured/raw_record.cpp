@@ -86,11 +86,12 @@ void spread(std::vector<double>& samples, const std::vector<double>& numbers) {
   samples = std::move(all);
 }
 
-/// The channel of times: by its name, else the first one in a unit of time, in whatever language.
-std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels) {
+/// The channel of times: by its name, else, where nothing says the rate, the first one in a unit of
+/// time, in whatever language.
+std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, bool is_rate_known) {
   const auto named = std::find_if(channels.begin(), channels.end(),
                                   [](const RawChannel& c) { return names_time(c.name); });
-  if (named != channels.end()) return named;
+  if (named != channels.end() || is_rate_known) return named;
   return std::find_if(channels.begin(), channels.end(), [](const RawChannel& c) {
     return !c.unit.empty() && parse_as("1 " + c.unit, "s").value.has_value();
   });
@@ -112,7 +113,7 @@ bool names_rate(const std::string& name) {
 }
 
 MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
-  const auto time = time_in(raw.channels);
+  const auto time = time_in(raw.channels, raw.rate || rate);
   if (time != raw.channels.end() && !raw.has_own_times) {
     const RawChannel times = std::move(*time);
     raw.channels.erase(time);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cctype>
 #include <cstring>
 
 #include "libio/measured/record_formats.hpp"
@@ -45,8 +46,9 @@ std::string lines_of(const Vec& samples) {
 
 /// Whether an ending asks for datasets 58b.
 bool is_binary_ending(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  return ending == ".ufb" || ending == ".UFB";
+  std::string ending = path.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".ufb";
 }
 
 }  // namespace

@@ -92,7 +92,7 @@ const AskedKey* quantity_at(const std::string& path) {
   return key->find(AskedKey::Form::quantity);
 }
 
-/// Below which no value is allowed to be, or none just above zero where it has to be positive.
+/// The least value of a range; of positive ones next to nothing beside where a search begins.
 double least_of(Range range, double start) {
   constexpr double next_to_nothing = 1e-6;
   switch (range) {
@@ -126,7 +126,10 @@ void add(const AskedParameter& asked, const ConfigNode* value, FreeParameters& f
   const double start = own ? own->values[0] : 0.0;
   const bool is_in_middle = start == 0.0 && bounds;
   p.start = is_in_middle ? 0.5 * (p.lower + p.upper) : start;
-  if (!bounds && quantity) p.lower = least_of(quantity->range, p.start);
+  if (!bounds && quantity) {
+    p.lower = least_of(quantity->range, p.start);
+    p.is_lower_general = true;
+  }
   p.size = p.start != 0.0 ? std::abs(p.start) : bounds ? p.upper - p.lower : 0.0;
   found.parameters.push_back(std::move(p));
   found.axes.push_back(std::move(axis));

@@ -172,11 +172,10 @@ NameAndUnit name_and_unit(
   }
   if (is_known(cell, "")) return {cell, "", false};
   for (const char* between : {",", " ", "_"}) {
-    for (const auto at : {cell.find(between), cell.rfind(between)}) {
-      if (at == std::string::npos) continue;
-      const std::string name = trimmed(cell.substr(0, at)), unit = trimmed(cell.substr(at + 1));
-      if (is_known(name, unit)) return {name, unit, true};
-    }
+    const auto at = cell.find(between);
+    if (at == std::string::npos) continue;
+    const std::string name = cell.substr(0, at), unit = trimmed(cell.substr(at + 1));
+    if (is_known(name, unit)) return {name, unit, true};
   }
   return {cell, "", false};
 }

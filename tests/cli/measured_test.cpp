@@ -94,6 +94,7 @@ TEST_F(Measured, TellsNoSenseOfMotionsAlongALine) {
   EXPECT_NEAR(tree.at("peaks")[1].at("frequency_rpm").get<double>(), 2215.0, 0.1);
   EXPECT_NEAR(tree.at("peaks")[1].at("amplitude_m").get<double>(), 5e-6, 0.01e-6);
   EXPECT_TRUE(tree.at("resonance").is_null());
+  EXPECT_TRUE(tree.at("peaks")[0].at("frequency_rotating_rpm").is_null());
   std::vector<std::string> words{"identify", model};
   words.insert(words.end(), call.begin(), call.end());
   EXPECT_FALSE(has(whirl(words).out, "from the rotor"));
@@ -134,6 +135,21 @@ TEST_F(Measured, TracksOrders) {
   EXPECT_EQ(curves[1].at("order"), 2.5);
   EXPECT_EQ(curves[0].at("response_m").size(), measured.at("orders").at("speed_rpm").size());
   EXPECT_NEAR(measured.at("orders").at("slow_roll_rpm").get<double>(), 4430.0, 1e-3);
+  const json longer = found({"--measured", "run.csv", "--probes", "probes.toml", "--orders", "1",
+                             "--order-revolutions", "16"});
+  const std::size_t points = measured.at("orders").at("speed_rpm").size();
+  EXPECT_NEAR(static_cast<double>(longer.at("orders").at("speed_rpm").size()),
+              0.5 * static_cast<double>(points), 2.0);
+  for (const auto& [value, says] : {std::pair{"1", "expected 2 or more"}, {"x", "revolutions"}}) {
+    const Outcome few = whirl({"identify", model, "--measured", "run.csv", "--probes",
+                               "probes.toml", "--orders", "1", "--order-revolutions", value});
+    EXPECT_EQ(few.status, 2);
+    EXPECT_TRUE(has(few.err, says)) << few.err;
+  }
+  EXPECT_TRUE(has(whirl({"identify", model, "--measured", "run.csv", "--probes", "probes.toml",
+                         "--order-revolutions", "16"})
+                      .err,
+                  "--orders"));
   ASSERT_EQ(whirl({"identify", model, "--measured", "run.csv", "--probes", "probes.toml",
                    "--orders", "1", "--out", "measured.h5"})
                 .status,

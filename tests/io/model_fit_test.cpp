@@ -51,6 +51,9 @@ TEST_F(ModelFit, TakesRecordsThatWereReadOnce) {
   for (const double damping : {c, 3.0 * c}) {
     const Model model = model_with(damping);
     const auto free = free_parameters({model}, "bearing.shaft.stiffness").front();
+    EXPECT_GE(free.parameters[0].lower, 0.0);
+    EXPECT_LT(free.parameters[0].lower, 1e-3 * free.parameters[0].start);
+    EXPECT_TRUE(free.parameters[0].is_lower_general);
     const MeasuredFit found =
         fit_model(model, free, records, {.revolutions = 4.0},
                   {.noise = ProbeNoise{1e-3, true}, .search = {.most_iterations = 30}});
