@@ -153,14 +153,13 @@ std::string why_not_of(const ceres::Solver::Summary& summary, int iterations) {
 Fit fit_from(FitSearch& search, const FitOptions& options) {
   FitLeastSquares squares(search);
   Fit fit;
-  squares.hold_parameters();
-  squares.solve(gaps[0], 10, 1e-2);
-  squares.free_parameters();
-  if (squares.rouse()) {
+  const auto find_states = [&] {
     squares.hold_parameters();
     squares.solve(gaps[0], 10, 1e-2);
     squares.free_parameters();
-  }
+  };
+  find_states();
+  if (squares.rouse()) find_states();
   std::vector<double> stages(gaps.begin(), gaps.end());
   if (search.has_steady()) stages.insert(stages.end(), closing.begin(), closing.end());
   long done = 0;

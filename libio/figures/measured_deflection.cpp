@@ -82,12 +82,9 @@ Curve mode_curve(const ShaftShapes& shapes, const PeakShape& shape, double angle
 Panel deflection_panel(const ResultView& result, const ShaftShapes& shapes, const PeakShape& shape,
                        const ProbesByAngle& probes, const DisplayUnit& unit) {
   Panel p;
-  p.x = {.title = "position along the shaft [mm]"};
+  p.x = shaft_axis(shapes);
   p.y = {.title = with_unit("reading at its largest", unit)};
   const double top = unit.factor * shape.readings.cwiseAbs().maxCoeff();
-  const double length = mm * (shapes.z.back() - shapes.z.front()), room = 0.03 * length;
-  p.x.first = mm * shapes.z.front() - room;
-  p.x.last = mm * shapes.z.back() + room;
   p.y.last = 1.15 * top;
   p.y.first = -p.y.last;
   add_rotor(p, result, 0.0, 0.5 * top);

@@ -32,11 +32,8 @@ std::string title_of(const ResultView& result, Eigen::Index k, double frequency,
 Panel shape_panel(const ResultView& result, const ShaftShapes& shapes, Eigen::Index k,
                   Whirl whirl) {
   Panel p;
-  p.x = {.title = "position along the shaft [mm]"};
+  p.x = shaft_axis(shapes);
   p.y = {.title = "displacement", .first = -1.15, .last = 1.15};
-  const double length = 1e3 * (shapes.z.back() - shapes.z.front()), room = 0.03 * length;
-  p.x.first = 1e3 * shapes.z.front() - room;
-  p.x.last = 1e3 * shapes.z.back() + room;
   add_rotor(p, result, 0.0, 0.5);
   // phases at which x, y are largest: their shapes are real then, nearly
   Curve x{.name = "x at its largest", .paint = Paint::series};

@@ -62,6 +62,12 @@ ShaftShapes figures::shaft_shapes(const ResultView& result, const CMat& full) {
   return s;
 }
 
+FigureAxis figures::shaft_axis(const ShaftShapes& shapes) {
+  const double first = mm * shapes.z.front(), last = mm * shapes.z.back();
+  const double room = 0.03 * (last - first);
+  return {.title = "position along the shaft [mm]", .first = first - room, .last = last + room};
+}
+
 Complex figures::turn_of(const CVec& values) {
   Eigen::Index at = 0;
   const double top = values.cwiseAbs().maxCoeff(&at);

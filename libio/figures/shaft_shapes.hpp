@@ -21,6 +21,9 @@ struct ShaftShapes {
 /// @throws FileError  for vectors that are not of the nodes of the result
 ShaftShapes shaft_shapes(const ResultView& result, const CMat& full);
 
+/// The axis of positions along these, with a little room at both ends.
+FigureAxis shaft_axis(const ShaftShapes& shapes);
+
 /// The factor that makes the largest entry real and one of size; 0 for nothing.
 Complex turn_of(const CVec& values);
 

@@ -65,9 +65,11 @@ FitMeasurement fit_measurement(const Model& model, const FreeParameters& free,
   const std::string speed = fmt::format("operation.speed={:.17g} rad/s", found.span.speed);
   const auto family = std::make_shared<const ModelFamily>(with_values(m.model, {speed}), free.axes);
   found.scene = scene_for(*family, free);
-  ProbeReadings fitted = found.readings;
-  fitted.displacement =
-      found.readings.displacement.middleRows(found.span.first, found.span.samples).eval();
+  const ProbeReadings fitted{
+      .rate = found.readings.rate,
+      .probes = found.readings.probes,
+      .displacement = found.readings.displacement.middleRows(found.span.first, found.span.samples),
+      .clock = found.readings.clock};
   add_doubts(fitted, found.scene->assembler, found.span.speed, notes);
   found.model_at = [family](const Vec& values) {
     return family->model({values.data(), static_cast<std::size_t>(values.size())});

@@ -31,8 +31,8 @@ struct RawRecord {
 constexpr double even_to = 0.1;
 
 /// Makes a record of channels of equal length: lengths in m, voltages in V. Without a rate the channel
-/// named time, or t, or else the first one in a unit of time says it, whose steps must be even to a tenth. Where it jumps by several of them the
-/// samples between are NaN.
+/// named time, or t, or else the first one in a unit of time says it, whose steps must be even to a tenth.
+/// Where it jumps by several of them the samples between are NaN.
 ///
 /// @param rate  for files that say neither, or with more digits than theirs; nothing: nobody knows [1/s]
 /// @throws ModelError  for a rate that is not that of the file, for times that do not ascend evenly, for

@@ -24,11 +24,12 @@ struct RecordFormat {
   void (*write)(const fs::path&, const MeasuredRecord&, Replaces);
 };
 
-constexpr std::array<RecordFormat, 5> record_formats{{
+constexpr std::array<RecordFormat, 6> record_formats{{
     {" .csv .txt .tsv .dat .asc ", read_csv_record, write_csv_record},
     {" .wav ", read_wav_record, write_wav_record},
     {" .mat ", read_matlab_record, write_matlab_record},
-    {" .uff .unv .ufb ", read_universal_record, write_universal_record},
+    {" .uff .unv ", read_universal_record, write_universal_record},
+    {" .ufb ", read_universal_record, write_binary_universal_record},
     {" .h5 .hdf5 ", read_hdf5_record, write_hdf5_record},
 }};
 

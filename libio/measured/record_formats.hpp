@@ -24,6 +24,9 @@ void write_matlab_record(const std::filesystem::path& path, const MeasuredRecord
                          Replaces replaces);
 void write_universal_record(const std::filesystem::path& path, const MeasuredRecord& record,
                             Replaces replaces);
+/// With datasets 58b.
+void write_binary_universal_record(const std::filesystem::path& path, const MeasuredRecord& record,
+                                   Replaces replaces);
 void write_hdf5_record(const std::filesystem::path& path, const MeasuredRecord& record,
                        Replaces replaces);
 

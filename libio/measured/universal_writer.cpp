@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cctype>
 #include <cstring>
 
 #include "libio/measured/record_formats.hpp"
@@ -44,18 +43,8 @@ std::string lines_of(const Vec& samples) {
   return text;
 }
 
-/// Whether an ending asks for datasets 58b.
-bool is_binary_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending == ".ufb";
-}
-
-}  // namespace
-
-void write_universal_record(const std::filesystem::path& path, const MeasuredRecord& record,
-                            Replaces replaces) {
-  const bool is_binary = is_binary_ending(path);
+void write_datasets(const std::filesystem::path& path, const MeasuredRecord& record,
+                    Replaces replaces, bool is_binary) {
   std::string text = fmt::format("{}{:>14}\n", universal_record_head, 2);
   const auto add = [&](const std::string& line) { text += fmt::format("{:<80.80}\n", line); };
   add(fmt::format("{:25.17E}{:25.17E}{:25.17E}", 1.0, 1.0, 1.0));
@@ -85,6 +74,18 @@ void write_universal_record(const std::filesystem::path& path, const MeasuredRec
     text += fmt::format("{}\n", block_mark);
   }
   replace_file(path, text, replaces_own(path, universal_record_head, replaces));
+}
+
+}  // namespace
+
+void write_universal_record(const std::filesystem::path& path, const MeasuredRecord& record,
+                            Replaces replaces) {
+  write_datasets(path, record, replaces, false);
+}
+
+void write_binary_universal_record(const std::filesystem::path& path, const MeasuredRecord& record,
+                                   Replaces replaces) {
+  write_datasets(path, record, replaces, true);
 }
 
 }  // namespace whirl::inline io
