@@ -6,6 +6,7 @@
 
 #include "libbase/travel.hpp"
 #include "libio/text/nearest.hpp"
+#include "libio/text/terminal.hpp"
 #include "libverbs/command/command.hpp"
 #include "libverbs/command/exit_status.hpp"
 #include "libverbs/command/verb.hpp"
@@ -38,10 +39,10 @@ int unknown_verb(const std::string& word) {
   for (const Verb& verb : verbs()) known.emplace_back(verb.name);
   for (const char* option : {"--help", "--version"}) known.emplace_back(option);
   const auto near = nearest(word, known);
-  fmt::print(stderr, "whirl: there is no {} \"{}\"; {}\n",
-             word.starts_with('-') ? "option" : "verb", word,
-             near ? fmt::format("did you mean \"{}\"?", *near)
-                  : fmt::format("known are {}", fmt::join(known, ", ")));
+  say(stderr, fmt::format("whirl: there is no {} \"{}\"; {}\n",
+                          word.starts_with('-') ? "option" : "verb", word,
+                          near ? fmt::format("did you mean \"{}\"?", *near)
+                               : fmt::format("known are {}", fmt::join(known, ", "))));
   return exit_status::wrong_input;
 }
 
@@ -51,7 +52,7 @@ int run_verb(const std::vector<std::string>& words, const Ranks* ranks) {
   if (!verb) return unknown_verb(words[1]);
   if (!verb->run_words) return run_command(*verb, words, {}, ranks);
   if (words.size() > 2 && words[2] == "--help") {
-    fmt::print("{}", verb->usage);
+    say(stdout, verb->usage);
     return exit_status::done;
   }
   return verb->run_words({words.begin() + 2, words.end()}, ranks);
@@ -62,18 +63,18 @@ int run_verb(const std::vector<std::string>& words, const Ranks* ranks) {
 int run_program(const std::vector<std::string>& words, const Ranks* ranks) {
   const std::string word = words.size() > 1 ? words[1] : "--help";
   if (word == "--help" || word == "-h" || (word == "help" && words.size() == 2)) {
-    fmt::print("{}", overview());
+    say(stdout, overview());
     return exit_status::done;
   }
   if (word == "--version") {
-    fmt::print("whirl {}\n", version);
+    say(stdout, fmt::format("whirl {}\n", version));
     return exit_status::done;
   }
   try {
     return run_verb(word == "help" ? std::vector{words[0], words[2], std::string("--help")} : words,
                     ranks);
   } catch (const std::exception& error) {
-    std::fputs(fmt::format("whirl: {}\n", error.what()).c_str(), stderr);  // which may be full too
+    say(stderr, fmt::format("whirl: {}\n", error.what()));  // which may be full too
     return exit_status::failed;
   }
 }

@@ -122,7 +122,7 @@ int work(MpiProcess& process, const std::vector<std::string>& words) {
     unpack(bytes, all.emplace_back());
   }
   if (const std::string why = mismatch(all); !why.empty()) {
-    if (ranks.leads()) fmt::print(stderr, "whirl-mpi: {}\n", why);
+    if (ranks.leads()) say(stderr, fmt::format("whirl-mpi: {}\n", why));
     return exit_status::wrong_input;
   }
   use_instruction_set(common_set(all));
@@ -149,11 +149,11 @@ int main(int argc, char** argv) {
     try {
       return work(process, whirl_words(argc, argv));
     } catch (const std::exception& error) {
-      fmt::print(stderr, "whirl-mpi: rank {}: {}\n", process.ranks().rank, error.what());
+      say(stderr, fmt::format("whirl-mpi: rank {}: {}\n", process.ranks().rank, error.what()));
       MpiProcess::abort(exit_status::failed);
     }
   } catch (const std::exception& error) {
-    fmt::print(stderr, "whirl-mpi: {}\n", error.what());
+    say(stderr, fmt::format("whirl-mpi: {}\n", error.what()));
     return exit_status::failed;
   }
 }

@@ -348,7 +348,8 @@ FitSpan fit_span(const ProbeReadings& readings, double speed, double from, doubl
   const auto last = static_cast<Eigen::Index>(std::floor((end - readings.start) * rate + 1e-6));
   span.samples = last - span.first + 1;
   const double found = (end - begin) / period;
-  if (!(found >= fewest_revolutions) || span.samples < 2 ||
+  constexpr double rounding = 1e-9;  // of times
+  if (!(found >= fewest_revolutions * (1.0 - rounding)) || span.samples < 2 ||
       static_cast<double>(span.samples) < found * fewest_samples) {
     throw OptionError(fmt::format(
         "has {:.3g} revolutions after the first {:.3g}, of {:.3g} samples each; expected "

@@ -9,6 +9,7 @@
 #include "libio/figures/common.hpp"
 #include "libio/figures/drawn_grid.hpp"
 #include "libio/model/model_file.hpp"
+#include "libio/results/call.hpp"
 #include "libio/results/result_schema.hpp"
 
 // clang-format off
@@ -73,8 +74,7 @@ ResultView::ResultView(const std::filesystem::path& file_path)
   if (title.empty()) title = file_path.filename().string();
   try {
     if (file.has_attribute("/model", "path")) model_path = file.string_attribute("/model", "path");
-    model = parse_model(file.strings("/model").at(0), path, {},
-                        std::filesystem::path(model_path).parent_path());
+    model = parse_model(stored_model(file), path);
     assembler.emplace(linear_structure(*model));
     const auto contacts = static_cast<Eigen::Index>(model->contacts.size());
     if (file.has("/contacts/name") && file.shape("/contacts/name").at(0) != contacts) {

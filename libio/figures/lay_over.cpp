@@ -14,6 +14,7 @@
 #include "libio/figures/comparison.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
+#include "libio/results/call.hpp"
 #include "libio/results/study_columns.hpp"
 #include "libio/text/units.hpp"
 
@@ -178,8 +179,8 @@ std::vector<std::string> varied(const ResultView& result) {
 std::vector<std::string> other_values(const ResultView& study, const ResultView& over) {
   // what the study varies; of bifurcation curves the second value is fixed for the branches
   const std::vector<std::string> paths = varied(study);
-  const FigureTable table = differences(
-      {study.file.strings("/model").at(0), over.file.strings("/model").at(0)}, {"a", "b"});
+  const FigureTable table =
+      differences({stored_model(study.file), stored_model(over.file)}, {"a", "b"});
   std::vector<std::string> others;
   for (const auto& row : table.rows) {
     if (row[0] == "title" || is_same_value(row[1], row[2])) continue;

@@ -1,12 +1,12 @@
 #include "libio/import/import_file.hpp"
 
-#include <fstream>
-#include <sstream>
+#include <fmt/format.h>
 
 #include "libio/import/parse_json.hpp"
 #include "libio/import/ross_model.hpp"
 #include "libio/model/model_file.hpp"
 #include "libio/results/temporary_folder.hpp"
+#include "libio/text/file_bytes.hpp"
 
 namespace whirl::inline io {
 
@@ -15,16 +15,17 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream text;
-  if (!fs::is_regular_file(file) || !(text << in.rdbuf())) {
-    throw FileError(file.string() + ": cannot be read, expected a file of ROSS, TOML or JSON");
-  }
-  return text.str();
+  auto text = file_bytes(file, FileKind::regular, most_text_bytes);
+  if (text) return std::move(*text.value);
+  throw FileError(
+      fmt::format("{}: {}; expected a file of ROSS, TOML or JSON", file.string(), text.problem));
 }
 
-/// The tree of a file, by how it begins: "[" begins a list of JSON, or a table of TOML.
-ConfigNode tree_of(const std::string& text, const std::string& name) {
+/// The tree of a file, by how it begins: "[" begins a list of JSON, or a table of TOML. A byte-order mark
+/// before it, as some editors leave, counts for nothing.
+ConfigNode tree_of(std::string text, const std::string& name) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  if (text.starts_with(mark)) text.erase(0, mark.size());
   const auto first = text.find_first_not_of(" \t\r\n");
   const bool is_list = name.ends_with(".json") && first != std::string::npos && text[first] == '[';
   const bool is_json = is_list || (first != std::string::npos && text[first] == '{');

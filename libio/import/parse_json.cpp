@@ -1,8 +1,11 @@
 #include "libio/import/parse_json.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 
 namespace whirl::inline io {
 
@@ -66,11 +69,23 @@ class Builder {
   bool end_object() { return close(); }
   bool end_array() { return close(); }
   bool key(std::string& name) {
+    const auto [first, is_new] = seen_.back().try_emplace(name, line_);
+    if (!is_new) {
+      throw ModelError(
+          here(), name,
+          fmt::format("this key is there already, in line {}; expected it once", first->second));
+    }
     keys_.back() = {name, here()};
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) {
     const std::string what = error.what();
+    const auto overflow = what.find("number overflow parsing ");
+    if (overflow != std::string::npos) {
+      throw ModelError(here(), "",
+                       fmt::format("found {}, expected a number of less than 1.8e308",
+                                   what.substr(what.find('\'', overflow))));
+    }
     const auto colon = what.find("syntax error");
     throw ModelError(here(), "",
                      "not JSON: " + (colon == std::string::npos ? what : what.substr(colon)));
@@ -110,12 +125,14 @@ class Builder {
     }
     open_.push_back(node(kind));
     keys_.emplace_back();
+    seen_.emplace_back();
     return true;
   }
   bool close() {
     ConfigNode done = std::move(open_.back());
     open_.pop_back();
     keys_.pop_back();
+    seen_.pop_back();
     return add(std::move(done));
   }
 
@@ -124,6 +141,7 @@ class Builder {
   ConfigNode root_;
   std::vector<ConfigNode> open_;
   std::vector<std::pair<std::string, Where>> keys_;  ///< of the open tables: where a value goes
+  std::vector<std::unordered_map<std::string, int>> seen_;  ///< lines of the keys of each of them
 };
 
 }  // namespace

@@ -17,17 +17,14 @@ struct FoundDataset {
   std::vector<Eigen::Index> shape;
 };
 
-void find_datasets(const ResultReader& file, const std::string& group,
-                   std::vector<FoundDataset>& found) {
-  for (const std::string& name : file.list(group.empty() ? "/" : group)) {
-    const std::string path = group + "/" + name;
+std::vector<FoundDataset> numbers_in(const ResultReader& file) {
+  std::vector<FoundDataset> found;
+  for (const std::string& path : file.datasets()) {
     const ObjectKind kind = file.kind(path);
-    if (kind == ObjectKind::group) {
-      find_datasets(file, path, found);
-    } else if (kind == ObjectKind::real || kind == ObjectKind::integer) {
-      found.push_back({path, name, file.shape(path)});
-    }
+    if (kind != ObjectKind::real && kind != ObjectKind::integer) continue;
+    found.push_back({path, path.substr(path.rfind('/') + 1), file.shape(path)});
   }
+  return found;
 }
 
 std::string unit_of(const ResultReader& file, const std::string& path) {
@@ -63,17 +60,17 @@ void add_channels(RawRecord& raw, const ResultReader& file, const FoundDataset& 
 RawRecord read_hdf5_record(const std::filesystem::path& path) {
   const ResultReader file(path);
   RawRecord raw{.file = path.string()};
-  std::vector<FoundDataset> found;
-  find_datasets(file, "", found);
   for (const std::string& name : file.attributes("/")) {
     if (names_rate(name)) raw.rate = file.number_attribute("/", name);
     if (name == "start") raw.start = file.number_attribute("/", name);
   }
-  for (const FoundDataset& d : found) {
+  for (const FoundDataset& d : numbers_in(file)) {
     Eigen::Index size = 1;
     for (const Eigen::Index n : d.shape) size *= n;
     if (size == 1 && names_rate(d.name)) {
       raw.rate = file.numbers(d.path).front();
+    } else if (size == 1 && d.name == "start") {
+      raw.start = file.numbers(d.path).front();
     } else if (size > 1 && d.shape.size() <= 2) {
       add_channels(raw, file, d);
     }

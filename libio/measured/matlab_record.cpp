@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "libbase/travel.hpp"
+#include "libio/measured/matlab_elements.hpp"
 #include "libio/measured/record_formats.hpp"
+#include "libio/results/confined_child.hpp"
 #include "libio/results/matlab_variables.hpp"
-#include "libio/results/trial.hpp"
 
 namespace whirl::inline io {
 
@@ -98,34 +100,6 @@ bool is_possible(const matvar_t& v, std::size_t file_size) {
   return bytes <= most_compressed * static_cast<double>(file_size);
 }
 
-/// @throws ModelError  where the file ends within a variable: matio reads zeros there
-void require_whole(const std::string& bytes, const std::string& file) {
-  constexpr std::size_t head = 128, tag = 8;
-  const bool is_level_5 = bytes.size() >= head &&
-                          (bytes.compare(126, 2, "IM") == 0 || bytes.compare(126, 2, "MI") == 0);
-  if (!is_level_5 || bytes.compare(0, 10, "MATLAB 7.3") == 0) return;
-  const bool is_swapped = bytes[126] == 'M';
-  const auto number_at = [&](std::size_t at) {
-    std::uint32_t number = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto byte = static_cast<unsigned char>(bytes[at + (is_swapped ? i : 3 - i)]);
-      number = number << 8 | byte;
-    }
-    return number;
-  };
-  for (std::size_t at = head; at < bytes.size();) {
-    const bool has_tag = at + tag <= bytes.size();
-    const std::size_t size = has_tag ? tag + number_at(at + 4) : tag;
-    if (at + size > bytes.size()) {
-      throw ModelError({file}, "",
-                       fmt::format("is cut off: it ends after {} bytes, and a variable that begins "
-                                   "at byte {} has {}",
-                                   bytes.size(), at, has_tag ? fmt::format("{}", size) : "more"));
-    }
-    at += size;
-  }
-}
-
 /// Gives channels the texts of a variable, those of times left out where they have none.
 void name_channels(RawRecord& raw, const char* variable, const std::vector<std::string>& texts,
                    std::string RawChannel::*member) {
@@ -143,12 +117,16 @@ void name_channels(RawRecord& raw, const char* variable, const std::vector<std::
   for (std::size_t i = 0; i < named.size(); ++i) named[i]->*member = texts[i];
 }
 
-RawRecord matlab_record(const std::filesystem::path& path) {
-  const std::string bytes = record_bytes(path);
+/// In the child.
+/// @param place  where the file is opened
+/// @param name   for messages
+RawRecord matlab_record(const std::string& place, const std::string& name_of_file) {
+  const std::string bytes = record_bytes(place);
   const std::size_t file_size = bytes.size();
-  RawRecord raw{.file = path.string()};
-  require_whole(bytes, raw.file);
-  const MatlabFile file(Mat_Open(path.c_str(), MAT_ACC_RDONLY), &Mat_Close);
+  RawRecord raw{.file = name_of_file};
+  require_whole_variables(bytes, raw.file);
+  const MatlabFile file(Mat_Open(place.c_str(), MAT_ACC_RDONLY), &Mat_Close);
+  open_nothing_more();
   if (!file) throw ModelError({raw.file}, "", "is no MATLAB file, or a damaged one");
   std::vector<std::string> names, units;
   std::string others;
@@ -192,11 +170,15 @@ RawRecord matlab_record(const std::filesystem::path& path) {
 }  // namespace
 
 RawRecord read_matlab_record(const std::filesystem::path& path) {
+  const OpenedFile file(path);
   // matio 1.5 ends the process on some damaged files
-  if (std::filesystem::is_regular_file(path)) {
-    try_in_child(path, "MATLAB", [&] { matlab_record(path); });
-  }
-  return matlab_record(path);
+  const ConfinedChild child(file, path.string(), "MATLAB",
+                            [name = path.string(), place = file.place()](const std::string&) {
+                              return ConfinedChild::Letter{packed(matlab_record(place, name))};
+                            });
+  RawRecord raw;
+  unpack(child.ask("").bytes, raw);
+  return raw;
 }
 
 void write_matlab_record(const std::filesystem::path& path, const MeasuredRecord& record,

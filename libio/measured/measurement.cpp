@@ -133,7 +133,7 @@ std::vector<RecordSource> read_list(const std::filesystem::path& path, const Rec
 
 Model with_values(const Model& model, const std::vector<std::string>& sets) {
   return parse_model(model.source, model.path, sets,
-                     std::filesystem::path(model.path).parent_path());
+                     NamedFiles::of_sets_in(std::filesystem::path(model.path).parent_path()));
 }
 
 Model model_for(const Model& model, const RecordSource& source) {

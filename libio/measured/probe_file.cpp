@@ -84,7 +84,9 @@ Model model_with(const ConfigNode& probes, const Model& model) {
   ConfigNode root = parse_toml(model.source, model.path);
   std::erase_if(root.entries, [](const ConfigNode::Entry& e) { return e.key == "probe"; });
   root.entries.push_back({"probe", probes});
-  return ModelBuilder(root, std::filesystem::path(model.path).parent_path()).build();
+  // the model has its tables in it
+  return ModelBuilder(root, NamedFiles::none_in(std::filesystem::path(model.path).parent_path()))
+      .build();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
+#include "libbase/travel.hpp"
 #include "libdyn/measured/measured_record.hpp"
 
 namespace whirl::inline io {
@@ -26,6 +27,18 @@ struct RawRecord {
   double start = 0.0;            ///< [s]
   bool has_own_times = false;    ///< no channel is one of times, whatever its name
 };
+
+template <class Bytes>
+void travel(Bytes& bytes, Is<RawChannel> auto& channel) {
+  auto& [name, unit, samples, where] = channel;
+  bytes(name, unit, samples, where);
+}
+
+template <class Bytes>
+void travel(Bytes& bytes, Is<RawRecord> auto& record) {
+  auto& [file, channels, rate, start, has_own_times] = record;
+  bytes(file, channels, rate, start, has_own_times);
+}
 
 /// Share of a step that times may be off.
 constexpr double even_to = 0.1;

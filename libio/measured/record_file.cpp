@@ -5,12 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
 
 #include "libio/measured/record_formats.hpp"
+#include "libio/text/file_bytes.hpp"
 
 namespace whirl::inline io {
 
@@ -50,14 +47,9 @@ const RecordFormat& format_of(const fs::path& path) {
 std::string record_bytes(const fs::path& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) throw FileError(path.string() + " is a directory");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw FileError(
-        fmt::format("{}: cannot read the file: {}", path.string(), std::strerror(errno)));
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return std::move(text).str();
+  auto bytes = file_bytes(path, FileKind::regular, most_record_bytes);
+  if (!bytes) throw FileError(fmt::format("{}: {}", path.string(), bytes.problem));
+  return std::move(*bytes.value);
 }
 
 MeasuredRecord read_record(const fs::path& path, std::optional<double> rate) {

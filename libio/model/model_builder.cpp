@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <utility>
 
 #include "libfe/assemble.hpp"
+#include "libio/text/file_bytes.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
 
@@ -32,9 +31,8 @@ bool has_any_mass(const Structure& s) {
 
 }  // namespace
 
-ModelBuilder::ModelBuilder(const ConfigNode& root, std::filesystem::path directory,
-                           std::vector<AskedKey>* asked)
-    : root_(root), directory_(std::move(directory)), asked_(asked) {}
+ModelBuilder::ModelBuilder(const ConfigNode& root, NamedFiles files, std::vector<AskedKey>* asked)
+    : root_(root), files_(std::move(files)), asked_(asked) {}
 
 Model ModelBuilder::build() {
   read_top();
@@ -120,16 +118,21 @@ std::optional<ModelBuilder::NamedText> ModelBuilder::table_text(TableReader& tab
       at.file.empty() ? table.path(key) : fmt::format("{}{}: {}", at.file, line, table.path(key)),
       *name};
   if (name->find('\n') == std::string::npos) {
-    const std::filesystem::path path = directory_ / *name;
-    std::ifstream file(path);
-    std::error_code ignored;
-    if (!file || std::filesystem::is_directory(path, ignored)) {
-      table.problem(key, fmt::format("cannot read the file \"{}\"", path.string()));
+    if (!(at.set.empty() ? files_.of_text : files_.of_sets)) {
+      table.problem(key, fmt::format("found {}, expected the lines of the table: a model that is "
+                                     "stored has its tables in it, and no file is opened for it",
+                                     in_quotes(*name)));
       return std::nullopt;
     }
-    std::ostringstream content;
-    content << file.rdbuf();
-    result = {path.string(), content.str()};
+    const std::filesystem::path path = files_.folder / *name;
+    const auto content = file_bytes(path, FileKind::regular, most_text_bytes);
+    if (!content) {
+      table.problem(
+          key, fmt::format("cannot read the file \"{}\"{}", path.string(),
+                           content.problem.starts_with("cannot") ? "" : ": " + content.problem));
+      return std::nullopt;
+    }
+    result = {path.string(), *content};
   }
   tables_.push_back({owner, item, std::string(key), result.text});
   return result;
@@ -274,7 +277,7 @@ void ModelBuilder::read_start() {
   if (const auto file = table.string("file"); file && !file->empty()) {
     // in the file: beside it; from the command line: as the shell sees it
     const bool is_in_file = table.where("file").line > 0;
-    model_.start.file = is_in_file ? (directory_ / *file).string() : *file;
+    model_.start.file = is_in_file ? (files_.folder / *file).string() : *file;
   }
   if (model_.start.from == StartFrom::file && model_.start.file.empty()) {
     table.missing("file", "the name of a result file to start from");

@@ -9,6 +9,7 @@
 
 #include "libdyn/system/model.hpp"
 #include "libio/model/config.hpp"
+#include "libio/model/named_files.hpp"
 #include "libio/model/read_fields.hpp"
 
 namespace whirl::inline fe {
@@ -21,8 +22,7 @@ namespace whirl::inline io {
 class ModelBuilder {
  public:
   /// @param asked  receives every key that is asked for; null: nobody wants to know
-  ModelBuilder(const ConfigNode& root, std::filesystem::path directory,
-               std::vector<AskedKey>* asked = nullptr);
+  ModelBuilder(const ConfigNode& root, NamedFiles files, std::vector<AskedKey>* asked = nullptr);
 
   /// @throws ModelError  with every problem found
   Model build();
@@ -119,7 +119,7 @@ class ModelBuilder {
   };
 
   const ConfigNode& root_;
-  std::filesystem::path directory_;
+  NamedFiles files_;
   std::vector<Problem> problems_;
   std::vector<Problem> doubts_;
   std::vector<AskedKey>* asked_;

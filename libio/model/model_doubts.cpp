@@ -179,12 +179,11 @@ void doubt_layers(const Structure& s, std::vector<Problem>& doubts) {
 }  // namespace
 
 std::vector<Problem> model_doubts(const std::string& text, const std::string& name,
-                                  const std::vector<std::string>& sets,
-                                  const std::filesystem::path& directory) {
+                                  const std::vector<std::string>& sets, const NamedFiles& files) {
   ConfigNode root = parse_toml(text, name);
   for (const std::string& set : sets) set_value(root, set);
   std::vector<AskedKey> asked;
-  ModelBuilder builder(root, directory, &asked);
+  ModelBuilder builder(root, files, &asked);
   const Model model = builder.build();
   std::vector<Problem> doubts;
   doubt_sizes(model.structure, doubts);

@@ -1,24 +1,23 @@
 #pragma once
 /// What in a model is right and seldom meant.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "libbase/error.hpp"
 #include "libdyn/system/model_facts.hpp"
+#include "libio/model/named_files.hpp"
 
 namespace whirl::inline io {
 
 /// Bare angles of more than a turn, shafts as long as houses, layers where something else is, and
 /// columns that tables of bearings lack.
 ///
-/// @param text, name, sets, directory  as of parse_model
+/// @param text, name, sets, files  as of parse_model
 /// @return  with their places, in the order in which they were found; each says what may be meant
 /// @throws ModelError  for a wrong model
 std::vector<Problem> model_doubts(const std::string& text, const std::string& name,
-                                  const std::vector<std::string>& sets,
-                                  const std::filesystem::path& directory);
+                                  const std::vector<std::string>& sets, const NamedFiles& files);
 
 /// Contacts that a rotor touches at rest.
 std::vector<Problem> rest_doubts(const ModelFacts& facts, const Model& model);

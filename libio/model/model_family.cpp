@@ -39,7 +39,7 @@ struct ModelFamily::State {
   Model base;
   std::vector<ParameterAxis> axes;
   ConfigNode root;
-  std::filesystem::path directory;
+  NamedFiles files;       ///< none: the model has its tables in it
   bool is_light = false;  ///< no value changes the rotor
 
   struct Known {
@@ -62,7 +62,7 @@ ModelFamily::ModelFamily(const Model& base, std::vector<ParameterAxis> axes)
   state_->base = base;
   state_->axes = std::move(axes);
   state_->root = parse_toml(base.source, base.path);
-  state_->directory = std::filesystem::path(base.path).parent_path();
+  state_->files = NamedFiles::none_in(std::filesystem::path(base.path).parent_path());
   state_->is_light =
       std::all_of(state_->axes.begin(), state_->axes.end(), [](const ParameterAxis& axis) {
         const std::vector<std::string> paths = axis.paths();
@@ -81,9 +81,9 @@ Model ModelFamily::model(std::span<const double> values) const {
   }
   const Model& base = state_->base;
   Model member;
-  if (state_->is_light) member = ModelBuilder(root, state_->directory).rebuild(base);
+  if (state_->is_light) member = ModelBuilder(root, state_->files).rebuild(base);
   if (!state_->is_light || !same_ports(member.contacts, base.contacts)) {
-    member = ModelBuilder(root, state_->directory).build();
+    member = ModelBuilder(root, state_->files).build();
   }
   member.source = base.source;
   member.path = base.path;

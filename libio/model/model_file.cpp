@@ -1,21 +1,17 @@
 #include "libio/model/model_file.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
-
 #include "libio/model/file_text.hpp"
 #include "libio/model/model_builder.hpp"
+#include "libio/text/file_bytes.hpp"
 
 namespace whirl::inline io {
 
 Model parse_model(const std::string& text, const std::string& name,
-                  const std::vector<std::string>& sets, const std::filesystem::path& directory) {
+                  const std::vector<std::string>& sets, const NamedFiles& files) {
   ConfigNode root = parse_toml(text, name);
   const std::string as_read = to_toml(root);
   for (const std::string& set : sets) set_value(root, set);
-  ModelBuilder builder(root, directory);
+  ModelBuilder builder(root, files);
   Model model = builder.build();
   for (const ModelBuilder::Table& table : builder.tables()) {
     ConfigNode* owner = root.find(table.owner);
@@ -34,13 +30,9 @@ std::string file_text(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, error)) {
     throw ModelError({path.string()}, "", "this is a directory; expected a model file");
   }
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw ModelError({path.string()}, "",
-                     std::string("cannot read the file: ") + std::strerror(errno));
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  const auto text = file_bytes(path, FileKind::stream, most_text_bytes);
+  if (!text) throw ModelError({path.string()}, "", text.problem);
+  return *text;
 }
 
 Model read_model(const std::filesystem::path& path, const std::vector<std::string>& sets) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "libdyn/system/model.hpp"
+#include "libio/model/named_files.hpp"
 
 namespace whirl::inline io {
 
@@ -19,11 +20,11 @@ Model read_model(const std::filesystem::path& path, const std::vector<std::strin
 /// @throws ModelError  if it has none
 void require_speed(const Model& model);
 
-/// The same from a text, for tests and for models stored in results.
-/// @param name       for messages
-/// @param directory  where files that the model names are looked for
+/// The same from a text, for tests and for models stored in results, which have their tables in them.
+/// @param name   for messages
+/// @param files  which ones the model may name; left out: none, which is right for all that a stranger
+///               may have written
 Model parse_model(const std::string& text, const std::string& name = "model",
-                  const std::vector<std::string>& sets = {},
-                  const std::filesystem::path& directory = {});
+                  const std::vector<std::string>& sets = {}, const NamedFiles& files = {});
 
 }  // namespace whirl::inline io

@@ -125,7 +125,7 @@ std::vector<AskedKey> asked_in(const std::string& text) {
   std::vector<AskedKey> asked;
   ConfigNode root = parse_toml(text, "specimen");
   try {
-    ModelBuilder(root, "", &asked).build();
+    ModelBuilder(root, {}, &asked).build();
   } catch (const ModelError&) {
     // a specimen is no whole model
   }

@@ -65,7 +65,7 @@ bool is_one_machine(const std::vector<std::unique_ptr<ResultView>>& results) {
   for (const auto& result : results) {
     const std::string verb = verb_of(*result);
     if (verb.empty() || !verbs.insert(verb).second) return false;
-    texts.push_back(result->file.strings("/model").at(0));
+    texts.push_back(stored_model(result->file));
   }
   if (std::all_of(texts.begin(), texts.end(), [&](const auto& t) { return t == texts[0]; })) {
     return true;

@@ -16,6 +16,7 @@
 #include "libio/page/machine_report.hpp"
 #include "libio/page/motion_json.hpp"
 #include "libio/page/page_assets.hpp"
+#include "libio/results/call.hpp"
 #include "libio/results/study_status.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/xml.hpp"
@@ -173,7 +174,7 @@ Record comparison_record(const std::vector<std::unique_ptr<ResultView>>& results
                          const std::vector<std::vector<Figure>>& figures, ArrayStore& arrays) {
   const std::vector<std::string> names = names_of(results);
   std::vector<std::string> texts;
-  for (const auto& result : results) texts.push_back(result->file.strings("/model").at(0));
+  for (const auto& result : results) texts.push_back(stored_model(result->file));
   Record list = Record::array();
   for (const Figure& f : figures.front()) {
     std::vector<const Figure*> alike{&f};
@@ -258,7 +259,7 @@ struct PageBuilder {
     moves = moves || !motion.is_empty();
     r.set("figures", list).set("motion", motion);
     r.set("contacts", attempt("table of contacts", missing, [&] { return contacts_of(result); }));
-    r.set("model", result.file.strings("/model").at(0));
+    r.set("model", stored_model(result.file));
     return r.set("warnings", warnings_of(result, missing));
   }
 };
@@ -282,7 +283,7 @@ ReportPage report_page(const std::vector<std::unique_ptr<ResultView>>& results,
     Record drawings = Record::array();
     std::vector<std::string> missing;
     builder.add(figure_kinds().front(), first, drawings, missing);
-    Record machine = machine_record(first, first.file.strings("/model").at(0));
+    Record machine = machine_record(first, stored_model(first.file));
     data.set("machine", machine.set("figures", drawings));
   }
   std::vector<std::vector<Figure>> all(ordered.size());

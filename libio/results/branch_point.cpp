@@ -8,11 +8,26 @@
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/studies/branch_result.hpp"
 #include "libio/model/model_file.hpp"
+#include "libio/results/call.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/text/option_values.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl::inline io {
+
+namespace {
+
+/// Checks that what a file sets of a model is a number, and names no file.
+void require_number(const std::string& set, const std::filesystem::path& path) {
+  std::string value = set.substr(std::min(set.find('='), set.size() - 1) + 1);
+  const bool is_quoted = value.size() > 1 && value.front() == '"' && value.back() == '"';
+  if (is_quoted) value = value.substr(1, value.size() - 2);
+  if (!set.empty() && parse_quantity(value)) return;
+  throw FileError(fmt::format("{}: its parameters are damaged: found {}, expected a number",
+                              path.string(), in_quotes(set)));
+}
+
+}  // namespace
 
 MotionState BranchStart::in(const Scene& scene) const {
   MotionState start;
@@ -39,14 +54,11 @@ BranchStart read_branch_point(const std::filesystem::path& path, long number) {
     at_point.push_back(set);
     at_first.push_back(set);
   }
-  const std::filesystem::path model = file->has_attribute("/model", "path")
-                                          ? file->string_attribute("/model", "path")
-                                          : path.string();
+  for (const std::string& set : at_point) require_number(set, path);
   return {.sets = at_point,
           .period = branches.branches.at(static_cast<std::size_t>(orbit.branch - 1)).period,
           .state = orbit.state,
-          .first = make_scene(parse_model(file->strings("/model").at(0), model.string(), at_first,
-                                          model.parent_path()))};
+          .first = make_scene(parse_model(stored_model(*file), path.string(), at_first))};
 }
 
 }  // namespace whirl::inline io

@@ -1,5 +1,7 @@
 #include "libio/results/call.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <ctime>
@@ -61,8 +63,8 @@ std::vector<std::string> options_without(const std::vector<std::string>& options
 
 std::vector<std::string> words_again(const std::string& program, const Call& call) {
   std::vector<std::string> words{program, call.verb, call.file};
-  for (const std::string& option :
-       options_without(call.options, {"quiet", "force", "restart", "out", "json", "svg"})) {
+  for (const std::string& option : options_without(
+           call.options, {"quiet", "force", "restart", "out", "json", "svg", "set", "speed"})) {
     words.push_back(option);
   }
   return words;
@@ -143,6 +145,13 @@ void write_origin(ResultWriter& file, const ResultOrigin& origin, const Model& m
   file.attribute("/model", "path", model.path);
   file.dataset("/arguments", origin.line, {"", "words of the command line", {""}});
   write_call(file, origin.call);
+}
+
+std::string stored_model(const ResultReader& file) {
+  const std::vector<std::string> texts = file.strings("/model");
+  if (texts.size() == 1) return texts.front();
+  throw FileError(fmt::format("{}: /model is damaged or of another program: expected one text",
+                              file.path().string()));
 }
 
 std::string shell_word(std::string_view word) {

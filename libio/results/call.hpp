@@ -62,6 +62,10 @@ struct ResultOrigin {
 /// model as it was.
 void write_origin(ResultWriter& file, const ResultOrigin& origin, const Model& model);
 
+/// The model that a result was computed of, as write_origin stored it.
+/// @throws FileError  if the file has none
+std::string stored_model(const ResultReader& file);
+
 /// A word as a shell takes it for one, whatever is in it.
 std::string shell_word(std::string_view word);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,8 @@
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {
+
+class ConfinedChild;
 
 /// What stands beside the numbers of a dataset.
 struct DatasetInfo {
@@ -158,22 +161,20 @@ struct Stretch {
   Eigen::Index first = 0, count = 0;
 };
 
-/// What is believed of a file that is opened.
-enum class Trust {
-  sealed,  ///< that HDF5 can read it if it has its checksum; else a child process tries that first
-  all,     ///< that HDF5 can read it
-};
-
 /// Reads a result file, or any other HDF5 file of numbers and texts.
 ///
-/// Every member but has() throws FileError, which names file and object, for what is missing,
-/// damaged or of another type or shape. Nothing outside of the file is ever read, and no dataset that
-/// says to be larger than the file can hold.
+/// HDF5 1.10 ends the process on some damaged files, writes where it must not, and never returns from
+/// others: it reads in a child process (ConfinedChild), whoever wrote the file and whatever its checksum
+/// says, which anybody can write. The child holds the file open, and is asked for everything.
+///
+/// Every member throws FileError, which names file and object, for what is missing, damaged or of
+/// another type or shape; has() only where HDF5 does not survive. Nothing outside of the file is ever
+/// read, and no dataset that says to be larger than the file can hold.
 class ResultReader {
  public:
   /// @throws FileError  if there is no such file, if it is no HDF5 file or a damaged one, or if
   ///                    anything in it is a link to another place
-  explicit ResultReader(const std::filesystem::path& path, Trust trust = Trust::sealed);
+  explicit ResultReader(const std::filesystem::path& path);
   ~ResultReader();
   ResultReader(const ResultReader&) = delete;
   ResultReader& operator=(const ResultReader&) = delete;
@@ -211,10 +212,15 @@ class ResultReader {
   std::vector<std::string> attributes(const std::string& object) const;
   /// Names of the members of a group, in the order of the alphabet.
   std::vector<std::string> list(const std::string& group) const;
+  /// Paths of all groups, "/" among them, and of all datasets. A group that several links lead to, or
+  /// that lies in itself, is one, and is looked into once.
+  std::vector<std::string> groups() const;
+  std::vector<std::string> datasets() const;
 
  private:
   std::filesystem::path path_;
-  std::int64_t id_ = -1;  ///< HDF5's handle
+  std::unique_ptr<ConfinedChild> child_;
+  std::vector<std::string> paths_;  ///< of all objects, in their order; empty: they are asked for
 };
 
 }  // namespace whirl::inline io

@@ -140,7 +140,7 @@ class ResultCheck {
       Size size{expected, "a result"};
       if (error != std::errc{}) {
         if (name.starts_with('/')) {
-          size = {file_.shape(name).at(0), name};
+          size = {length_of(name), name};
         } else {
           size = sizes_.try_emplace(name, Size{shape[i], path}).first->second;
         }
@@ -153,10 +153,17 @@ class ResultCheck {
     }
   }
 
+  /// Of a dataset of one dimension.
+  Index length_of(const std::string& path) const {
+    const std::vector<Index> shape = file_.shape(path);
+    if (shape.size() == 1) return shape[0];
+    fail(path, fmt::format("it has {} dimensions, expected 1", shape.size()));
+  }
+
   Index count_of(const ResultEntry& entry) const {
     if (entry.values.counts == "point") {
       Index count = 1;
-      for (const std::string& axis : axes_of_points(entry.path)) count *= file_.shape(axis).at(0);
+      for (const std::string& axis : axes_of_points(entry.path)) count *= length_of(axis);
       return count;
     }
     const auto known = sizes_.find(std::string(entry.values.counts));

@@ -12,6 +12,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/taylor/batch.hpp"
+#include "libio/results/call.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/result_schema.hpp"
@@ -70,7 +71,7 @@ void resume(const StudyPlace& place, const std::filesystem::path& from, const Ca
   if (essential(without_part(read_call(earlier))) != essential(without_part(call))) {
     refuse("holds another study: " + earlier.string_attribute("/", "command"));
   }
-  if (earlier.strings("/model").at(0) != place.model) {
+  if (stored_model(earlier) != place.model) {
     refuse("holds this study of a model that has changed since");
   }
   if (place.start && !is_same_start(earlier, *place.start)) {

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cstdio>
 
+#include "libio/text/terminal.hpp"
+
 namespace whirl::inline io {
 
 namespace {
@@ -35,7 +37,7 @@ std::string progress_text(long done, long total, double elapsed) {
 }
 
 ProgressLine::ProgressLine(std::string what, long total, bool shows, double period)
-    : what_(std::move(what)),
+    : what_(shown_text(what)),
       total_(total),
       shows_(shows),
       is_terminal_(isatty(STDERR_FILENO) != 0),

@@ -6,11 +6,22 @@
 #include <cassert>
 #include <cmath>
 
+#include "libio/text/terminal.hpp"
 #include "libio/text/xml.hpp"
 
 namespace whirl::inline io {
 
 namespace {
+
+/// A character of two or three bytes, which a terminal must not see where JSON is printed there.
+std::string escaped_character(std::string_view character) {
+  unsigned code =
+      static_cast<unsigned char>(character[0]) & (character.size() == 2 ? 0x1fu : 0x0fu);
+  for (const char byte : character.substr(1)) {
+    code = code << 6u | (static_cast<unsigned char>(byte) & 0x3fu);
+  }
+  return fmt::format("\\u{:04x}", code);
+}
 
 std::string escaped(std::string_view text) {
   std::string out = "\"";
@@ -18,7 +29,11 @@ std::string escaped(std::string_view text) {
     const char c = text.front();
     if (static_cast<unsigned char>(c) >= 0x80) {
       const std::size_t length = character_length(text);
-      out += length > 0 ? text.substr(0, length) : "\ufffd";  // JSON is UTF-8
+      if (length > 0 && steers_terminal(text.substr(0, length))) {
+        out += escaped_character(text.substr(0, length));
+      } else {
+        out += length > 0 ? text.substr(0, length) : "\ufffd";  // JSON is UTF-8
+      }
       text.remove_prefix(std::max<std::size_t>(1, length));
       continue;
     }
@@ -40,7 +55,7 @@ std::string escaped(std::string_view text) {
         out += "\\r";
         break;
       default:
-        if (static_cast<unsigned char>(c) < 0x20) {
+        if (steers_terminal({&c, 1})) {
           out += fmt::format("\\u{:04x}", static_cast<int>(c));
         } else {
           out += c;

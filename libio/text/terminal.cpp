@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "libio/text/table.hpp"
+#include "libio/text/xml.hpp"
 
 namespace whirl::inline io {
 
@@ -80,6 +81,39 @@ std::string folded(const std::string& text, std::size_t columns) {
     from = end + 1;
   }
   return out;
+}
+
+bool steers_terminal(std::string_view character) {
+  if (character.size() == 1) {
+    const auto c = static_cast<unsigned char>(character[0]);
+    return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7f;
+  }
+  if (character.size() == 2) {  // U+0080 to U+009F, the mark of Arabic letters
+    return (character[0] == '\xc2' && static_cast<unsigned char>(character[1]) < 0xa0) ||
+           character == "\u061c";
+  }
+  const auto is_from = [&](std::string_view first, std::string_view last) {
+    return character.size() == 3 && first <= character && character <= last;
+  };
+  return is_from("\u200e", "\u200f") || is_from("\u202a", "\u202e") || is_from("\u2066", "\u2069");
+}
+
+std::string shown_text(std::string_view text) {
+  std::string shown;
+  shown.reserve(text.size());
+  while (!text.empty()) {
+    const bool is_ascii = static_cast<unsigned char>(text[0]) < 0x80;
+    const std::size_t length = is_ascii ? 1 : character_length(text);
+    const std::string_view character = text.substr(0, std::max<std::size_t>(1, length));
+    shown += length == 0 || steers_terminal(character) ? "\ufffd" : character;
+    text.remove_prefix(character.size());
+  }
+  return shown;
+}
+
+void say(std::FILE* to, std::string_view text) {
+  const std::string shown = shown_text(text);
+  std::fwrite(shown.data(), 1, shown.size(), to);
 }
 
 void fill_standard_streams() {

@@ -2,7 +2,9 @@
 /// Where a program prints: how wide that may be, and that it is there at all.
 
 #include <cstddef>
+#include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace whirl::inline io {
@@ -17,6 +19,17 @@ std::string folded(const std::string& text, std::size_t columns);
 
 /// Parts of a line at blanks, none wider than so many columns unless it is one word.
 std::vector<std::string> folded_words(const std::string& line, std::size_t columns);
+
+/// Whether a character of UTF-8 steers a terminal instead of being shown: a control character but for
+/// the ends of lines and tabs, or one that turns the direction of what follows.
+bool steers_terminal(std::string_view character);
+
+/// A text that only shows something: what steers a terminal, and bytes that are no UTF-8, become U+FFFD.
+std::string shown_text(std::string_view text);
+
+/// Prints a text as shown_text has it. All that a program tells people goes this way, since names, titles
+/// and files of strangers stand in it.
+void say(std::FILE* to, std::string_view text);
 
 /// Takes the places of standard streams that are closed: or else a result file would get the number of
 /// one, and what is printed there would end in it. To what is not there nothing can be printed.

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <utility>
 #include <vector>
 
+#include "libio/text/file_bytes.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl::inline io {
@@ -45,14 +45,12 @@ class Lines {
     const auto known = texts_.find(name);
     if (known != texts_.end()) return known->second;
     std::vector<std::string> lines;
-    std::istringstream stored(source_.stored_text);
-    std::ifstream file(name);
     const bool is_stored = name == source_.file && !source_.stored_text.empty();
-    std::istream& from = is_stored ? stored : static_cast<std::istream&>(file);
+    std::string text = source_.stored_text;
+    if (!is_stored) text = file_bytes(name, FileKind::regular, most_text_bytes).value.value_or("");
+    if (text.starts_with("\x89HDF")) text.clear();  // a result: nothing to show
+    std::istringstream from(text);
     for (std::string line; std::getline(from, line);) lines.push_back(line);
-    if (!lines.empty() && lines[0].starts_with("\x89HDF")) {
-      lines.clear();  // a result: nothing to show
-    }
     return texts_[name] = lines;
   }
 

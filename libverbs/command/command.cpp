@@ -32,7 +32,7 @@ void write_json(const Report& report, const std::string& to, Replaces replaces) 
   record.set(json_mark_key, json_mark);
   const std::string text = record.json();
   if (to == "-") {
-    std::fputs(text.c_str(), stdout);
+    say(stdout, text);
   } else {
     replace_file(to, text, replaces);
   }
@@ -70,12 +70,12 @@ ModelError under_its_option(const ModelError& error, const CommandLine& line) {
 int print(Report report, const Invocation& call, const std::vector<BareSpeed>& bare) {
   const std::string json = call.output.json.value_or("");
   if (json != "-" && !call.output.quiet) {
-    for (const BareSpeed& s : bare) fmt::print("{}\n", s.reading());
-    fmt::print("{}{}", bare.empty() ? "" : "\n",
-               folded(report.text + notes_text(report.notes), terminal_columns()));
+    for (const BareSpeed& s : bare) say(stdout, fmt::format("{}\n", s.reading()));
+    say(stdout, fmt::format("{}{}", bare.empty() ? "" : "\n",
+                            folded(report.text + notes_text(report.notes), terminal_columns())));
   }
   if (report.failure) {
-    fmt::print(stderr, "{}: failed: {}\n", call.file, report.failure.text());
+    say(stderr, fmt::format("{}: failed: {}\n", call.file, report.failure.text()));
   }
   for (const BareSpeed& s : bare) report.notes.push_back(s.warning());
   if (!json.empty()) write_json(report, json, call.picture_replaces());
@@ -98,7 +98,7 @@ int execute(const Verb& verb, CommandLine& line) {
   if (call.ranks && !call.model_text.empty()) require_agreed(call.text("isa"));
   const std::vector<BareSpeed> bare = bare_speeds(speed_options(line));
   if (!call.output.quiet) {
-    for (const BareSpeed& s : bare) fmt::print(stderr, "whirl: warning: {}\n", s.warning());
+    for (const BareSpeed& s : bare) say(stderr, fmt::format("whirl: warning: {}\n", s.warning()));
   }
   return print(verb.run.with(call), call, bare);
 }
@@ -118,16 +118,15 @@ int run_command(const Verb& verb, const std::vector<std::string>& words, const S
   try {
     return execute(verb, line);
   } catch (const ModelError& error) {
-    fmt::print(stderr, "{}",
-               problems_text(under_its_option(error, line), {file, line.call.model_text}));
+    say(stderr, problems_text(under_its_option(error, line), {file, line.call.model_text}));
     return exit_status::wrong_input;
   } catch (const FileError& error) {
     return refused(error);
   } catch (const NumericalError& error) {
-    fmt::print(stderr, "{}: {}\n", file, error.what());
+    say(stderr, fmt::format("{}: {}\n", file, error.what()));
     return exit_status::failed;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "{}: not enough memory for this\n", file);
+    say(stderr, fmt::format("{}: not enough memory for this\n", file));
     return exit_status::failed;
   }
 }

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "libio/text/nearest.hpp"
+#include "libio/text/terminal.hpp"
 #include "libverbs/command/exit_status.hpp"
 
 namespace whirl::inline cli {
@@ -96,15 +97,15 @@ std::variant<CommandLine, int> read_command_line(const Verb& verb,
     std::vector<std::string> arguments(words.rbegin(), words.rend() - 2);
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", app.help());
+    say(stdout, app.help());
     return exit_status::done;
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "whirl {}: {}\n(whirl {} --help shows its options)\n", verb.name,
-               misplaced(app, words, error), verb.name);
+    say(stderr, fmt::format("whirl {}: {}\n(whirl {} --help shows its options)\n", verb.name,
+                            misplaced(app, words, error), verb.name));
     return exit_status::wrong_input;
   }
   if (call.file.empty()) {
-    fmt::print(stderr, "whirl {}: the name of the file is empty\n", verb.name);
+    say(stderr, fmt::format("whirl {}: the name of the file is empty\n", verb.name));
     return exit_status::wrong_input;
   }
   return command_of(verb, app, std::move(call));

@@ -4,18 +4,20 @@
 
 #include <cstdio>
 
+#include "libio/text/terminal.hpp"
+
 namespace whirl::inline cli {
 
 int after_printing(int status) {
   if (std::fflush(stdout) == 0) return status;
-  fmt::print(stderr, "whirl: cannot write to standard output\n");
+  say(stderr, "whirl: cannot write to standard output\n");
   return exit_status::wrong_input;
 }
 
 int refused(const FileError& error) {
   const bool is_taken = dynamic_cast<const TakenPlace*>(&error) != nullptr;
-  fmt::print(stderr, "whirl: {}{}\n", error.what(),
-             is_taken ? "; take another name, or --force to replace it" : "");
+  say(stderr, fmt::format("whirl: {}{}\n", error.what(),
+                          is_taken ? "; take another name, or --force to replace it" : ""));
   return exit_status::wrong_input;
 }
 

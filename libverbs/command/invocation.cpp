@@ -22,11 +22,11 @@ std::string Invocation::text(std::string_view option) const {
 }
 
 Model Invocation::model() const {
-  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  const auto stored = NamedFiles::of_sets_in(std::filesystem::path(file).parent_path());
   if (made) return *made;
-  if (ranks && !ranks->leads()) return parse_model(ranks->share({}), file, {}, folder);
+  if (ranks && !ranks->leads()) return parse_model(ranks->share({}), file, {}, stored);
   Model model =
-      model_text.empty() ? read_model(file, sets) : parse_model(model_text, file, sets, folder);
+      model_text.empty() ? read_model(file, sets) : parse_model(model_text, file, sets, stored);
   if (ranks) ranks->share([&] { return model.source; });
   return model;
 }

@@ -4,6 +4,7 @@
 
 #include "libio/figures/choice.hpp"
 #include "libio/model/model_file.hpp"
+#include "libio/results/call.hpp"
 #include "libio/results/result_schema.hpp"
 
 namespace whirl::inline cli {
@@ -38,7 +39,8 @@ SceneSource scene_source(const Invocation& call) {
   const fs::path ending = fs::path(call.file).extension();
   if (ending != ".h5" && ending != ".hdf5") return SceneSource(call.model());
   auto result = open_result(call.file);
-  Model model = parse_model(result->strings("/model").at(0), call.file, call.sets);
+  Model model =
+      parse_model(stored_model(*result), call.file, call.sets, NamedFiles::of_sets_in(""));
   return SceneSource(std::move(model), std::move(result));
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "libio/text/bash_completion.hpp"
+#include "libio/text/terminal.hpp"
 #include "libverbs/command/exit_status.hpp"
 #include "libverbs/command/verb.hpp"
 
@@ -14,7 +15,7 @@ constexpr std::string_view completion_usage =
 
 int run_completion(const std::vector<std::string>& words, const Ranks*) {
   if (!words.empty()) {
-    fmt::print(stderr, "{}", completion_usage);
+    say(stderr, completion_usage);
     return exit_status::wrong_input;
   }
   std::vector<CompletedVerb> completed;
@@ -28,7 +29,7 @@ int run_completion(const std::vector<std::string>& words, const Ranks*) {
       if (!o.is_flag() && !is_file) to.with_value.push_back(to.options.back());
     }
   }
-  fmt::print("{}", bash_completion("whirl", completed));
+  say(stdout, bash_completion("whirl", completed));
   return after_printing(exit_status::done);
 }
 

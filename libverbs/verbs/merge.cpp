@@ -2,9 +2,11 @@
 
 #include <filesystem>
 
+#include "libio/results/call.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/study_part.hpp"
+#include "libio/text/terminal.hpp"
 #include "libverbs/command/command.hpp"
 #include "libverbs/command/exit_status.hpp"
 #include "libverbs/command/verb.hpp"
@@ -24,7 +26,7 @@ constexpr std::string_view merge_usage =
 /// Joins parts of a study in one file.
 int run_merge(const std::vector<std::string>& words, const Ranks*) {
   if (words.empty()) {
-    fmt::print("{}", merge_usage);
+    say(stdout, merge_usage);
     return exit_status::wrong_input;
   }
   const std::string& whole = words[0];
@@ -41,13 +43,13 @@ int run_merge(const std::vector<std::string>& words, const Ranks*) {
     }
     std::vector<std::string> line = words_again("whirl", call);
     line.push_back("--out=" + whole);
-    const StoredModel stored{.text = first.strings("/model").at(0),
+    const StoredModel stored{.text = stored_model(first),
                              .sets = call.sets,
                              .joins = {{words.begin() + 1, words.end()}}};
     const int status = run_command(*verb, line, stored);
     if (status != exit_status::stopped) return status;
     for (const std::string& part : missing_parts({words.begin() + 1, words.end()})) {
-      fmt::print(stderr, "whirl: missing: {}\n", part);
+      say(stderr, fmt::format("whirl: missing: {}\n", part));
     }
     return exit_status::failed;
   } catch (const FileError& error) {

@@ -2,6 +2,7 @@
 
 #include "libio/results/call.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libio/text/terminal.hpp"
 #include "libverbs/command/command.hpp"
 #include "libverbs/command/exit_status.hpp"
 #include "libverbs/command/verb.hpp"
@@ -18,7 +19,7 @@ constexpr std::string_view rerun_usage =
 /// Runs the command stored in a result again, on the model stored there.
 int run_rerun(const std::vector<std::string>& words, const Ranks* ranks) {
   if (words.empty()) {
-    fmt::print("{}", rerun_usage);
+    say(stdout, rerun_usage);
     return exit_status::wrong_input;
   }
   const std::string& file = words[0];
@@ -27,13 +28,13 @@ int run_rerun(const std::vector<std::string>& words, const Ranks* ranks) {
   try {
     const ResultReader result(file);
     call = read_call(result);
-    text = result.strings("/model").at(0);
+    text = stored_model(result);
   } catch (const FileError& error) {
     return refused(error);
   }
   const Verb* const verb = verb_named(call.verb);
   if (!verb || verb->takes != "MODEL" || call.file.empty() || call.file.starts_with('-')) {
-    fmt::print(stderr, "whirl: {} does not hold the command that made it\n", file);
+    say(stderr, fmt::format("whirl: {} does not hold the command that made it\n", file));
     return exit_status::wrong_input;
   }
   std::vector<std::string> line = words_again("whirl", call);

@@ -5,6 +5,7 @@
 
 #include "libio/model/model_schema.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libio/text/terminal.hpp"
 #include "libverbs/command/exit_status.hpp"
 #include "libverbs/command/verb.hpp"
 
@@ -46,12 +47,12 @@ std::optional<SchemaOptions> options_in(const std::vector<std::string>& words) {
 int run_schema(const std::vector<std::string>& words, const Ranks*) {
   const auto asked = options_in(words);
   if (!asked) {
-    fmt::print(stderr, "{}", schema_usage);
+    say(stderr, schema_usage);
     return exit_status::wrong_input;
   }
   const std::string text = model_schema().json();
   if (asked->out.empty()) {
-    std::fputs(text.c_str(), stdout);
+    say(stdout, text);
     return after_printing(exit_status::done);
   }
   try {

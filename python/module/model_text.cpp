@@ -64,16 +64,17 @@ py::tuple compressed_columns(Sparse matrix) {
 
 }  // namespace
 
-ModelText::ModelText(std::string file, std::string text, std::vector<std::string> sets)
-    : file_(std::move(file)), text_(std::move(text)), sets_(std::move(sets)) {
-  made_ = std::make_shared<const Model>(
-      parse_model(text_, file_, sets_, std::filesystem::path(file_).parent_path()));
+ModelText::ModelText(std::string file, std::string text, std::vector<std::string> sets, bool stored)
+    : file_(std::move(file)), text_(std::move(text)), sets_(std::move(sets)), is_stored_(stored) {
+  const std::filesystem::path folder = std::filesystem::path(file_).parent_path();
+  made_ = std::make_shared<const Model>(parse_model(
+      text_, file_, sets_, stored ? NamedFiles::of_sets_in(folder) : NamedFiles(folder)));
 }
 
 ModelText ModelText::with(const std::vector<std::string>& sets) const {
   std::vector<std::string> all = sets_;
   for (const std::string& set : sets) add(all, set);
-  return {file_, text_, std::move(all)};
+  return {file_, text_, std::move(all), is_stored_};
 }
 
 py::object ModelText::value(const std::string& path) const {

@@ -16,8 +16,9 @@ class ModelText {
  public:
   /// @param file    for messages, and in whose folder other files are looked for
   /// @param text    TOML
+  /// @param stored  whether the text is one that a result holds, for which no file is opened
   /// @throws ModelError  with all problems
-  ModelText(std::string file, std::string text, std::vector<std::string> sets);
+  ModelText(std::string file, std::string text, std::vector<std::string> sets, bool stored = false);
 
   /// A copy in which more is set: "PATH=VALUE" lines as of --set, which hold together or not at all.
   ModelText with(const std::vector<std::string>& sets) const;
@@ -38,6 +39,7 @@ class ModelText {
  private:
   std::string file_, text_;
   std::vector<std::string> sets_;
+  bool is_stored_;
   std::shared_ptr<const Model> made_;
 };
 

@@ -22,8 +22,8 @@ PYBIND11_MODULE(_whirl, module) {
   translate_errors();
 
   py::class_<ModelText>(module, "ModelText")
-      .def(py::init<std::string, std::string, std::vector<std::string>>(), py::arg("file"),
-           py::arg("text"), py::arg("sets"))
+      .def(py::init<std::string, std::string, std::vector<std::string>, bool>(), py::arg("file"),
+           py::arg("text"), py::arg("sets"), py::arg("stored") = false)
       .def("with_sets", &ModelText::with, py::arg("sets"))
       .def("value", &ModelText::value, py::arg("path"))
       .def("matrices", &ModelText::matrices)

@@ -1,14 +1,15 @@
 #include "python/module/store.hpp"
 
+#include <fmt/format.h>
 #include <pybind11/complex.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 
-#include "libio/model/file_text.hpp"
 #include "libio/results/cells.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/result_schema.hpp"
+#include "libio/text/file_bytes.hpp"
 
 namespace whirl::inline python {
 
@@ -26,7 +27,7 @@ std::vector<std::string> schema_dimensions(const std::string& path) {
   return {};
 }
 
-/// All of a group, and of those in it, without the numbers.
+/// All of a group, but for other groups in it, without the numbers.
 void list_group(const ResultReader& file, const std::string& group, KeptResult& to) {
   const auto add_attributes = [&](const std::string& object) {
     for (const std::string& name : file.attributes(object)) {
@@ -44,11 +45,7 @@ void list_group(const ResultReader& file, const std::string& group, KeptResult& 
   for (const std::string& name : file.list(group)) {
     const std::string path = group == "/" ? "/" + name : group + "/" + name;
     const ObjectKind kind = file.kind(path);
-    if (kind == ObjectKind::group) {
-      list_group(file, path, to);
-      continue;
-    }
-    if (kind == ObjectKind::other) continue;
+    if (kind == ObjectKind::group || kind == ObjectKind::other) continue;
     const auto text = [&](const char* of) {
       return file.has_attribute(path, of) ? file.string_attribute(path, of) : std::string();
     };
@@ -76,7 +73,7 @@ py::array view(const std::vector<Value>& values, const std::vector<Eigen::Index>
 
 Store::Store(const std::string& file)
     : kept_(std::make_shared<KeptResult>()), reader_(open_result(file)) {
-  list_group(*reader_, "/", *kept_);
+  for (const std::string& group : reader_->groups()) list_group(*reader_, group, *kept_);
 }
 
 KeptResult::Dataset& Store::dataset(const std::string& path) const {
@@ -142,7 +139,11 @@ py::list Store::attributes() const {
 void Store::save(const std::string& file, bool replaces_anything) {
   const py::gil_scoped_release others_run;
   const Replaces what = replaces_anything ? Replaces::anything : Replaces::own_results;
-  if (reader_) return replace_file(file, file_text(reader_->path()), what);
+  if (reader_) {
+    const auto bytes = file_bytes(reader_->path(), FileKind::regular, std::string().max_size());
+    if (!bytes) throw FileError(fmt::format("{}: {}", reader_->path().string(), bytes.problem));
+    return replace_file(file, *bytes, what);
+  }
   ResultWriter writer(file, what);
   writer.write(*kept_);
   writer.commit();

@@ -346,7 +346,7 @@ class Result(ResultMethods):
             name, _, value = option.removeprefix("--").partition("=")
             if name in _INTEGRATION:
                 given.setdefault(name, [value])
-        model = _whirl.ModelText(str(call.get("file", "model.toml")), self.model, [])
+        model = _whirl.ModelText(str(call.get("file", "model.toml")), self.model, [], stored=True)
         file = self._file()
         return run_verb("identify", wanted, lambda progress: _whirl.run(
             "identify", model, given, progress, file, sets))

@@ -84,6 +84,20 @@ TEST(Architecture, ThePythonPackageNeedsNoProgram) {
   }
 }
 
+// What a program tells people goes through say(), which lets nothing through that steers a terminal.
+TEST(Architecture, OneFunctionPrints) {
+  static const std::regex pattern(R"((fmt::print|f?puts|printf|fwrite)\(|std::c(out|err)\b)");
+  for (const char* folder : {"libio", "libverbs", "apps"}) {
+    for (const auto& [file, what] : lines_in(folder, pattern)) {
+      const bool may = file == "libio/text/terminal.cpp" ||
+                       file == "libio/text/progress_line.cpp" ||
+                       file.rfind("libio/export/vtk/render/", 0) == 0;
+      EXPECT_TRUE(may) << file << " prints by " << what
+                       << ", expected say() of libio/text/terminal.hpp";
+    }
+  }
+}
+
 TEST(Architecture, EachLibraryHasOneHome) {
   const std::vector<std::pair<std::string, std::string>> homes{
       {"Spectra/", "libfe/eigen/"},

@@ -53,6 +53,39 @@ TEST_F(Terminal, NoLineIsWiderThanIt) {
   }
 }
 
+// A title, a station's name and the name of a file can hold escape sequences: none comes to the terminal, and
+// JSON and result have what was written.
+TEST_F(Terminal, NamesOfStrangersDoNotSteerIt) {
+  const std::string clear = "\x1b[2J", shown = "\ufffd[2J";
+  std::string model = jeffcott;
+  model.replace(model.find("Jeffcott"), 1, "\\u001b[2J\\u009b\\u202e");
+  model.replace(model.find("\"shaft\""), 1, "\"\\u001b[2J");
+  write("m.toml", model);
+  write("wrong" + clear + ".toml", "format = 1\nspeeed = \"" + std::string("\u009b31m") + "\"\n");
+  const std::vector<std::vector<std::string>> calls{
+      {"check", "m.toml"},
+      {"static", "m.toml"},
+      {"modes", "m.toml", "--speed", "900rpm", "--out", "m.h5"},
+      {"modes", "m.toml", "--speed", "900rpm", "--json", "-"},
+      {"report", "m.h5", "--out", "m.html"},
+      {"check", "wrong" + clear + ".toml"},
+      {"check", "none" + clear + ".toml"},
+      {clear},
+      {"check", "m.toml", "--" + clear, "x"}};
+  for (const std::vector<std::string>& words : calls) {
+    const Outcome outcome = whirl(words);
+    for (const std::string& text : {outcome.out, outcome.err}) {
+      for (const char* steering : {"\x1b", "\u009b", "\u202e"}) {
+        EXPECT_FALSE(has(text, steering)) << words[0] << ": " << text;
+      }
+    }
+    if (words.back() == "-") {
+      EXPECT_TRUE(has(outcome.out, "\\u001b")) << outcome.out;
+    }
+  }
+  EXPECT_TRUE(has(whirl({"check", "m.toml"}).out, shown));
+}
+
 // The same calls with further verbs on one model of few dofs.
 TEST_F(Terminal, NeitherOfStudies) {
   write("rub.toml", rubbing);

@@ -29,4 +29,5 @@ target_link_libraries(whirl_fe PUBLIC whirl_options Eigen3::Eigen fmt::fmt whirl
 add_library(whirl_dyn INTERFACE)
 target_link_libraries(whirl_dyn INTERFACE whirl_fe)
 add_subdirectory(libio)
+add_subdirectory(libverbs)
 add_subdirectory(tests/fuzz)

@@ -2,7 +2,7 @@
 // and what its channels mean is found or refused.
 //
 // The first letter of an input says what it is: c a table, u a universal file, w a sound file, p a file of
-// probes of two disks. (HDF5 and MATLAB are read by others' libraries, behind a child process.)
+// probes of two disks. (HDF5 and MATLAB, which others' libraries read, are those of foreign.cpp.)
 
 #include <cmath>
 #include <cstddef>

@@ -7,6 +7,7 @@
 
 #include <complex>
 #include <fstream>
+#include <numbers>
 
 #include "libio/model/model_file.hpp"
 #include "tests/io/result_folder.hpp"
@@ -64,6 +65,25 @@ TEST_F(ModelFit, TakesRecordsThatWereReadOnce) {
   }
   EXPECT_LT(left[0], 1e-2);
   EXPECT_GT(left[1], 1.0);
+}
+
+// Two revolutions are the least that is documented, whatever a speed does to the last bit of their time.
+TEST(FitSpan, TwoRevolutionsAreEnough) {
+  constexpr double rate = 5000.0;
+  for (int i = 0; i < 200; ++i) {
+    ProbeReadings readings{.rate = rate, .start = 0.137 * i};
+    readings.displacement = Mat::Zero(5000, 1);
+    std::vector<std::string> notes;
+    const double speed = 100.0 + 1.7 * i;
+    FitSpan span;
+    EXPECT_NO_THROW(span = fit_span(readings, speed, 3.0, 2.0, notes)) << speed;
+    EXPECT_NEAR(static_cast<double>(span.samples - 1) / rate * speed, 4.0 * std::numbers::pi,
+                2.0 * speed / rate);
+  }
+  ProbeReadings readings{.rate = rate};
+  readings.displacement = Mat::Zero(5000, 1);
+  std::vector<std::string> notes;
+  EXPECT_THROW(fit_span(readings, 100.0, 3.0, 1.99, notes), OptionError);
 }
 
 }  // namespace whirl::model_fit_test

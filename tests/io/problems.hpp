@@ -12,7 +12,7 @@ namespace whirl::test {
 inline std::vector<std::string> problems(const std::string& text) {
   std::vector<std::string> all;
   try {
-    parse_model(text, "m");
+    parse_model(text, "m", {}, "");
   } catch (const ModelError& error) {
     for (const Problem& p : error.problems()) all.push_back(describe(p));
   }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -338,12 +339,41 @@ TEST_F(RecordFile, ReadsMatlabFilesOfOtherWriters) {
   const MeasuredRecord record = read_record(file("a.mat", matlab_file("x", 2)), 10.0);
   EXPECT_EQ(record.channels.at(0).name, "x");
   EXPECT_EQ(record.samples(1, 0), 2.5);
-  expect_problem("a.mat", matlab_file("x", 2000000000), "larger than the file can hold");
+  expect_problem("a.mat", matlab_file("x", 2000000000),
+                 "x: says to hold 2000000000 values, the file has 2 of them");
   expect_problem("a.mat", matlab_file("", 2), "a.mat");
   const std::string whole = matlab_file("x", 2);
   for (const std::size_t bytes : {whole.size() - 1, whole.size() - 20, std::size_t(131)}) {
     expect_problem("a.mat", whole.substr(0, bytes), "is cut off");
   }
+}
+
+// matio fills values that a file does not have from memory that was used before: also in a compressed
+// variable they are counted, and what is whole is read.
+TEST_F(RecordFile, CountsTheValuesOfMatlabFiles) {
+  const auto compressed = [](const std::string& file) {
+    constexpr std::size_t head = 128, tag = 8;
+    const std::string element = file.substr(head);
+    uLongf size = compressBound(element.size());
+    std::string bytes(size, '\0');
+    compress(reinterpret_cast<Bytef*>(bytes.data()), &size,
+             reinterpret_cast<const Bytef*>(element.data()), element.size());
+    bytes.resize(size);
+    std::string begin(tag, '\0');
+    const std::uint32_t kind = 15, length = static_cast<std::uint32_t>(size);
+    std::memcpy(begin.data(), &kind, 4);
+    std::memcpy(begin.data() + 4, &length, 4);
+    return file.substr(0, head) + begin + bytes;
+  };
+  EXPECT_EQ(read_record(file("a.mat", compressed(matlab_file("x", 2))), 10.0).samples(1, 0), 2.5);
+  for (const bool is_compressed : {false, true}) {
+    const std::string more = matlab_file("x", 3);
+    expect_problem("a.mat", is_compressed ? compressed(more) : more,
+                   "x: says to hold 3 values, the file has 2 of them: it is damaged");
+  }
+  std::string cut = compressed(matlab_file("x", 2));
+  cut[cut.size() - 30] ^= 0x55;
+  expect_problem("a.mat", cut, "a.mat");
 }
 
 // Names and units in cells, as MATLAB has texts, of the channels beside one of times; whole numbers.

@@ -33,6 +33,31 @@ fs::path saved(const std::string& name) {
   return fs::path(WHIRL_TEST_DATA) / "ross" / name;
 }
 
+// A key that stands twice would count once, the last one for Python; a number beyond all doubles would be
+// infinite: both are refused in words. A byte-order mark counts for nothing.
+TEST(OfRoss, JsonOfOtherWritersIsReadOrRefused) {
+  const auto problem = [](const std::string& text) {
+    try {
+      parse_json(text, "a.json");
+    } catch (const ModelError& error) {
+      return describe(error.problems().at(0));
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(problem("{\"a\": {\"n\": 1,\n\"m\": 2,\n\"n\": 3}}"),
+            "a.json:3:1: n: this key is there already, in line 1; expected it once");
+  EXPECT_EQ(problem("{\"a\": {\"n\": 1}, \"b\": {\"n\": 1}}"), "none");
+  EXPECT_EQ(problem("[1,\n1e400]"),
+            "a.json:2:1: found '1e400', expected a number of less than 1.8e308");
+  const fs::path folder =
+      fs::path(testing::TempDir()) / ("whirl_bom_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "bom.json") << "\xef\xbb\xbf" << content(saved("layered.json"));
+  EXPECT_FALSE(
+      import_file(folder / "bom.json", folder / "m.toml", Replaces::own_pictures).files.empty());
+  fs::remove_all(folder);
+}
+
 ImportedModel imported(const std::string& text, const std::string& name) {
   const ConfigNode root = name.ends_with(".json") ? parse_json(text, name) : parse_toml(text, name);
   return model_of(read_ross(root), name, "rotor");

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "libbase/linalg.hpp"
+#include "libio/results/confined_child.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io::hdf5 {
@@ -59,7 +61,8 @@ inline std::string reason() {
   return text.substr(0, text.find('\''));
 }
 
-/// Something done with an object of a file; turns HDF5's negative results into errors.
+/// Something done with an object of a file; turns HDF5's negative results into errors. While it lasts
+/// nobody makes a child.
 class Attempt {
  public:
   Attempt(const std::filesystem::path& file, std::string_view action, std::string object)
@@ -81,6 +84,7 @@ class Attempt {
   const std::filesystem::path& file_;
   std::string_view action_;  ///< "write dataset"
   std::string object_;
+  std::lock_guard<std::recursive_mutex> alone_{library_lock()};
 };
 
 inline Handle text_type() {
@@ -125,9 +129,13 @@ inline bool exists(hid_t file, const std::string& object) {
 }
 
 /// Calls f with the boxes, as few as there are, that numbers of a dataset from `first` on fill, in
-/// their order: f(first indices, sizes, how many numbers).
+/// their order: f(first indices, sizes, how many numbers). A dataset without dimensions is one number.
 template <class F>
 void for_each_box(const std::vector<hsize_t>& sizes, hsize_t first, hsize_t count, const F& f) {
+  if (sizes.empty()) {
+    if (count > 0) f(sizes, sizes, hsize_t{1});
+    return;
+  }
   while (count > 0) {
     std::vector<hsize_t> at(sizes.size()), box(sizes.size(), 1);
     for (hsize_t i = sizes.size(), rest = first; i-- > 0; rest /= sizes[i]) at[i] = rest % sizes[i];

@@ -1,439 +1,319 @@
+// ResultReader: questions to a child process, where HDF5 reads the file.
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
-#include <optional>
 
+#include "libbase/travel.hpp"
+#include "libio/results/confined_child.hpp"
 #include "libio/results/hdf5.hpp"
-#include "libio/results/hdf5/checksum.hpp"
-#include "libio/results/hdf5/handle.hpp"
-#include "libio/results/hdf5/trial.hpp"
+#include "libio/results/hdf5/open_file.hpp"
 
 namespace whirl::inline io {
 
 namespace fs = std::filesystem;
-using namespace hdf5;
+using hdf5::OpenFile, hdf5::Sizes;
 
 namespace {
 
-/// deflate makes at most so many bytes of one [zlib's manual: 1032], and a little of nothing.
-constexpr hsize_t most_of_one = 1100;
-/// Chunks may be larger than a small dataset that can grow, but not by more than this [bytes].
-constexpr hsize_t most_spare = 16 * 1024 * 1024;
-constexpr std::size_t widest_number = 8;  ///< bytes
-
-/// A dataset or attribute that is open, with its type in the file and its sizes.
-struct Source {
-  Handle id, type;
-  std::vector<hsize_t> sizes;
-  hsize_t count = 1;
-
-  bool is_number() const {
-    const H5T_class_t kind = H5Tget_class(type);
-    return (kind == H5T_FLOAT || kind == H5T_INTEGER) && H5Tget_size(type) <= widest_number;
-  }
-  bool is_text() const { return H5Tget_class(type) == H5T_STRING; }
-  bool is_complex() const {
-    return H5Tget_class(type) == H5T_COMPOUND && H5Tget_nmembers(type) == 2 &&
-           H5Tget_member_index(type, "r") == 0 && H5Tget_member_index(type, "i") == 1 &&
-           H5Tget_member_class(type, 0) == H5T_FLOAT && H5Tget_member_class(type, 1) == H5T_FLOAT &&
-           H5Tget_size(type) <= 2 * widest_number;
-  }
+enum class Asked {
+  open,
+  has,
+  has_attribute,
+  string_attribute,
+  number_attribute,
+  kind,
+  axes,
+  shape,
+  numbers,
+  numbers_of_rank,
+  complex_numbers,
+  box,
+  numbers_from,
+  integers,
+  strings,
+  attributes,
+  list,
+  groups,
+  datasets,
 };
 
-/// Product of sizes; none beyond what a vector can count in bytes.
-std::optional<hsize_t> product(const std::vector<hsize_t>& sizes, hsize_t bytes) {
-  hsize_t all = bytes;
-  for (const hsize_t size : sizes) {
-    if (__builtin_mul_overflow(all, size, &all)) return std::nullopt;
+struct Question {
+  Asked what{};
+  std::string object{}, name{};
+  Sizes sizes{};
+};
+
+template <class Bytes>
+void travel(Bytes& bytes, Is<Question> auto& question) {
+  auto& [what, object, name, sizes] = question;
+  bytes(what, object, name, sizes);
+}
+
+/// What comes back beside numbers.
+struct Found {
+  std::vector<std::string> texts{};
+  Sizes sizes{};
+  std::vector<int> integers{};
+};
+
+template <class Bytes>
+void travel(Bytes& bytes, Is<Found> auto& found) {
+  auto& [texts, sizes, integers] = found;
+  bytes(texts, sizes, integers);
+}
+
+/// All paths of a file, in their order; none where there are others, or very many.
+std::vector<std::string> all_paths(const hdf5::Outline& outline) {
+  constexpr std::size_t most = 10'000;
+  const bool is_all = outline.is_whole && !outline.has_other_paths;
+  std::vector<std::string> all;
+  for (const auto* some : {&outline.groups, &outline.datasets, &outline.others}) {
+    if (!is_all || some->size() > most) return {};
+    all.insert(all.end(), some->begin(), some->end());
   }
-  if (all > static_cast<hsize_t>(std::numeric_limits<std::ptrdiff_t>::max())) return std::nullopt;
+  std::sort(all.begin(), all.end());
   return all;
 }
 
-Source make_source(const Attempt& attempt, Handle id, Handle type, const Handle& space) {
-  Source source{std::move(id), std::move(type), sizes_of(space)};
-  const bool is_empty = std::count(source.sizes.begin(), source.sizes.end(), 0u) > 0;
-  const auto bytes = is_empty ? 0 : product(source.sizes, sizeof(Complex));
-  if (!bytes) attempt.fail("it says to hold more numbers than can be counted");
-  source.count = *bytes / sizeof(Complex);
-  return source;
-}
-
-/// Refuses datasets whose numbers are elsewhere, or of which the file cannot hold as many as it says.
-void check_storage(const Attempt& attempt, const Source& source, hid_t file) {
-  const Handle how(attempt(H5Dget_create_plist(source.id)));
-  const H5D_layout_t layout = H5Pget_layout(how);
-  if (H5Pget_external_count(how) != 0 || layout == H5D_VIRTUAL) {
-    attempt.fail("its numbers are in another file, which is not read");
-  }
-  for (int i = 0, n = attempt(H5Pget_nfilters(how)); i < n; ++i) {
-    unsigned flags = 0;
-    std::size_t values = 0;
-    const H5Z_filter_t filter = H5Pget_filter2(how, static_cast<unsigned>(i), &flags, &values,
-                                               nullptr, 0, nullptr, nullptr);
-    if (filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE &&
-        filter != H5Z_FILTER_FLETCHER32) {
-      attempt.fail("it is compressed in a way that is not known (known: deflate)");
+/// In the child.
+ConfinedChild::Letter answer(const OpenFile& file, const Question& q) {
+  Found found;
+  std::vector<double> numbers;
+  switch (q.what) {
+    case Asked::open:
+      found.texts = all_paths(file.outline());
+      break;
+    case Asked::has:
+      found.integers = {file.has(q.object)};
+      break;
+    case Asked::has_attribute:
+      found.integers = {file.has_attribute(q.object, q.name)};
+      break;
+    case Asked::string_attribute:
+      found.texts = {file.string_attribute(q.object, q.name)};
+      break;
+    case Asked::number_attribute:
+      numbers = {file.number_attribute(q.object, q.name)};
+      break;
+    case Asked::kind:
+      found.integers = {static_cast<int>(file.kind(q.object))};
+      break;
+    case Asked::axes:
+      found.texts = file.axes(q.object);
+      break;
+    case Asked::shape:
+      found.sizes = file.shape(q.object);
+      break;
+    case Asked::numbers:
+      numbers = file.numbers(q.object);
+      break;
+    case Asked::numbers_of_rank:
+      found.sizes = file.shape(q.object);
+      numbers = file.numbers(q.object, q.sizes.at(0));
+      break;
+    case Asked::complex_numbers:
+      found.sizes = file.shape(q.object);
+      numbers = file.complex_numbers(q.object, q.sizes.at(0));
+      break;
+    case Asked::box: {
+      const auto middle = q.sizes.begin() + std::ssize(q.sizes) / 2;
+      numbers = file.numbers(q.object, {q.sizes.begin(), middle}, {middle, q.sizes.end()});
+      break;
     }
+    case Asked::numbers_from:
+      numbers = file.numbers_from(q.object, q.sizes.at(0), q.sizes.at(1));
+      break;
+    case Asked::integers:
+      found.integers = file.integers(q.object);
+      break;
+    case Asked::strings:
+      found.texts = file.strings(q.object);
+      break;
+    case Asked::attributes:
+      found.texts = file.attributes(q.object);
+      break;
+    case Asked::list:
+      found.texts = file.list(q.object);
+      break;
+    case Asked::groups:
+      found.texts = file.whole_outline().groups;
+      break;
+    case Asked::datasets:
+      found.texts = file.whole_outline().datasets;
+      break;
   }
-  if (source.count == 0) return;
-  const std::size_t item = H5Tget_size(source.type);
-  const auto bytes = product(source.sizes, item);
-  hsize_t file_bytes = 0;
-  attempt(H5Fget_filesize(file, &file_bytes));
-  const hsize_t stored = H5Dget_storage_size(source.id);
-  const bool fits = bytes && stored <= file_bytes &&
-                    (layout == H5D_CHUNKED ? *bytes / most_of_one <= stored : *bytes <= stored);
-  if (!fits) {
-    attempt.fail(fmt::format("it says to hold {} values, the file holds {} bytes of them",
-                             source.count, stored));
+  return {packed(found), std::move(numbers)};
+}
+
+struct Reply {
+  Found found;
+  std::vector<double> numbers;
+};
+
+/// @throws FileError  as ConfinedChild, and for an answer of fewer things than were asked for
+Reply ask(const ConfinedChild& child, const Question& question, std::size_t texts = 0,
+          std::size_t integers = 0, std::size_t numbers = 0) {
+  ConfinedChild::Letter letter = child.ask(packed(question));
+  Reply reply{{}, std::move(letter.numbers)};
+  bool is_whole = true;
+  try {
+    unpack(letter.bytes, reply.found);
+  } catch (const NumericalError&) {
+    is_whole = false;
   }
-  if (layout != H5D_CHUNKED) return;
-  std::vector<hsize_t> chunk(source.sizes.size());
-  attempt(H5Pget_chunk(how, static_cast<int>(chunk.size()), chunk.data()));
-  const auto chunk_bytes = product(chunk, item);
-  if (!chunk_bytes || *chunk_bytes > *bytes + most_spare) attempt.fail("its pieces are too large");
-}
-
-Source open_dataset(const Attempt& attempt, hid_t file) {
-  const std::string& path = attempt.object();
-  if (!exists(file, path)) attempt.fail("there is none");
-  Handle id(attempt(H5Dopen2(file, path.c_str(), H5P_DEFAULT)));
-  Handle type(attempt(H5Dget_type(id)));
-  const Handle space(attempt(H5Dget_space(id)));
-  Source source = make_source(attempt, std::move(id), std::move(type), space);
-  check_storage(attempt, source, file);
-  return source;
-}
-
-Source open_attribute(const Attempt& attempt, hid_t file, const std::string& object,
-                      const std::string& name) {
-  if (object != "/" && !exists(file, object)) attempt.fail("there is none");
-  const Handle owner(attempt(H5Oopen(file, object.c_str(), H5P_DEFAULT)));
-  if (H5Aexists(owner, name.c_str()) <= 0) attempt.fail("there is none");
-  Handle id(attempt(H5Aopen(owner, name.c_str(), H5P_DEFAULT)));
-  Handle type(attempt(H5Aget_type(id)));
-  const Handle space(attempt(H5Aget_space(id)));
-  return make_source(attempt, std::move(id), std::move(type), space);
-}
-
-/// Paths of the datasets along each dimension, from the list of references that HDF5's dimension
-/// scales leave at a dataset; "" for none.
-std::vector<std::string> read_axes(const Attempt& attempt, hid_t file, const Source& dataset) {
-  constexpr const char* list = "DIMENSION_LIST";
-  std::vector<std::string> names(dataset.sizes.size());
-  if (names.empty() || H5Aexists(dataset.id, list) <= 0) return names;
-  const Source source = open_attribute(attempt, file, attempt.object(), list);
-  const Handle type(H5Tvlen_create(H5T_STD_REF_OBJ));
-  if (source.count != names.size() || H5Tequal(source.type, type) <= 0) {
-    attempt.fail("its list of axes is damaged");
+  if (!is_whole || reply.found.texts.size() < texts || reply.found.integers.size() < integers ||
+      reply.numbers.size() < numbers) {
+    throw FileError(fmt::format("cannot read {}: the file is damaged", question.object));
   }
-  std::vector<hvl_t> references(names.size(), hvl_t{0, nullptr});
-  attempt(H5Aread(source.id, type, references.data()));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (references[i].len == 0 || !references[i].p) continue;
-    const Handle axis(H5Rdereference2(file, H5P_DEFAULT, H5R_OBJECT, references[i].p));
-    if (axis < 0 || H5Iget_type(axis) != H5I_DATASET) continue;
-    names[i].resize(static_cast<std::size_t>(std::max<ssize_t>(0, H5Iget_name(axis, nullptr, 0))));
-    H5Iget_name(axis, names[i].data(), names[i].size() + 1);
-  }
-  const hsize_t size = references.size();
-  const Handle space(H5Screate_simple(1, &size, nullptr));
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, references.data());
-  return names;
+  return reply;
 }
 
-/// The first link of a file that leads to another place; empty if there is none.
-std::string link_elsewhere(hid_t file) {
-  std::string found;
-  const auto look = [](hid_t, const char* name, const H5L_info_t* link, void* result) -> herr_t {
-    if (link->type == H5L_TYPE_HARD) return 0;
-    *static_cast<std::string*>(result) = name;
-    return 1;
-  };
-  H5Lvisit(file, H5_INDEX_NAME, H5_ITER_NATIVE, look, &found);
-  return found;
-}
-
-void read(const Attempt& attempt, const Source& source, hid_t memory_type, void* result) {
-  if (source.count == 0) return;
-  const bool is_attribute = H5Iget_type(source.id) == H5I_ATTR;
-  attempt(is_attribute ? H5Aread(source.id, memory_type, result)
-                       : H5Dread(source.id, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, result));
-}
-
-/// Real numbers of a dataset that are in a box.
-std::vector<double> read_box(const Attempt& attempt, const Source& source,
-                             const std::vector<hsize_t>& at, const std::vector<hsize_t>& box) {
-  if (!source.is_number()) attempt.fail("it does not hold real numbers");
-  bool fits = at.size() == source.sizes.size();
-  for (std::size_t i = 0; fits && i < at.size(); ++i) {
-    fits = at[i] <= source.sizes[i] && box[i] <= source.sizes[i] - at[i];
-  }
-  if (!fits) attempt.fail("it has not all of the numbers that are asked for");
-  const auto bytes = product(box, sizeof(double));
-  const hsize_t count = bytes.value_or(0) / sizeof(double);
-  std::vector<double> values(count);
-  if (count == 0) return values;
-  const Handle space(attempt(H5Dget_space(source.id)));
-  const Handle memory(attempt(memory_of(box)));
-  attempt(H5Sselect_hyperslab(space, H5S_SELECT_SET, at.data(), nullptr, box.data(), nullptr));
-  attempt(H5Dread(source.id, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()));
-  return values;
-}
-
-/// Calls f with numbers of a dataset, from `first` on, box by box.
-template <class F>
-void read_boxes(const Attempt& attempt, const Source& source, hsize_t first, hsize_t count,
-                const F& f) {
-  if (first > source.count || count > source.count - first) {
-    attempt.fail("it has not all of the numbers that are asked for");
-  }
-  for_each_box(source.sizes, first, count, [&](const auto& at, const auto& box, hsize_t) {
-    f(read_box(attempt, source, at, box));
-  });
-}
-
-/// Texts of any kind: of variable or of fixed length, ASCII or UTF-8.
-std::vector<std::string> read_texts(const Attempt& attempt, const Source& source) {
-  if (!source.is_text()) attempt.fail("it is not text");
-  if (source.count == 0) return {};
-  const std::size_t count = source.count, size = H5Tget_size(source.type);
-  std::vector<std::string> texts;
-  if (H5Tis_variable_str(source.type) > 0) {
-    std::vector<char*> pointers(count, nullptr);
-    read(attempt, source, source.type, pointers.data());
-    for (const char* pointer : pointers) texts.emplace_back(pointer ? pointer : "");
-    const Handle space(attempt(H5Screate_simple(1, &source.count, nullptr)));
-    H5Dvlen_reclaim(source.type, space, H5P_DEFAULT, pointers.data());
-    return texts;
-  }
-  std::string all(count * size, '\0');
-  read(attempt, source, source.type, all.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    texts.push_back(all.substr(i * size, size));
-    texts.back().resize(std::min(texts.back().find('\0'), size));
-  }
-  return texts;
-}
-
-/// All numbers of a dataset of given rank; a vector is a matrix of one column.
+/// Numbers with the sizes of a matrix, or of a vector as one of one column.
 template <class Scalar>
-auto read_matrix(const Attempt& attempt, hid_t file, std::size_t rank) {
+auto matrix_of(const ConfinedChild& child, const std::string& path, std::size_t rank) {
   constexpr bool is_complex = std::is_same_v<Scalar, Complex>;
-  const Source source = open_dataset(attempt, file);
-  if (is_complex ? !source.is_complex() : !source.is_number()) {
-    attempt.fail(is_complex ? "it does not hold complex numbers" : "it does not hold real numbers");
-  }
-  if (source.sizes.size() != rank) {
-    attempt.fail(fmt::format("it has {} dimensions, expected {}", source.sizes.size(), rank));
-  }
-  const auto rows = static_cast<Eigen::Index>(source.sizes[0]);
-  const auto columns = rank == 1 ? 1 : static_cast<Eigen::Index>(source.sizes[1]);
-  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> values(rows, columns);
-  read(attempt, source, is_complex ? complex_type() : Handle(H5Tcopy(H5T_NATIVE_DOUBLE)),
-       values.data());
+  const Asked what = is_complex ? Asked::complex_numbers : Asked::numbers_of_rank;
+  const Reply reply = ask(child, {what, path, "", {rank}});
+  const Sizes& sizes = reply.found.sizes;
+  const auto rows = sizes.size() == rank ? static_cast<Eigen::Index>(sizes[0]) : -1;
+  const auto columns = rank == 1 || rows < 0 ? 1 : static_cast<Eigen::Index>(sizes[1]);
+  const auto count = std::ssize(reply.numbers) / (is_complex ? 2 : 1);
+  const bool fits = rows >= 0 && columns >= 0 &&
+                    (rows == 0 || columns == 0 || columns == count / rows) &&
+                    rows * columns == count;
+  if (!fits) throw FileError(fmt::format("cannot read {}: the file is damaged", path));
+  using RowMajor = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic> values = Eigen::Map<const RowMajor>(
+      reinterpret_cast<const Scalar*>(reply.numbers.data()), rows, columns);
   return values;
 }
 
 }  // namespace
 
-ResultReader::ResultReader(const fs::path& path, Trust trust) : path_(path) {
-  const auto fail = [&](std::string_view why) {
-    throw FileError(fmt::format("cannot open {}: {}", path_.string(), why));
-  };
-  prepare();
+ResultReader::ResultReader(const fs::path& path) : path_(path) {
   std::error_code ignored;
-  if (!fs::exists(path_, ignored)) fail("there is no such file");
-  const htri_t is_hdf5 = fs::is_directory(path_, ignored) ? 0 : H5Fis_hdf5(path_.c_str());
-  if (is_hdf5 < 0) fail(reason());
-  if (is_hdf5 == 0) fail("not an HDF5 file");
-  const Seal seal = trust == Trust::all ? Seal::whole : seal_of(path_);
-  if (seal == Seal::broken) fail("damaged HDF5 file (its checksum is another one)");
-  if (seal == Seal::none) try_in_child(path_);
-  const Handle access = file_access();
-  id_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access);
-  if (id_ < 0) fail(fmt::format("damaged HDF5 file ({})", reason()));
-  if (const std::string link = link_elsewhere(id_); !link.empty()) {
-    H5Fclose(id_);
-    fail(fmt::format("/{} is a link to another place, which is not followed", link));
+  if (fs::is_directory(path, ignored)) {
+    throw FileError(fmt::format("cannot open {}: not an HDF5 file", path.string()));
   }
+  const OpenedFile file(path);
+  // opened there by the first question
+  const auto opened = std::make_shared<std::unique_ptr<OpenFile>>();
+  child_ =
+      std::make_unique<ConfinedChild>(file, path.string(), "HDF5", [=](const std::string& bytes) {
+        Question question;
+        unpack(bytes, question);
+        if (!*opened) *opened = std::make_unique<OpenFile>(path);
+        return answer(**opened, question);
+      });
+  paths_ = ask(*child_, {Asked::open, "/"}).found.texts;
 }
 
-ResultReader::~ResultReader() {
-  H5Fclose(id_);
-}
+ResultReader::~ResultReader() = default;
 
 bool ResultReader::has(const std::string& object) const {
-  return object == "/" || exists(id_, object);
+  if (!paths_.empty()) return std::binary_search(paths_.begin(), paths_.end(), object);
+  return ask(*child_, {Asked::has, object}, 0, 1).found.integers[0] != 0;
 }
 
 bool ResultReader::has_attribute(const std::string& object, const std::string& name) const {
-  return has(object) && H5Aexists_by_name(id_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+  if (!paths_.empty() && !has(object)) return false;
+  return ask(*child_, {Asked::has_attribute, object, name}, 0, 1).found.integers[0] != 0;
 }
 
 std::string ResultReader::string_attribute(const std::string& object,
                                            const std::string& name) const {
-  const Attempt attempt(path_, "read attribute", object + '@' + name);
-  const Source source = open_attribute(attempt, id_, object, name);
-  if (source.count != 1) attempt.fail("it is not one text");
-  return read_texts(attempt, source).front();
+  return ask(*child_, {Asked::string_attribute, object, name}, 1).found.texts[0];
 }
 
 double ResultReader::number_attribute(const std::string& object, const std::string& name) const {
-  const Attempt attempt(path_, "read attribute", object + '@' + name);
-  const Source source = open_attribute(attempt, id_, object, name);
-  if (!source.is_number() || source.count != 1) attempt.fail("it is not one number");
-  double value = 0.0;
-  read(attempt, source, H5T_NATIVE_DOUBLE, &value);
-  return value;
+  return ask(*child_, {Asked::number_attribute, object, name}, 0, 0, 1).numbers[0];
 }
 
 ObjectKind ResultReader::kind(const std::string& object) const {
-  const Attempt attempt(path_, "read", object);
-  if (!has(object)) attempt.fail("there is none");
-  const Handle id(attempt(H5Oopen(id_, object.c_str(), H5P_DEFAULT)));
-  if (H5Iget_type(id) == H5I_GROUP) return ObjectKind::group;
-  if (H5Iget_type(id) != H5I_DATASET) return ObjectKind::other;
-  const Source source = open_dataset(attempt, id_);
-  if (source.is_text()) return ObjectKind::text;
-  if (source.is_complex()) return ObjectKind::complex;
-  if (!source.is_number()) return ObjectKind::other;
-  return H5Tget_class(source.type) == H5T_INTEGER ? ObjectKind::integer : ObjectKind::real;
+  const int kind = ask(*child_, {Asked::kind, object}, 0, 1).found.integers[0];
+  const bool is_known = kind >= 0 && kind <= static_cast<int>(ObjectKind::other);
+  return is_known ? static_cast<ObjectKind>(kind) : ObjectKind::other;
 }
 
 std::vector<std::string> ResultReader::axes(const std::string& path) const {
-  const Attempt attempt(path_, "read dataset", path);
-  const Source source = open_dataset(attempt, id_);
-  std::vector<std::string> names = read_axes(attempt, id_, source);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].empty()) continue;
-    const Source axis = open_dataset(Attempt(path_, "read dataset", names[i]), id_);
-    if (axis.sizes != std::vector<hsize_t>{source.sizes[i]}) {
-      attempt.fail(fmt::format("its axis {} has another size", names[i]));
-    }
-  }
-  return names;
+  return ask(*child_, {Asked::axes, path}).found.texts;
 }
 
 std::vector<Eigen::Index> ResultReader::shape(const std::string& path) const {
-  const Source source = open_dataset(Attempt(path_, "read dataset", path), id_);
-  return {source.sizes.begin(), source.sizes.end()};
+  const Sizes sizes = ask(*child_, {Asked::shape, path}).found.sizes;
+  return {sizes.begin(), sizes.end()};
 }
 
 Vec ResultReader::vector(const std::string& path) const {
-  return read_matrix<double>(Attempt(path_, "read dataset", path), id_, 1);
+  return matrix_of<double>(*child_, path, 1);
 }
 
 std::vector<double> ResultReader::numbers(const std::string& path) const {
-  const Attempt attempt(path_, "read dataset", path);
-  const Source source = open_dataset(attempt, id_);
-  if (!source.is_number()) attempt.fail("it does not hold real numbers");
-  std::vector<double> values(source.count);
-  read(attempt, source, H5T_NATIVE_DOUBLE, values.data());
-  return values;
+  return ask(*child_, {Asked::numbers, path}).numbers;
 }
 
 std::vector<double> ResultReader::numbers(const std::string& path,
                                           const std::vector<Stretch>& along) const {
-  const Attempt attempt(path_, "read dataset", path);
-  std::vector<hsize_t> at, box;
+  Question question{Asked::box, path};
+  for (const Stretch& s : along) question.sizes.push_back(static_cast<std::uint64_t>(s.first));
+  std::size_t count = 1;
   for (const Stretch& s : along) {
-    at.push_back(static_cast<hsize_t>(s.first));
-    box.push_back(static_cast<hsize_t>(s.count));
+    question.sizes.push_back(static_cast<std::uint64_t>(s.count));
+    count *= static_cast<std::size_t>(s.count);
   }
-  return read_box(attempt, open_dataset(attempt, id_), at, box);
+  return ask(*child_, question, 0, 0, count).numbers;
 }
 
 std::vector<double> ResultReader::numbers(const std::string& path, std::size_t first,
                                           std::size_t count) const {
-  const Attempt attempt(path_, "read dataset", path);
-  std::vector<double> values;
-  read_boxes(attempt, open_dataset(attempt, id_), first, count, [&](std::vector<double> box) {
-    if (values.empty()) {
-      values = std::move(box);
-    } else {
-      values.insert(values.end(), box.begin(), box.end());
-    }
-  });
-  return values;
+  return ask(*child_, {Asked::numbers_from, path, "", {first, count}}, 0, 0, count).numbers;
 }
 
 void ResultReader::each_block(const std::string& path,
                               const std::function<void(std::span<const double>)>& f) const {
-  constexpr hsize_t at_once = 1u << 17;
-  const Attempt attempt(path_, "read dataset", path);
-  const Source source = open_dataset(attempt, id_);
-  for (hsize_t first = 0; first < source.count; first += at_once) {
-    read_boxes(attempt, source, first, std::min(at_once, source.count - first), f);
+  constexpr std::size_t at_once = std::size_t{1} << 17u;
+  std::size_t all = 1;
+  for (const Eigen::Index size : shape(path)) all *= static_cast<std::size_t>(size);
+  for (std::size_t first = 0; first < all; first += at_once) {
+    f(numbers(path, first, std::min(at_once, all - first)));
   }
 }
 
 Mat ResultReader::matrix(const std::string& path) const {
-  return read_matrix<double>(Attempt(path_, "read dataset", path), id_, 2);
+  return matrix_of<double>(*child_, path, 2);
 }
 
 CVec ResultReader::complex_vector(const std::string& path) const {
-  return read_matrix<Complex>(Attempt(path_, "read dataset", path), id_, 1);
+  return matrix_of<Complex>(*child_, path, 1);
 }
 
 CMat ResultReader::complex_matrix(const std::string& path) const {
-  return read_matrix<Complex>(Attempt(path_, "read dataset", path), id_, 2);
+  return matrix_of<Complex>(*child_, path, 2);
 }
 
 std::vector<int> ResultReader::integers(const std::string& path) const {
-  const Attempt attempt(path_, "read dataset", path);
-  const Source source = open_dataset(attempt, id_);
-  if (H5Tget_class(source.type) != H5T_INTEGER) attempt.fail("it does not hold integers");
-  std::vector<int> values(source.count);
-  read(attempt, source, H5T_NATIVE_INT, values.data());
-  return values;
+  return ask(*child_, {Asked::integers, path}).found.integers;
 }
 
 std::vector<std::string> ResultReader::strings(const std::string& path) const {
-  const Attempt attempt(path_, "read dataset", path);
-  return read_texts(attempt, open_dataset(attempt, id_));
+  return ask(*child_, {Asked::strings, path}).found.texts;
 }
 
 std::vector<std::string> ResultReader::attributes(const std::string& object) const {
-  const Attempt attempt(path_, "read attributes of", object);
-  if (!has(object)) attempt.fail("there is none");
-  const Handle id(attempt(H5Oopen(id_, object.c_str(), H5P_DEFAULT)));
-  H5O_info_t info;
-  attempt(H5Oget_info2(id, &info, H5O_INFO_NUM_ATTRS));
-  std::vector<std::string> names;
-  for (hsize_t i = 0; i < info.num_attrs; ++i) {
-    const auto get = [&](char* text, std::size_t size) {
-      return attempt(
-          H5Aget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, i, text, size, H5P_DEFAULT));
-    };
-    std::string name(static_cast<std::size_t>(get(nullptr, 0)), '\0');
-    get(name.data(), name.size() + 1);
-    const bool is_of_axes = name == "CLASS" || name == "NAME" || name == "DIMENSION_LIST" ||
-                            name == "REFERENCE_LIST" || name == "DIMENSION_LABELS";
-    if (!is_of_axes) names.push_back(name);
-  }
-  return names;
+  return ask(*child_, {Asked::attributes, object}).found.texts;
 }
 
 std::vector<std::string> ResultReader::list(const std::string& group) const {
-  const Attempt attempt(path_, "read group", group);
-  if (!has(group)) attempt.fail("there is none");
-  const Handle id(attempt(H5Gopen2(id_, group.c_str(), H5P_DEFAULT)));
-  H5G_info_t info;
-  attempt(H5Gget_info(id, &info));
-  std::vector<std::string> names;
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    const auto get = [&](char* text, std::size_t size) {
-      return attempt(
-          H5Lget_name_by_idx(id, ".", H5_INDEX_NAME, H5_ITER_INC, i, text, size, H5P_DEFAULT));
-    };
-    std::string name(static_cast<std::size_t>(get(nullptr, 0)), '\0');
-    get(name.data(), name.size() + 1);
-    names.push_back(name);
-  }
-  return names;
+  return ask(*child_, {Asked::list, group}).found.texts;
+}
+
+std::vector<std::string> ResultReader::groups() const {
+  return ask(*child_, {Asked::groups, ""}).found.texts;
+}
+
+std::vector<std::string> ResultReader::datasets() const {
+  return ask(*child_, {Asked::datasets, ""}).found.texts;
 }
 
 }  // namespace whirl::inline io

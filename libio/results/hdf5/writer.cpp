@@ -78,6 +78,7 @@ ResultWriter::ResultWriter(const fs::path& path, Replaces what, KeptResult* kept
 }
 
 ResultWriter::~ResultWriter() {
+  const std::lock_guard alone(library_lock());
   if (id_ >= 0) H5Fclose(id_);
 }
 
@@ -229,6 +230,7 @@ DatasetBlocks::DatasetBlocks(DatasetBlocks&& other) noexcept
       kept_number_(other.kept_number_) {}
 
 DatasetBlocks::~DatasetBlocks() {
+  const std::lock_guard alone(library_lock());
   if (id_ >= 0) H5Dclose(id_);
 }
 
