@@ -227,10 +227,14 @@ void mark_as_own(const fs::path& place) {
 }
 
 std::string first_line(const fs::path& place) {
+  constexpr std::size_t longest = 1u << 24u;  // a file of others may have no end of a line
+  std::error_code ignored;
+  if (!fs::is_regular_file(place, ignored)) return "";
+  std::string line(std::min<std::uintmax_t>(longest, fs::file_size(place, ignored)), '\0');
   std::ifstream file(place, std::ios::binary);
-  std::string line;
-  std::getline(file, line);
-  return line;
+  file.read(line.data(), std::ssize(line));
+  line.resize(static_cast<std::size_t>(file.gcount()));
+  return line.substr(0, line.find('\n'));
 }
 
 }  // namespace whirl::inline io

@@ -34,7 +34,7 @@ constexpr std::string_view json_mark_key = "program", json_mark = "whirl";
 /// @throws FileError  if it cannot be read or written
 void mark_as_own(const std::filesystem::path& file);
 
-/// The first line of a file, without its end; empty if there is none.
+/// The first line of a file, without its end, as far as 16 MB; empty if there is none.
 std::string first_line(const std::filesystem::path& file);
 
 }  // namespace whirl::inline io

@@ -73,7 +73,13 @@ bool count_walk(const ResultReader& file, StudyStatus& status) {
   for (const std::string_view name : {BranchResult::group, TorusResult::group}) {
     const std::string group(name);
     if (!file.has(group)) continue;
-    if (file.has(group + "/value")) status.done = file.shape(group + "/value").at(0);
+    if (!file.has(group + "/value")) return true;
+    const std::vector<Eigen::Index> shape = file.shape(group + "/value");
+    if (shape.size() != 1) {
+      throw FileError(fmt::format("{}: {}/value is damaged or of another program",
+                                  file.path().string(), group));
+    }
+    status.done = shape[0];
     return true;
   }
   return false;

@@ -66,7 +66,7 @@ TEST_F(Terminal, NamesOfStrangersDoNotSteerIt) {
       {"check", "m.toml"},
       {"static", "m.toml"},
       {"modes", "m.toml", "--speed", "900rpm", "--out", "m.h5"},
-      {"modes", "m.toml", "--speed", "900rpm", "--json", "-"},
+      {"static", "m.toml", "--json", "-"},
       {"report", "m.h5", "--out", "m.html"},
       {"check", "wrong" + clear + ".toml"},
       {"check", "none" + clear + ".toml"},
