@@ -38,8 +38,14 @@ struct Folder : fuzz::Scratch {
     std::ofstream(folder / "record.csv") << "time [s],x [um]\n0,1\n0.001,2\n0.002,1\n";
     std::ofstream(folder / "probes.toml")
         << "[[probe]]\nnode = 1\nangle = \"0 deg\"\nchannel = 1\n";
-    fs::current_path(folder);
   }
+};
+
+/// Stays in a folder for as long as it lives.
+struct Visit {
+  explicit Visit(const fs::path& folder) { fs::current_path(folder); }
+  ~Visit() { fs::current_path(before); }
+  fs::path before = fs::current_path();
 };
 
 bool asks_for_much(const std::string& word) {
@@ -86,6 +92,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Verb* const verb = words.size() > 1 ? verb_named(words[1]) : nullptr;
   // a film starts another program, a run again runs whole
   if (!verb || verb->name == "animate" || verb->name == "rerun") return 0;
+  const Visit visit(folder.folder);
   try {
     run(*verb, words);
   } catch (const ModelError&) {
