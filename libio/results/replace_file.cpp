@@ -84,8 +84,9 @@ Replaces replaces_own(const fs::path& place, std::string_view head, Replaces wha
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(a), ignored) ==
-             fs::weakly_canonical(fs::absolute(b), ignored) ||
+  if (a.empty() || b.empty()) return false;  // no names
+  return fs::weakly_canonical(fs::absolute(a, ignored), ignored) ==
+             fs::weakly_canonical(fs::absolute(b, ignored), ignored) ||
          fs::equivalent(a, b, ignored);
 }
 
