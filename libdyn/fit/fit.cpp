@@ -19,7 +19,10 @@ namespace {
 constexpr std::array<double, 9> gaps{100.0, 30.0, 10.0, 3.0, 1.0, 0.3, 0.1, 0.03, 0.01};
 /// And then of steady motions, which close: what a gap lets through of a motion that does not seems to
 /// tell parameters that the steady one does not (as the stiffness in a full annular rub).
+/// Of other motions, too, while parameters are told less surely than their readings could tell them.
 constexpr std::array<double, 2> closing{1e-3, 1e-4};
+constexpr double nearly_least =
+    1.01;  ///< standard deviation over the least one, which is near enough
 constexpr int rough_iterations = 60;  ///< of all but the last of these
 /// Change of the sum of squares in an iteration that ends one of them.
 constexpr double rough_change = 1e-4;
@@ -92,8 +95,8 @@ void add_residuals(Fit& fit, const FitSearch& search) {
   fit.log_likelihood = -0.5 * (squares + logarithms);
 }
 
-/// The parameters with their errors, and those of offsets.
-void add_errors(Fit& fit, const FitSearch& search, const Sparse& J) {
+/// Of the parameters, then of unknown offsets: whether a bound holds them.
+std::vector<bool> held_unknowns(const FitSearch& search) {
   const Vec values = search.values();
   std::vector<bool> is_held;
   for (Eigen::Index p = 0; p < values.size(); ++p) {
@@ -104,7 +107,29 @@ void add_errors(Fit& fit, const FitSearch& search, const Sparse& J) {
   for (const RecordShooting& shooting : search.shootings) {
     if (shooting.has_offset()) is_held.resize(is_held.size() + shooting.offset.size(), false);
   }
-  Mat C = fit_covariance(J, is_held);
+  return is_held;
+}
+
+/// Largest standard deviation of a parameter over the least that it could have; 1 where none is told.
+double over_least_deviation(const FitSearch& search, const FitJacobian& J) {
+  const std::vector<bool> is_held = held_unknowns(search);
+  const Vec own = fit_covariance(J, FitGaps::residuals, is_held).diagonal();
+  const Vec least = fit_covariance(J, FitGaps::constraints, is_held).diagonal();
+  double largest = 1.0;
+  for (Eigen::Index p = 0; p < search.x.size(); ++p) {
+    if (std::isfinite(own(p)) && least(p) > 0.0) {
+      largest = std::max(largest, std::sqrt(own(p) / least(p)));
+    }
+  }
+  return largest;
+}
+
+/// The parameters with their errors, and those of offsets.
+void add_errors(Fit& fit, const FitSearch& search, const FitJacobian& J) {
+  const Vec values = search.values();
+  const std::vector<bool> is_held = held_unknowns(search);
+  Mat C = fit_covariance(J, FitGaps::residuals, is_held);
+  fit.over_least_deviation = over_least_deviation(search, J);
   if (!search.options.is_noise_known) C *= fit.residual * fit.residual;
   const Vec deviation = C.diagonal().cwiseSqrt();
   for (Eigen::Index p = 0; p < values.size(); ++p) {
@@ -133,19 +158,35 @@ void add_errors(Fit& fit, const FitSearch& search, const Sparse& J) {
 }
 
 /// Why a search has not ended at a fit.
-std::string why_not_of(const ceres::Solver::Summary& summary, int iterations) {
-  switch (summary.termination_type) {
-    case ceres::CONVERGENCE:
+std::string why_not_of(DoglegEnd end, int iterations) {
+  switch (end) {
+    case DoglegEnd::converged:
       return "";
-    case ceres::NO_CONVERGENCE:
+    case DoglegEnd::most_iterations:
       return fmt::format(
           "the search still moves after {} iterations: the model may not explain the records",
           iterations);
-    case ceres::USER_FAILURE:
+    case DoglegEnd::stopped:
       return fmt::format("it was stopped after {} iterations", iterations);
-    default:
-      return fmt::format("motions fail at all values that the search tries after {} iterations",
-                         iterations);
+    case DoglegEnd::undefined:
+      break;
+  }
+  return fmt::format("motions fail at all values that the search tries after {} iterations",
+                     iterations);
+}
+
+/// Narrows the gaps of a search that has converged until the records tell parameters as surely as they
+/// can. Where a narrower one is not found the search stays at the last, as motions do that forget their
+/// beginning: no search follows these over a whole record.
+void close_gaps(FitLeastSquares& squares, FitSearch& search, double enough) {
+  for (const double between : closing) {
+    if (over_least_deviation(search, squares.jacobian()) < nearly_least) return;
+    const Vec place = squares.place();
+    const double before = search.between;
+    if (squares.finish(between, rough_iterations, enough).end == DoglegEnd::converged) continue;
+    squares.go_to(place);
+    search.between = before;
+    return;
   }
 }
 
@@ -166,14 +207,15 @@ Fit fit_from(FitSearch& search, const FitOptions& options) {
   const double enough = last_change / static_cast<double>(search.readings());
   for (const double between : stages) {
     const bool is_last = between == stages.back();
-    const auto summary = is_last ? squares.finish(between, options.most_iterations, enough)
-                                 : squares.solve(between, rough_iterations, rough_change);
-    fit.iterations = squares.iterations();
-    fit.has_converged = summary.termination_type == ceres::CONVERGENCE;
-    fit.why_not = why_not_of(summary, fit.iterations);
-    if (!fit.has_converged && summary.termination_type != ceres::NO_CONVERGENCE) break;
+    const auto found = is_last ? squares.finish(between, options.most_iterations, enough)
+                               : squares.solve(between, rough_iterations, rough_change);
+    fit.has_converged = found.end == DoglegEnd::converged;
+    fit.why_not = why_not_of(found.end, squares.iterations());
+    if (!fit.has_converged && found.end != DoglegEnd::most_iterations) break;
     if (options.progress) options.progress(++done, std::ssize(stages));
   }
+  if (fit.has_converged && !search.has_steady()) close_gaps(squares, search, enough);
+  fit.iterations = squares.iterations();
   search.make_systems();
   add_residuals(fit, search);
   add_errors(fit, search, squares.jacobian());

@@ -60,6 +60,9 @@ struct Fit {
   std::string why_not;  ///< if it has not
   std::vector<FittedParameter> parameters;
   Mat correlation;  ///< of their errors
+  /// Largest standard deviation of a parameter over the least that an estimate without bias can have
+  /// (Cramer and Rao); above 1 where gaps between windows are part of what is told.
+  double over_least_deviation = 1.0;
   double residual =
       0.0;  ///< root mean square of all residuals over their noise: 1 where the model explains all
   double log_likelihood = 0.0;  ///< of the records, Gaussian noise
@@ -73,8 +76,9 @@ struct Fit {
 /// Finds parameters by multiple shooting: least squares over the parameters and the state at the start of
 /// each window, with exact derivatives through touches, releases and slip.
 ///
-/// What is left between windows is weighted more and more, until it is small beside the noise: at the
-/// end the motions of a record are one, and parameters have the errors of maximum likelihood.
+/// What is left between windows is weighted more and more, until parameters have the errors of maximum
+/// likelihood to 1 %: at the end the motions of a record are one. Where no search gets that far, as in long
+/// records of chaos, deviations are those of the search as it is, gaps included (over_least_deviation).
 ///
 /// @throws ModelError  for records without readings, parameters without a size or outside their bounds
 /// @source [Bock1983]; covariance as [Seber2003], sec. 2.1

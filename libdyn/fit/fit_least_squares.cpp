@@ -2,156 +2,215 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace whirl::inline dyn {
 
 namespace {
 
-/// Residuals of a window.
-class WindowCost : public ceres::CostFunction {
- public:
-  WindowCost(const FitSearch& search, std::size_t shooting, std::size_t window)
-      : search_(search), shooting_(search.shootings[shooting]), window_(shooting_.windows[window]) {
-    set_num_residuals(static_cast<int>(window_.residuals()));
-    auto& sizes = *mutable_parameter_block_sizes();
-    sizes.push_back(static_cast<int>(search.x.size()));
-    sizes.push_back(static_cast<int>(window_.states()));
-    if (window_.has_next()) sizes.push_back(static_cast<int>(window_.states()));
-    if (shooting_.has_offset()) sizes.push_back(static_cast<int>(shooting_.offset.size()));
+/// A block of a matrix as its entries.
+void add_block(std::vector<Triplet>& entries, Eigen::Index row, Eigen::Index column,
+               const Mat& block) {
+  for (Eigen::Index j = 0; j < block.cols(); ++j) {
+    for (Eigen::Index i = 0; i < block.rows(); ++i) {
+      if (block(i, j) == 0.0) continue;
+      entries.emplace_back(static_cast<int>(row + i), static_cast<int>(column + j), block(i, j));
+    }
   }
+}
 
-  bool Evaluate(double const* const* blocks, double* residuals, double** jacobians) const override {
-    if (!shooting_.system) return false;
-    const Eigen::Index n = window_.states(), m = window_.readings(), all = window_.residuals();
-    const Vec& scale = shooting_.scale;
-    const Vec start = Vec::Map(blocks[1], n).cwiseProduct(scale);
-    const bool slopes = jacobians && (jacobians[0] || jacobians[1]);
-    const Eigen::Index probes = shooting_.offset.size();
-    const int last = window_.has_next() ? 3 : 2;
-    const double* offset = shooting_.has_offset() ? blocks[last] : shooting_.offset.data();
-    const auto found = window_.compare(*shooting_.system, start,
-                                       Vec::Map(offset, probes) * shooting_.length, slopes);
-    if (!found.is_good) return false;
-    Eigen::Map<Vec> r(residuals, all);
-    r.head(m) = found.readings;
-    const Vec per_gap = (shooting_.gap * search_.between).cwiseInverse();
-    if (window_.has_next()) {
-      const Vec next = Vec::Map(blocks[2], n).cwiseProduct(scale);
-      r.tail(n) = (found.end - next).cwiseProduct(per_gap);
-    }
-    if (!jacobians) return true;
-    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const auto fill = [&](int block, const Mat& top, const Mat& bottom, const Vec& per) {
-      if (!jacobians[block]) return;
-      Eigen::Map<Rows> J(jacobians[block], all, per.size());
-      J.topRows(m) = top * per.asDiagonal();
-      if (window_.has_next()) J.bottomRows(n) = per_gap.asDiagonal() * bottom * per.asDiagonal();
-    };
-    if (slopes) {
-      fill(0, found.readings_by_parameter, found.end_by_parameter, search_.sizes);
-      fill(1, found.readings_by_start, found.end_by_start, scale);
-    }
-    if (window_.has_next()) fill(2, Mat::Zero(m, n), -Mat::Identity(n, n), scale);
-    if (shooting_.has_offset()) {
-      fill(last, window_.readings_by_offset(), Mat::Zero(n, probes),
-           Vec::Constant(probes, shooting_.length));
-    }
-    return true;
-  }
-
- private:
-  const FitSearch& search_;
-  const RecordShooting& shooting_;
-  const ShootingWindow& window_;
+/// Columns of the unknowns of a record.
+struct RecordColumns {
+  Eigen::Index offset, starts;
 };
 
-/// With a search that is told what Ceres looks at next.
-ceres::Problem::Options telling(FitSearch& search) {
-  ceres::Problem::Options options;
-  options.evaluation_callback = &search;
-  return options;
+std::vector<RecordColumns> columns_of(const FitSearch& search) {
+  Eigen::Index at = search.x.size();
+  std::vector<RecordColumns> columns;
+  for (const RecordShooting& shooting : search.shootings) {
+    columns.push_back({.offset = at, .starts = 0});
+    if (shooting.has_offset()) at += shooting.offset.size();
+  }
+  for (std::size_t s = 0; s < columns.size(); ++s) {
+    columns[s].starts = at;
+    for (const Vec& start : search.shootings[s].starts) at += start.size();
+  }
+  return columns;
 }
+
+/// Residuals of one window: of its readings, then of what is left to the next window.
+struct WindowResiduals {
+  const FitSearch& search;
+  const RecordShooting& shooting;
+  RecordColumns columns;
+  std::size_t window;
+
+  /// @return  false where the motion does not get through
+  bool add(Eigen::Ref<Vec> r, Eigen::Index row, std::vector<Triplet>* entries) const {
+    if (!shooting.system) return false;
+    const ShootingWindow& of = shooting.windows[window];
+    const Eigen::Index n = of.states(), m = of.readings();
+    const Vec& scale = shooting.scale;
+    const auto found = of.compare(*shooting.system, shooting.starts[window].cwiseProduct(scale),
+                                  shooting.offset * shooting.length, entries != nullptr);
+    if (!found.is_good) return false;
+    r.segment(row, m) = found.readings;
+    const Vec per_gap = (shooting.gap * search.between).cwiseInverse();
+    const std::size_t next = (window + 1) % shooting.starts.size();
+    if (of.has_next()) {
+      const Vec from = shooting.starts[next].cwiseProduct(scale);
+      r.segment(row + m, n) = (found.end - from).cwiseProduct(per_gap);
+    }
+    if (!entries) return true;
+    const Eigen::Index start = columns.starts + n * static_cast<Eigen::Index>(window);
+    add_block(*entries, row, 0, found.readings_by_parameter * search.sizes.asDiagonal());
+    add_block(*entries, row, start, found.readings_by_start * scale.asDiagonal());
+    if (shooting.has_offset()) {
+      add_block(*entries, row, columns.offset, of.readings_by_offset() * shooting.length);
+    }
+    if (!of.has_next()) return true;
+    const auto gap = [&](const Mat& by, const Vec& per) {
+      return Mat(per_gap.asDiagonal() * by * per.asDiagonal());
+    };
+    add_block(*entries, row + m, 0, gap(found.end_by_parameter, search.sizes));
+    add_block(*entries, row + m, start, gap(found.end_by_start, scale));
+    const Eigen::Index after = columns.starts + n * static_cast<Eigen::Index>(next);
+    add_block(*entries, row + m, after, gap(-Mat::Identity(n, n), scale));
+    return true;
+  }
+};
 
 }  // namespace
 
-FitLeastSquares::FitLeastSquares(FitSearch& search)
-    : search_(search), problem_(telling(search)), stop_(search.options) {
-  problem_.AddParameterBlock(search.x.data(), static_cast<int>(search.x.size()));
-  for (std::size_t p = 0; p < search.parameters.size(); ++p) {
-    const FreeParameter& parameter = search.parameters[p];
-    const int i = static_cast<int>(p);
-    if (std::isfinite(parameter.lower)) {
-      problem_.SetParameterLowerBound(search.x.data(), i, parameter.lower / parameter.size);
-    }
-    if (std::isfinite(parameter.upper)) {
-      problem_.SetParameterUpperBound(search.x.data(), i, parameter.upper / parameter.size);
-    }
+FitLeastSquares::FitLeastSquares(FitSearch& search) : search_(search) {}
+
+std::vector<Vec*> FitLeastSquares::unknowns() const {
+  std::vector<Vec*> all{&search_.x};
+  for (RecordShooting& shooting : search_.shootings) {
+    if (shooting.has_offset()) all.push_back(&shooting.offset);
   }
-  for (std::size_t s = 0; s < search.shootings.size(); ++s) {
-    RecordShooting& shooting = search.shootings[s];
+  for (RecordShooting& shooting : search_.shootings) {
+    for (Vec& start : shooting.starts) all.push_back(&start);
+  }
+  return all;
+}
+
+Vec FitLeastSquares::place() const {
+  std::vector<double> all;
+  for (const Vec* one : unknowns()) all.insert(all.end(), one->begin(), one->end());
+  return Vec::Map(all.data(), std::ssize(all));
+}
+
+void FitLeastSquares::go_to(const Vec& place) {
+  Eigen::Index at = 0;
+  for (Vec* one : unknowns()) {
+    *one = place.segment(at, one->size());
+    at += one->size();
+  }
+}
+
+bool FitLeastSquares::residuals(Vec& r, std::vector<Triplet>* entries) {
+  if (systems_at_.size() == 0 || systems_at_ != search_.x) {
+    search_.make_systems();
+    systems_at_ = search_.x;
+  }
+  const std::vector<RecordColumns> columns = columns_of(search_);
+  Eigen::Index count = 0, row = 0;
+  for (const RecordShooting& shooting : search_.shootings) {
+    for (const ShootingWindow& window : shooting.windows) count += window.residuals();
+  }
+  r.resize(count);
+  for (std::size_t s = 0; s < columns.size(); ++s) {
+    const RecordShooting& shooting = search_.shootings[s];
     for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
-      std::vector<double*> blocks{search.x.data(), shooting.starts[w].data()};
-      if (shooting.windows[w].has_next()) {
-        blocks.push_back(shooting.starts[(w + 1) % shooting.starts.size()].data());
-      }
-      if (shooting.has_offset()) blocks.push_back(shooting.offset.data());
-      problem_.AddResidualBlock(new WindowCost(search, s, w), nullptr, blocks);
+      if (!WindowResiduals{search_, shooting, columns[s], w}.add(r, row, entries)) return false;
+      row += shooting.windows[w].residuals();
     }
   }
+  return true;
 }
 
-ceres::Solver::Summary FitLeastSquares::solve(double between, int most_iterations,
-                                              double tolerance) {
+Vec FitLeastSquares::bounds(double FreeParameter::*side, double none) const {
+  Vec all = Vec::Constant(place().size(), none);
+  for (std::size_t p = 0; p < search_.parameters.size(); ++p) {
+    const FreeParameter& parameter = search_.parameters[p];
+    all(static_cast<Eigen::Index>(p)) = parameter.*side / parameter.size;
+  }
+  return all;
+}
+
+DoglegResult FitLeastSquares::solve(double between, int most_iterations, double tolerance) {
   search_.between = between;
-  ceres::Solver::Options options;
-  options.trust_region_strategy_type = ceres::DOGLEG;
-  options.use_nonmonotonic_steps = true;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.max_num_iterations = most_iterations;
-  options.function_tolerance = tolerance;
-  options.parameter_tolerance = 1e-9;
-  options.logging_type = ceres::SILENT;
-  options.callbacks.push_back(&stop_);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem_, &summary);
-  iterations_ += static_cast<int>(summary.iterations.size());
-  return summary;
+  const Vec start = place();
+  const Eigen::Index moved = start.size() - (are_parameters_held_ ? search_.x.size() : 0);
+  const auto all_of = [&](const Vec& x) {
+    Vec all = start;
+    all.tail(moved) = x;
+    return all;
+  };
+  const LeastSquares problem{.evaluate =
+                                 [&](const Vec& x, Vec& r, Sparse* J) {
+                                   go_to(all_of(x));
+                                   std::vector<Triplet> entries;
+                                   if (!residuals(r, J ? &entries : nullptr)) return false;
+                                   if (!J) return true;
+                                   Sparse all(r.size(), start.size());
+                                   all.setFromTriplets(entries.begin(), entries.end());
+                                   *J = all.rightCols(moved);
+                                   return true;
+                                 },
+                             .lower = bounds(&FreeParameter::lower, -HUGE_VAL).tail(moved),
+                             .upper = bounds(&FreeParameter::upper, HUGE_VAL).tail(moved)};
+  const DoglegResult found = dogleg(problem, start.tail(moved),
+                                    {.most_iterations = most_iterations,
+                                     .cost_tolerance = tolerance,
+                                     .is_stopped = search_.options.is_stopped});
+  go_to(all_of(found.x));
+  iterations_ += found.iterations;
+  return found;
 }
 
-ceres::Solver::Summary FitLeastSquares::finish(double between, int most_iterations,
-                                               double tolerance) {
+DoglegResult FitLeastSquares::finish(double between, int most_iterations, double tolerance) {
   constexpr int before_leap = 15;
   const int begun = iterations_;
   for (;;) {
     const int left = most_iterations - (iterations_ - begun);
-    auto summary = solve(between, std::clamp(left, 1, before_leap), tolerance);
-    const bool goes_on = summary.termination_type == ceres::NO_CONVERGENCE;
-    if (!goes_on || left <= before_leap) return summary;
+    const auto found = solve(between, std::clamp(left, 1, before_leap), tolerance);
+    if (found.end != DoglegEnd::most_iterations || left <= before_leap) return found;
     leap(between);
   }
 }
 
-Sparse FitLeastSquares::jacobian() {
-  ceres::Problem::EvaluateOptions options;
-  options.parameter_blocks.push_back(search_.x.data());
-  for (RecordShooting& shooting : search_.shootings) {
-    if (shooting.has_offset()) options.parameter_blocks.push_back(shooting.offset.data());
+FitJacobian FitLeastSquares::jacobian() {
+  Vec r;
+  std::vector<Triplet> entries, readings, gaps;
+  if (!residuals(r, &entries)) return {};
+  std::vector<int> row_of;  // within the readings, from 0, or within the gaps, from -1 down
+  int of_readings = 0, of_gaps = 0;
+  for (const RecordShooting& shooting : search_.shootings) {
+    for (const ShootingWindow& window : shooting.windows) {
+      for (Eigen::Index i = 0; i < window.residuals(); ++i) {
+        row_of.push_back(i < window.readings() ? of_readings++ : -1 - of_gaps++);
+      }
+    }
   }
-  for (RecordShooting& shooting : search_.shootings) {
-    for (Vec& start : shooting.starts) options.parameter_blocks.push_back(start.data());
+  for (const Triplet& entry : entries) {
+    const int row = row_of[static_cast<std::size_t>(entry.row())];
+    if (row >= 0) readings.emplace_back(row, entry.col(), entry.value());
+    if (row < 0) gaps.emplace_back(-1 - row, entry.col(), entry.value());
   }
-  ceres::CRSMatrix found;
-  if (!problem_.Evaluate(options, nullptr, nullptr, nullptr, &found)) return {};
-  return Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
-      found.num_rows, found.num_cols, static_cast<Eigen::Index>(found.values.size()),
-      found.rows.data(), found.cols.data(), found.values.data());
+  const Eigen::Index columns = place().size();
+  FitJacobian found{.readings = Sparse(of_readings, columns), .gaps = Sparse(of_gaps, columns)};
+  found.readings.setFromTriplets(readings.begin(), readings.end());
+  found.gaps.setFromTriplets(gaps.begin(), gaps.end());
+  return found;
 }
 
 std::vector<Eigen::Index> FitLeastSquares::idle_parameters() {
   std::vector<Eigen::Index> idle;
-  const Sparse J = jacobian();
-  for (Eigen::Index p = 0; p < std::min<Eigen::Index>(search_.x.size(), J.cols()); ++p) {
-    if (J.col(p).squaredNorm() == 0.0) idle.push_back(p);
+  const FitJacobian J = jacobian();
+  for (Eigen::Index p = 0; p < std::min(search_.x.size(), J.readings.cols()); ++p) {
+    if (J.is_idle(p)) idle.push_back(p);
   }
   return idle;
 }
@@ -161,15 +220,15 @@ bool FitLeastSquares::does_something_at(double x, Eigen::Index parameter) {
   const double value = x * p.size;
   if (!(value > p.lower && value < p.upper)) return false;
   search_.x(parameter) = x;
-  const Sparse J = jacobian();
-  return J.cols() > parameter && J.col(parameter).squaredNorm() > 0.0;
+  const FitJacobian J = jacobian();
+  return J.readings.cols() > parameter && !J.is_idle(parameter);
 }
 
 bool FitLeastSquares::rouse() {
   constexpr double noises = 1.5;  // that may be left of records that are explained
   constexpr double step = 0.97, furthest = 1.0 / 3.0, beyond = 0.9;
-  double cost = 0.0;
-  if (!problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr)) return false;
+  const double cost = cost_at(place());
+  if (!std::isfinite(cost)) return false;
   if (2.0 * cost < noises * noises * static_cast<double>(search_.readings())) return false;
   std::vector<Eigen::Index> idle = idle_parameters();
   std::erase_if(idle, [&](Eigen::Index p) { return search_.x(p) == 0.0; });  // times what it may be
@@ -190,36 +249,16 @@ bool FitLeastSquares::rouse() {
   return false;
 }
 
-std::vector<Eigen::Map<Vec>> FitLeastSquares::unknowns() {
-  const auto map = [](Vec& v) { return Eigen::Map<Vec>(v.data(), v.size()); };
-  std::vector<Eigen::Map<Vec>> all{map(search_.x)};
-  for (RecordShooting& shooting : search_.shootings) {
-    if (shooting.has_offset()) all.push_back(map(shooting.offset));
-    for (Vec& start : shooting.starts) all.push_back(map(start));
-  }
-  return all;
-}
-
-Vec FitLeastSquares::place() {
-  std::vector<double> all;
-  for (const auto& one : unknowns()) all.insert(all.end(), one.begin(), one.end());
-  return Vec::Map(all.data(), std::ssize(all));
-}
-
-double FitLeastSquares::go_to(const Vec& place) {
-  Eigen::Index at = 0;
-  for (auto& one : unknowns()) {
-    one = place.segment(at, one.size());
-    at += one.size();
-  }
+double FitLeastSquares::cost_at(const Vec& place) {
+  go_to(place);
   const Vec values = search_.values();
   for (std::size_t p = 0; p < search_.parameters.size(); ++p) {
     const FreeParameter& parameter = search_.parameters[p];
     const double value = values(static_cast<Eigen::Index>(p));
     if (value < parameter.lower || value > parameter.upper) return HUGE_VAL;
   }
-  double cost = HUGE_VAL;
-  return problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr) ? cost : HUGE_VAL;
+  Vec r;
+  return residuals(r, nullptr) ? 0.5 * r.squaredNorm() : HUGE_VAL;
 }
 
 void FitLeastSquares::leap(double between) {
@@ -227,12 +266,12 @@ void FitLeastSquares::leap(double between) {
   const Vec first = place();
   solve(between, 1, 0.0);
   const Vec second = place();
-  const double cost = solve(between, 1, 0.0).final_cost;
+  const double cost = solve(between, 1, 0.0).cost;
   const Vec third = place(), b = second - first, c = third - second;
   const double q = c.dot(b) / b.squaredNorm();
   if (!(c.dot(b) > along * c.norm() * b.norm()) || !(q < 1.0)) return;
   for (double far = std::min(q / (1.0 - q), furthest); far > 1.0; far *= 0.5) {
-    if (go_to(third + far * c) < cost) return;
+    if (cost_at(third + far * c) < cost) return;
   }
   go_to(third);
 }

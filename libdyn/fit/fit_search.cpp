@@ -70,7 +70,8 @@ void FitSearch::make_systems() {
   for (RecordShooting& shooting : shootings) {
     try {
       shooting.system = shooting.source->system_at(values());
-    } catch (const std::runtime_error&) {  // values that make no system: Ceres takes a shorter step
+    } catch (
+        const std::runtime_error&) {  // values that make no system: the search takes a shorter step
       shooting.system.reset();
     }
   }

@@ -1,8 +1,6 @@
 #pragma once
 /// What a fit searches for: parameters, and the states that the motions of records begin at.
 
-#include <ceres/evaluation_callback.h>
-
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -27,14 +25,10 @@ struct RecordShooting {
   bool has_offset() const { return !source->record.is_offset_known; }
 };
 
-/// What is searched for, and the systems at the parameters that Ceres looks at.
-struct FitSearch : ceres::EvaluationCallback {
+/// What is searched for, and the systems at the parameters that are looked at.
+struct FitSearch {
   FitSearch(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& free,
             const FitOptions& asked, int steady_windows_per_revolution);
-
-  void PrepareForEvaluation(bool, bool is_new) override {
-    if (is_new) make_systems();
-  }
 
   long readings() const;
   /// Values of the parameters that are looked at.

@@ -30,6 +30,7 @@ constexpr double least_floor = 1e-4;          ///< of the deviation of what a pr
 constexpr double even_weights = 1.3;          ///< ratio of noises up to which they count as known
 constexpr double unexplained = 3.0;           ///< noise floors, from which what is left is told
 constexpr double least_explained = 0.5;       ///< share of the readings, of a fit that is one
+constexpr double clearly_above_least = 1.05;  ///< standard deviation over the least one
 constexpr double hardly_apart = 0.98;         ///< correlation that is told
 constexpr double range_without_bounds = 0.5;  ///< of a value, to either side
 
@@ -318,6 +319,12 @@ void add_notes(MeasuredFit& found) {
         "the motions found graze contacts {} time{}: derivatives are one-sided there, and "
         "deviations less sure",
         found.grazes, found.grazes == 1 ? "" : "s"));
+  }
+  if (found.has_converged && found.over_least_deviation > clearly_above_least) {
+    found.notes.push_back(fmt::format(
+        "standard deviations are up to {:.3g} times the least that these records allow: motions of "
+        "the whole record are too sensitive to be followed from its beginning",
+        found.over_least_deviation));
   }
   if (found.starts > 1 && found.same_end == 1) {
     found.notes.push_back(

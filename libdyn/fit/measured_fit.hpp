@@ -197,6 +197,9 @@ struct MeasuredFit : Fit {
         column("same_end", &F::same_end, "",
                "starts that end within a standard deviation of the best one"),
         column("grazes", &F::grazes, "", "of the motions found: derivatives are one-sided there"),
+        column("over_least_deviation", &F::over_least_deviation, "",
+               "largest standard deviation of a parameter over the least that an estimate without "
+               "bias can have (Cramer and Rao)"),
         rows(&F::files, "records").prefixed("record_"),
         rows(&F::probes, "fitted_probes").prefixed("probe_"),
         rows(&F::stations, "fitted_stations").prefixed("station_").only(in_file),

@@ -115,8 +115,7 @@ TEST(Architecture, EachLibraryHasOneHome) {
       {"CLI/", "libverbs/command/command_line.cpp"},
       {"hwy/", "libdyn/taylor/"},
       {"mpi\\.h", "apps/mpi/"},
-      {"pybind11/", "python/module/"},
-      {"ceres/", "libdyn/fit/"}};
+      {"pybind11/", "python/module/"}};
   for (const Include& i : includes()) {
     if (floor_of(i.name) >= 0) continue;
     for (const auto& [library, home] : homes) {

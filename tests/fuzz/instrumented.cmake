@@ -16,7 +16,7 @@ target_link_libraries(whirl_solvers INTERFACE
   ${WHIRL_FUZZ_SOLVERS}/libdyn/libwhirl_dyn.a ${WHIRL_FUZZ_SOLVERS}/libfe/libwhirl_fe.a
   ${WHIRL_FUZZ_SOLVERS}/libbase/libwhirl_base.a
   SUNDIALS::cvode SUNDIALS::arkode SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunmatrixdense
-  SUNDIALS::sunlinsoldense SUNDIALS::sunnonlinsolfixedpoint Ceres::ceres PkgConfig::highway quadmath
+  SUNDIALS::sunlinsoldense SUNDIALS::sunnonlinsolfixedpoint PkgConfig::highway quadmath
   Threads::Threads)
 
 # Meshing, errors and readings of records, which see what was read, are compiled for the fuzzer too. The solvers' library may hold

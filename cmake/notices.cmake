@@ -1,0 +1,16 @@
+# whirl_notices: the licence of whirl, and the notices of others' code that a binary has in it (headers, and
+# three.js in the page of a report), as the packages that it was built with say.
+set(whirl_notices ${CMAKE_CURRENT_BINARY_DIR}/copyright)
+file(READ LICENSE text)
+foreach(package libeigen3-dev libspectra-dev libhwy-dev libcli11-dev nlohmann-json3-dev)
+  set(notice /usr/share/doc/${package}/copyright)
+  if(NOT EXISTS ${notice})
+    message(STATUS "notices: ${notice} is not there: the file copyright lacks ${package}")
+    continue()
+  endif()
+  file(READ ${notice} its)
+  string(APPEND text "\n\n==== Code of ${package} is part of whirl's binaries ====\n\n${its}")
+endforeach()
+file(READ web/vendor/three.LICENSE its)
+string(APPEND text "\n\n==== three.js is part of the page of a report ====\n\n${its}")
+file(GENERATE OUTPUT ${whirl_notices} CONTENT "${text}")
