@@ -322,8 +322,7 @@ void add_notes(MeasuredFit& found) {
   }
   if (found.has_converged && found.over_least_deviation > clearly_above_least) {
     found.notes.push_back(fmt::format(
-        "standard deviations are up to {:.3g} times the least that these records allow: motions of "
-        "the whole record are too sensitive to be followed from its beginning",
+        "standard deviations are up to {:.3g} times the least possible: motions are too sensitive",
         found.over_least_deviation));
   }
   if (found.starts > 1 && found.same_end == 1) {
