@@ -18,6 +18,7 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double grows = 1e-8;       ///< real part over size from which a mode grows
+constexpr double drift = 1.5;        ///< times a frequency, how far Q may move it
 constexpr double root_tol = 1e-12;   ///< of a frequency at the border, relative
 constexpr double level = 1e-5;       ///< relative difference of frequencies that count as one
 constexpr double fine_step = 0.15;   ///< of the distance to the nearest eigenvalue
@@ -45,7 +46,7 @@ class CoupledRotor {
       if (m.whirl == Whirl::backward || std::isfinite(slowest)) continue;
       slowest = m.frequency();
     }
-    limit_ = std::isfinite(slowest) ? std::max(slowest, Omega) : Omega;
+    limit_ = std::isfinite(slowest) ? std::max(drift * slowest, Omega) : Omega;
   }
 
   const Modes& modes() const { return modes_; }
@@ -63,6 +64,7 @@ class CoupledRotor {
     };
     for (const Mode& m : modes.oscillatory) add(m.lambda, m.frequency() <= limit_ * (1.0 + level));
     for (const Complex lambda : modes.overdamped) add(lambda, false);
+    for (const Mode& m : modes.rigid_body) add(m.lambda, false);  // Q may drive them, too
     if (std::isinf(least.mode.log_decrement) && !least.is_growing && !modes.oscillatory.empty()) {
       add(modes.oscillatory.front().lambda, true);
     }
@@ -85,12 +87,11 @@ class CoupledRotor {
     const Point point = assembler_.point(at_);
     const std::array<int, 2> own{dofs.full_index(point, X), dofs.full_index(point, Y)};
     Eigen::Matrix2cd H = Eigen::Matrix2cd::Constant(Complex(nan, nan));
+    if (!stiffness_->factorize(w, Omega_)) return H;
     for (int j = 0; j < 2; ++j) {
       CVec force = CVec::Zero(dofs.full_size);
       force(own[static_cast<std::size_t>(j)]) = 1.0;
-      const auto q = stiffness_->solve(w, Omega_, dofs.T.transpose() * force);
-      if (!q) return H;
-      const CVec full = dofs.T * *q;
+      const CVec full = dofs.T * stiffness_->solve(dofs.T.transpose() * force);
       H(0, j) = full(own[0]), H(1, j) = full(own[1]);
     }
     return H;
@@ -112,8 +113,9 @@ class CoupledRotor {
     Structure s = structure_;
     BearingCoefficients coupling;
     coupling.K << 0.0, Q, -Q, 0.0;
-    s.links.push_back(
-        {.name = "cross-coupling", .from = at_, .coefficients = constant_bearing(coupling)});
+    // a force of the gas, not a spring: damping in proportion to stiffness has no part in it
+    s.linearized.push_back(
+        {"cross-coupling", at_, {}, [coupling](double, double) { return coupling; }});
     return Assembler(std::move(s));
   }
 
@@ -129,18 +131,34 @@ class CoupledRotor {
 
 /// An eigenvalue i w is that of a Q with
 ///
-///   1 + b Q + d Q^2 = 0,   b = H_yx - H_xy,   d = det H(i w).
+///   p^2 + b p + d = 0,   p = 1 / Q,   b = H_yx - H_xy,   d = det H(i w),
 ///
-/// Q is real where `border` is zero, the resultant of this polynomial of 1/Q and its conjugate.
-struct Border {
-  Complex b, d;
+/// where one of both p is real. They are followed over w, each by itself: without gyroscopics they are
+/// p and -p, and real at once.
+struct Inverses {
+  std::array<Complex, 2> p;
 
-  explicit Border(const Eigen::Matrix2cd& H)
-      : b(H(1, 0) - H(0, 1)), d(H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0)) {}
-  double border() const {
-    return d.imag() * d.imag() - b.real() * b.imag() * d.imag() + d.real() * b.imag() * b.imag();
+  explicit Inverses(const Eigen::Matrix2cd& H) {
+    const Complex b = H(1, 0) - H(0, 1), d = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0);
+    const Complex root = std::sqrt(0.25 * b * b - d);
+    const Complex half = -0.5 * b;
+    const Complex large = std::abs(half + root) > std::abs(half - root) ? half + root : half - root;
+    p = {large, large == 0.0 ? large : d / large};
   }
-  double Q() const { return -b.imag() / d.imag(); }
+  /// In the order of another pair.
+  Inverses as(const std::array<Complex, 2>& other) const {
+    Inverses turned = *this;
+    const double same = std::abs(p[0] - other[0]) + std::abs(p[1] - other[1]);
+    const double swapped = std::abs(p[0] - other[1]) + std::abs(p[1] - other[0]);
+    if (swapped < same) std::swap(turned.p[0], turned.p[1]);
+    return turned;
+  }
+  /// Whether it is clear which one is which of another pair.
+  bool is_like(const Inverses& other) const {
+    const double moved = std::max(std::abs(p[0] - other.p[0]), std::abs(p[1] - other.p[1]));
+    return moved < 0.5 * std::min(std::abs(p[0] - p[1]), std::abs(other.p[0] - other.p[1]));
+  }
+  double size() const { return std::max(std::abs(p[0]), std::abs(p[1])); }
 };
 
 /// Follows the imaginary axis, and finds each Q at which an eigenvalue is on it.
@@ -154,26 +172,22 @@ class BorderScan {
       bottom_ = std::min(bottom_, 1e-3 * std::abs(lambda));
     };
     for (const Mode& m : rotor.modes().oscillatory) add(m.lambda);
-    const double last = top_;  // of those that oscillate: what creeps fast may be far away
     for (const Complex lambda : rotor.modes().overdamped) add(lambda);
-    if (last > 0.0) top_ = last;
   }
 
   /// Every Q > 0 at the border that is not far above the least one, ascending, with its frequency.
   std::vector<std::pair<double, double>> found() {
     at_rest();
     double w = bottom_;
-    Border here(rotor_.receptance(w));
+    Inverses here(rotor_.receptance(w));
     for (int i = 0; i < most_steps && w < top_; ++i) {
-      const double next = w + step(w, here);
-      const Border there(rotor_.receptance(next));
-      const double f = here.border(), g = there.border();
-      if (f * g < 0.0) {
-        const double root =
-            bracketed_root([&](double v) { return Border(rotor_.receptance(v)).border(); }, w, f,
-                           next, g, root_tol * next);
-        if (std::isfinite(root)) add(Border(rotor_.receptance(root)).Q(), root);
+      double next = w + step(w, here);
+      Inverses there = Inverses(rotor_.receptance(next)).as(here.p);
+      while (!there.is_like(here) && next - w > least_step * w) {
+        next = 0.5 * (w + next);
+        there = Inverses(rotor_.receptance(next)).as(here.p);
       }
+      for (const std::size_t k : {0, 1}) add_between(w, here, next, there, k);
       w = next, here = there;
     }
     std::sort(found_.begin(), found_.end());
@@ -187,26 +201,37 @@ class BorderScan {
     least_ = std::min(least_, Q);
   }
 
+  /// Where one of them is real and positive between two frequencies.
+  void add_between(double w, const Inverses& here, double next, const Inverses& there,
+                   std::size_t k) {
+    const Complex from = here.p[k], to = there.p[k];
+    if (!(from.imag() * to.imag() < 0.0) || (from.real() <= 0.0 && to.real() <= 0.0)) return;
+    const auto between = [&](double v) {
+      const double share = (v - w) / (next - w);
+      const std::array<Complex, 2> expected{here.p[0] + share * (there.p[0] - here.p[0]),
+                                            here.p[1] + share * (there.p[1] - here.p[1])};
+      return Inverses(rotor_.receptance(v)).as(expected).p[k];
+    };
+    const double root = bracketed_root([&](double v) { return between(v).imag(); }, w, from.imag(),
+                                       next, to.imag(), root_tol * next);
+    if (std::isfinite(root)) add(1.0 / between(root).real(), root);
+  }
+
   /// Real eigenvalues at zero: the rotor leaves its place without oscillating.
   void at_rest() {
     if (!rotor_.is_held()) return;
-    const Border rest(rotor_.receptance(0.0));
-    const double b = rest.b.real(), d = rest.d.real(), root = b * b - 4.0 * d;
-    if (!(root >= 0.0)) return;
-    for (const double sign : {-1.0, 1.0}) {
-      const double inverse = 0.5 * (-b + sign * std::sqrt(root));
-      if (inverse > 0.0) add(1.0 / inverse, 0.0);
+    for (const Complex p : Inverses(rotor_.receptance(0.0)).p) {
+      if (std::abs(p.imag()) <= root_tol * std::abs(p)) add(1.0 / p.real(), 0.0);
     }
   }
 
   /// How far the receptance stays much the same.
-  double step(double w, const Border& here) const {
+  double step(double w, const Inverses& here) const {
     double distance = top_;
     for (const Complex pole : poles_) {
       distance = std::min(distance, std::abs(Complex(0.0, w) - pole));
     }
-    const double size = std::abs(here.b) + std::sqrt(std::abs(here.d));  // of H, about
-    const double share = least_ * size < far_off ? coarse_step : fine_step;
+    const double share = least_ * here.size() < far_off ? coarse_step : fine_step;
     return std::max(share * distance, least_step * w);
   }
 
@@ -217,13 +242,28 @@ class BorderScan {
   double least_ = std::numeric_limits<double>::infinity();               ///< Q known so far
 };
 
+/// The least Q above which a mode grows, between one where none does and one where one does.
+CoupledMode growth_between(const CoupledRotor& rotor, double none, double some) {
+  for (int i = 0; i < 100 && some - none > root_tol * some; ++i) {
+    const double middle = 0.5 * (none + some);
+    (rotor.at(middle).is_growing ? some : none) = middle;
+  }
+  CoupledMode mode = rotor.at(some).mode;
+  mode.log_decrement = 0.0;
+  return mode;
+}
+
 /// The least Q above which a mode grows; nothing: there is none.
 /// @param size  Q that is large [N/m]
 std::optional<CoupledMode> first_growth(CoupledRotor& rotor, double size) {
   constexpr double tiny = 1e-6;   // of it: a rotor without damping bears none
   constexpr double above = 1.05;  // times Q at the border: there it has been crossed
   const LeastDamped own = rotor.at(0.0);
-  if (own.is_growing || rotor.at(tiny * size).is_growing) return own.mode;
+  if (own.is_growing) return own.mode;
+  if (rotor.at(tiny * size).is_growing) {
+    const CoupledMode first = growth_between(rotor, 0.0, tiny * size);
+    return first.coupling < tiny * tiny * size ? own.mode : first;
+  }
   const auto borders = BorderScan(rotor).found();
   for (std::size_t i = 0; i < borders.size(); ++i) {
     const auto& [Q, w] = borders[i];
@@ -232,17 +272,6 @@ std::optional<CoupledMode> first_growth(CoupledRotor& rotor, double size) {
     if (rotor.at(next).is_growing) return CoupledMode{Q, 0.0, w};
   }
   return {};
-}
-
-/// The least Q above which a mode grows, between one where none does and one where one does.
-CoupledMode growth_between(const CoupledRotor& rotor, double none, double some) {
-  while (some - none > root_tol * some) {
-    const double middle = 0.5 * (none + some);
-    (rotor.at(middle).is_growing ? some : none) = middle;
-  }
-  CoupledMode mode = rotor.at(some).mode;
-  mode.log_decrement = 0.0;
-  return mode;
 }
 
 /// Where the curve ends.
