@@ -1,52 +1,121 @@
 #include "libfe/coupling_stability.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
+#include "libbase/constants.hpp"
 #include "libbase/roots.hpp"
-#include "libfe/campbell.hpp"
+#include "libfe/eigen/dynamic_stiffness.hpp"
+#include "libfe/eigen/symmetric.hpp"
 #include "libfe/properties.hpp"
 
 namespace whirl::inline fe {
 
 namespace {
 
-constexpr double same_mode = 0.8;      ///< MAC from which a mode is the one before
-constexpr int steps_along_mode = 200;  ///< along one mode
-constexpr double root_tol = 1e-10;     ///< of Q_0, relative
+constexpr double grows = 1e-8;       ///< real part over size from which a mode grows
+constexpr double drift = 1.5;        ///< times a frequency, how far Q may move it
+constexpr double root_tol = 1e-12;   ///< of a frequency at the border, relative
+constexpr double level = 1e-5;       ///< relative difference of frequencies that count as one
+constexpr double fine_step = 0.15;   ///< of the distance to the nearest eigenvalue
+constexpr double coarse_step = 0.5;  ///< likewise, where a border below the least known is far off
+constexpr double far_off = 0.25;     ///< Q_0 known so far times the receptance there
+constexpr double least_step = 1e-4;  ///< of a frequency, past modes without damping
+constexpr int most_steps = 200000;   ///< of a scan
+
+/// What is asked of the rotor at one Q.
+struct LeastDamped {
+  CoupledMode mode{.log_decrement = std::numeric_limits<double>::infinity()};
+  bool is_growing = false;
+};
 
 /// The rotor with some cross-coupled stiffness at a station.
 class CoupledRotor {
  public:
   CoupledRotor(const Structure& structure, double Omega, const Station& at, int count)
-      : structure_(structure), at_(at), Omega_(Omega), count_(count) {
-    M_ = Assembler(structure).at(Omega).M;
-  }
-
-  std::vector<Mode> modes(double Q) const {
-    return complex_modes(coupled(Q), Omega_, count_).oscillatory;
-  }
-
-  /// The mode at Q that is most like another one, and how much; looked for near its frequency.
-  std::pair<Mode, double> like(const Mode& mode, double Q) const {
-    std::pair<Mode, double> best{mode, 0.0};
-    const Assembler assembler = coupled(Q);
-    for (const Mode& other :
-         ModeFinder(assembler).near(Omega_, mode.frequency(), count_).oscillatory) {
-      const double agreement = mac(other.shape, mode.shape, M_);
-      if (agreement > best.second) best = {other, agreement};
+      : structure_(structure), at_(at), Omega_(Omega), count_(count), assembler_(structure) {
+    const System system = assembler_.at(Omega);
+    if (system.size() < dense_below) count_ = std::max(count, system.size());
+    modes_ = modes_of(assembler_);
+    double slowest = nan;  // of those that whirl forward, if only in parts
+    for (const Mode& m : modes_.oscillatory) {
+      if (m.whirl == Whirl::backward || std::isfinite(slowest)) continue;
+      slowest = m.frequency();
     }
-    return best;
+    limit_ = std::isfinite(slowest) ? std::max(drift * slowest, Omega) : Omega;
+  }
+
+  const Modes& modes() const { return modes_; }
+
+  /// The least damped mode at Q of those that level I is about, see coupling_stability.
+  LeastDamped at(double Q) const {
+    LeastDamped least;
+    const Modes modes = Q == 0.0 ? modes_ : modes_of(coupled(Q));
+    const auto add = [&](Complex lambda, bool is_slow) {
+      const bool is_growing = lambda.real() > grows * std::abs(lambda);
+      if (!is_growing && !is_slow) return;
+      const double decrement = -2.0 * std::numbers::pi * lambda.real() / lambda.imag();
+      least.is_growing = least.is_growing || is_growing;
+      if (decrement < least.mode.log_decrement) least.mode = {Q, decrement, lambda.imag()};
+    };
+    for (const Mode& m : modes.oscillatory) add(m.lambda, m.frequency() <= limit_ * (1.0 + level));
+    for (const Complex lambda : modes.overdamped) add(lambda, false);
+    for (const Mode& m : modes.rigid_body) add(m.lambda, false);  // Q may drive them, too
+    if (std::isinf(least.mode.log_decrement) && !least.is_growing && !modes.oscillatory.empty()) {
+      add(modes.oscillatory.front().lambda, true);
+    }
+    least.mode.coupling = Q;
+    return least;
+  }
+
+  /// Whether it has a place to come back to.
+  bool is_held() const {
+    return is_supported(symmetric_part(assembler_.uncondensed(Omega_, 0.0).K));
+  }
+
+  /// 2 x 2 receptance (x, y) of the station at a frequency [m/N]; NaN where it is infinite.
+  Eigen::Matrix2cd receptance(double w) {
+    if (!stiffness_ || assembler_.depends_on_whirl()) {
+      const System system = assembler_.uncondensed(Omega_, w);
+      stiffness_.emplace(system.M, system.C, system.G, system.K);
+    }
+    const DofMap& dofs = assembler_.dofs();
+    const Point point = assembler_.point(at_);
+    const std::array<int, 2> own{dofs.full_index(point, X), dofs.full_index(point, Y)};
+    Eigen::Matrix2cd H = Eigen::Matrix2cd::Constant(Complex(nan, nan));
+    if (!stiffness_->factorize(w, Omega_)) return H;
+    for (int j = 0; j < 2; ++j) {
+      CVec force = CVec::Zero(dofs.full_size);
+      force(own[static_cast<std::size_t>(j)]) = 1.0;
+      const CVec full = dofs.T * stiffness_->solve(dofs.T.transpose() * force);
+      H(0, j) = full(own[0]), H(1, j) = full(own[1]);
+    }
+    return H;
   }
 
  private:
+  /// All of a small rotor; of a large one as many of the lowest as reach beyond its speed.
+  Modes modes_of(const Assembler& assembler) const {
+    Modes modes = complex_modes(assembler, Omega_, count_);
+    for (int count = 2 * count_; static_cast<int>(modes.oscillatory.size()) * 2 == count &&
+                                 modes.oscillatory.back().frequency() < Omega_;
+         count *= 2) {
+      modes = complex_modes(assembler, Omega_, count);
+    }
+    return modes;
+  }
+
   Assembler coupled(double Q) const {
     Structure s = structure_;
     BearingCoefficients coupling;
     coupling.K << 0.0, Q, -Q, 0.0;
-    s.links.push_back(
-        {.name = "cross-coupling", .from = at_, .coefficients = constant_bearing(coupling)});
+    // a force of the gas, not a spring: damping in proportion to stiffness has no part in it
+    s.linearized.push_back(
+        {"cross-coupling", at_, {}, [coupling](double, double) { return coupling; }});
     return Assembler(std::move(s));
   }
 
@@ -54,92 +123,163 @@ class CoupledRotor {
   Station at_;
   double Omega_;
   int count_;
-  Sparse M_;
+  Assembler assembler_;
+  Modes modes_;  ///< at Q = 0
+  double limit_ = 0.0;
+  std::optional<DynamicStiffness> stiffness_{};
 };
 
-/// One mode along Q.
-struct Followed {
-  std::vector<double> Q;
-  std::vector<Mode> modes;
-  double limit = INFINITY;  ///< Q_0
+/// An eigenvalue i w is that of a Q with
+///
+///   p^2 + b p + d = 0,   p = 1 / Q,   b = H_yx - H_xy,   d = det H(i w),
+///
+/// where one of both p is real. They are followed over w, each by itself: without gyroscopics they are
+/// p and -p, and real at once.
+struct Inverses {
+  std::array<Complex, 2> p;
 
-  /// The mode at a Q, by the nearest one known.
-  Mode at(const CoupledRotor& rotor, double wanted) const {
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < Q.size(); ++i) {
-      if (std::abs(Q[i] - wanted) < std::abs(Q[nearest] - wanted)) nearest = i;
-    }
-    if (Q[nearest] == wanted) return modes[nearest];
-    return rotor.like(modes[nearest], wanted).first;
+  explicit Inverses(const Eigen::Matrix2cd& H) {
+    const Complex b = H(1, 0) - H(0, 1), d = H(0, 0) * H(1, 1) - H(0, 1) * H(1, 0);
+    const Complex root = std::sqrt(0.25 * b * b - d);
+    const Complex half = -0.5 * b;
+    const Complex large = std::abs(half + root) > std::abs(half - root) ? half + root : half - root;
+    p = {large, large == 0.0 ? large : d / large};
   }
+  /// In the order of another pair.
+  Inverses as(const std::array<Complex, 2>& other) const {
+    Inverses turned = *this;
+    const double same = std::abs(p[0] - other[0]) + std::abs(p[1] - other[1]);
+    const double swapped = std::abs(p[0] - other[1]) + std::abs(p[1] - other[0]);
+    if (swapped < same) std::swap(turned.p[0], turned.p[1]);
+    return turned;
+  }
+  /// Whether it is clear which one is which of another pair.
+  bool is_like(const Inverses& other) const {
+    const double moved = std::max(std::abs(p[0] - other.p[0]), std::abs(p[1] - other.p[1]));
+    return moved < 0.5 * std::min(std::abs(p[0] - p[1]), std::abs(other.p[0] - other.p[1]));
+  }
+  double size() const { return std::max(std::abs(p[0]), std::abs(p[1])); }
 };
 
-/// Follows a mode up to where it grows, and at least to Q_A.
-/// @param size  Q that the mass of the rotor and the damping of the mode would bear [N/m]
-Followed follow_coupling(const CoupledRotor& rotor, const Mode& start, double size,
-                         double anticipated) {
-  constexpr double farthest = 20.0, smallest = 1e-4;
-  Followed f{.Q = {0.0}, .modes = {start}};
-  double step = 0.05 * size;
-  const double last = std::max(farthest * size, 1.01 * anticipated);
-  for (int i = 0; i < steps_along_mode && f.Q.back() < last; ++i) {
-    const double Q = f.Q.back() + step;
-    const auto [mode, agreement] = rotor.like(f.modes.back(), Q);
-    if (agreement < same_mode && step > smallest * size) {
-      step *= 0.5;
-      continue;
+/// Follows the imaginary axis, and finds each Q at which an eigenvalue is on it.
+class BorderScan {
+ public:
+  explicit BorderScan(CoupledRotor& rotor) : rotor_(rotor) {
+    const auto add = [&](Complex lambda) {
+      if (std::abs(lambda) == 0.0) return;
+      poles_.push_back(lambda);
+      top_ = std::max(top_, 1.5 * std::abs(lambda));
+      bottom_ = std::min(bottom_, 1e-3 * std::abs(lambda));
+    };
+    for (const Mode& m : rotor.modes().oscillatory) add(m.lambda);
+    for (const Complex lambda : rotor.modes().overdamped) add(lambda);
+  }
+
+  /// Every Q > 0 at the border that is not far above the least one, ascending, with its frequency.
+  std::vector<std::pair<double, double>> found() {
+    at_rest();
+    double w = bottom_;
+    Inverses here(rotor_.receptance(w));
+    for (int i = 0; i < most_steps && w < top_; ++i) {
+      double next = w + step(w, here);
+      Inverses there = Inverses(rotor_.receptance(next)).as(here.p);
+      while (!there.is_like(here) && next - w > least_step * w) {
+        next = 0.5 * (w + next);
+        there = Inverses(rotor_.receptance(next)).as(here.p);
+      }
+      for (const std::size_t k : {0, 1}) add_between(w, here, next, there, k);
+      w = next, here = there;
     }
-    if (agreement < same_mode) return f;  // it is lost
-    const double before = f.modes.back().lambda.real(), now = mode.lambda.real();
-    if (before < 0.0 && now >= 0.0 && std::isinf(f.limit)) {
-      const double from = f.Q.back();
-      f.limit = bracketed_root(
-          [&](double q) { return rotor.like(f.modes.back(), q).first.lambda.real(); }, from, before,
-          Q, now, root_tol * Q);
-      if (!std::isfinite(f.limit)) f.limit = Q;
+    std::sort(found_.begin(), found_.end());
+    return found_;
+  }
+
+ private:
+  void add(double Q, double w) {
+    if (!std::isfinite(Q) || Q <= 0.0) return;
+    found_.emplace_back(Q, w);
+    least_ = std::min(least_, Q);
+  }
+
+  /// Where one of them is real and positive between two frequencies.
+  void add_between(double w, const Inverses& here, double next, const Inverses& there,
+                   std::size_t k) {
+    const Complex from = here.p[k], to = there.p[k];
+    if (!(from.imag() * to.imag() < 0.0) || (from.real() <= 0.0 && to.real() <= 0.0)) return;
+    const auto between = [&](double v) {
+      const double share = (v - w) / (next - w);
+      const std::array<Complex, 2> expected{here.p[0] + share * (there.p[0] - here.p[0]),
+                                            here.p[1] + share * (there.p[1] - here.p[1])};
+      return Inverses(rotor_.receptance(v)).as(expected).p[k];
+    };
+    const double root = bracketed_root([&](double v) { return between(v).imag(); }, w, from.imag(),
+                                       next, to.imag(), root_tol * next);
+    if (std::isfinite(root)) add(1.0 / between(root).real(), root);
+  }
+
+  /// Real eigenvalues at zero: the rotor leaves its place without oscillating.
+  void at_rest() {
+    if (!rotor_.is_held()) return;
+    for (const Complex p : Inverses(rotor_.receptance(0.0)).p) {
+      if (std::abs(p.imag()) <= root_tol * std::abs(p)) add(1.0 / p.real(), 0.0);
     }
-    f.Q.push_back(Q);
-    f.modes.push_back(mode);
-    if (std::isfinite(f.limit) && Q > std::max(1.3 * f.limit, anticipated)) return f;
-    if (std::abs(now - before) < 0.05 * std::abs(start.lambda.real())) step *= 2.0;
   }
-  return f;
+
+  /// How far the receptance stays much the same.
+  double step(double w, const Inverses& here) const {
+    double distance = top_;
+    for (const Complex pole : poles_) {
+      distance = std::min(distance, std::abs(Complex(0.0, w) - pole));
+    }
+    const double share = least_ * here.size() < far_off ? coarse_step : fine_step;
+    return std::max(share * distance, least_step * w);
+  }
+
+  CoupledRotor& rotor_;
+  std::vector<Complex> poles_{};
+  std::vector<std::pair<double, double>> found_{};
+  double top_ = 0.0, bottom_ = std::numeric_limits<double>::infinity();  ///< of the scan [rad/s]
+  double least_ = std::numeric_limits<double>::infinity();               ///< Q known so far
+};
+
+/// The least Q above which a mode grows, between one where none does and one where one does.
+CoupledMode growth_between(const CoupledRotor& rotor, double none, double some) {
+  for (int i = 0; i < 100 && some - none > root_tol * some; ++i) {
+    const double middle = 0.5 * (none + some);
+    (rotor.at(middle).is_growing ? some : none) = middle;
+  }
+  CoupledMode mode = rotor.at(some).mode;
+  mode.log_decrement = 0.0;
+  return mode;
 }
 
-/// Modes at Q = 0 with the shapes that they have at a very small Q: where forward and backward whirl
-/// have one eigenvalue, as without gyroscopics, it tells them apart.
-std::vector<Mode> split_modes(const CoupledRotor& rotor, double mass) {
-  constexpr double very_small = 1e-6;
-  const std::vector<Mode> at_zero = rotor.modes(0.0);
-  if (at_zero.empty()) return {};
-  std::vector<Mode> split = rotor.modes(very_small * mass * std::norm(at_zero.front().lambda));
-  for (Mode& mode : split) {
-    const auto nearest =
-        std::min_element(at_zero.begin(), at_zero.end(), [&](const Mode& a, const Mode& b) {
-          return std::abs(a.lambda - mode.lambda) < std::abs(b.lambda - mode.lambda);
-        });
-    mode.lambda = nearest->lambda;
+/// The least Q above which a mode grows; nothing: there is none.
+/// @param size  Q that is large [N/m]
+std::optional<CoupledMode> first_growth(CoupledRotor& rotor, double size) {
+  constexpr double tiny = 1e-6;   // of it: a rotor without damping bears none
+  constexpr double above = 1.05;  // times Q at the border: there it has been crossed
+  const LeastDamped own = rotor.at(0.0);
+  if (own.is_growing) return own.mode;
+  if (rotor.at(tiny * size).is_growing) {
+    const CoupledMode first = growth_between(rotor, 0.0, tiny * size);
+    return first.coupling < tiny * tiny * size ? own.mode : first;
   }
-  return split;
+  const auto borders = BorderScan(rotor).found();
+  for (std::size_t i = 0; i < borders.size(); ++i) {
+    const auto& [Q, w] = borders[i];
+    double next = above * Q;
+    if (i + 1 < borders.size()) next = std::min(next, std::sqrt(Q * borders[i + 1].first));
+    if (rotor.at(next).is_growing) return CoupledMode{Q, 0.0, w};
+  }
+  return {};
 }
 
-/// Those of them that a cross-coupled stiffness may destabilize.
-std::vector<Mode> candidates(const std::vector<Mode>& modes, double Omega) {
-  std::vector<Mode> found;
-  const auto whirls_forward = [](const Mode& m) {
-    return m.whirl == Whirl::forward || (m.whirl == Whirl::mixed && m.kappa > 0.0);
-  };
-  for (const Mode& m : modes) {
-    if (whirls_forward(m) && m.frequency() <= Omega) found.push_back(m);
-  }
-  if (!found.empty()) return found;
-  const auto slowest = std::find_if(modes.begin(), modes.end(), whirls_forward);
-  if (slowest != modes.end()) found.push_back(*slowest);
-  return found;
-}
-
-CoupledMode coupled_mode(double Q, const Mode& mode) {
-  return {Q, mode.log_decrement(), mode.frequency()};
+/// Where the curve ends.
+double last_coupling(const CouplingStability& found, double anticipated, double size) {
+  constexpr double beyond = 1.25, beyond_anticipated = 1.05;
+  const bool has_limit = found.at_limit && found.at_limit->coupling > 0.0;
+  return std::max(has_limit ? beyond * found.at_limit->coupling : size,
+                  beyond_anticipated * anticipated);
 }
 
 }  // namespace
@@ -147,36 +287,22 @@ CoupledMode coupled_mode(double Q, const Mode& mode) {
 CouplingStability coupling_stability(const Structure& structure, double Omega, const Station& at,
                                      const CouplingOptions& options) {
   CouplingStability found;
-  const CoupledRotor rotor(structure, Omega, at, options.count);
+  CoupledRotor rotor(structure, Omega, at, options.count);
+  if (rotor.modes().oscillatory.empty()) return found;
   const double mass = rotor_properties(structure, make_mesh(structure)).mass;
-  std::vector<Followed> all;
-  for (const Mode& mode : candidates(split_modes(rotor, mass), Omega)) {
-    const double zeta = std::max(std::abs(mode.damping_ratio()), 1e-3);
-    const double size = 2.0 * zeta * mass * std::norm(mode.lambda);
-    all.push_back(follow_coupling(rotor, mode, size, options.anticipated));
-  }
-  if (all.empty()) return found;
-  const auto first = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    if (a.limit != b.limit) return a.limit < b.limit;
-    return a.modes.front().log_decrement() < b.modes.front().log_decrement();
-  });
-  for (const Followed& f : all) {
-    const CoupledMode there = coupled_mode(options.anticipated, f.at(rotor, options.anticipated));
-    if (!found.at_anticipated || there.log_decrement < found.at_anticipated->log_decrement) {
-      found.at_anticipated = there;
-    }
-  }
-  if (std::isfinite(first->limit)) {
-    found.at_limit = coupled_mode(first->limit, first->at(rotor, first->limit));
-    const double last = std::max(1.25 * first->limit, 1.05 * options.anticipated);
-    for (int i = 0; i <= options.steps; ++i) {
-      const double Q = last * i / options.steps;
-      found.modes.push_back(coupled_mode(Q, first->at(rotor, Q)));
-    }
-  } else {
-    for (std::size_t i = 0; i < first->Q.size(); ++i) {
-      found.modes.push_back(coupled_mode(first->Q[i], first->modes[i]));
-    }
+  const double size = mass * std::norm(rotor.modes().oscillatory.front().lambda);
+  found.at_limit = first_growth(rotor, size);
+  found.at_anticipated = rotor.at(options.anticipated).mode;
+  double last = last_coupling(found, options.anticipated, size);
+  for (int i = 0; i <= options.steps; ++i) {
+    const double Q = last * i / options.steps;
+    const LeastDamped least = rotor.at(Q);
+    found.modes.push_back(least.mode);
+    if (!least.is_growing || (found.at_limit && Q >= found.at_limit->coupling)) continue;
+    // the axis was left and met again within one step of the scan
+    found.at_limit = growth_between(rotor, last * (i - 1) / options.steps, Q);
+    last = last_coupling(found, options.anticipated, size);
+    found.modes.clear(), i = -1;
   }
   return found;
 }

@@ -24,8 +24,16 @@ constexpr int curve_points = 200;    ///< steps of speed of a curve
 constexpr double crossing_tolerance = 1e-10;  ///< of log10 of a stiffness
 constexpr int most_criticals = 1000;          ///< below the top, before something is wrong
 
-bool is_flexible(const Connection& b) {
-  return !b.is_rigid && !b.is_clamped;
+/// Whether the map gives a bearing another stiffness: one with no end on the shaft, or on a body that
+/// spins, belongs to the foundation, which stays as it is. A rotor may be bodies alone.
+bool is_swept(const Structure& s, const Connection& b) {
+  const auto is_rotor = [&](const Station& station) {
+    if (station.kind != Station::Kind::body) return station.kind != Station::Kind::ground;
+    return std::any_of(s.bodies.begin(), s.bodies.end(),
+                       [&](const Body& body) { return body.name == station.body && body.spins; });
+  };
+  if (b.is_rigid || b.is_clamped) return false;
+  return s.shaft.empty() || is_rotor(b.from) || is_rotor(b.to);
 }
 
 /// Stiffness of a linearized connection at a speed; NaN where it has none.
@@ -87,7 +95,7 @@ StiffnessRange range_of(const Structure& s, const CriticalMapOptions& options) {
     for (const double Omega : options.film_speeds) widen(film_stiffness(film, Omega));
   }
   for (const Connection& b : s.bearings) {
-    if (!is_flexible(b)) continue;
+    if (!is_swept(s, b)) continue;
     const auto told = told_speeds(b.coefficients), whirls = told_whirls(b.coefficients);
     std::vector<double> speeds(told.begin(), told.end());
     speeds.insert(speeds.end(), whirls.begin(), whirls.end());
@@ -115,7 +123,7 @@ class Criticals {
   System system(double x) const {
     Structure s = structure_;
     for (Connection& b : s.bearings) {
-      if (!is_flexible(b)) continue;
+      if (!is_swept(structure_, b)) continue;
       BearingCoefficients c = coefficients(b.coefficients, 0.0);
       c.K = is_common_ ? Mat2(Mat2::Identity() * x) : Mat2(x * c.K);
       b.coefficients = constant_bearing(c);
@@ -182,7 +190,7 @@ using StiffnessOverSpeed = std::function<Mat2(double Omega)>;
 std::vector<std::pair<std::string, StiffnessOverSpeed>> flexible_connections(const Structure& s) {
   std::vector<std::pair<std::string, StiffnessOverSpeed>> all;
   for (const Connection& b : s.bearings) {
-    if (!is_flexible(b)) continue;
+    if (!is_swept(s, b)) continue;
     all.emplace_back(
         b.name, [c = b.coefficients](double Omega) -> Mat2 { return coefficients(c, Omega).K; });
   }
@@ -318,6 +326,10 @@ CriticalMap critical_map(const Structure& given, const CriticalMapOptions& optio
   const StiffnessRange range = range_of(structure, options);
   if (!(range.first > 0.0)) return map;
   map.is_common = range.is_common;
+  for (const auto& swept : flexible_connections(structure)) {
+    if (!map.swept.empty()) map.swept += ", ";
+    map.swept += swept.first;
+  }
   const Criticals criticals(structure, range.is_common, options.critical.order);
   int count = options.critical.count;
   const SolveShapes solve = [&](double at) { return criticals.lowest(std::pow(10.0, at), count); };

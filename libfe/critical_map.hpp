@@ -79,6 +79,7 @@ struct CriticalMapGap {
 struct CriticalMap {
   bool is_common = true;  ///< over a stiffness that all bearings have in all directions [N/m];
                           ///< else over a factor of them, where the model is at 1
+  std::string swept;      ///< bearings and films whose stiffness that is, "left, right"
   double top = 0.0;       ///< the map shows all critical speeds up to here [rad/s]
   std::vector<double> x;  ///< stiffness [N/m], or factor; ascending
   std::vector<CriticalMapBranch> branches;  ///< ascending at the softest bearings
@@ -94,6 +95,7 @@ struct CriticalMap {
         column("common", &C::is_common, "",
                "1: over a stiffness of all bearings [N/m]; 0: over a factor of their own")
             .within(valid::from_to(0.0, 1.0)),
+        column("swept", &C::swept, "", "bearings and films whose stiffness that is").maybe(),
         column("top", &C::top, "rad/s", "all critical speeds up to here are known")
             .within(valid::positive),
         column("x", &C::x, "", "stiffness of the bearings [N/m], or factor of it")
@@ -115,7 +117,8 @@ struct CriticalMap {
 /// With bearings that are alike, or that change with speed, x is a stiffness that all of them have
 /// in all directions, and their own stiffness goes on top, so that critical speeds are where these
 /// cross [API684]. With bearings that differ, x is a factor of all of them. Rigid bearings stay as
-/// they are, and so do seals with their stiffness at rest; damping is left out.
+/// they are, and so do seals with their stiffness at rest, and springs without an end on the shaft, as
+/// those between pedestals and the ground; damping is left out.
 ///
 /// Linearized connections, as oil films, are bearings that change with speed.
 ///

@@ -13,7 +13,7 @@ double analysis_unbalance(double mass, double maximum) {
 }
 
 double vibration_limit(double maximum) {
-  return 25.4e-6 * std::sqrt(12000.0 / (maximum / rpm));
+  return 25.4e-6 * std::min(1.0, std::sqrt(12000.0 / (maximum / rpm)));
 }
 
 SeparationMargin separation_margin(const ResponsePeak& peak, const OperatingRange& range) {

@@ -25,7 +25,8 @@ struct OperatingRange {
 /// @source [API617], residual unbalance; [API684]
 double analysis_unbalance(double mass, double maximum);
 
-/// Allowed vibration of the shaft at probes, peak to peak, 25.4 sqrt(12 000 / N) um with N [rpm].
+/// Allowed vibration of the shaft at probes, peak to peak: the less of 25.4 um (1 mil) and
+/// 25.4 sqrt(12 000 / N) um with N [rpm].
 ///
 /// @param maximum  N: maximum continuous speed [rad/s]
 /// @return         [m]

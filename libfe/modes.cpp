@@ -25,6 +25,7 @@ constexpr int dense_after = 160;         ///< dofs; where Arnoldi failed, dense 
 constexpr double visible = 1e-3;         ///< of the largest orbit: smaller ones have no sense
 constexpr double flat = 1e-4;            ///< axis ratio below which an orbit is a line
 constexpr double rigid_share = 1e-5;     ///< of the first flexible omega^2: does not deform
+constexpr double rigid_zero = 1e-5;      ///< of the first flexible omega: a rigid body's zero
 constexpr int most_others = 40;          ///< modes that do not oscillate, beyond those expected
 constexpr double cut_pair = 1e-6;        ///< of the farthest eigenvalue: its twin may be missing
 constexpr double off_axis = 0.05;        ///< Re over Im of a center for modes near a frequency
@@ -114,7 +115,9 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
         body.is_free &&
         stiffness_ratio(system, q) <= rigid_share * body.first_flexible * body.first_flexible;
     if (is_rigid) {
-      modes.rigid_body.push_back(mode_of(lambda, q, system.dofs));
+      // a double zero comes as a small pair of any sign, which is no damping
+      const bool is_zero = std::abs(lambda) <= rigid_zero * body.first_flexible;
+      modes.rigid_body.push_back(mode_of(is_zero ? Complex(0.0) : lambda, q, system.dofs));
     } else if (!oscillates(lambda)) {
       modes.overdamped.push_back(lambda);
     } else {

@@ -9,6 +9,7 @@
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
+#include "libfe/eigen/symmetric.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {
@@ -173,6 +174,8 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
   }
   std::vector<LargestResponse> largest(from.size());
   DynamicStiffness stiffness(system.M, system.C, system.G, system.K);
+  // what holds nothing moves without end under a steady force, whatever rounding leaves of K
+  const bool is_held = is_supported(symmetric_part(assembler.uncondensed(Omega, 0.0).K));
   for (Eigen::Index k = 0; k < count; ++k) {
     const double w = frequencies[static_cast<std::size_t>(k)];
     if (assembler.depends_on_whirl()) {
@@ -181,7 +184,10 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
     }
     bool is_bounded = true;
     for (std::size_t f = 0; f < from.size(); ++f) {
-      const auto q = stiffness.solve(w, Omega, loads.col(static_cast<Eigen::Index>(f)));
+      std::optional<CVec> q;
+      if (w != 0.0 || is_held) {
+        q = stiffness.solve(w, Omega, loads.col(static_cast<Eigen::Index>(f)));
+      }
       is_bounded = is_bounded && q.has_value();
       const CVec full = q ? CVec(dofs.T * *q) : CVec();
       if (q) largest[f].take(full, dofs);

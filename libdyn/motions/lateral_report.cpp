@@ -209,8 +209,21 @@ void add_clearances(const Lateral& lateral, const Assembler& assembler, int numb
 
 /// A check of something that should be at least, or at most, so much.
 Verdict verdict_of(double found, double limit, bool is_least) {
-  if (!std::isfinite(found) || !std::isfinite(limit)) return Verdict::unknown;
+  if (std::isnan(found) || !std::isfinite(limit)) return Verdict::unknown;
   return (is_least ? found >= limit : found <= limit) ? Verdict::passed : Verdict::failed;
+}
+
+/// Where a mode begins or ceases to grow at speeds up to the trip speed, a part of them is unstable.
+void add_thresholds(const std::vector<Threshold>& thresholds, LateralReport& report) {
+  for (const Threshold& t : thresholds) {
+    if (t.speed < report.minimum_speed || t.speed > report.trip_speed) continue;
+    report.checks.push_back({.rule = LateralRule::log_decrement,
+                             .place = "threshold of instability",
+                             .speed = t.speed,
+                             .found = 0.0,
+                             .limit = least_log_decrement,
+                             .verdict = Verdict::failed});
+  }
 }
 
 /// Checks of level I: of what it asks for that was not given, they are unknown.
@@ -226,9 +239,11 @@ void add_stability_checks(LateralReport& report) {
   };
   const bool is_told = report.anticipated > 0.0;
   add(LateralRule::log_decrement, report.log_decrement, least_log_decrement, "");
-  const double ratio =
-      is_told && std::isfinite(report.limit) ? report.limit / report.anticipated : nan;
-  const char* no_coupling = is_told ? "" : "--cross-coupling";
+  const bool is_unstable = report.limit == 0.0;  // whatever is expected
+  const double ratio = is_unstable                              ? 0.0
+                       : is_told && std::isfinite(report.limit) ? report.limit / report.anticipated
+                                                                : nan;
+  const char* no_coupling = is_told || is_unstable ? "" : "--cross-coupling";
   add(LateralRule::coupling_ratio, ratio, least_coupling_ratio, no_coupling);
   const auto region = report.region();
   const double least = region == StabilityRegion::b   ? least_coupling_ratio_in_region_b
@@ -376,6 +391,7 @@ LateralStudy lateral_report(const Model& model, const LateralOptions& options) {
   }
   add_stability(lateral, report);
   add_checks(lateral, report);
+  add_thresholds(study.campbell.thresholds, report);
   return study;
 }
 

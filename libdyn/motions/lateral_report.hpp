@@ -3,6 +3,7 @@
 /// speeds are from its own, how stable it is, and whether that is enough.
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -174,7 +175,8 @@ struct LateralClearance {
   double largest = 0.0;  ///< major semi-axis there up to the trip speed, scaled [m]
   double speed = 0.0;    ///< where it is that large [rad/s]
 
-  double share() const { return largest / left; }
+  /// Infinite where the rotor at rest touches already.
+  double share() const { return left > 0.0 ? largest / left : INFINITY; }
 
   static constexpr auto columns() {
     using enum Written;
@@ -246,8 +248,8 @@ struct LateralReport {
   std::string vibration_unit{};       ///< in which people are told it; empty: um
   std::string coupled_station;        ///< where the cross-coupled stiffness acts
   double anticipated = nan;           ///< Q_A [N/m]; NaN: not told
-  double limit = nan;                 ///< Q_0 [N/m]; NaN: the rotor bears all that was tried
-  double log_decrement = nan;         ///< with Q_A, or without any cross-coupling
+  double limit = nan;                 ///< Q_0 [N/m]; 0: it is unstable without Q; NaN: it bears all
+  double log_decrement = nan;         ///< the least with Q_A, or without any cross-coupling
   double rigid_critical_speed = nan;  ///< the first one on rigid supports [rad/s]; NaN: none
   double gas_density = nan;           ///< average [kg/m^3]; NaN: not told
   std::vector<double> speeds;         ///< of the responses [rad/s]

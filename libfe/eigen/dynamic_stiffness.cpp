@@ -36,14 +36,22 @@ DynamicStiffness::~DynamicStiffness() = default;
 DynamicStiffness::DynamicStiffness(DynamicStiffness&&) noexcept = default;
 DynamicStiffness& DynamicStiffness::operator=(DynamicStiffness&&) noexcept = default;
 
-std::optional<CVec> DynamicStiffness::solve(double w, double Omega, const CVec& f) {
+bool DynamicStiffness::factorize(double w, double Omega) {
   State& s = *state_;
   Complex* value = s.A.valuePtr();
   for (Eigen::Index i = 0; i < s.K.size(); ++i) {
     value[i] = {s.K(i) - w * w * s.M(i), w * (s.C(i) + Omega * s.G(i))};
   }
-  if (!s.solver.factorize(s.A)) return std::nullopt;
-  CVec q = s.solver.solve(f);
+  return s.solver.factorize(s.A);
+}
+
+CVec DynamicStiffness::solve(const CVec& f) const {
+  return state_->solver.solve(f);
+}
+
+std::optional<CVec> DynamicStiffness::solve(double w, double Omega, const CVec& f) {
+  if (!factorize(w, Omega)) return std::nullopt;
+  CVec q = solve(f);
   if (!q.allFinite()) return std::nullopt;
   return q;
 }

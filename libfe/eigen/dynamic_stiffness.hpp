@@ -20,6 +20,10 @@ class DynamicStiffness {
   /// @return       the response, or nothing where the matrix is singular
   std::optional<CVec> solve(double w, double Omega, const CVec& f);
 
+  /// The same for several loads at one frequency: whether the matrix is regular, and then responses.
+  bool factorize(double w, double Omega);
+  CVec solve(const CVec& f) const;
+
  private:
   struct State;
   std::unique_ptr<State> state_;

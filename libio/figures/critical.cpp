@@ -120,6 +120,10 @@ std::vector<Figure> critical_figures(const ResultView& result) {
   if (std::isfinite(speed) && speed > 0.0) {
     p.rules.push_back({Rule::Kind::horizontal, speed, "operating", Paint::gray, Dash::dotted});
   }
+  if (!map.swept.empty()) {
+    f.notes.push_back(fmt::format("{} of: {}; all else stays as it is in the model.",
+                                  map.is_common ? "Stiffness" : "Times the stiffness", map.swept));
+  }
   add_gaps(map, f);
   f.table = table_of(found.criticals);
   f.panels.push_back(std::move(p));

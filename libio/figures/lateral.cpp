@@ -161,7 +161,7 @@ std::vector<Figure> stability_figures(const ResultView& result) {
   Panel p;
   p.x = {.title = "cross-coupled stiffness [MN/m]"};
   p.y = {.title = "logarithmic decrement"};
-  Curve c{.name = "least stable forward mode", .paint = Paint::forward};
+  Curve c{.name = "least damped mode", .paint = Paint::forward};
   for (const CoupledMode& m : r.coupled_modes) {
     c.x.push_back(1e-6 * m.coupling);
     c.y.push_back(m.log_decrement);

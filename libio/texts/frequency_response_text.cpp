@@ -36,9 +36,18 @@ std::string text_of(const FrequencyResponse& found) {
     }
     if (!from.empty()) table.row({from, to, "none", "-", "-", "-"});
   }
-  return fmt::format("Frequency responses at {:.0f} rpm, {:.4g} to {:.4g} Hz\n\n{}",
+  std::string infinite;
+  for (const double w : found.unbounded) {
+    infinite += fmt::format("{}{:.4g} Hz", infinite.empty() ? "\n  Infinite at " : ", ", w / hertz);
+  }
+  if (!infinite.empty()) {
+    infinite += found.unbounded.front() == 0.0
+                    ? ": at 0 Hz nothing holds the rotor, elsewhere a resonance without damping\n"
+                    : ": resonances without damping\n";
+  }
+  return fmt::format("Frequency responses at {:.0f} rpm, {:.4g} to {:.4g} Hz\n\n{}{}",
                      found.speed / rpm, found.frequencies.front() / hertz,
-                     found.frequencies.back() / hertz, table.text());
+                     found.frequencies.back() / hertz, table.text(), infinite);
 }
 
 }  // namespace whirl::inline io

@@ -65,10 +65,10 @@ std::string region_text(const LateralReport& r) {
 
 std::string coupling_text(const LateralReport& r) {
   const std::string limit =
-      std::isfinite(r.limit)
-          ? fmt::format("the rotor bears {} there before it whirls by itself",
-                        format_engineering(r.limit, "N/m"))
-          : "no cross-coupled stiffness that was tried makes the rotor whirl by itself";
+      r.limit == 0.0           ? "a mode grows without any: the rotor is unstable, Q0 is 0"
+      : std::isfinite(r.limit) ? fmt::format("the rotor bears {} there before it whirls by itself",
+                                             format_engineering(r.limit, "N/m"))
+                               : "no cross-coupled stiffness there makes the rotor whirl by itself";
   const std::string told = r.anticipated > 0.0
                                ? fmt::format("with the {} that are to be expected",
                                              format_engineering(r.anticipated, "N/m"))
@@ -156,14 +156,15 @@ std::string rule_text(LateralRule rule) {
              "at most 26 %, of the maximum speed above it; none if the amplification factor is "
              "below 2.5 [API 617]";
     case LateralRule::vibration:
-      return "25.4 sqrt(12 000 / N) um, sqrt(12 000 / N) mil, peak to peak at probes from minimum "
-             "to maximum speed, N the maximum [rpm] [API 617]";
+      return "the less of 25.4 um (1 mil) and 25.4 sqrt(12 000 / N) um, peak to peak at probes "
+             "from "
+             "minimum to maximum speed, N the maximum [rpm] [API 617]";
     case LateralRule::running_clearance:
       return "75 % of the running clearance up to the trip speed, with unbalance that brings the "
              "probes to the vibration limit, at most six times as much [API 617]";
     case LateralRule::log_decrement:
       return "0.1 at the maximum speed with the cross-coupled stiffness to be expected, level I "
-             "[API 617]";
+             "[API 617]; of every mode up to that speed, and of each that grows";
     case LateralRule::coupling_ratio:
       return "cross-coupled stiffness that the rotor bears over that to be expected, Q0 / QA, "
              "level I [API 617]";
@@ -180,7 +181,8 @@ std::string short_rule_text(LateralRule rule, const VibrationUnit& unit) {
     case LateralRule::separation_margin:
       return "17 (1 - 1 / (AF - 1.5)) %";
     case LateralRule::vibration:
-      return unit.name == "mil" ? "sqrt(12 000 / N) mil" : "25.4 sqrt(12 000 / N) um";
+      return unit.name == "mil" ? "1 mil, sqrt(12 000 / N) mil"
+                                : "25.4 um, 25.4 sqrt(12 000 / N) um";
     case LateralRule::running_clearance:
       return "75 %, scaled";
     case LateralRule::log_decrement:

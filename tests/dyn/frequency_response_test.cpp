@@ -55,6 +55,18 @@ TEST(FrequencyResponse, AtAnUndampedResonanceIsUnbounded) {
   EXPECT_TRUE(std::isnan(found.pairs.at(0).receptance(0).real()));
 }
 
+// A free shaft has no place to come back to: at 0 Hz every response is infinite, whatever rounding has
+// left of the stiffness; numbers of 1e-3 m/N stood there before. At other frequencies it has one.
+TEST(FrequencyResponse, OfAFreeShaftIsUnboundedAtRest) {
+  Structure s = test::two_disk(test::isotropic(1e7));
+  s.bearings.clear();
+  const FrequencyResponse found = frequency_response(
+      Assembler(s), 100.0, {0.0, 50.0}, {end(2, Direction::x)}, {end(2, Direction::x)});
+  EXPECT_EQ(found.unbounded, std::vector<double>{0.0});
+  EXPECT_TRUE(std::isnan(found.pairs.at(0).receptance(0).real()));
+  EXPECT_TRUE(std::isfinite(found.pairs.at(0).receptance(1).real()));
+}
+
 /// A rotor whose matrices are not symmetric: gyroscopics, bearings with cross coupling.
 Structure general() {
   BearingCoefficients oil = test::orthotropic(2e7, 3e7, 4e3, 5e3);

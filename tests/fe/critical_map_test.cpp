@@ -242,4 +242,33 @@ TEST(CriticalMap, CrossesAFilmWhereTheModelIsCritical) {
   }
 }
 
+// A pedestal stands on the same spring as a bearing of a body and as a link: the map is the same, and
+// sweeps what ends on the shaft only. It swept the spring below the pedestal before, too.
+TEST(CriticalMap, LeavesFoundationsAsTheyAre) {
+  Structure by_bearing = test::two_disk({});
+  by_bearing.bodies = {{.name = "pedestal", .m = 20.0}};
+  Connection left = test::bearing(at(0.0), test::isotropic(5e6));
+  left.name = "left", left.to = test::body("pedestal");
+  Connection right = test::bearing(at(1.5), test::isotropic(5e6));
+  right.name = "right";
+  Connection foot = test::bearing(test::body("pedestal"), test::isotropic(9e6));
+  foot.name = "foot";
+  by_bearing.bearings = {left, right};
+  Structure by_link = by_bearing;
+  by_bearing.bearings.push_back(foot);
+  by_link.links = {foot};
+  const CriticalMap map = critical_map(by_bearing, {}), other = critical_map(by_link, {});
+  EXPECT_TRUE(map.is_common);
+  EXPECT_EQ(map.swept, "left, right");
+  EXPECT_EQ(map.x, other.x);
+  ASSERT_EQ(map.branches.size(), other.branches.size());
+  for (std::size_t b = 0; b < map.branches.size(); ++b) {
+    for (std::size_t i = 0; i < map.x.size(); ++i) {
+      const double one = map.branches[b].speed[i], two = other.branches[b].speed[i];
+      if (std::isnan(one) && std::isnan(two)) continue;
+      EXPECT_NEAR(one, two, solves * two) << b << ", " << map.x[i];
+    }
+  }
+}
+
 }  // namespace whirl::critical_map_test

@@ -351,6 +351,21 @@ TEST(Modes, PrecessionOfAFreeSpinningRotorIsARigidBodyMode) {
   EXPECT_GT(modes.oscillatory.front().frequency(), 20.0 * Omega);  // nothing rigid among these
 }
 
+// Moving a free shaft as a whole is no damped motion: its eigenvalue is zero, and it has no damping ratio.
+// Rounding made pairs of it before, with ratios of 1 and -1, heavily damped and unstable.
+TEST(Modes, OfARigidBodyHaveNoDamping) {
+  Structure s = test::two_disk(test::isotropic(1e7));
+  s.bearings.clear();
+  for (const double Omega : {0.0, 300.0}) {
+    const Modes modes = complex_modes(assemble(s, Omega), 4);
+    ASSERT_GE(modes.rigid_body.size(), 3u);
+    for (const Mode& mode : modes.rigid_body) {
+      EXPECT_FALSE(mode.is_heavily_damped()) << Omega;
+      EXPECT_FALSE(std::abs(mode.damping_ratio()) > 1e-6) << Omega << ", " << mode.lambda;
+    }
+  }
+}
+
 // Free-free Euler-Bernoulli shaft, beta L = 4.730040744862704: the first mode that is listed.
 TEST(Modes, RigidBodyMotionsOfAFreeShaftAreListedApart) {
   for (const int elements : {12, 60}) {  // dense, sparse
