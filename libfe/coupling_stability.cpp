@@ -18,14 +18,17 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double grows = 1e-8;       ///< real part over size from which a mode grows
-constexpr double drift = 1.5;        ///< times a frequency, how far Q may move it
 constexpr double root_tol = 1e-12;   ///< of a frequency at the border, relative
 constexpr double level = 1e-5;       ///< relative difference of frequencies that count as one
+constexpr double drift = 1.5;        ///< times a frequency, how far Q may move it
 constexpr double fine_step = 0.15;   ///< of the distance to the nearest eigenvalue
 constexpr double coarse_step = 0.5;  ///< likewise, where a border below the least known is far off
 constexpr double far_off = 0.25;     ///< Q_0 known so far times the receptance there
-constexpr double least_step = 1e-4;  ///< of a frequency, past modes without damping
-constexpr int most_steps = 200000;   ///< of a scan
+constexpr double near_axis = 0.25;   ///< of a step: it may cross the axis twice
+constexpr double all_rounding = 1e12;  ///< Q times the static receptance
+constexpr int most_halvings = 12;      ///< of a step
+constexpr int most_steps = 200000;     ///< of a scan
+constexpr double last_decades = 1e3;   ///< times the fastest eigenvalue, where none was found
 
 /// What is asked of the rotor at one Q.
 struct LeastDamped {
@@ -39,46 +42,29 @@ class CoupledRotor {
   CoupledRotor(const Structure& structure, double Omega, const Station& at, int count)
       : structure_(structure), at_(at), Omega_(Omega), count_(count), assembler_(structure) {
     const System system = assembler_.at(Omega);
-    if (system.size() < dense_below) count_ = std::max(count, system.size());
+    has_all_ = system.size() < dense_below;
+    if (has_all_) count_ = std::max(count, system.size());
     modes_ = modes_of(assembler_);
-    double slowest = nan;  // of those that whirl forward, if only in parts
-    for (const Mode& m : modes_.oscillatory) {
-      if (m.whirl == Whirl::backward || std::isfinite(slowest)) continue;
-      slowest = m.frequency();
-    }
-    limit_ = std::isfinite(slowest) ? std::max(drift * slowest, Omega) : Omega;
+    const auto slowest = std::find_if(modes_.oscillatory.begin(), modes_.oscillatory.end(),
+                                      [](const Mode& m) { return m.whirl != Whirl::backward; });
+    const bool has_slowest = slowest != modes_.oscillatory.end();
+    limit_ = std::max(has_slowest ? drift * slowest->frequency() : 0.0, Omega) * (1.0 + level);
   }
 
   const Modes& modes() const { return modes_; }
+  bool has_all_modes() const { return has_all_; }
 
   /// The least damped mode at Q of those that level I is about, see coupling_stability.
-  LeastDamped at(double Q) const {
-    LeastDamped least;
-    const Modes modes = Q == 0.0 ? modes_ : modes_of(coupled(Q));
-    const auto add = [&](Complex lambda, bool is_slow) {
-      const bool is_growing = lambda.real() > grows * std::abs(lambda);
-      if (!is_growing && !is_slow) return;
-      const double decrement = -2.0 * std::numbers::pi * lambda.real() / lambda.imag();
-      least.is_growing = least.is_growing || is_growing;
-      if (decrement < least.mode.log_decrement) least.mode = {Q, decrement, lambda.imag()};
-    };
-    for (const Mode& m : modes.oscillatory) add(m.lambda, m.frequency() <= limit_ * (1.0 + level));
-    for (const Complex lambda : modes.overdamped) add(lambda, false);
-    for (const Mode& m : modes.rigid_body) add(m.lambda, false);  // Q may drive them, too
-    if (std::isinf(least.mode.log_decrement) && !least.is_growing && !modes.oscillatory.empty()) {
-      add(modes.oscillatory.front().lambda, true);
-    }
-    least.mode.coupling = Q;
-    return least;
-  }
+  LeastDamped at(double Q) const { return least_of(Q == 0.0 ? modes_ : modes_of(coupled(Q)), Q); }
 
   /// Whether it has a place to come back to.
   bool is_held() const {
     return is_supported(symmetric_part(assembler_.uncondensed(Omega_, 0.0).K));
   }
 
-  /// 2 x 2 receptance (x, y) of the station at a frequency [m/N]; NaN where it is infinite.
-  Eigen::Matrix2cd receptance(double w) {
+  /// 2 x 2 receptance (x, y) of the station [m/N] for motions e^(s t), s = w (i + tilt); NaN where it
+  /// is infinite.
+  Eigen::Matrix2cd receptance(double w, double tilt) {
     if (!stiffness_ || assembler_.depends_on_whirl()) {
       const System system = assembler_.uncondensed(Omega_, w);
       stiffness_.emplace(system.M, system.C, system.G, system.K);
@@ -87,7 +73,7 @@ class CoupledRotor {
     const Point point = assembler_.point(at_);
     const std::array<int, 2> own{dofs.full_index(point, X), dofs.full_index(point, Y)};
     Eigen::Matrix2cd H = Eigen::Matrix2cd::Constant(Complex(nan, nan));
-    if (!stiffness_->factorize(w, Omega_)) return H;
+    if (!stiffness_->factorize(Complex(tilt * w, w), Omega_)) return H;
     for (int j = 0; j < 2; ++j) {
       CVec force = CVec::Zero(dofs.full_size);
       force(own[static_cast<std::size_t>(j)]) = 1.0;
@@ -98,6 +84,26 @@ class CoupledRotor {
   }
 
  private:
+  LeastDamped least_of(const Modes& modes, double Q) const {
+    LeastDamped least;
+    const auto add = [&](Complex lambda, bool counts) {
+      const bool is_growing = lambda.real() > grows * std::abs(lambda);
+      if (!is_growing && !counts) return;
+      const double frequency = std::abs(lambda.imag());
+      const double decrement = -2.0 * std::numbers::pi * lambda.real() / frequency;
+      least.is_growing = least.is_growing || is_growing;
+      if (decrement < least.mode.log_decrement) least.mode = {Q, decrement, frequency};
+    };
+    for (const Mode& m : modes.oscillatory) add(m.lambda, m.frequency() <= limit_);
+    for (const Complex lambda : modes.overdamped) add(lambda, false);
+    for (const Mode& m : modes.rigid_body) add(m.lambda, false);  // Q may drive them, too
+    if (std::isinf(least.mode.log_decrement) && !least.is_growing && !modes.oscillatory.empty()) {
+      add(modes.oscillatory.front().lambda, true);
+    }
+    least.mode.coupling = Q;
+    return least;
+  }
+
   /// All of a small rotor; of a large one as many of the lowest as reach beyond its speed.
   Modes modes_of(const Assembler& assembler) const {
     Modes modes = complex_modes(assembler, Omega_, count_);
@@ -124,17 +130,18 @@ class CoupledRotor {
   double Omega_;
   int count_;
   Assembler assembler_;
-  Modes modes_;  ///< at Q = 0
-  double limit_ = 0.0;
+  Modes modes_;         ///< at Q = 0
+  double limit_ = 0.0;  ///< frequency up to which every mode counts [rad/s]
+  bool has_all_ = false;
   std::optional<DynamicStiffness> stiffness_{};
 };
 
-/// An eigenvalue i w is that of a Q with
+/// An eigenvalue s is that of a Q with
 ///
-///   p^2 + b p + d = 0,   p = 1 / Q,   b = H_yx - H_xy,   d = det H(i w),
+///   p^2 + b p + d = 0,   p = 1 / Q,   b = H_yx - H_xy,   d = det H(s),
 ///
-/// where one of both p is real. They are followed over w, each by itself: without gyroscopics they are
-/// p and -p, and real at once.
+/// where one of both p is real. They are followed over w, each by itself: without gyroscopics they
+/// are p and -p, and real at once.
 struct Inverses {
   std::array<Complex, 2> p;
 
@@ -156,12 +163,21 @@ struct Inverses {
   /// Whether it is clear which one is which of another pair.
   bool is_like(const Inverses& other) const {
     const double moved = std::max(std::abs(p[0] - other.p[0]), std::abs(p[1] - other.p[1]));
-    return moved < 0.5 * std::min(std::abs(p[0] - p[1]), std::abs(other.p[0] - other.p[1]));
+    return moved <= 0.5 * std::min(std::abs(p[0] - p[1]), std::abs(other.p[0] - other.p[1]));
   }
   double size() const { return std::max(std::abs(p[0]), std::abs(p[1])); }
 };
 
+/// Where an eigenvalue is on the imaginary axis.
+struct Border {
+  double Q, w;
+  int more;  ///< eigenvalues beyond it right of the axis: one more, or one less
+};
+
 /// Follows the imaginary axis, and finds each Q at which an eigenvalue is on it.
+///
+/// What has no damping is on it from the start: then s = w (i + 1e-8) is followed, and grows what
+/// is right of that.
 class BorderScan {
  public:
   explicit BorderScan(CoupledRotor& rotor) : rotor_(rotor) {
@@ -170,38 +186,74 @@ class BorderScan {
       poles_.push_back(lambda);
       top_ = std::max(top_, 1.5 * std::abs(lambda));
       bottom_ = std::min(bottom_, 1e-3 * std::abs(lambda));
+      if (std::abs(lambda.real()) < grows * std::abs(lambda)) tilt_ = grows;
     };
     for (const Mode& m : rotor.modes().oscillatory) add(m.lambda);
     for (const Complex lambda : rotor.modes().overdamped) add(lambda);
   }
 
-  /// Every Q > 0 at the border that is not far above the least one, ascending, with its frequency.
-  std::vector<std::pair<double, double>> found() {
-    at_rest();
+  bool has_undamped() const { return tilt_ > 0.0; }
+
+  /// Every Q > 0 at the border that is not far above the least one, ascending.
+  std::vector<Border> found() {
     double w = bottom_;
-    Inverses here(rotor_.receptance(w));
-    for (int i = 0; i < most_steps && w < top_; ++i) {
-      double next = w + step(w, here);
-      Inverses there = Inverses(rotor_.receptance(next)).as(here.p);
-      while (!there.is_like(here) && next - w > least_step * w) {
-        next = 0.5 * (w + next);
-        there = Inverses(rotor_.receptance(next)).as(here.p);
-      }
-      for (const std::size_t k : {0, 1}) add_between(w, here, next, there, k);
-      w = next, here = there;
+    Inverses here = at(w);
+    most_ = all_rounding / here.size();
+    at_rest(here);
+    for (int i = 0; i < most_steps && !is_over(w, here); ++i) {
+      const double next = w + step(w, here);
+      here = walk(w, here, next, 0);
+      w = next;
     }
-    std::sort(found_.begin(), found_.end());
+    std::sort(found_.begin(), found_.end(),
+              [](const Border& a, const Border& b) { return a.Q < b.Q; });
     return found_;
   }
 
  private:
-  void add(double Q, double w) {
-    if (!std::isfinite(Q) || Q <= 0.0) return;
-    found_.emplace_back(Q, w);
-    least_ = std::min(least_, Q);
+  Inverses at(double w) { return Inverses(rotor_.receptance(w, tilt_)); }
+
+  /// Beyond all eigenvalues receptances fall: once they are too small for the least Q, no less follows.
+  bool is_over(double w, const Inverses& here) const {
+    if (w < top_) return false;
+    return w > last_decades * top_ || least_ * here.size() < 1.0;
   }
 
-  /// Where one of them is real and positive between two frequencies.
+  void add(double Q, double w, bool is_right) {
+    if (!(Q > 0.0 && Q < most_)) return;
+    found_.push_back({Q, w, is_right ? 1 : -1});
+    if (is_right) least_ = std::min(least_, Q);
+  }
+
+  /// From w to next, in halves where it is not clear what is between.
+  Inverses walk(double w, const Inverses& here, double next, int halvings) {
+    const Inverses there = at(next).as(here.p);
+    if (halvings < most_halvings && (!there.is_like(here) || is_near(here, there, halvings))) {
+      const double middle = 0.5 * (w + next);
+      return walk(middle, walk(w, here, middle, halvings + 1), next, halvings + 1);
+    }
+    for (const std::size_t k : {0, 1}) add_between(w, here, next, there, k);
+    return there;
+  }
+
+  /// Whether one may have been real and positive twice on the way.
+  bool is_near(const Inverses& here, const Inverses& there, int halvings) const {
+    constexpr int enough = 4;
+    if (halvings >= enough) return false;
+    for (const std::size_t k : {0, 1}) {
+      const Complex from = here.p[k], to = there.p[k];
+      if (from.real() <= 0.0 && to.real() <= 0.0) continue;
+      if (least_ * std::max(std::abs(from), std::abs(to)) < 1.0 - near_axis) continue;
+      if (from.imag() * to.imag() > 0.0 &&
+          std::min(std::abs(from.imag()), std::abs(to.imag())) < near_axis * std::abs(to - from)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Where one of them is real and positive between two frequencies. With dp / dQ < 0, the eigenvalue
+  /// goes right where Im p falls over w.
   void add_between(double w, const Inverses& here, double next, const Inverses& there,
                    std::size_t k) {
     const Complex from = here.p[k], to = there.p[k];
@@ -210,36 +262,41 @@ class BorderScan {
       const double share = (v - w) / (next - w);
       const std::array<Complex, 2> expected{here.p[0] + share * (there.p[0] - here.p[0]),
                                             here.p[1] + share * (there.p[1] - here.p[1])};
-      return Inverses(rotor_.receptance(v)).as(expected).p[k];
+      return at(v).as(expected).p[k];
     };
     const double root = bracketed_root([&](double v) { return between(v).imag(); }, w, from.imag(),
                                        next, to.imag(), root_tol * next);
-    if (std::isfinite(root)) add(1.0 / between(root).real(), root);
+    if (std::isfinite(root)) add(1.0 / between(root).real(), root, from.imag() > 0.0);
   }
 
   /// Real eigenvalues at zero: the rotor leaves its place without oscillating.
-  void at_rest() {
+  void at_rest(const Inverses& above) {
     if (!rotor_.is_held()) return;
-    for (const Complex p : Inverses(rotor_.receptance(0.0)).p) {
-      if (std::abs(p.imag()) <= root_tol * std::abs(p)) add(1.0 / p.real(), 0.0);
+    const Inverses rest = at(0.0).as(above.p);
+    for (const std::size_t k : {0, 1}) {
+      const Complex p = rest.p[k];
+      if (std::abs(p.imag()) <= root_tol * std::abs(p)) {
+        add(1.0 / p.real(), 0.0, above.p[k].imag() < 0.0);
+      }
     }
   }
 
   /// How far the receptance stays much the same.
   double step(double w, const Inverses& here) const {
-    double distance = top_;
+    double distance = top_ + w;
     for (const Complex pole : poles_) {
-      distance = std::min(distance, std::abs(Complex(0.0, w) - pole));
+      distance = std::min(distance, std::abs(Complex(tilt_ * w, w) - pole));
     }
-    const double share = least_ * here.size() < far_off ? coarse_step : fine_step;
-    return std::max(share * distance, least_step * w);
+    return (least_ * here.size() < far_off ? coarse_step : fine_step) * distance;
   }
 
   CoupledRotor& rotor_;
   std::vector<Complex> poles_{};
-  std::vector<std::pair<double, double>> found_{};
+  std::vector<Border> found_{};
   double top_ = 0.0, bottom_ = std::numeric_limits<double>::infinity();  ///< of the scan [rad/s]
+  double tilt_ = 0.0;                                                    ///< of what is followed
   double least_ = std::numeric_limits<double>::infinity();               ///< Q known so far
+  double most_ = 0.0;  ///< Q beyond which all is rounding
 };
 
 /// The least Q above which a mode grows, between one where none does and one where one does.
@@ -256,20 +313,16 @@ CoupledMode growth_between(const CoupledRotor& rotor, double none, double some) 
 /// The least Q above which a mode grows; nothing: there is none.
 /// @param size  Q that is large [N/m]
 std::optional<CoupledMode> first_growth(CoupledRotor& rotor, double size) {
-  constexpr double tiny = 1e-6;   // of it: a rotor without damping bears none
-  constexpr double above = 1.05;  // times Q at the border: there it has been crossed
+  constexpr double tiny = 1e-6;  // of it: a rotor without damping bears none
   const LeastDamped own = rotor.at(0.0);
-  if (own.is_growing) return own.mode;
-  if (rotor.at(tiny * size).is_growing) {
-    const CoupledMode first = growth_between(rotor, 0.0, tiny * size);
-    return first.coupling < tiny * tiny * size ? own.mode : first;
-  }
-  const auto borders = BorderScan(rotor).found();
-  for (std::size_t i = 0; i < borders.size(); ++i) {
-    const auto& [Q, w] = borders[i];
-    double next = above * Q;
-    if (i + 1 < borders.size()) next = std::min(next, std::sqrt(Q * borders[i + 1].first));
-    if (rotor.at(next).is_growing) return CoupledMode{Q, 0.0, w};
+  if (own.is_growing || (!rotor.is_held() && rotor.at(tiny * size).is_growing)) return own.mode;
+  BorderScan scan(rotor);
+  int right = 0;  // eigenvalues
+  for (const Border& border : scan.found()) {
+    right = std::max(0, right + border.more);
+    if (right == 0) continue;
+    if (scan.has_undamped() && border.Q < tiny * size) return own.mode;
+    return CoupledMode{border.Q, 0.0, border.w};
   }
   return {};
 }
@@ -288,9 +341,11 @@ CouplingStability coupling_stability(const Structure& structure, double Omega, c
                                      const CouplingOptions& options) {
   CouplingStability found;
   CoupledRotor rotor(structure, Omega, at, options.count);
-  if (rotor.modes().oscillatory.empty()) return found;
+  const auto& [oscillatory, overdamped, rigid] = rotor.modes();
+  if (oscillatory.empty() && overdamped.empty()) return found;
   const double mass = rotor_properties(structure, make_mesh(structure)).mass;
-  const double size = mass * std::norm(rotor.modes().oscillatory.front().lambda);
+  const double size =
+      mass * std::norm(oscillatory.empty() ? overdamped.front() : oscillatory.front().lambda);
   found.at_limit = first_growth(rotor, size);
   found.at_anticipated = rotor.at(options.anticipated).mode;
   double last = last_coupling(found, options.anticipated, size);
@@ -298,8 +353,10 @@ CouplingStability coupling_stability(const Structure& structure, double Omega, c
     const double Q = last * i / options.steps;
     const LeastDamped least = rotor.at(Q);
     found.modes.push_back(least.mode);
-    if (!least.is_growing || (found.at_limit && Q >= found.at_limit->coupling)) continue;
-    // the axis was left and met again within one step of the scan
+    // receptances tell the border to more digits than eigenvalues do
+    if (rotor.has_all_modes() || !least.is_growing) continue;
+    if (found.at_limit && Q >= found.at_limit->coupling) continue;
+    // driven by a mode beyond the known ones
     found.at_limit = growth_between(rotor, last * (i - 1) / options.steps, Q);
     last = last_coupling(found, options.anticipated, size);
     found.modes.clear(), i = -1;

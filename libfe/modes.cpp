@@ -107,10 +107,12 @@ double reach_of(Complex lambda, const CVec& all) {
 
 Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, int count) {
   if (system.Omega == 0.0) separate_planes(found, system.dofs);
+  const Sparse D = system.D();
+  Refinement refinement(system.M, D, system.K);
   Modes modes;
   for (Eigen::Index i = 0; i < found.lambda.size(); ++i) {
-    const Complex lambda = found.lambda(i);
-    const CVec q = found.q.col(i);
+    Complex lambda = found.lambda(i);
+    CVec q = found.q.col(i);
     const bool is_rigid =
         body.is_free &&
         stiffness_ratio(system, q) <= rigid_share * body.first_flexible * body.first_flexible;
@@ -118,10 +120,10 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
       // a double zero comes as a small pair of any sign, which is no damping
       const bool is_zero = std::abs(lambda) <= rigid_zero * body.first_flexible;
       modes.rigid_body.push_back(mode_of(is_zero ? Complex(0.0) : lambda, q, system.dofs));
-    } else if (!oscillates(lambda)) {
-      modes.overdamped.push_back(lambda);
-    } else {
+    } else if (oscillates(lambda)) {
       modes.oscillatory.push_back(mode_of(lambda, q, system.dofs));
+    } else if (refinement.improve(lambda, q, reach_of(lambda, found.lambda))) {
+      modes.overdamped.push_back(lambda);
     }
   }
   const auto by_frequency = [](const Mode& a, const Mode& b) {
@@ -132,8 +134,6 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
   std::stable_sort(modes.overdamped.begin(), modes.overdamped.end(),
                    [](Complex a, Complex b) { return std::abs(a) < std::abs(b); });
   if (static_cast<int>(modes.oscillatory.size()) > count) modes.oscillatory.resize(count);
-  const Sparse D = system.D();
-  Refinement refinement(system.M, D, system.K);
   std::vector<Mode> refined;
   for (Mode& mode : modes.oscillatory) {
     Complex lambda = mode.lambda;

@@ -36,11 +36,12 @@ DynamicStiffness::~DynamicStiffness() = default;
 DynamicStiffness::DynamicStiffness(DynamicStiffness&&) noexcept = default;
 DynamicStiffness& DynamicStiffness::operator=(DynamicStiffness&&) noexcept = default;
 
-bool DynamicStiffness::factorize(double w, double Omega) {
+bool DynamicStiffness::factorize(Complex lambda, double Omega) {
   State& s = *state_;
   Complex* value = s.A.valuePtr();
+  const Complex square = lambda * lambda;
   for (Eigen::Index i = 0; i < s.K.size(); ++i) {
-    value[i] = {s.K(i) - w * w * s.M(i), w * (s.C(i) + Omega * s.G(i))};
+    value[i] = s.K(i) + square * s.M(i) + lambda * (s.C(i) + Omega * s.G(i));
   }
   return s.solver.factorize(s.A);
 }
@@ -50,7 +51,7 @@ CVec DynamicStiffness::solve(const CVec& f) const {
 }
 
 std::optional<CVec> DynamicStiffness::solve(double w, double Omega, const CVec& f) {
-  if (!factorize(w, Omega)) return std::nullopt;
+  if (!factorize(Complex(0.0, w), Omega)) return std::nullopt;
   CVec q = solve(f);
   if (!q.allFinite()) return std::nullopt;
   return q;

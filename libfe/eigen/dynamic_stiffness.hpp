@@ -20,8 +20,9 @@ class DynamicStiffness {
   /// @return       the response, or nothing where the matrix is singular
   std::optional<CVec> solve(double w, double Omega, const CVec& f);
 
-  /// The same for several loads at one frequency: whether the matrix is regular, and then responses.
-  bool factorize(double w, double Omega);
+  /// The same for several loads at one motion e^(lambda t), lambda = i w [rad/s]: whether the matrix is
+  /// regular, and then responses.
+  bool factorize(Complex lambda, double Omega);
   CVec solve(const CVec& f) const;
 
  private:

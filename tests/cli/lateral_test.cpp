@@ -71,7 +71,7 @@ TEST_F(Lateral, TellsEveryCheckBesideItsLimit) {
   EXPECT_NEAR(r["minimum_speed_rpm"], 8000.0, 1e-9);
   EXPECT_NEAR(r["maximum_speed_rpm"], 9500.0, 1e-9);
   EXPECT_NEAR(r["trip_speed_rpm"], 1.05 * 9500.0, 1e-9);
-  EXPECT_NEAR(r["vibration_limit_m"], 25.4e-6 * std::sqrt(12000.0 / 9500.0), 1e-15);
+  EXPECT_NEAR(r["vibration_limit_m"], 25.4e-6, 1e-15);  // the cap: 9500 rpm are below 12 000
   ASSERT_EQ(r["journals"].size(), 2u);
   ASSERT_FALSE(r["cases"].empty());
   EXPECT_EQ(r["planes"][0]["station"], "7 wheel");
@@ -260,7 +260,7 @@ TEST_F(Lateral, NeedsAShaftThatIsHeld) {
                   "a lateral analysis needs a shaft"));
 }
 
-// 25.4 sqrt(12 000 / 9000) um are sqrt(4 / 3) mil.
+// 25.4 sqrt(12 000 / 16 000) um are sqrt(3 / 4) mil; below 12 000 rpm 1 mil is allowed, and not more.
 TEST_F(Lateral, VibrationIsToldInTheUnitOfTheProbes) {
   const auto with_probes = [&](const char* other) {
     write("machine.toml", std::string(machine) + R"([[probe]]
@@ -275,19 +275,20 @@ angle = "90 deg"
 unit = ")" + other + "\"\n");
   };
   with_probes("mil");
-  const std::string text = whirl({"lateral", "machine.toml", "--out", "l.h5"}).out;
-  EXPECT_TRUE(has(text, "1.155 mil") && has(text, "peak to peak [mil]")) << text;
-  EXPECT_NEAR(result({"lateral", "machine.toml"})["vibration_limit_m"].get<double>(),
-              std::sqrt(4.0 / 3.0) * 25.4e-6, 1e-12);
+  const std::string text =
+      whirl({"lateral", "machine.toml", "--maximum-speed", "16000rpm", "--out", "l.h5"}).out;
+  EXPECT_TRUE(has(text, "0.866 mil") && has(text, "peak to peak [mil]")) << text;
+  EXPECT_NEAR(result({"lateral", "machine.toml"})["vibration_limit_m"].get<double>(), 25.4e-6,
+              1e-15);
   const ResultView view(folder / "l.h5");
   for (const FigureKind& kind : figure_kinds()) {
     if (kind.name != "lateral_response") continue;
     const Figure f = figures_of(kind, view).at(0);
     EXPECT_EQ(f.panels.at(0).y.title, "peak to peak [mil]");
-    EXPECT_TRUE(has(f.notes.back(), "1.155 mil")) << f.notes.back();
+    EXPECT_TRUE(has(f.notes.back(), "0.866 mil")) << f.notes.back();
   }
   with_probes("um");  // of two units neither is that of the report
-  EXPECT_TRUE(has(whirl({"lateral", "machine.toml"}).out, "29.3 um"));
+  EXPECT_TRUE(has(whirl({"lateral", "machine.toml"}).out, "25.4 um"));
 }
 
 }  // namespace lateral_test
