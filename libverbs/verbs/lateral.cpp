@@ -79,6 +79,12 @@ Report run_lateral(const Invocation& call, const LateralVerbOptions& options) {
   Model rotor = model;
   rotor.contacts.clear();  // their clearances are not left out
   report.add_notes(linear_notes(rotor, study.report.speeds));
+  if (has_linear_films(model)) {
+    report.add_notes(
+        {"level I: oil films keep the coefficients that they have without the "
+         "cross-coupled stiffness; the same stiffness as a [[link]] or [[seal]] of the "
+         "model moves the journals, too"});
+  }
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
     write_result(file, study.report);

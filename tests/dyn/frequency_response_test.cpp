@@ -56,7 +56,7 @@ TEST(FrequencyResponse, AtAnUndampedResonanceIsUnbounded) {
 }
 
 // A free shaft has no place to come back to: at 0 Hz every response is infinite, whatever rounding has
-// left of the stiffness; numbers of 1e-3 m/N stood there before. At other frequencies it has one.
+// left of the stiffness; numbers stood there before. At other frequencies it has one.
 TEST(FrequencyResponse, OfAFreeShaftIsUnboundedAtRest) {
   Structure s = test::two_disk(test::isotropic(1e7));
   s.bearings.clear();

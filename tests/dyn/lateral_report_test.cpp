@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "libbase/error.hpp"
+#include "libdyn/system/film_equilibrium.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::lateral_report_test {
@@ -229,6 +231,74 @@ TEST(LateralReport, ChecksTheClearancesOfSealsAndBearings) {
   EXPECT_EQ(alone.clearances[0].name, "bearing left");
   EXPECT_NEAR(alone.clearances[0].left - alone.clearances[1].left, rotor.clearance,
               stiff * rotor.clearance);
+}
+
+// A seal whose clearance the weight uses up, m g / (2 k) = 49 um, fails whatever the response is.
+TEST(LateralReport, FailsWhereARotorAtRestTouches) {
+  StiffRotor rotor;
+  rotor.clearance = 40e-6;
+  const LateralReport r = lateral_report(rotor.model(), options(8000.0, 9000.0)).report;
+  const LateralCheck& touching = check_of(r, LateralRule::running_clearance);
+  EXPECT_EQ(touching.verdict, Verdict::failed);
+  EXPECT_EQ(touching.found, INFINITY);
+  EXPECT_FALSE(r.is_passed());
+  rotor.clearance = 400e-6;
+  const LateralReport wide = lateral_report(rotor.model(), options(8000.0, 9000.0)).report;
+  EXPECT_EQ(check_of(wide, LateralRule::running_clearance).verdict, Verdict::passed);
+}
+
+// Bearings whose own cross-coupled stiffness is 1.2 times 2 c omega: the rotor is unstable without Q. It
+// fails, with nothing to spare, whether or not it is told what to expect.
+TEST(LateralReport, FailsARotorThatIsUnstableWithoutQ) {
+  const StiffRotor rotor;
+  Model model = rotor.model();
+  BearingCoefficients oil = test::isotropic(StiffRotor::k, rotor.c);
+  oil.K(0, 1) = 1.2 * rotor.c * rotor.omega();
+  oil.K(1, 0) = -oil.K(0, 1);
+  model.structure.bearings = {test::bearing(node(1), oil), test::bearing(node(5), oil)};
+  LateralOptions how = options(8000.0, 9000.0);
+  const LateralReport alone = lateral_report(model, how).report;
+  EXPECT_EQ(alone.limit, 0.0);
+  EXPECT_LT(alone.log_decrement, 0.0);
+  EXPECT_EQ(check_of(alone, LateralRule::log_decrement).verdict, Verdict::failed);
+  EXPECT_FALSE(alone.is_passed());
+  how.anticipated = 1e3, how.has_anticipated = true;
+  const LateralReport r = lateral_report(model, how).report;
+  EXPECT_EQ(check_of(r, LateralRule::coupling_ratio).found, 0.0);
+  EXPECT_EQ(check_of(r, LateralRule::coupling_ratio).verdict, Verdict::failed);
+}
+
+// Oil films keep the coefficients that they have without Q: with these frozen and Q_0 an eigenvalue is on
+// the axis. Q_0 as a link of the model bends the rotor at rest, too: its journals run elsewhere then, and
+// it is not at its border.
+TEST(LateralReport, LeavesJournalsWhereTheyRunWithoutQ) {
+  Model model = StiffRotor().model();
+  model.structure.bearings.clear();
+  model.contacts.clear();
+  for (const int end : {1, 5}) {
+    model.films.push_back(
+        {.name = std::to_string(end),
+         .at = node(end),
+         .bearing = {.radius = 0.05, .length = 0.05, .clearance = 1e-4, .viscosity = 0.02}});
+  }
+  model.speed = 3000.0 * rpm;
+  const LateralReport r = lateral_report(model, options(3000.0, 3000.0)).report;
+  ASSERT_GT(r.limit, 0.0);
+  BearingCoefficients Q;
+  Q.K << 0.0, r.limit, -r.limit, 0.0;
+  const auto growth = [&](const Structure& s) {
+    double most = -INFINITY;
+    for (const Mode& m : complex_modes(Assembler(s), model.speed, 8).oscillatory) {
+      most = std::max(most, m.lambda.real() / std::abs(m.lambda));
+    }
+    return most;
+  };
+  Structure frozen = linear_structure(model);
+  frozen.links.push_back(test::bearing(node(3), Q));
+  EXPECT_NEAR(growth(frozen), 0.0, 1e-8);
+  Model moved = model;
+  moved.structure.links.push_back(test::bearing(node(3), Q));
+  EXPECT_GT(std::abs(growth(linear_structure(moved))), 1e-3);
 }
 
 // Speeds that the model tells; a maximum that is asked for wins over all of them.
