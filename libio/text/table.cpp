@@ -33,7 +33,7 @@ std::vector<ShownColumn> columns_of(const Cells& head, const std::vector<Cells>&
     for (const auto& cells : rows) {
       if (c >= cells.size()) continue;
       columns[c].width = std::max(columns[c].width, display_width(cells[c]));
-      const bool is_nothing = cells[c].empty() || cells[c] == "·";
+      const bool is_nothing = cells[c].empty() || cells[c] == "·" || cells[c] == "∞";
       const char first = is_nothing ? '-' : cells[c][0];
       if (!(first >= '0' && first <= '9') && first != '-' && first != '+' && first != '.') {
         columns[c].is_number = false;

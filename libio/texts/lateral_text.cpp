@@ -21,7 +21,8 @@ namespace {
 /// A number of a check in the unit that people use for its rule.
 /// @param unit  of vibration
 std::string amount_text(LateralRule rule, double value, const VibrationUnit& unit = {}) {
-  if (!std::isfinite(value)) return "-";
+  if (std::isnan(value)) return "-";
+  if (std::isinf(value)) return value > 0.0 ? "∞" : "-∞";
   switch (rule) {
     case LateralRule::separation_margin:
     case LateralRule::running_clearance:
@@ -63,6 +64,13 @@ std::string region_text(const LateralReport& r) {
                      r.gas_density, name_of(*region), largest_speed_ratio(r.gas_density));
 }
 
+std::string decrement_text(double log_decrement) {
+  if (std::isfinite(log_decrement) || std::isnan(log_decrement)) {
+    return "logarithmic decrement " + texts::number_text(log_decrement, ".4f");
+  }
+  return log_decrement > 0.0 ? "no mode oscillates" : "the rotor leaves its place without a whirl";
+}
+
 std::string coupling_text(const LateralReport& r) {
   const std::string limit =
       r.limit == 0.0           ? "a mode grows without any: the rotor is unstable, Q0 is 0"
@@ -75,9 +83,8 @@ std::string coupling_text(const LateralReport& r) {
                                : "without any cross-coupled stiffness beside that of the model";
   return fmt::format(
       "\n  Stability at {:.0f} rpm, level I, cross-coupled stiffness at {}:\n"
-      "  logarithmic decrement {} {}; {}.\n",
-      r.maximum_speed / rpm, r.coupled_station, texts::number_text(r.log_decrement, ".4f"), told,
-      limit);
+      "  {} {}; {}.\n",
+      r.maximum_speed / rpm, r.coupled_station, decrement_text(r.log_decrement), told, limit);
 }
 
 /// By which sides of a peak its amplification factor is known.

@@ -5,6 +5,7 @@
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/modes_text.hpp"
+#include "libio/texts/stability_text.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
 #include "libverbs/options/common.hpp"
@@ -36,6 +37,7 @@ Report run_campbell(const Invocation& call, const CampbellVerbOptions& options) 
         "these {}.\n",
         *options.modes, diagram.branches.size());
   }
+  report.add_notes(unstable_notes(diagram));
   report.add_notes(linear_notes(model, speeds));
   write_file(call, model, report, [&](ResultWriter& file) { write_result(file, diagram); });
   return report;

@@ -3,6 +3,7 @@
 #include "libio/results/motion_results.hpp"
 #include "libio/text/value_range.hpp"
 #include "libio/texts/frequency_response_text.hpp"
+#include "libio/texts/stability_text.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
 
@@ -43,6 +44,7 @@ Report run_frf(const Invocation& call, const FrfVerbOptions& options) {
       options.to ? ends_of(options.to, model, assembler) : from);
   Report report = begin_report(call, model, record_of(found));
   report.text = text_of(found);
+  report.add_notes(unstable_notes(assembler, {model.speed}));
   report.add_notes(linear_notes(model, {model.speed}));
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);

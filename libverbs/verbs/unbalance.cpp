@@ -2,6 +2,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
 #include "libio/texts/over_text.hpp"
+#include "libio/texts/stability_text.hpp"
 #include "libio/texts/unbalance_text.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
@@ -50,6 +51,7 @@ Report run_unbalance(const Invocation& call, const UnbalanceVerbOptions& options
   Report report = begin_report(call, model, record_of(study));
   report.text = text_of(study, model);
   report.notes = notes_of(study);
+  report.add_notes(unstable_notes(assembler, {study.speeds.back(), model.speed}));
   report.add_notes(linear_notes(model, study.speeds));
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);

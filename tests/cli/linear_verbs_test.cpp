@@ -23,6 +23,43 @@ TEST_F(Linear, EveryVerbSaysModelVersionAndSpeed) {
   }
 }
 
+// A mass whose bearing feeds its forward whirl, Q = 3 MN/m against c omega = 0.5 MN/m, is unstable at every
+// speed. It has a response to unbalance and a receptance all the same, a margin that is kept, and no
+// threshold: each verb says in a note that it is unstable. Of the stable rotor none does.
+TEST_F(Linear, SaysOfAnUnstableRotorThatItIs) {
+  const std::string text = R"(format = 1
+[operation]
+speed = "6000 rpm"
+[[body]]
+name = "disk"
+mass = 40
+spins = true
+[[unbalance]]
+body = "disk"
+moment = 1e-4
+[[bearing]]
+body = "disk"
+damping = 1000
+)";
+  write("stable.toml", text + "stiffness = 1e7\n");
+  write("unstable.toml", text + "stiffness = { xx = 1e7, yy = 1e7, xy = 3e6, yx = -3e6 }\n");
+  const std::vector<std::vector<std::string>> calls{
+      {"unbalance", "--speeds", "0:6000:500rpm"},
+      {"frf", "--from", "disk:x", "--to", "disk:x", "--frequencies", "10:100:10Hz"},
+      {"campbell", "--speeds", "0:6000:500rpm"}};
+  for (std::vector<std::string> call : calls) {
+    SCOPED_TRACE(call.front());
+    const auto notes_of = [&](const char* model) {
+      std::vector<std::string> line = call;
+      line.insert(line.begin() + 1, model);
+      return result(line)["notes"].dump();
+    };
+    const std::string unstable = notes_of("unstable.toml"), stable = notes_of("stable.toml");
+    EXPECT_TRUE(has(unstable, "the rotor is unstable")) << unstable;
+    EXPECT_FALSE(has(stable, "unstable")) << stable;
+  }
+}
+
 // Cylinder of 600 mm x 20 mm and a disk of 5 kg, 0.06 kg.m^2 at 150 mm:
 //   m_s = rho pi d^2 L / 4,  Ip = m_s d^2 / 8 + 0.06
 TEST_F(Linear, Check) {
