@@ -12,13 +12,14 @@ class RandomRotors : public test::Program {};
 TEST_F(RandomRotors, EndEveryLinearVerbWithADocumentedStatusAndWholeJson) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     write("rotor.toml", test::random_rotor_text({.seed = seed, .most_elements = 12}));
-    for (const std::string verb :
-         {"check", "static", "modes", "campbell", "resonances", "critical", "unbalance"}) {
+    for (const std::string verb : {"check", "static", "modes", "campbell", "resonances", "critical",
+                                   "unbalance", "lateral"}) {
       SCOPED_TRACE("seed " + std::to_string(seed) + " " + verb);
       std::vector<std::string> call{verb, "rotor.toml", "--json", "-"};
       if (verb == "campbell" || verb == "unbalance" || verb == "resonances") {
         call.insert(call.end(), {"--speeds", "10rad/s:600rad/s:150rad/s"});
       }
+      if (verb == "lateral") call.insert(call.end(), {"--maximum-speed", "400rad/s"});
       const test::Outcome outcome = whirl(call);
       if (outcome.status == 0) {
         EXPECT_NO_THROW(outcome.tree());
