@@ -56,6 +56,11 @@ void note_channel(const Vec& samples, const MeasuredRecord& record, const std::s
                   std::vector<std::string>& notes) {
   if (samples.size() > 0 && samples.maxCoeff() == samples.minCoeff()) {
     notes.push_back(fmt::format("channel \"{}\" is constant: is its probe connected?", name));
+  } else if (always_ascends(samples)) {
+    notes.push_back(fmt::format(
+        "channel \"{}\" ascends from every sample to the next, as times do and no vibration does: "
+        "is it that of the probe?",
+        name));
   } else if (is_clipped(samples)) {
     notes.push_back(fmt::format(
         "channel \"{}\" is clipped: it rests at its largest or smallest value; amplitudes are too "
@@ -69,6 +74,17 @@ void note_channel(const Vec& samples, const MeasuredRecord& record, const std::s
         name, spikes.count == 1 ? "a spike" : fmt::format("{} spikes", spikes.count),
         record.time(spikes.first)));
   }
+}
+
+/// Notes displacements that no rotor makes: a unit or a gain is another one.
+void note_size(const Vec& displacement, const std::string& probe, std::vector<std::string>& notes) {
+  constexpr double most = 0.1;  // [m]
+  if (displacement.size() == 0) return;
+  const double range = displacement.maxCoeff() - displacement.minCoeff();
+  if (!(range > most)) return;
+  notes.push_back(
+      fmt::format("probe \"{}\" reads {:.3g} m from peak to peak: are the unit and the gain right?",
+                  probe, range));
 }
 
 /// Notes channels whose numbers are in a unit that nobody said.
@@ -89,7 +105,7 @@ void note_units(const MeasuredRecord& record, const MeasurementSetup& setup,
 }  // namespace
 
 ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup) {
-  ProbeReadings readings{.rate = record.rate, .start = record.start};
+  ProbeReadings readings{.rate = record.rate, .start = record.start, .notes = record.notes};
   readings.displacement.resize(record.samples.rows(), std::ssize(setup.probes));
   std::vector<Eigen::Index> channels;
   std::vector<Gaps> gaps;
@@ -111,6 +127,8 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
     }
     note_channel(samples, record, channel.name, readings.notes);
     readings.displacement.col(static_cast<Eigen::Index>(i)) = metres_per_unit(channel, p) * samples;
+    note_size(readings.displacement.col(static_cast<Eigen::Index>(i)), p.probe.name,
+              readings.notes);
     readings.probes.push_back(p.probe);
   }
   note_units(record, setup, channels, readings.notes);

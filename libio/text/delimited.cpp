@@ -86,8 +86,8 @@ bool has_number(const std::string& line) {
 /// The one comma or point of a number.
 struct NumberMark {
   char sign = ',';
-  std::string before, after;      ///< digits around it, with the sign of the number
-  bool may_be_thousands = false;  ///< three digits behind it, up to three before
+  std::string_view before, after;  ///< digits around it, with the sign of the number
+  bool may_be_thousands = false;   ///< three digits behind it, up to three before
 };
 
 /// Where the numeral of a cell ends, behind which its unit is.
@@ -103,10 +103,10 @@ std::optional<NumberMark> mark_of(std::string_view cell) {
   std::size_t end = at + 1;
   while (end < numeral.size() && is_numeral(numeral[end])) ++end;
   NumberMark mark{.sign = numeral[at],
-                  .before = std::string(numeral.substr(0, at)),
-                  .after = std::string(numeral.substr(at + 1, end - at - 1))};
+                  .before = numeral.substr(0, at),
+                  .after = numeral.substr(at + 1, end - at - 1)};
   const bool is_signed = !mark.before.empty() && !is_numeral(mark.before[0]);
-  const std::string digits = mark.before.substr(is_signed ? 1 : 0);
+  const std::string_view digits = mark.before.substr(is_signed ? 1 : 0);
   mark.may_be_thousands = mark.after.size() == 3 && end == numeral.size() && !digits.empty() &&
                           digits.size() <= 3 && digits[0] != '0' &&
                           std::all_of(digits.begin(), digits.end(), is_numeral);
@@ -115,7 +115,7 @@ std::optional<NumberMark> mark_of(std::string_view cell) {
 
 /// What is wrong with a comma or point that may be either: what would be right.
 std::string doubt_of(std::string_view cell, const NumberMark& mark, const NumberMarks& all) {
-  std::string decimals = mark.after;
+  std::string decimals(mark.after);
   while (decimals.size() > 1 && decimals.back() == '0') decimals.pop_back();
   const bool is_comma = mark.sign == ',';
   const char* others = "no other number of this table shows which";
@@ -273,10 +273,12 @@ bool is_line_of_units(const std::vector<Cell>& cells) {
   return has_any;
 }
 
-void NumberMarks::add(std::string_view cell) {
+char NumberMarks::add(std::string_view cell) {
   const auto mark = mark_of(cell);
-  if (!mark || mark->may_be_thousands) return;
+  if (!mark) return '\0';
+  if (mark->may_be_thousands) return mark->sign;
   (mark->sign == ',' ? has_decimal_commas : has_decimal_points) = true;
+  return '\0';
 }
 
 Parsed<std::string> plain_number(std::string_view cell, const NumberMarks& marks) {

@@ -59,7 +59,8 @@ struct NumberMarks {
   bool has_decimal_points = false;  ///< "0.5" likewise
 
   /// Takes a number of the table into account.
-  void add(std::string_view cell);
+  /// @return  its comma or point, if that may be one of thousands or of decimals; else 0
+  char add(std::string_view cell);
 };
 
 /// A number as parse_quantity reads it: decimal commas become points where commas do not delimit,

@@ -263,7 +263,7 @@ TEST(ProbeReadings, TakesChannelsByGainAndUnit) {
 TEST(ProbeReadings, TellRowsThatAreLeftOutOnce) {
   MeasuredRecord record{.rate = 100.0};
   record.channels = {{"x", "m"}, {"y", "m"}, {"z", "m"}};
-  record.samples = Mat::Random(200, 3);
+  record.samples = 1e-4 * Mat::Random(200, 3);
   record.samples.row(7).setConstant(std::nan(""));
   record.samples.row(9).setConstant(std::nan(""));
   MeasurementSetup setup;
