@@ -9,9 +9,14 @@
 
 namespace whirl::inline dyn {
 
+/// The unit of samples that are shares of full scale, as sound files have them: what full scale is
+/// only the recorder knows.
+inline const std::string share_of_full_scale = "FS";
+
 struct MeasuredChannel {
   std::string name;
-  std::string unit{};  ///< of its samples: "m", "V" or any other; "": the file does not say it
+  /// Of its samples: "m", "V", share_of_full_scale or any other; "": the file does not say it.
+  std::string unit{};
 };
 
 /// What was measured.
@@ -59,8 +64,8 @@ Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::st
 /// rests at its crests, too, but comes there by the smallest steps.
 bool is_clipped(const Vec& samples);
 
-/// Whether a signal ascends from every sample to the next, 16 or more, as times and numbers of samples do,
-/// and no probe of a vibration.
+/// Whether a signal ascends from every sample to the next, 16 or more, as times and numbers of
+/// samples do, and no probe of a vibration.
 bool always_ascends(const Eigen::Ref<const Vec>& samples);
 
 /// Samples that stand out alone: the steps into them and back are five times and more what 99 of 100

@@ -178,8 +178,8 @@ void read_element(const Section& s, RossRotor& rotor, UnreadKeys& unread) {
 }
 
 /// How ROSS says at what its coefficients hold: since 3.0 `speed` and `frequency`, before that
-/// `frequency` is the speed, but of squeeze film dampers and magnetic bearings, whose coefficients are those
-/// at a frequency of the whirl in every version.
+/// `frequency` is the speed, but of squeeze film dampers and magnetic bearings, whose coefficients
+/// are those at a frequency of the whirl in every version.
 struct Axes {
   std::vector<double> speed, whirl;
 };

@@ -8,8 +8,8 @@
 
 namespace whirl::inline io {
 
-/// What means something else in a model than in ROSS, whatever the model is written like: tables, shear
-/// coefficients, torques, cones, theories of elements, couplings.
+/// What means something else in a model than in ROSS, whatever the model is written like: tables,
+/// shear coefficients, torques, cones, theories of elements, couplings.
 ///
 /// @return  a sentence each
 std::vector<std::string> differences_of(const RossRotor& rotor);

@@ -9,10 +9,9 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
-#include "libio/measured/channel_unit.hpp"
+#include "libio/measured/csv_header.hpp"
 #include "libio/measured/record_formats.hpp"
 #include "libio/results/csv_tables.hpp"
-#include "libio/text/delimited.hpp"
 #include "libio/text/encoding.hpp"
 
 namespace whirl::inline io {
@@ -21,16 +20,11 @@ namespace {
 
 constexpr std::string_view csv_record_head = "# measurement, written by whirl\n";
 
-/// A line of the file.
-struct CsvLine {
-  int number = 0;  ///< from 1
-  std::string_view text;
-};
-
 /// How numbers stand in a table.
 struct CsvForm {
   Delimiter delimiter = Delimiter::comma;
-  bool ends_with_delimiter = false;  ///< each line
+  bool ends_with_delimiter = false;  ///< each line, or words follow
+  std::size_t columns = 0;
 };
 
 std::vector<CsvLine> csv_lines(std::string_view text) {
@@ -55,8 +49,8 @@ bool is_missing(const std::string& cell) {
   return std::find(marks.begin(), marks.end(), name) != marks.end();
 }
 
-/// The number of a cell, whose comma or point is that of decimals; NaN for a missing one, nothing for
-/// any other text.
+/// The number of a cell, whose comma or point is that of decimals; NaN for a missing one, nothing
+/// for any other text.
 std::optional<double> sample_of(std::string cell) {
   if (is_missing(cell)) return nan;
   std::replace(cell.begin(), cell.end(), ',', '.');
@@ -68,10 +62,16 @@ std::optional<double> sample_of(std::string cell) {
   return std::isfinite(value) ? value : nan;
 }
 
-/// Cells of a line of a form, without the empty one behind a delimiter at its end.
+/// Words, which are no sample: neither a number, nor what looks like one or stands for one.
+bool is_remark(const Cell& cell) {
+  return !begins_as_number(cell.text) && !is_missing(cell.text);
+}
+
+/// Cells of a line of a form, without what is behind a delimiter at its end.
 std::vector<Cell> csv_cells(std::string_view line, const CsvForm& form) {
   std::vector<Cell> cells = cells_of(line, form.delimiter);
-  if (form.ends_with_delimiter && !cells.empty() && cells.back().text.empty()) cells.pop_back();
+  const bool has_end = form.ends_with_delimiter && cells.size() == form.columns + 1;
+  if (has_end && (cells.back().text.empty() || is_remark(cells.back()))) cells.pop_back();
   return cells;
 }
 
@@ -83,146 +83,82 @@ bool has_blank_of_thousands(const std::string& cell) {
   return end == blank + 4;
 }
 
-/// In the order in which they are tried: commas may be decimal ones.
-constexpr std::array delimiters{Delimiter::semicolon, Delimiter::tab, Delimiter::bar,
-                                Delimiter::comma, Delimiter::blanks};
-
 /// The form in which a line is one of numbers, one at least; nothing: it is none.
-std::optional<CsvForm> number_form(std::string_view line) {
-  for (const Delimiter delimiter : delimiters) {
-    const std::vector<Cell> cells = cells_of(line, delimiter);
+/// @param may_end_with_words  the last cell may be a remark
+std::optional<CsvForm> number_form(std::string_view line, bool may_end_with_words = false) {
+  for (const Delimiter delimiter : csv_delimiters) {
+    std::vector<Cell> cells = cells_of(line, delimiter);
     // a lone number is one whatever delimits it
     if (cells.size() < 2 && delimiter != Delimiter::blanks) continue;
+    const bool has_blanks_of_thousands =
+        delimiter == Delimiter::tab && std::any_of(cells.begin(), cells.end(), [](const Cell& c) {
+          return has_blank_of_thousands(c.text);
+        });
+    if (has_blanks_of_thousands) return std::nullopt;
+    const bool has_words = may_end_with_words && cells.size() > 2 && is_remark(cells.back());
+    const bool has_end = has_words || (cells.size() > 2 && cells.back().text.empty());
+    if (has_end) cells.pop_back();
     bool has_number = false, is_right = true;
     for (const Cell& cell : cells) {
       const auto value = sample_of(cell.text);
       is_right = is_right && value;
       has_number = has_number || (value && std::isfinite(*value));
     }
-    if (is_right && has_number) {
-      return CsvForm{delimiter, cells.size() > 2 && cells.back().text.empty()};
-    }
-    const bool has_blanks_of_thousands =
-        delimiter == Delimiter::tab && std::any_of(cells.begin(), cells.end(), [](const Cell& c) {
-          return has_blank_of_thousands(c.text);
-        });
-    if (has_blanks_of_thousands) return std::nullopt;
+    if (is_right && has_number) return CsvForm{delimiter, has_end, cells.size()};
   }
   return std::nullopt;
 }
 
-/// "Sample rate: 5 kHz", "fs = 5000": the rate of a line of a header; 0: it says none.
-double rate_in(std::string_view line) {
-  constexpr std::string_view marks = "#%!/\" \t";
-  const auto first = line.find_first_not_of(marks);
-  const auto end = line.find_first_of(":=,;\t");
-  if (first == std::string_view::npos || end == std::string_view::npos || end <= first) return 0.0;
-  const std::string name =
-      name_and_unit(trimmed(line.substr(first, end - first)), [](auto&&, auto&&) {
-        return false;
-      }).name;
-  if (!names_rate(name)) return 0.0;
-  const std::string value = trimmed(line.substr(end + 1));
-  const auto letter = std::min(value.find_first_not_of("+-.0123456789eE"), value.size());
-  const auto number = parse_as(value.substr(0, letter), "");
-  if (!number) return 0.0;
-  return value.find("kHz") != std::string::npos ? 1e3 * *number : *number;
-}
-
-/// Names and units of channels from the last lines of a header.
-class CsvHeader {
- public:
-  CsvHeader(const std::vector<CsvLine>& lines, std::size_t count) {
-    for (const CsvLine& line : lines) {
-      if (const double found = rate_in(line.text); found > 0.0) rate = found;
-      const std::vector<std::string> cells = header_cells(line.text, count);
-      if (cells.empty()) continue;
-      const bool are_units = !names.empty() && std::all_of(cells.begin(), cells.end(), is_unit);
-      if (are_units) {
-        for (std::size_t i = 0; i < count; ++i) units[i] = bare_unit(cells[i]);
-        continue;
-      }
-      names.assign(count, "");
-      units.assign(count, "");
-      for (std::size_t i = 0; i < count; ++i) {
-        const NameAndUnit found =
-            name_and_unit(cells[i], [](const std::string&, const std::string& unit) {
-              return !unit.empty() && is_unit(unit);
-            });
-        names[i] = found.name;
-        units[i] = found.unit;
-      }
-    }
-    has_names = std::any_of(names.begin(), names.end(), [](auto& name) { return !name.empty(); });
-    names.resize(count);
-    units.resize(count);
-    for (std::size_t i = 0; has_names && i < count; ++i) {
-      if (names[i].empty()) names[i] = std::to_string(i + 1);
-    }
-  }
-
-  std::vector<std::string> names, units;
-  double rate = 0.0;       ///< [1/s]; 0: it says none
-  bool has_names = false;  ///< of the channels: else these are numbers
-
- private:
-  static std::string bare_unit(const std::string& cell) {
-    const auto first = cell.find_first_not_of("[( ");
-    if (first == std::string::npos) return "";
-    return trimmed(cell.substr(first, cell.find_last_not_of("]) ") - first + 1));
-  }
-  static bool is_unit(const std::string& cell) {
-    const std::string unit = bare_unit(cell);
-    if (unit.size() < cell.size() || unit.empty() || unit == "-") return true;
-    const ChannelUnit known = channel_unit(unit);
-    return known.name == "m" || known.name == "V" || parse_as("1 " + unit, "s").value.has_value();
-  }
-  /// Names between blanks, "x [um] y [um]"; a line of units stays as it is.
-  static std::vector<Cell> with_their_units(const std::vector<Cell>& cells) {
-    const auto is_unit_alone = [](const Cell& c) {
-      return c.text.starts_with('[') || c.text.starts_with('(');
-    };
-    std::vector<Cell> names;
-    for (const Cell& cell : cells) {
-      if (names.empty() || is_unit_alone(names.back()) || !is_unit_alone(cell)) {
-        names.push_back(cell);
-      } else {
-        names.back().text += " " + cell.text;
-      }
-    }
-    return names;
-  }
-  /// Cells of a line with as many as there are channels, in whatever way they are delimited.
-  static std::vector<std::string> header_cells(std::string_view line, std::size_t count) {
-    const auto begin = line.find_first_not_of("#%! ");
-    if (begin == std::string_view::npos) return {};
-    for (const Delimiter delimiter : delimiters) {
-      std::vector<Cell> cells = cells_of(line.substr(begin), delimiter);
-      if (cells.size() == count + 1 && cells.back().text.empty()) cells.pop_back();
-      if (delimiter == Delimiter::blanks) cells = with_their_units(cells);
-      if (cells.size() != count) continue;
-      std::vector<std::string> texts;
-      for (const Cell& cell : cells) texts.push_back(cell.text);
-      return texts;
-    }
-    return {};
-  }
+/// The lines of a table: how its numbers stand, and which lines they are.
+struct CsvBody {
+  CsvForm form;
+  std::size_t first = 0;  ///< line of numbers that another one follows, or that is the last
 };
 
-/// The first line of numbers that another one follows, or that is the last.
-std::size_t first_of_numbers(const std::vector<CsvLine>& lines) {
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (!number_form(lines[i].text)) continue;
-    if (i + 1 == lines.size() || number_form(lines[i + 1].text)) return i;
+/// @return  nothing: there is no line of numbers
+std::optional<CsvBody> body_of(const std::vector<CsvLine>& lines) {
+  for (const bool may_end_with_words : {false, true}) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const auto form = number_form(lines[i].text, may_end_with_words);
+      if (!form) continue;
+      const bool is_last = i + 1 == lines.size();
+      if (is_last || number_form(lines[i + 1].text, may_end_with_words)) return CsvBody{*form, i};
+    }
   }
-  return lines.size();
+  return std::nullopt;
+}
+
+/// Takes lines of words off the end, which are notes below a table.
+void drop_notes(std::vector<CsvLine>& lines, Delimiter delimiter) {
+  const auto is_note = [&](const CsvLine& line) {
+    bool has_words = false;
+    for (const Cell& cell : cells_of(line.text, delimiter)) {
+      if (!cell.text.empty() && !is_remark(cell)) return false;
+      has_words = has_words || !cell.text.empty();
+    }
+    return has_words;
+  };
+  while (!lines.empty() && is_note(lines.back())) lines.pop_back();
+}
+
+/// Makes what is behind the last delimiter a column, if any line has a number there.
+void take_last_column(CsvForm& form, const std::vector<CsvLine>& lines, std::size_t first) {
+  if (!form.ends_with_delimiter) return;
+  const bool has_numbers = std::any_of(
+      lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end(), [&](const CsvLine& line) {
+        const std::vector<Cell> cells = cells_of(line.text, form.delimiter);
+        return cells.size() == form.columns + 1 && begins_as_number(cells.back().text);
+      });
+  if (!has_numbers) return;
+  form.ends_with_delimiter = false;
+  ++form.columns;
 }
 
 /// What is said of a table without numbers: the first cell that is none, of the last line.
 ModelError no_numbers(const std::string& file, const std::vector<CsvLine>& lines) {
   const std::string message = "has no two lines of numbers, expected a column for each channel";
   if (lines.empty()) return ModelError({file}, "", "is empty: " + message);
-  for (const Delimiter delimiter : delimiters) {
+  for (const Delimiter delimiter : csv_delimiters) {
     if (delimiter == Delimiter::blanks) continue;
     const std::vector<Cell> cells = cells_of(lines.back().text, delimiter);
     if (cells.size() < 2) continue;
@@ -238,13 +174,13 @@ ModelError no_numbers(const std::string& file, const std::vector<CsvLine>& lines
 
 /// Whether a line names columns: none of its cells is a number, and it says no rate.
 bool names_columns(std::string_view line, const std::vector<Cell>& cells) {
-  return rate_in(line) == 0.0 && std::none_of(cells.begin(), cells.end(), [](const Cell& c) {
+  return csv_rate_in(line) == 0.0 && std::none_of(cells.begin(), cells.end(), [](const Cell& c) {
            return c.text.empty() || begins_as_number(c.text);
          });
 }
 
-/// Decimal commas between commas cannot be told from these: there are more columns than names, and no
-/// number has a point.
+/// Decimal commas between commas cannot be told from these: there are more columns than names, and
+/// no number has a point.
 /// @param cells  of the first line of numbers
 void require_other_delimiters(const std::string& file, const CsvLine& header,
                               const std::vector<Cell>& cells) {
@@ -353,19 +289,20 @@ RawRecord read_csv_record(const std::filesystem::path& path) {
   const std::string file = path.string();
   const auto text = in_utf8(record_bytes(path));
   if (!text) throw ModelError({file}, "", text.problem);
-  const std::vector<CsvLine> lines = csv_lines(*text);
-  const std::size_t first = first_of_numbers(lines);
-  if (first == lines.size()) throw no_numbers(file, lines);
-  const CsvForm form = *number_form(lines[first].text);
-  const std::vector<Cell> first_cells = csv_cells(lines[first].text, form);
-  const std::size_t count = first_cells.size();
-  const CsvHeader header({lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first)},
-                         count);
+  std::vector<CsvLine> lines = csv_lines(*text);
+  const auto body = body_of(lines);
+  if (!body) throw no_numbers(file, lines);
+  auto [form, first] = *body;
+  drop_notes(lines, form.delimiter);
+  take_last_column(form, lines, first);
+  const CsvHeader header =
+      csv_header({lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(first)}, form.columns,
+                 form.ends_with_delimiter);
   if (!header.has_names && first > 0 && form.delimiter == Delimiter::comma) {
-    require_other_delimiters(file, lines[first - 1], first_cells);
+    require_other_delimiters(file, lines[first - 1], csv_cells(lines[first].text, form));
   }
   RawRecord raw{.file = file};
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < form.columns; ++i) {
     raw.channels.push_back({header.names[i], header.units[i], {}, {file, lines[first].number, 1}});
     raw.channels[i].samples.reserve(lines.size() - first);
   }
@@ -384,8 +321,10 @@ void write_csv_record(const std::filesystem::path& path, const MeasuredRecord& r
         out << csv_record_head << fmt::format("# sample rate [Hz]: {}\n", record.rate)
             << "time [s]";
         for (const MeasuredChannel& c : record.channels) {
-          const std::string unit = c.unit.empty() ? "" : fmt::format(" [{}]", c.unit);
-          out << ',' << csv_quoted(c.name + unit);
+          // brackets at the end of a name are no unit, if others follow
+          const bool has_brackets = c.name.find_first_of("[(") != std::string::npos;
+          const bool has_unit = !c.unit.empty() || has_brackets;
+          out << ',' << csv_quoted(c.name + (has_unit ? fmt::format(" [{}]", c.unit) : ""));
         }
         out << '\n';
         for (Eigen::Index j = 0; j < record.samples.rows(); ++j) {

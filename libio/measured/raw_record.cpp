@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "libbase/constants.hpp"
 #include "libio/measured/channel_unit.hpp"
@@ -92,8 +93,8 @@ Eigen::Map<const Vec> samples_of(const RawChannel& channel) {
   return {channel.samples.data(), std::ssize(channel.samples)};
 }
 
-/// The channel of times: by its name, else the first one in a unit of time, in whatever language, which
-/// always ascends where the rate is known.
+/// The channel of times: by its name, else the first one in a unit of time, in whatever language,
+/// which always ascends where the rate is known.
 std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, bool is_rate_known) {
   const auto named = std::find_if(channels.begin(), channels.end(),
                                   [](const RawChannel& c) { return names_time(c.name); });
@@ -104,8 +105,8 @@ std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, boo
   });
 }
 
-/// Gives a first column that always ascends, in a file that names none, the name that it must have: of
-/// times in seconds, unless that cannot be.
+/// Gives a first column that always ascends, in a file that names none, the name that it must have:
+/// of times in seconds, unless that cannot be.
 void name_ramp(RawRecord& raw, std::optional<double> rate) {
   constexpr double longest_step = 0.1;  // nobody records vibrations with longer ones [s]
   RawChannel& first = raw.channels.front();
@@ -143,6 +144,35 @@ void number_channels(std::vector<RawChannel>& channels) {
   }
 }
 
+/// Leaves out vectors that are no channels of the record, such as a calibration: those that are not
+/// as long as its times, or where there are none as most of what has the samples of a record. Two
+/// lengths that are as frequent stay, and are told.
+/// @param samples  of the channel of times; 0: there is none
+void keep_one_length(RawRecord& raw, std::size_t samples) {
+  constexpr std::size_t fewest = 16;  // of a measurement
+  std::map<std::size_t, int> counts;
+  for (const RawChannel& c : raw.channels) {
+    const std::size_t n = c.samples.size();
+    if (samples == 0 ? n >= fewest : n == samples) ++counts[n];
+  }
+  if (counts.empty()) return;
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto is_as_frequent = [&](const auto& other) { return other.second == most->second; };
+  if (std::count_if(counts.begin(), counts.end(), is_as_frequent) > 1) return;
+  std::string others;
+  std::erase_if(raw.channels, [&, n = most->first](const RawChannel& c) {
+    if (c.samples.size() == n) return false;
+    others += fmt::format("{}{} ({})", others.empty() ? "" : ", ", c.name, c.samples.size());
+    return true;
+  });
+  if (!others.empty()) {
+    raw.notes.push_back(fmt::format("not as long as the {} samples of the record, and left out: {}",
+                                    most->first, others));
+  }
+}
+
 bool is_one_of(const std::string& name, std::initializer_list<std::string_view> known) {
   return std::find(known.begin(), known.end(), plain_name(name)) != known.end();
 }
@@ -166,6 +196,9 @@ MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
     raw.channels.erase(time);
     const std::vector<double> numbers = take_times(raw, times);
     for (RawChannel& channel : raw.channels) spread(channel.samples, numbers);
+    keep_one_length(raw, static_cast<std::size_t>(numbers.back()) + 1);
+  } else if (!raw.has_own_times) {
+    keep_one_length(raw, 0);
   }
   number_channels(raw.channels);
   const Where where{raw.file};

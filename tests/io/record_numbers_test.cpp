@@ -1,5 +1,6 @@
-// Numbers, columns and units of records that may be read in two ways: what the file itself says decides,
-// or both readings are told. None is chosen in silence, as one of them is wrong by a thousand or a million.
+// Numbers, columns and units of records that may be read in two ways: what the file itself says
+// decides, or both readings are told. None is chosen in silence, as one of them is wrong by a
+// thousand or a million.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -144,6 +145,34 @@ TEST_F(RecordNumbers, NotesAChannelThatOnlyAscendsAndReadingsOfMetres) {
   EXPECT_NE(readings.notes[1].find("probe \"y\" reads 1 m"), std::string::npos);
 }
 
+// What people write beside and below a table is no sample; a sample that is missing first is one.
+TEST_F(RecordNumbers, LeavesOutRemarksAndNotes) {
+  for (const char* rows : {"t;x;remark\n0;1,5;started\n1;2,5;\n2;3,5;still on\n",
+                           "t;x;remark\n0;1,5;\n1;2,5;\n2;3,5;stopped\n",
+                           "t;x\n0;1,5\n1;2,5\n2;3,5\nmeasured by hand;\nat night\n"}) {
+    const MeasuredRecord record = read(rows);
+    ASSERT_EQ(record.channels.size(), 1u) << rows;
+    EXPECT_EQ(record.channels[0].name, "x");
+    EXPECT_EQ(record.samples.rows(), 3);
+    EXPECT_EQ(record.samples(2, 0), 3.5);
+  }
+  const MeasuredRecord late = read("t;x;y\n0;1,5;\n1;2,5;4\n2;3,5;5\n");
+  ASSERT_EQ(late.channels.size(), 2u);
+  EXPECT_TRUE(std::isnan(late.samples(0, 1)));
+  EXPECT_EQ(late.samples(2, 1), 5.0);
+  EXPECT_NE(problem("t;x\n0;1\n1;2\n2;end 3\n").find("found \"end 3\""), std::string::npos);
+}
+
+// A title of as many words as there are columns is none of names, and names with their units are no
+// units.
+TEST_F(RecordNumbers, TakesNoTitleForNames) {
+  const MeasuredRecord record =
+      read("Rotor, 3. Mai\nZeit [s];x (DE) [um];y [um]\n0;1,5;2\n0,1;2,5;3\n0,2;3,5;4\n");
+  ASSERT_EQ(record.channels.size(), 2u);
+  EXPECT_EQ(record.channels[0].name, "x (DE)");
+  EXPECT_EQ(record.channels[0].unit, "m");
+}
+
 // ---- universal files ----
 
 /// A dataset 58 of displacements.
@@ -158,7 +187,8 @@ std::string dataset_58(int ordinate, const std::string& unit, const std::string&
          "  5.00000E+01  4.00000E+01\n    -1\n";
 }
 
-// A universal file without unit was read in metres, whatever the probe said: 45 m where 45 um are right.
+// A universal file without unit was read in metres, whatever the probe said: 45 m where 45 um are
+// right.
 TEST_F(RecordNumbers, LeavesTheUnitOfUniversalFilesWithoutOneToTheProbe) {
   const MeasuredRecord record = read_record(file("a.uff", dataset_58(8, "NONE")));
   EXPECT_EQ(record.channels.at(0).unit, "");

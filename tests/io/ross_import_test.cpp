@@ -243,7 +243,8 @@ TEST(RossImport, TellsWhatItTakesAndWhatNot) {
   EXPECT_TRUE(has(odd.left_out, "min_w and max_w: the first one is above the other"));
 }
 
-/// A shaft of six elements with a disk in the middle, as ROSS saves it; `rest` is what else the file has.
+/// A shaft of six elements with a disk in the middle, as ROSS saves it; `rest` is what else the
+/// file has.
 std::string wheel(const std::string& version, const std::string& rest) {
   std::string text = fmt::format("ross_version = \"{}\"\n", version);
   for (int n = 0; n < 6; ++n) {
@@ -277,8 +278,8 @@ std::vector<std::pair<double, double>> lowest_modes(const ImportedModel& written
   return found;
 }
 
-// Damping of the whole rotor was dropped without a word: decrements of zero. The reference is ROSS 3.0's,
-// 2224.83 rpm and 0.019496, which C = 8 M + 2e-5 K gives, too.
+// Damping of the whole rotor was dropped without a word: decrements of zero. The reference is ROSS
+// 3.0's, 2224.83 rpm and 0.019496, which C = 8 M + 2e-5 K gives, too.
 TEST(RossImport, HasTheDampingOfTheWholeRotor) {
   const std::string bearings = two_bearings("kxx = 1e7\nkyy = 1e7\n");
   const ImportedModel written =
@@ -305,8 +306,8 @@ TEST(RossImport, HasTheDampingOfTheWholeRotor) {
   EXPECT_TRUE(has_part(wrong.left_out, "damping ratios of modes"));
 }
 
-// ROSS 3 has PCHIP between the rows of a table; straight lines give 1958.4 rpm at 150 rad/s where ROSS gives
-// 1931.8 and 1932.3. Earlier ones lay splines through them, which is said.
+// ROSS 3 has PCHIP between the rows of a table; straight lines give 1958.4 rpm at 150 rad/s where
+// ROSS gives 1931.8 and 1932.3. Earlier ones lay splines through them, which is said.
 TEST(RossImport, InterpolatesTablesAsItsVersionDoesOrSaysSo) {
   const std::string bearings = two_bearings(
       "kxx = [2e6, 3e6, 8e6, 9e6, 9.5e6]\nkyy = [2e6, 3e6, 8e6, 9e6, 9.5e6]\n"
@@ -342,8 +343,8 @@ TEST(RossImport, SaysThatThereAreTwoShafts) {
       << refusal(coaxial);
 }
 
-// Whatever nobody reads is said, by a comparison of keys and no list: in elements, in their materials, in the
-// parameters and beside them.
+// Whatever nobody reads is said, by a comparison of keys and no list: in elements, in their
+// materials, in the parameters and beside them.
 TEST(RossImport, SaysEveryKeyThatItDoesNotRead) {
   std::string text = wheel("3.0.0", two_bearings("kxx = 1e7\nhumidity = 0.3\ncolor = \"red\"\n") +
                                         "[parameters]\nspeed_ratio = 1.5\nrated_w = 10.0\n");
