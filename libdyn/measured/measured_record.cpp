@@ -126,6 +126,12 @@ bool is_clipped(const Vec& samples) {
          clipped_step * quantum;
 }
 
+bool always_ascends(const Eigen::Ref<const Vec>& samples) {
+  constexpr Eigen::Index fewest = 16;
+  const Eigen::Index n = samples.size();
+  return n >= fewest && (samples.tail(n - 1).array() > samples.head(n - 1).array()).all();
+}
+
 Spikes spikes_in(const Vec& samples) {
   Spikes found;
   const Eigen::Index n = samples.size();

@@ -9,9 +9,14 @@
 
 namespace whirl::inline dyn {
 
+/// The unit of samples that are shares of full scale, as sound files have them: what full scale is
+/// only the recorder knows.
+inline const std::string share_of_full_scale = "FS";
+
 struct MeasuredChannel {
   std::string name;
-  std::string unit{};  ///< of its samples: "m", "V" or any other; "": the file does not say it
+  /// Of its samples: "m", "V", share_of_full_scale or any other; "": the file does not say it.
+  std::string unit{};
 };
 
 /// What was measured.
@@ -20,6 +25,7 @@ struct MeasuredRecord {
   double start = 0.0;  ///< time of the first one [s]
   std::vector<MeasuredChannel> channels;
   Mat samples;  ///< samples x channels; lengths in m, voltages in V; NaN: missing
+  std::vector<std::string> notes{};  ///< what its reader took for granted, in words
 
   double duration() const { return static_cast<double>(samples.rows()) / rate; }
   double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }
@@ -57,6 +63,10 @@ Vec without_gaps(const Vec& samples, const MeasuredRecord& record, const std::st
 /// and comes there by steps of more than two of the smallest that it makes. What was digitized coarsely
 /// rests at its crests, too, but comes there by the smallest steps.
 bool is_clipped(const Vec& samples);
+
+/// Whether a signal ascends from every sample to the next, 16 or more, as times and numbers of
+/// samples do, and no probe of a vibration.
+bool always_ascends(const Eigen::Ref<const Vec>& samples);
 
 /// Samples that stand out alone: the steps into them and back are five times and more what 99 of 100
 /// steps are at most, and three times the standard deviation of the signal.

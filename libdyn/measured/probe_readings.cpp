@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "libbase/error.hpp"
 
@@ -33,6 +34,11 @@ double metres_per_unit(const MeasuredChannel& channel, const MeasuredProbe& p) {
     return OptionError(fmt::format("{}: channel \"{}\" is in {}, expected {}", who, channel.name,
                                    channel.unit, expected));
   };
+  if (channel.unit == share_of_full_scale) {
+    const double full = p.full_scale ? p.full_scale->value : 1.0;
+    const std::string unit = p.full_scale && p.gain.of != Of::number ? p.full_scale->unit : "";
+    return (p.gain.of == Of::number ? 1.0 : full) * metres_per_unit({channel.name, unit}, p);
+  }
   switch (p.gain.of) {
     case Of::voltage:
       if (!channel.unit.empty() && channel.unit != "V") {
@@ -56,6 +62,11 @@ void note_channel(const Vec& samples, const MeasuredRecord& record, const std::s
                   std::vector<std::string>& notes) {
   if (samples.size() > 0 && samples.maxCoeff() == samples.minCoeff()) {
     notes.push_back(fmt::format("channel \"{}\" is constant: is its probe connected?", name));
+  } else if (always_ascends(samples)) {
+    notes.push_back(fmt::format(
+        "channel \"{}\" ascends from every sample to the next, as times do and no vibration does: "
+        "is it that of the probe?",
+        name));
   } else if (is_clipped(samples)) {
     notes.push_back(fmt::format(
         "channel \"{}\" is clipped: it rests at its largest or smallest value; amplitudes are too "
@@ -71,25 +82,49 @@ void note_channel(const Vec& samples, const MeasuredRecord& record, const std::s
   }
 }
 
-/// Notes channels whose numbers are in a unit that nobody said.
+/// Notes displacements that no rotor makes: a unit or a gain is another one.
+void note_size(const Vec& displacement, const std::string& probe, std::vector<std::string>& notes) {
+  constexpr double most = 0.1;  // [m]
+  if (displacement.size() == 0) return;
+  const double range = displacement.maxCoeff() - displacement.minCoeff();
+  if (!(range > most)) return;
+  notes.push_back(
+      fmt::format("probe \"{}\" reads {:.3g} m from peak to peak: are the unit and the gain right?",
+                  probe, range));
+}
+
+/// Notes channels whose numbers are in a unit that nobody said, and what it is taken to be.
 void note_units(const MeasuredRecord& record, const MeasurementSetup& setup,
                 const std::vector<Eigen::Index>& channels, std::vector<std::string>& notes) {
-  const std::string usual = Probe{}.unit;
-  std::string names;
+  using Of = ProbeGain::Of;
+  std::map<std::string, std::string> without_unit, without_full_scale;  // names by what they are
   for (std::size_t i = 0; i < setup.probes.size(); ++i) {
     const MeasuredProbe& p = setup.probes[i];
     const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(channels[i])];
-    if (p.gain.of != ProbeGain::Of::length || !channel.unit.empty() || p.is_unit_given) continue;
+    const bool is_share = channel.unit == share_of_full_scale && !p.full_scale;
+    if (p.gain.of == Of::number || !(is_share || channel.unit.empty())) continue;
+    const bool is_said = p.gain.of == Of::length && p.is_unit_given && !is_share;
+    if (is_said) continue;
+    std::string& names = (is_share ? without_full_scale
+                                   : without_unit)[p.gain.of == Of::voltage ? "V" : p.probe.unit];
     names += (names.empty() ? "" : ", ") + channel.name;
   }
-  if (names.empty()) return;
-  notes.push_back(fmt::format("no unit in the record for {}: taken as {}", names, usual));
+  for (const auto& [unit, names] : without_unit) {
+    notes.push_back(fmt::format("no unit in the record for {}: taken as {}", names, unit));
+  }
+  for (const auto& [unit, names] : without_full_scale) {
+    notes.push_back(
+        fmt::format("full scale of channel {} is taken as 1 {}, as the file of sound does not say "
+                    "it: full_scale = \"10 V\", or what the recorder was set to, beside the "
+                    "gain of its probe does",
+                    names, unit));
+  }
 }
 
 }  // namespace
 
 ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup) {
-  ProbeReadings readings{.rate = record.rate, .start = record.start};
+  ProbeReadings readings{.rate = record.rate, .start = record.start, .notes = record.notes};
   readings.displacement.resize(record.samples.rows(), std::ssize(setup.probes));
   std::vector<Eigen::Index> channels;
   std::vector<Gaps> gaps;
@@ -111,6 +146,8 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
     }
     note_channel(samples, record, channel.name, readings.notes);
     readings.displacement.col(static_cast<Eigen::Index>(i)) = metres_per_unit(channel, p) * samples;
+    note_size(readings.displacement.col(static_cast<Eigen::Index>(i)), p.probe.name,
+              readings.notes);
     readings.probes.push_back(p.probe);
   }
   note_units(record, setup, channels, readings.notes);

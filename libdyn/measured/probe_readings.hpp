@@ -18,6 +18,12 @@ struct ProbeGain {
   double value = 1.0;  ///< [1], [V/m], [1/m]; not zero
 };
 
+/// What a sample of 1 is in a channel of shares of full scale.
+struct FullScale {
+  double value = 1.0;  ///< above zero
+  std::string unit{};  ///< "V" or "m"
+};
+
 /// A probe with its channel.
 struct MeasuredProbe {
   Probe probe;
@@ -25,6 +31,7 @@ struct MeasuredProbe {
   ProbeGain gain{};
   double unit_length = 1e-6;   ///< of the unit of the probe, for channels without one [m]
   bool is_unit_given = false;  ///< whether somebody said that unit
+  std::optional<FullScale> full_scale{};
 };
 
 /// How a record was measured.
@@ -49,8 +56,9 @@ struct ProbeReadings {
 
 /// Reads the channels of probes, and the key-phasor if there is one.
 ///
-/// Numbers of a channel without a unit are voltages for a gain of these, else in the unit of the probe.
-/// Gaps are filled, and clipped, constant and equal channels are noted.
+/// Numbers of a channel without a unit are voltages for a gain of these, else in the unit of the
+/// probe; shares of full scale likewise of 1, where the probe does not say what full scale is. Both
+/// are noted. Gaps are filled, and clipped, constant and equal channels are noted.
 ///
 /// @throws OptionError  for a channel that the record does not have or that is in no unit of its gain,
 ///                      and as without_gaps and TurnClock

@@ -4,17 +4,33 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
 
 namespace whirl::inline io {
 
 namespace {
 
-/// An element of ROSS: a table "CLASS_tag" of the file.
+/// Keys that nobody read, and how often: of a class of elements, or of the materials in it.
+using UnreadKeys = std::map<std::pair<std::string, std::string>, std::vector<std::string>>;
+
+/// Keys that say how things are drawn.
+bool is_of_pictures(std::string_view key) {
+  return key == "color" || key == "scale_factor";
+}
+
+/// An element of ROSS: a table "CLASS_tag" of the file. It knows which of its keys were read.
 class Section {
  public:
   Section(const ConfigNode::Entry& entry, std::vector<Problem>& problems)
       : key_(entry.key), table_(entry.value), problems_(problems) {}
+  /// A table in the element.
+  Section(const Section& outer, std::string_view key, const ConfigNode& table)
+      : key_(outer.key_),
+        below_(std::string(key) + "."),
+        table_(table),
+        problems_(outer.problems_) {}
 
   std::string class_name() const { return key_.substr(0, key_.find('_')); }
   std::string tag() const {
@@ -26,10 +42,22 @@ class Section {
   }
   const Where& where() const { return table_.key_where; }
 
+  /// Whether there is a value, which is not read by asking.
+  bool has(std::string_view key) const {
+    const ConfigNode* value = table_.find(key);
+    return value && value->kind != ConfigNode::Kind::other;
+  }
   /// A value of a key; null: it is not there, or null.
   const ConfigNode* find(std::string_view key) const {
-    const ConfigNode* value = table_.find(key);
-    return value && value->kind != ConfigNode::Kind::other ? value : nullptr;
+    read_.insert(std::string(key));
+    return has(key) ? table_.find(key) : nullptr;
+  }
+  /// Adds the keys with values that nobody asked for.
+  void add_unread(UnreadKeys& unread) const {
+    for (const ConfigNode::Entry& entry : table_.entries) {
+      if (entry.value.kind == ConfigNode::Kind::other || read_.contains(entry.key)) continue;
+      unread[{class_name(), below_ + entry.key}].push_back(tag());
+    }
   }
   double number(std::string_view key) const {
     if (const ConfigNode* value = find(key)) return number_of(*value, key);
@@ -75,26 +103,28 @@ class Section {
     return list;
   }
   void problem(const Where& at, std::string_view key, std::string message) const {
-    problems_.push_back({at, fmt::format("{}.{}", key_, key), std::move(message)});
+    problems_.push_back({at, fmt::format("{}.{}{}", key_, below_, key), std::move(message)});
   }
 
  private:
   const std::string& key_;
+  std::string below_;
   const ConfigNode& table_;
   std::vector<Problem>& problems_;
+  mutable std::set<std::string, std::less<>> read_{"tag"};
 };
 
 /// Name of a material in the model; the same one for equal values.
-std::string material_of(const Section& section, RossRotor& rotor, double& nu) {
-  const ConfigNode* table = section.find("material");
+std::string material_of(const Section& element, RossRotor& rotor, double& nu, UnreadKeys& unread) {
+  const ConfigNode* table = element.find("material");
   if (!table || table->kind != ConfigNode::Kind::table) {
-    section.problem(section.where(), "material", "is missing, expected a table of rho, E and G_s");
+    element.problem(element.where(), "material", "is missing, expected a table of rho, E and G_s");
     return "";
   }
+  const Section section(element, "material", *table);
   RossMaterial material{.name = "material"};
   const auto value = [&](std::string_view key) {
-    const ConfigNode* found = table->find(key);
-    if (found) return section.number_of(*found, key);
+    if (const ConfigNode* found = section.find(key)) return section.number_of(*found, key);
     section.problem(table->where, key, "is missing, expected a number");
     return 1.0;
   };
@@ -102,7 +132,8 @@ std::string material_of(const Section& section, RossRotor& rotor, double& nu) {
   material.E = value("E");
   material.G = value("G_s");
   if (material.G > 0.0) nu = material.E / (2.0 * material.G) - 1.0;
-  const ConfigNode* name = table->find("name");
+  const ConfigNode* name = section.find("name");
+  section.add_unread(unread);
   if (name && name->kind == ConfigNode::Kind::string && !name->text.empty()) {
     material.name = name->text;
   }
@@ -121,9 +152,9 @@ std::string material_of(const Section& section, RossRotor& rotor, double& nu) {
   return material.name;
 }
 
-void read_element(const Section& s, RossRotor& rotor) {
+void read_element(const Section& s, RossRotor& rotor, UnreadKeys& unread) {
   RossElement e{.where = s.where()};
-  e.material = material_of(s, rotor, e.nu);
+  e.material = material_of(s, rotor, e.nu, unread);
   e.node = s.node("n");
   e.length = s.number("L");
   const double outer = s.number("odl"), inner = s.number("idl");
@@ -136,20 +167,29 @@ void read_element(const Section& s, RossRotor& rotor) {
   e.turns = s.flag("gyroscopic");
   const ConfigNode* method = s.find("shear_method_calc");
   e.is_hutchinson = method && method->text == "hutchinson";
+  if (method && !e.is_hutchinson && method->text != "cowper") {
+    rotor.taken_differently.push_back(
+        fmt::format("the shear coefficient {} of \"{}\" is not known: Cowper's is taken",
+                    method->as_written(), s.tag()));
+  }
   e.mass_damping = s.number_or("alpha", 0.0);
   e.stiffness_damping = s.number_or("beta", 0.0);
   rotor.elements.push_back(std::move(e));
 }
 
 /// How ROSS says at what its coefficients hold: since 3.0 `speed` and `frequency`, before that
-/// `frequency` is the speed.
+/// `frequency` is the speed, but of squeeze film dampers and magnetic bearings, whose coefficients
+/// are those at a frequency of the whirl in every version.
 struct Axes {
   std::vector<double> speed, whirl;
 };
 
 Axes axes_of(const Section& s, bool is_before_3) {
   Axes axes{.speed = s.numbers("speed"), .whirl = s.numbers("frequency")};
-  if (is_before_3 && axes.speed.empty()) std::swap(axes.speed, axes.whirl);
+  const std::string kind = s.class_name();
+  const bool is_of_whirl =
+      kind.find("Damper") != std::string::npos || kind.find("Magnetic") != std::string::npos;
+  if (is_before_3 && !is_of_whirl && axes.speed.empty()) std::swap(axes.speed, axes.whirl);
   return axes;
 }
 
@@ -274,21 +314,62 @@ void read_speeds(const Section& s, RossRotor& rotor) {
   }
 }
 
-void read_section(const Section& s, RossRotor& rotor, bool is_before_3) {
+/// Damping of the whole rotor.
+void read_damping(const Section& s, RossRotor& rotor) {
+  const auto factor = [&](std::string_view key) {
+    const double value = s.number_or(key, 0.0);
+    if (value < 0.0) rotor.left_out.push_back(fmt::format("{} = {}: below zero", key, value));
+    return std::max(0.0, value);
+  };
+  rotor.mass_damping = factor("alpha");
+  rotor.stiffness_damping = factor("beta");
+  rotor.damping_ratios = s.numbers("modal_damping_ratio");
+  rotor.default_ratio = s.number_or("default_damping_ratio", 0.0);
+  const auto is_wrong = [](double ratio) { return ratio < 0.0 || ratio >= 1.0; };
+  std::vector<double>& ratios = rotor.damping_ratios;
+  if (is_wrong(rotor.default_ratio) || std::any_of(ratios.begin(), ratios.end(), is_wrong)) {
+    rotor.left_out.emplace_back("damping ratios of modes: one is below zero, or 1 and more");
+    ratios.clear();
+    rotor.default_ratio = 0.0;
+  }
+}
+
+void read_section(const Section& s, RossRotor& rotor, bool is_before_3, UnreadKeys& unread) {
   const std::string kind = s.class_name();
   if (kind.starts_with("ShaftElement")) {
-    read_element(s, rotor);
+    read_element(s, rotor, unread);
   } else if (kind.starts_with("CouplingElement")) {
     read_coupling(s, rotor);
-  } else if (s.find("kxx")) {
+  } else if (s.has("kxx")) {
     read_bearing(s, rotor, is_before_3);
   } else if (kind.starts_with("PointMass")) {
     read_mass(s, rotor);
-  } else if (s.find("m") && s.find("Id") && s.find("Ip")) {
+  } else if (s.has("m") && s.has("Id") && s.has("Ip")) {
     read_disk(s, rotor);
   } else {
     rotor.left_out.push_back(fmt::format("\"{}\": a {} is not known", s.tag(), kind));
+    return;  // with all its keys
   }
+  s.add_unread(unread);
+}
+
+/// Says what nobody read, once for each class and key.
+void tell_unread(const UnreadKeys& unread, RossRotor& rotor) {
+  bool has_pictures = false;
+  for (const auto& [what, tags] : unread) {
+    const auto& [kind, key] = what;
+    if (is_of_pictures(key.substr(key.rfind('.') + 1))) {
+      has_pictures = true;
+    } else if (kind.empty()) {
+      rotor.left_out.push_back(fmt::format("{}: not known", key));
+    } else {
+      rotor.left_out.push_back(fmt::format("{} of {}: not known", key,
+                                           tags.size() == 1
+                                               ? fmt::format("\"{}\"", tags.front())
+                                               : fmt::format("{} elements {}", tags.size(), kind)));
+    }
+  }
+  if (has_pictures) rotor.left_out.emplace_back("colors and sizes of pictures");
 }
 
 }  // namespace
@@ -309,12 +390,19 @@ RossRotor read_ross(const ConfigNode& root) {
   if (version) rotor.version = version->text;
   const bool is_before_3 = !version || version->text.starts_with("2.") ||
                            version->text.starts_with("1.") || version->text.starts_with("0.");
+  rotor.tables = is_before_3 ? RossTables::smoothing_spline : RossTables::pchip;
+  UnreadKeys unread;
   for (const ConfigNode::Entry& entry : root.entries) {
-    const bool is_element =
-        entry.value.kind == ConfigNode::Kind::table && entry.key.find('_') != std::string::npos;
-    if (is_element) read_section(Section(entry, problems), rotor, is_before_3);
-    if (entry.key == "parameters" && entry.value.kind == ConfigNode::Kind::table) {
-      read_speeds(Section(entry, problems), rotor);
+    const bool is_table = entry.value.kind == ConfigNode::Kind::table;
+    if (entry.key == "parameters" && is_table) {
+      const Section parameters(entry, problems);
+      read_speeds(parameters, rotor);
+      read_damping(parameters, rotor);
+      parameters.add_unread(unread);
+    } else if (is_table && entry.key.find('_') != std::string::npos) {
+      read_section(Section(entry, problems), rotor, is_before_3, unread);
+    } else if (entry.key != "ross_version" && entry.key != "_note") {
+      unread[{"", entry.key}].emplace_back();
     }
   }
   if (rotor.elements.empty() && problems.empty()) {
@@ -328,6 +416,7 @@ RossRotor read_ross(const ConfigNode& root) {
                      return std::pair(a.node, a.inner[0]) < std::pair(b.node, b.inner[0]);
                    });
   if (!problems.empty()) throw ModelError(std::move(problems));
+  tell_unread(unread, rotor);
   return rotor;
 }
 

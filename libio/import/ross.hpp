@@ -73,8 +73,15 @@ struct RossCoupling {
   std::array<double, 2> k{}, c{}, k_tilt{}, c_tilt{};  ///< along (about) x and y [SI]
 };
 
+/// How ROSS finds coefficients between the rows of a table.
+enum class RossTables {
+  smoothing_spline,  ///< before 3.0
+  pchip
+};
+
 struct RossRotor {
   std::string version;
+  RossTables tables = RossTables::pchip;
   std::vector<RossMaterial> materials;
   std::vector<RossElement> elements;  ///< by their nodes; of one node the inner ones first
   std::vector<RossCoupling> couplings;
@@ -82,10 +89,16 @@ struct RossRotor {
   std::vector<RossPointMass> masses;
   std::vector<RossBearing> bearings;
   double rated_speed = 0.0, minimum_speed = 0.0, maximum_speed = 0.0;  ///< 0: not told [rad/s]
-  std::vector<std::string> left_out;                                   ///< a sentence each
-  std::vector<std::string> taken_differently;                          ///< likewise
+  double mass_damping = 0.0,
+         stiffness_damping = 0.0;              ///< of the whole rotor: alpha [1/s], beta [s]
+  std::vector<double> damping_ratios;          ///< of the first modes
+  double default_ratio = 0.0;                  ///< of the others
+  std::vector<std::string> left_out;           ///< a sentence each
+  std::vector<std::string> taken_differently;  ///< likewise
 };
 
+/// Every key of the file that is not read is in `left_out`.
+///
 /// @param root  tree of a file, TOML or JSON
 /// @throws ModelError  with the places of all problems: no rotor of ROSS, a value that is missing or
 ///                     none, tables of unequal length

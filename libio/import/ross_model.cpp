@@ -1,6 +1,7 @@
 #include "libio/import/ross_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,8 @@
 #include <set>
 
 #include "libbase/error.hpp"
+#include "libfe/structure.hpp"
+#include "libio/import/ross_differences.hpp"
 
 namespace whirl::inline io {
 
@@ -104,7 +107,10 @@ class Writer {
     write_disks();
     write_supports();
     for (const RossBearing& b : rotor_.bearings) write_bearing(b);
-    tell_differences();
+    write_damping();
+    for (std::string& told : differences_of(rotor_)) {
+      result_.taken_differently.push_back(std::move(told));
+    }
     return std::move(result_);
   }
 
@@ -146,15 +152,31 @@ class Writer {
       }
     }
     nodes_ = static_cast<int>(lengths.size()) + 1;
-    int expected = 0;
-    for (const auto& [node, length] : lengths) {
-      if (node != expected && problems.empty()) {
-        problems.push_back({rotor_.elements.front().where, "n",
-                            fmt::format("no shaft element begins at node {}", expected)});
-      }
-      ++expected;
-    }
+    require_one_shaft(lengths, problems);
     if (!problems.empty()) throw ModelError(std::move(problems));
+  }
+
+  /// Coaxial rotors have several shafts, whose nodes no element joins.
+  /// @param lengths  of the elements, by their left nodes
+  void require_one_shaft(const std::map<int, double>& lengths, std::vector<Problem>& problems) {
+    std::vector<std::pair<int, int>> shafts;  // first and last node
+    for (const auto& [node, length] : lengths) {
+      if (shafts.empty() || shafts.back().second != node) shafts.emplace_back(node, node);
+      shafts.back().second = node + 1;
+    }
+    if (shafts.size() == 1 && shafts.front().first == 0) return;
+    std::string which;
+    for (const auto& [first, last] : shafts) {
+      which += fmt::format("{}{} to {}", which.empty() ? "" : ", ", first, last);
+    }
+    problems.push_back(
+        {rotor_.elements.front().where, "n",
+         shafts.size() == 1
+             ? fmt::format("the shaft has the nodes {}, expected 0 to {}", which, lengths.size())
+             : fmt::format("there are {} shafts, with the nodes {}, and no element between them: a "
+                           "model has one shaft; save each as a rotor of its own, or join them by "
+                           "elements",
+                           shafts.size(), which)});
   }
 
   bool is_on_shaft(int node) const { return node < nodes_; }
@@ -318,6 +340,7 @@ class Writer {
           unique("file", fmt::format("{}_{}", stem_, file_part(name))) + ".csv";
       result_.tables.push_back({file, table_of(b)});
       text("table      = {}\n", toml_text(file));
+      if (b.rows.size() > 1) text("interpolation = \"pchip\"\n");
       return;
     }
     const auto& v = b.rows.front().values;
@@ -363,38 +386,32 @@ class Writer {
     return csv;
   }
 
-  void tell_differences() {
-    const auto& elements = rotor_.elements;
-    const auto any = [&](const auto& is_so) {
-      return std::any_of(elements.begin(), elements.end(), is_so);
-    };
-    auto& told = result_.taken_differently;
-    if (any([](const RossElement& e) { return e.shears && e.is_hutchinson; })) {
-      told.push_back(
-          "ROSS's shear coefficient of Hutchinson lacks the square of 1 + nu: its numbers are "
-          "written; \"hutchinson\" would be right and changes frequencies by about 1e-3");
+  /// Damping of the whole rotor.
+  void write_damping() {
+    const bool is_rayleigh = rotor_.mass_damping > 0.0 || rotor_.stiffness_damping > 0.0;
+    std::vector<double> ratios = rotor_.damping_ratios;
+    const auto is_default = [&](double ratio) { return ratio == rotor_.default_ratio; };
+    const bool is_one = std::all_of(ratios.begin(), ratios.end(), is_default);
+    const bool is_modal = !is_one || rotor_.default_ratio > 0.0;
+    if (!is_rayleigh && !is_modal) return;
+    text("\n[damping]\n");
+    if (is_rayleigh) {
+      text("rayleigh = {{ mass = {}, stiffness = {} }}\n", rotor_.mass_damping,
+           rotor_.stiffness_damping);
     }
-    if (any([](const RossElement& e) { return e.torque != 0.0; })) {
-      told.push_back("a torque follows the shaft's ends in ROSS; here it keeps its direction");
+    if (!is_modal) return;
+    if (is_one) {
+      text("modal    = {}\n", rotor_.default_ratio);
+    } else {
+      if (rotor_.default_ratio > 0.0 && ratios.size() < most_damped_modes) {
+        ratios.resize(most_damped_modes, rotor_.default_ratio);
+      }
+      text("modal    = [{}]\n", fmt::join(ratios, ", "));
     }
-    if (any([](const RossElement& e) {
-          return e.outer[0] != e.outer[1] || e.inner[0] != e.inner[1];
-        })) {
-      told.push_back("sections of cones are integrated along each element");
-    }
-    if (any([](const RossElement& e) {
-          const bool is_known = (e.tilts && e.turns) || (!e.shears && !e.tilts && !e.turns);
-          return !is_known;
-        })) {
-      told.push_back(
-          "elements with only one of shear, rotary inertia and gyroscopics have the nearest "
-          "theory");
-    }
-    if (!rotor_.couplings.empty()) {
-      told.push_back(
-          "a coupling is two disks and a link; the shaft between them bears next to nothing");
-    }
-    result_.left_out.push_back("colors and sizes of pictures");
+    result_.taken_differently.push_back(fmt::format(
+        "damping ratios of modes are those of lateral modes at rest that deform{}; ROSS counts "
+        "modes along and about the axis, too",
+        is_one ? fmt::format(", up to number {}", most_damped_modes) : ""));
   }
 
   const RossRotor& rotor_;

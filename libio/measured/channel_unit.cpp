@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "libio/text/delimited.hpp"
 #include "libio/text/vendor_units.hpp"
 
@@ -30,6 +32,14 @@ ChannelUnit channel_unit(std::string_view text) {
     if (const auto length = parse_as("1 " + *name, "m")) return {"m", *length};
   }
   return {unit, 1.0};
+}
+
+std::optional<std::pair<double, ChannelUnit>> channel_value(std::string_view text) {
+  const auto letter = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
+  const auto number = parse_as(text.substr(0, letter), "");
+  if (!number) return std::nullopt;
+  const ChannelUnit unit = channel_unit(text.substr(letter));
+  return std::pair(*number * unit.factor, unit);
 }
 
 Parsed<ProbeGain> parse_gain(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "libdyn/measured/probe_readings.hpp"
 #include "libio/text/units.hpp"
@@ -18,6 +19,9 @@ struct ChannelUnit {
 
 /// What a text means: lengths are in m, voltages in V; whatever else stays as it is.
 ChannelUnit channel_unit(std::string_view text);
+
+/// A number in the unit of a channel, "-5 V", "0.5"; nothing: it is none.
+std::optional<std::pair<double, ChannelUnit>> channel_value(std::string_view text);
 
 /// A gain: "7.87 V/mm", "-8 mV/um", "200 mV/mil"; "0.787 1/mm" of channels without unit; a plain number
 /// where channels are lengths.

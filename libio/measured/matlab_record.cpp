@@ -1,4 +1,4 @@
-/// MATLAB files: vectors, or a matrix with a channel per column.
+/// MATLAB files: vectors, or a matrix with a channel per column, also in structs.
 
 #include <fmt/format.h>
 
@@ -117,54 +117,91 @@ void name_channels(RawRecord& raw, const char* variable, const std::vector<std::
   for (std::size_t i = 0; i < named.size(); ++i) named[i]->*member = texts[i];
 }
 
+/// A record, variable after variable.
+class MatlabRecord {
+ public:
+  explicit MatlabRecord(const std::string& file) { raw_.file = file; }
+
+  /// Takes a variable, or a field of a struct: it has the name of the field, as a channel has in
+  /// the rig.
+  /// @param path  with the names of the structs that it is in
+  void take(const matvar_t& v, const std::string& name, const std::string& path) {
+    if (v.class_type == MAT_C_STRUCT && v.data && v.rank == 2 && elements_of(v) == 1) {
+      take_fields(v, path);
+      return;
+    }
+    const std::vector<double> numbers = numbers_of(v);
+    if (numbers.size() == 1 && names_rate(name)) {
+      raw_.rate = numbers.front();
+    } else if (numbers.size() == 1 && name == "start") {
+      raw_.start = numbers.front();
+    } else if (numbers.size() > 1) {
+      const bool is_taken = std::any_of(raw_.channels.begin(), raw_.channels.end(),
+                                        [&](const RawChannel& c) { return c.name == name; });
+      add_channels(raw_, v, is_taken ? path : name, numbers);
+    } else if (name == "channels" || name == "units") {
+      if (v.class_type != MAT_C_CHAR && v.class_type != MAT_C_CELL) {
+        throw ModelError({raw_.file}, path, "expected rows of text, or cells of them");
+      }
+      (name == "units" ? units_ : names_) = texts_of(v);
+    } else {
+      others_ += (others_.empty() ? "" : ", ") + path;
+    }
+  }
+
+  RawRecord finished() {
+    if (raw_.channels.empty()) {
+      throw ModelError(
+          {raw_.file}, "",
+          fmt::format("has no vector or matrix of real numbers, and a damaged file has "
+                      "none either; it has {}",
+                      others_.empty() ? "nothing" : others_));
+    }
+    name_channels(raw_, "units", units_, &RawChannel::unit);
+    name_channels(raw_, "channels", names_, &RawChannel::name);
+    return std::move(raw_);
+  }
+
+ private:
+  void take_fields(const matvar_t& v, const std::string& path) {
+    auto* of =
+        const_cast<matvar_t*>(&v);  // matio asks for one that may change, and changes nothing
+    const unsigned count = Mat_VarGetNumberOfFields(of);
+    const char* const* names = Mat_VarGetStructFieldnames(of);
+    for (unsigned i = 0; names && i < count; ++i) {
+      const matvar_t* field = Mat_VarGetStructFieldByIndex(of, i, 0);
+      if (field) take(*field, names[i], path + "." + names[i]);
+    }
+  }
+
+  RawRecord raw_;
+  std::vector<std::string> names_, units_;
+  std::string others_;
+};
+
 /// In the child.
-/// @param place  where the file is opened
-/// @param name   for messages
+/// @param place         where the file is opened
+/// @param name_of_file  for messages
 RawRecord matlab_record(const std::string& place, const std::string& name_of_file) {
   const std::string bytes = record_bytes(place);
-  const std::size_t file_size = bytes.size();
-  RawRecord raw{.file = name_of_file};
-  require_whole_variables(bytes, raw.file);
+  require_whole_variables(bytes, name_of_file);
   const MatlabFile file(Mat_Open(place.c_str(), MAT_ACC_RDONLY), &Mat_Close);
   open_nothing_more();
-  if (!file) throw ModelError({raw.file}, "", "is no MATLAB file, or a damaged one");
-  std::vector<std::string> names, units;
-  std::string others;
+  if (!file) throw ModelError({name_of_file}, "", "is no MATLAB file, or a damaged one");
+  MatlabRecord record(name_of_file);
   while (true) {
     const MatlabVariable v(Mat_VarReadNextInfo(file.get()), &Mat_VarFree);
     if (!v) break;
     const std::string name = v->name ? v->name : "";
-    if (!is_possible(*v, file_size)) {
-      throw ModelError({raw.file}, name, "is larger than the file can hold: it is damaged");
+    if (!is_possible(*v, bytes.size())) {
+      throw ModelError({name_of_file}, name, "is larger than the file can hold: it is damaged");
     }
     if (v->rank == 2 && Mat_VarReadDataAll(file.get(), v.get()) != 0) {
-      throw ModelError({raw.file}, name, "cannot be read: the file is damaged");
+      throw ModelError({name_of_file}, name, "cannot be read: the file is damaged");
     }
-    const std::vector<double> numbers = numbers_of(*v);
-    if (numbers.size() == 1 && names_rate(name)) {
-      raw.rate = numbers.front();
-    } else if (numbers.size() == 1 && name == "start") {
-      raw.start = numbers.front();
-    } else if (numbers.size() > 1) {
-      add_channels(raw, *v, name, numbers);
-    } else if (name == "channels" || name == "units") {
-      if (v->class_type != MAT_C_CHAR && v->class_type != MAT_C_CELL) {
-        throw ModelError({raw.file}, name, "expected rows of text, or cells of them");
-      }
-      (name == "units" ? units : names) = texts_of(*v);
-    } else {
-      others += (others.empty() ? "" : ", ") + name;
-    }
+    record.take(*v, name, name);
   }
-  if (raw.channels.empty()) {
-    throw ModelError({raw.file}, "",
-                     fmt::format("has no vector or matrix of real numbers, and a damaged file has "
-                                 "none either; it has {}",
-                                 others.empty() ? "nothing" : others));
-  }
-  name_channels(raw, "units", units, &RawChannel::unit);
-  name_channels(raw, "channels", names, &RawChannel::name);
-  return raw;
+  return record.finished();
 }
 
 }  // namespace

@@ -18,7 +18,13 @@ namespace {
 struct ProbeKeys {
   std::string channel;
   ProbeGain gain{};
+  std::optional<FullScale> full_scale{};
 };
+
+/// The text of a key, of a number as it is written.
+std::string text_of(const ConfigNode& node) {
+  return node.kind == ConfigNode::Kind::string ? node.text : node.as_written();
+}
 
 /// Name or number of a channel; empty: it is left out or wrong.
 std::string channel_in(TableReader& table) {
@@ -37,18 +43,30 @@ std::string channel_in(TableReader& table) {
 ProbeGain gain_in(TableReader& table) {
   const ConfigNode* node = table.node("gain");
   if (!node) return {};
-  const bool is_text = node->kind == ConfigNode::Kind::string;
-  const auto gain = parse_gain(is_text ? node->text : node->as_written());
+  const auto gain = parse_gain(text_of(*node));
   if (!gain) table.problem("gain", gain.problem);
   return gain ? *gain : ProbeGain{};
+}
+
+std::optional<FullScale> full_scale_in(TableReader& table) {
+  const ConfigNode* node = table.node("full_scale");
+  if (!node) return std::nullopt;
+  const auto value = channel_value(text_of(*node));
+  const bool has_unit = value && (value->second.name == "V" || value->second.name == "m");
+  if (has_unit && value->first > 0.0) return FullScale{value->first, value->second.name};
+  table.problem("full_scale", fmt::format("found {}, expected what a sample of 1 is, such as "
+                                          "\"10 V\"",
+                                          node->as_written()));
+  return std::nullopt;
 }
 
 /// Takes the keys off a probe that models do not have.
 ProbeKeys take_probe_keys(ConfigNode& item, std::size_t number, std::vector<Problem>& problems) {
   TableReader table(&item, fmt::format("probe.{}", number), problems);
-  ProbeKeys keys{channel_in(table), gain_in(table)};
-  std::erase_if(item.entries,
-                [](const ConfigNode::Entry& e) { return e.key == "channel" || e.key == "gain"; });
+  ProbeKeys keys{channel_in(table), gain_in(table), full_scale_in(table)};
+  std::erase_if(item.entries, [](const ConfigNode::Entry& e) {
+    return e.key == "channel" || e.key == "gain" || e.key == "full_scale";
+  });
   return keys;
 }
 
@@ -61,13 +79,10 @@ std::optional<KeyPhasor> read_key_phasor(const ConfigNode& root, std::vector<Pro
   key.channel = channel_in(table);
   if (!table.has("channel")) table.missing("channel", "the name or number of its channel");
   if (const ConfigNode* threshold = table.node("threshold")) {
-    const bool is_text = threshold->kind == ConfigNode::Kind::string;
-    const std::string text = is_text ? threshold->text : threshold->as_written();
-    const auto letter = std::min(text.find_first_not_of("+-.0123456789eE"), text.size());
-    const ChannelUnit unit = channel_unit(text.substr(letter));
-    const auto number = parse_as(text.substr(0, letter), "");
-    if (number && (unit.name.empty() || unit.name == "V" || unit.name == "m")) {
-      key.threshold = *number * unit.factor;
+    const auto value = channel_value(text_of(*threshold));
+    const std::string unit = value ? value->second.name : "none";
+    if (unit.empty() || unit == "V" || unit == "m") {
+      key.threshold = value->first;
     } else {
       table.problem("threshold", fmt::format("found {}, expected a voltage such as \"-5 V\", or a "
                                              "number as the channel has it",
@@ -122,7 +137,7 @@ MeasurementSetup parse_probe_file(const std::string& text, const std::string& na
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const std::string channel = keys[i].channel.empty() ? probes[i].name : keys[i].channel;
     setup.probes.push_back({probes[i], channel, keys[i].gain, *parse_as("1 " + probes[i].unit, "m"),
-                            list->items[i].find("unit") != nullptr});
+                            list->items[i].find("unit") != nullptr, keys[i].full_scale});
   }
   return setup;
 }

@@ -5,16 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "libbase/constants.hpp"
 #include "libio/measured/channel_unit.hpp"
 #include "libio/text/delimited.hpp"
+#include "libio/text/vendor_units.hpp"
 
 namespace whirl::inline io {
 
 namespace {
 
 constexpr double same_rate = 1e-4;  ///< to which --rate gives that of a file more digits
+constexpr double near_rate = 0.1;   ///< to which a rate is that of times in seconds, not in ms
 
 /// Numbers of the steps at which times stand, from 0: a time that comes after several steps has left
 /// the samples between out.
@@ -54,9 +57,9 @@ std::vector<double> step_numbers(const RawChannel& time) {
 std::vector<double> take_times(RawRecord& raw, const RawChannel& time) {
   double factor = 1.0;
   if (!time.unit.empty()) {
-    const auto second = parse_as("1 " + time.unit, "s");
-    if (!second) throw ModelError(time.where, time.name, second.problem);
-    factor = *second;
+    const auto unit = unit_in_table(time.unit, "s");
+    if (!unit) throw ModelError(time.where, time.name, unit.problem);
+    factor = *parse_as("1 " + *unit, "s");
   }
   const std::vector<double>& t = time.samples;
   if (t.size() < 2) throw ModelError(time.where, time.name, "expected two times or more");
@@ -86,15 +89,88 @@ void spread(std::vector<double>& samples, const std::vector<double>& numbers) {
   samples = std::move(all);
 }
 
-/// The channel of times: by its name, else, where nothing says the rate, the first one in a unit of
-/// time, in whatever language.
+Eigen::Map<const Vec> samples_of(const RawChannel& channel) {
+  return {channel.samples.data(), std::ssize(channel.samples)};
+}
+
+/// The channel of times: by its name, else the first one in a unit of time, in whatever language,
+/// which always ascends where the rate is known.
 std::vector<RawChannel>::iterator time_in(std::vector<RawChannel>& channels, bool is_rate_known) {
   const auto named = std::find_if(channels.begin(), channels.end(),
                                   [](const RawChannel& c) { return names_time(c.name); });
-  if (named != channels.end() || is_rate_known) return named;
-  return std::find_if(channels.begin(), channels.end(), [](const RawChannel& c) {
-    return !c.unit.empty() && parse_as("1 " + c.unit, "s").value.has_value();
+  if (named != channels.end()) return named;
+  return std::find_if(channels.begin(), channels.end(), [&](const RawChannel& c) {
+    return !c.unit.empty() && unit_in_table(c.unit, "s") &&
+           (!is_rate_known || always_ascends(samples_of(c)));
   });
+}
+
+/// Gives a first column that always ascends, in a file that names none, the name that it must have:
+/// of times in seconds, unless that cannot be.
+void name_ramp(RawRecord& raw, std::optional<double> rate) {
+  constexpr double longest_step = 0.1;  // nobody records vibrations with longer ones [s]
+  RawChannel& first = raw.channels.front();
+  for (const RawChannel& c : raw.channels) {
+    if (!c.name.empty()) return;
+  }
+  const Eigen::Map<const Vec> samples = samples_of(first);
+  if (!always_ascends(samples)) return;
+  const double step =
+      (samples(samples.size() - 1) - samples(0)) / static_cast<double>(samples.size() - 1);
+  const std::optional<double> known = raw.rate ? raw.rate : rate;
+  const bool is_right = known ? std::abs(*known * step - 1.0) <= near_rate : step <= longest_step;
+  if (!is_right) {
+    throw ModelError(
+        first.where, "",
+        fmt::format(
+            "the first column always ascends, by {:.6g}, and no line says what it is: times "
+            "{}, numbers of the samples, or a channel; name the columns in a line above, "
+            "such as \"time [ms]\"",
+            step,
+            known ? fmt::format("in seconds do not fit {:.6g} samples per second", *known)
+                  : "in seconds would be far apart"));
+  }
+  first.name = "time";
+  raw.notes.push_back(
+      fmt::format("the first column has no name and always ascends, by {:.6g}: taken as times in "
+                  "seconds; the columns behind it are channels 1 to {}",
+                  step, raw.channels.size() - 1));
+}
+
+/// Numbers as names of channels that have none.
+void number_channels(std::vector<RawChannel>& channels) {
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (channels[i].name.empty()) channels[i].name = std::to_string(i + 1);
+  }
+}
+
+/// Leaves out vectors that are no channels of the record, such as a calibration: those that are not
+/// as long as its times, or where there are none as most of what has the samples of a record. Two
+/// lengths that are as frequent stay, and are told.
+/// @param samples  of the channel of times; 0: there is none
+void keep_one_length(RawRecord& raw, std::size_t samples) {
+  constexpr std::size_t fewest = 16;  // of a measurement
+  std::map<std::size_t, int> counts;
+  for (const RawChannel& c : raw.channels) {
+    const std::size_t n = c.samples.size();
+    if (samples == 0 ? n >= fewest : n == samples) ++counts[n];
+  }
+  if (counts.empty()) return;
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto is_as_frequent = [&](const auto& other) { return other.second == most->second; };
+  if (std::count_if(counts.begin(), counts.end(), is_as_frequent) > 1) return;
+  std::string others;
+  std::erase_if(raw.channels, [&, n = most->first](const RawChannel& c) {
+    if (c.samples.size() == n) return false;
+    others += fmt::format("{}{} ({})", others.empty() ? "" : ", ", c.name, c.samples.size());
+    return true;
+  });
+  if (!others.empty()) {
+    raw.notes.push_back(fmt::format("not as long as the {} samples of the record, and left out: {}",
+                                    most->first, others));
+  }
 }
 
 bool is_one_of(const std::string& name, std::initializer_list<std::string_view> known) {
@@ -113,13 +189,18 @@ bool names_rate(const std::string& name) {
 }
 
 MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
+  if (!raw.has_own_times && !raw.channels.empty()) name_ramp(raw, rate);
   const auto time = time_in(raw.channels, raw.rate || rate);
   if (time != raw.channels.end() && !raw.has_own_times) {
     const RawChannel times = std::move(*time);
     raw.channels.erase(time);
     const std::vector<double> numbers = take_times(raw, times);
     for (RawChannel& channel : raw.channels) spread(channel.samples, numbers);
+    keep_one_length(raw, static_cast<std::size_t>(numbers.back()) + 1);
+  } else if (!raw.has_own_times) {
+    keep_one_length(raw, 0);
   }
+  number_channels(raw.channels);
   const Where where{raw.file};
   if (raw.rate && rate) {
     if (!(std::abs(*raw.rate / *rate - 1.0) <= same_rate)) {
@@ -142,7 +223,7 @@ MeasuredRecord finished(RawRecord raw, std::optional<double> rate) {
   if (!(*raw.rate > 0.0) || !std::isfinite(*raw.rate)) {
     throw ModelError(where, "", fmt::format("says a sample rate of {} 1/s", *raw.rate));
   }
-  MeasuredRecord record{.rate = *raw.rate, .start = raw.start};
+  MeasuredRecord record{.rate = *raw.rate, .start = raw.start, .notes = std::move(raw.notes)};
   const std::size_t n = raw.channels.front().samples.size();
   if (n == 0) throw ModelError(where, "", "has no samples");
   record.samples.resize(static_cast<Eigen::Index>(n), std::ssize(raw.channels));

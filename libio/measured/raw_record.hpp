@@ -14,7 +14,7 @@ namespace whirl::inline io {
 
 /// A channel as it stands in a file.
 struct RawChannel {
-  std::string name;
+  std::string name;    ///< empty: the file says none, and it has its number among the channels
   std::string unit{};  ///< as it is written
   std::vector<double> samples;
   Where where{};  ///< for messages
@@ -23,9 +23,10 @@ struct RawChannel {
 struct RawRecord {
   std::string file;
   std::vector<RawChannel> channels;
-  std::optional<double> rate{};  ///< where the file says it [1/s]
-  double start = 0.0;            ///< [s]
-  bool has_own_times = false;    ///< no channel is one of times, whatever its name
+  std::optional<double> rate{};      ///< where the file says it [1/s]
+  double start = 0.0;                ///< [s]
+  bool has_own_times = false;        ///< no channel is one of times, whatever its name
+  std::vector<std::string> notes{};  ///< what was taken for granted, in words
 };
 
 template <class Bytes>
@@ -36,8 +37,8 @@ void travel(Bytes& bytes, Is<RawChannel> auto& channel) {
 
 template <class Bytes>
 void travel(Bytes& bytes, Is<RawRecord> auto& record) {
-  auto& [file, channels, rate, start, has_own_times] = record;
-  bytes(file, channels, rate, start, has_own_times);
+  auto& [file, channels, rate, start, has_own_times, notes] = record;
+  bytes(file, channels, rate, start, has_own_times, notes);
 }
 
 /// Share of a step that times may be off.

@@ -12,7 +12,7 @@ namespace whirl::inline io {
 /// Reads a record.
 ///
 ///   .csv .txt .tsv .dat .asc   tables; lines of a header before them, names and units of channels
-///   .wav                       16 to 32 bits, float or double; 1 is full scale
+///   .wav                       16 to 32 bits, float or double: shares of full scale
 ///   .mat                       MATLAB, vectors or a matrix with a channel per column
 ///   .uff .unv .ufb             universal file, datasets 58 and 58b of responses over time
 ///   .h5 .hdf5                  datasets of one length, with an attribute `units`
@@ -22,7 +22,7 @@ namespace whirl::inline io {
 /// @throws FileError   for a file that cannot be read
 MeasuredRecord read_record(const std::filesystem::path& path, std::optional<double> rate = {});
 
-/// Writes a record, which read_record reads; of WAV all channels without their names and units, 1 as 1.
+/// Writes a record, which read_record reads; of WAV names and units are a comment.
 /// @throws FileError  if the file cannot be written, as WAV with a rate that is no whole number
 void write_record(const std::filesystem::path& path, const MeasuredRecord& record,
                   Replaces replaces);

@@ -16,6 +16,7 @@ struct RecordCode {
   static constexpr long real_single = 2, real_double = 4, complex_single = 5, complex_double = 6;
   static constexpr long general = 0, time_response = 1;                 // kinds of functions
   static constexpr long any_quantity = 1, displacement = 8, time = 17;  // of axes; 0 is unknown
+  static constexpr long velocity = 11, acceleration = 12;
   static constexpr long little_endian = 1, ieee = 2;
 };
 

@@ -15,6 +15,7 @@
 #include "libio/measured/universal_format.hpp"
 #include "libio/text/delimited.hpp"
 #include "libio/text/units.hpp"
+#include "libio/text/vendor_units.hpp"
 
 namespace whirl::inline io {
 
@@ -74,7 +75,9 @@ struct ResponseNames {
 /// One dataset 58.
 class ResponseDataset {
  public:
-  ResponseDataset(UniversalText& text, std::string_view head, long number, double length_factor)
+  /// @param length_factor  of a dataset 164; nothing: there is none
+  ResponseDataset(UniversalText& text, std::string_view head, long number,
+                  std::optional<double> length_factor)
       : text_(text), key_(fmt::format("dataset {}", number)) {
     is_binary_ = head.size() > 6 && (head[6] == 'b' || head[6] == 'B');
     if (is_binary_) {
@@ -112,6 +115,8 @@ class ResponseDataset {
     return found;
   }
   bool is_over_time() const { return is_over_time_; }
+  /// Whether its values are displacements, and nothing says in which unit.
+  bool has_no_unit() const { return has_no_unit_; }
   /// Of the axis of its values.
   std::string label() const { return columns_of(records_[8], 26, 20); }
   /// Name, node and direction of its response.
@@ -161,7 +166,7 @@ class ResponseDataset {
     return std::nullopt;
   }
 
-  void read_records(double length_factor) {
+  void read_records(std::optional<double> length_factor) {
     const std::string_view form = records_[6], time = records_[7], response = records_[8];
     const long kind = whole(records_[5], 0, 5, "kind of function");
     const long abscissa = whole(time, 0, 10, "kind of abscissa");
@@ -177,7 +182,7 @@ class ResponseDataset {
     take_rate_line();
     is_over_time_ = is_over_time_ && count_ != 1;  // one value is a mean or a setting
     if (!is_over_time_) return;
-    time_factor_ = parse_as("1 " + columns_of(time, 47, 20), "s").value.value_or(1.0);
+    take_unit_of_time(columns_of(time, 47, 20));
     if (type_ == RecordCode::complex_single || type_ == RecordCode::complex_double) {
       text_.fail(key_, "has complex values, expected samples over time");
     }
@@ -188,12 +193,23 @@ class ResponseDataset {
     if (count_ < 1) text_.fail(key_, fmt::format("has {} values, expected two or more", count_));
     unit_ = columns_of(response, 47, 20);
     if (unit_ == "NONE") unit_.clear();
-    const bool is_displacement =
-        whole(response, 0, 10, "kind of ordinate") == RecordCode::displacement;
-    if (unit_.empty() && is_displacement) {
+    if (!unit_.empty()) return;
+    const long ordinate = whole(response, 0, 10, "kind of ordinate");
+    if (ordinate == RecordCode::velocity) unit_ = "m/s";
+    if (ordinate == RecordCode::acceleration) unit_ = "m/s^2";
+    if (ordinate != RecordCode::displacement) return;
+    if (length_factor) {
       unit_ = "m";
-      factor_ = 1.0 / length_factor;
+      factor_ = 1.0 / *length_factor;
     }
+    has_no_unit_ = !length_factor;
+  }
+
+  void take_unit_of_time(const std::string& written) {
+    if (written.empty() || written == "NONE") return;
+    const auto unit = unit_in_table(written, "s");
+    if (!unit) text_.fail(key_, "its unit of time: " + unit.problem);
+    time_factor_ = *parse_as("1 " + *unit, "s");
   }
 
   /// A rate in the second line has all digits of what the step is.
@@ -325,6 +341,7 @@ class ResponseDataset {
   std::string key_, unit_;
   std::array<std::string_view, 11> records_;
   bool is_binary_ = false, is_little_ = true, is_even_ = true, is_over_time_ = false;
+  bool has_no_unit_ = false;
   long type_ = 0, count_ = 0, byte_count_ = 0;
   double start_ = 0.0, step_ = 0.0, factor_ = 1.0, time_factor_ = 1.0;
 };
@@ -335,15 +352,16 @@ void skip_dataset(UniversalText& text) {
   }
 }
 
-/// How many of a file's lengths are a metre, by a dataset 164.
-double length_factor_in(UniversalText& text) {
+/// How many of a file's lengths are a metre, by a dataset 164; nothing: it does not say.
+std::optional<double> length_factor_in(UniversalText& text) {
   text.line();
   std::string factors(text.line());
   for (char& c : factors) {
     if (c == 'D' || c == 'd') c = 'E';
   }
   const auto length = parse_as(columns_of(factors, 0, 25), "");
-  return length && *length > 0.0 ? *length : 1.0;
+  if (!length || !(*length > 0.0)) return std::nullopt;
+  return *length;
 }
 
 /// Names of channels: their first lines; of those that have one in common, for instance what kind of
@@ -369,9 +387,9 @@ RawRecord read_universal_record(const std::filesystem::path& path) {
   const std::string bytes = record_bytes(path);
   RawRecord raw{.file = path.string(), .has_own_times = true};
   UniversalText text(bytes, raw.file);
-  double length_factor = 1.0;
+  std::optional<double> length_factor;
   long number = 0;
-  std::string others;
+  std::string others, without_unit;
   std::vector<ResponseNames> names;  // of the channels
   while (!text.is_at_end()) {
     if (!is_mark(text.line())) continue;
@@ -386,6 +404,9 @@ RawRecord read_universal_record(const std::filesystem::path& path) {
       if (dataset.is_over_time()) {
         raw.channels.push_back(dataset.channel(raw));
         names.push_back({dataset.response(), dataset.label()});
+        if (dataset.has_no_unit()) {
+          without_unit += fmt::format("{}{}", without_unit.empty() ? "" : ", ", number);
+        }
       } else {
         others += fmt::format("{}dataset {} (58, no record over time)", others.empty() ? "" : ", ",
                               number);
@@ -401,6 +422,12 @@ RawRecord read_universal_record(const std::filesystem::path& path) {
                                  others.empty() ? "none at all" : others));
   }
   tell_apart(raw.channels, names);
+  if (!without_unit.empty()) {
+    raw.notes.push_back(fmt::format(
+        "the universal file says no unit of the displacements in dataset {}, and has no "
+        "dataset 164: they are taken in the unit of the probe",
+        without_unit));
+  }
   return raw;
 }
 

@@ -1,4 +1,5 @@
-/// Sound files: chunks of RIFF, in the byte order of most processors.
+/// Sound files: chunks of RIFF, in the byte order of most processors. Those that this program
+/// writes say in a comment what their channels are; samples of others are shares of full scale.
 
 #include <fmt/format.h>
 
@@ -7,8 +8,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 #include "libio/measured/record_formats.hpp"
+#include "libio/results/csv_tables.hpp"
+#include "libio/text/delimited.hpp"
 
 namespace whirl::inline io {
 
@@ -71,6 +75,33 @@ WavForm wav_form(std::string_view chunk, const Where& where) {
   return form;
 }
 
+/// Begins the comment of files that this program writes.
+constexpr std::string_view wav_comment = "whirl, samples as numbers of: ";
+
+/// A chunk with its head and an even number of bytes.
+std::string wav_chunk(std::string_view name, std::string_view content) {
+  std::string bytes(name);
+  add_number<std::uint32_t>(bytes, static_cast<std::uint32_t>(content.size()));
+  bytes += content;
+  if (content.size() % 2 == 1) bytes += '\0';
+  return bytes;
+}
+
+/// Names and units of channels from a chunk LIST of this program; none: it says none.
+std::vector<MeasuredChannel> wav_channels(std::string_view list) {
+  std::vector<MeasuredChannel> channels;
+  if (!list.starts_with("INFOICMT") || list.size() < 12) return channels;
+  std::string_view text = list.substr(12, wav_number<std::uint32_t>(list, 8));
+  text = text.substr(0, text.find('\0'));
+  if (!text.starts_with(wav_comment)) return channels;
+  text.remove_prefix(wav_comment.size());
+  for (const Cell& cell : cells_of(text, Delimiter::comma)) {
+    const NameAndUnit said = name_and_unit(cell.text, [](auto&&, auto&&) { return false; });
+    channels.push_back({said.name, said.unit});
+  }
+  return channels;
+}
+
 }  // namespace
 
 RawRecord read_wav_record(const std::filesystem::path& path) {
@@ -81,6 +112,7 @@ RawRecord read_wav_record(const std::filesystem::path& path) {
     throw ModelError(where, "", "is no WAV file: expected RIFF ... WAVE at its begin");
   }
   std::optional<WavForm> form;
+  std::vector<MeasuredChannel> said;
   RawRecord raw{.file = path.string()};
   std::size_t at = 12;
   while (at + 8 <= all.size()) {
@@ -88,6 +120,7 @@ RawRecord read_wav_record(const std::filesystem::path& path) {
     const std::size_t size = wav_number<std::uint32_t>(all, at + 4);
     const std::string_view chunk = all.substr(at + 8, size);
     if (name == "fmt ") form = wav_form(chunk, where);
+    if (name == "LIST") said = wav_channels(chunk);
     if (name == "data") {
       if (!form) throw ModelError(where, "", "has samples before the chunk fmt that says how");
       if (chunk.size() < size) {
@@ -99,7 +132,8 @@ RawRecord read_wav_record(const std::filesystem::path& path) {
       const std::size_t count = chunk.size() / frame;
       for (std::size_t c = 0; c < form->channels; ++c) {
         RawChannel& channel = raw.channels.emplace_back();
-        channel.name = std::to_string(c + 1);
+        channel.name = said.size() == form->channels ? said[c].name : std::to_string(c + 1);
+        channel.unit = said.size() == form->channels ? said[c].unit : share_of_full_scale;
         channel.where = where;
         channel.samples.resize(count);
         for (std::size_t j = 0; j < count; ++j) {
@@ -119,6 +153,12 @@ void write_wav_record(const std::filesystem::path& path, const MeasuredRecord& r
   const double whole = std::round(record.rate);
   const auto channels = static_cast<std::size_t>(record.samples.cols());
   const auto frames = static_cast<std::size_t>(record.samples.rows());
+  std::string comment(wav_comment);
+  for (const MeasuredChannel& c : record.channels) {
+    comment += (&c == record.channels.data() ? "" : ",") +
+               csv_quoted(fmt::format("{} [{}]", c.name, c.unit));
+  }
+  const std::string about = "INFO" + wav_chunk("ICMT", comment + '\0');
   constexpr double most_bytes = 4e9;
   if (std::abs(record.rate / whole - 1.0) > 1e-9) {
     throw FileError(fmt::format(
@@ -132,7 +172,8 @@ void write_wav_record(const std::filesystem::path& path, const MeasuredRecord& r
   std::string bytes = "RIFF";
   const std::size_t frame = 8 * channels;
   const auto data_size = static_cast<std::uint32_t>(frame * frames);
-  add_number<std::uint32_t>(bytes, 36 + data_size);
+  const std::string list = wav_chunk("LIST", about);
+  add_number<std::uint32_t>(bytes, 36 + static_cast<std::uint32_t>(list.size()) + data_size);
   bytes += "WAVEfmt ";
   add_number<std::uint32_t>(bytes, 16);
   add_number<std::uint16_t>(bytes, wav_real);
@@ -141,6 +182,7 @@ void write_wav_record(const std::filesystem::path& path, const MeasuredRecord& r
   add_number<std::uint32_t>(bytes, static_cast<std::uint32_t>(whole * static_cast<double>(frame)));
   add_number<std::uint16_t>(bytes, static_cast<std::uint16_t>(frame));
   add_number<std::uint16_t>(bytes, 64);
+  bytes += list;
   bytes += "data";
   add_number<std::uint32_t>(bytes, data_size);
   for (Eigen::Index j = 0; j < record.samples.rows(); ++j) {

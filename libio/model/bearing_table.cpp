@@ -49,6 +49,7 @@ void add_row(OpenTable& open, const std::vector<Cell>& cells, Where where,
   bool has_place = true;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const CoefficientColumn& column = open.columns[i];
+    if (column.is_remark) continue;
     const auto value = value_of(cells[i], column, open.marks, report);
     if (!value) {
       has_place = has_place && column.kind == Kind::entry;
@@ -115,20 +116,14 @@ void check_order(OpenTable& open, std::vector<Problem>& problems) {
   }
 }
 
-/// A line below the names.
-struct RowLine {
-  const TableLine* line;
-  std::vector<Cell> cells;
-};
-
 /// Lines below the names as cells, and what the marks in their numbers say.
-std::vector<RowLine> row_lines(OpenTable& open, const std::vector<TableLine>& lines) {
-  std::vector<RowLine> rows;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    std::vector<Cell> cells = cells_of(lines[i].text, open.marks.delimiter);
-    while (cells.size() > open.columns.size() && cells.back().text.empty()) cells.pop_back();
-    for (const Cell& cell : cells) open.marks.add(cell.text);
-    rows.push_back({&lines[i], std::move(cells)});
+std::vector<TableRow> rows_of_numbers(OpenTable& open, const std::vector<TableLine>& lines) {
+  std::vector<TableRow> rows = table_rows(lines, open.marks.delimiter, open.columns.size());
+  for (const TableRow& row : rows) {
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      const bool is_number = i >= open.columns.size() || !open.columns[i].is_remark;
+      if (is_number) open.marks.add(row.cells[i].text);
+    }
   }
   return rows;
 }
@@ -150,7 +145,7 @@ CoefficientTable parse_bearing_table(const std::string& text, const std::string&
     open.marks.delimiter = delimiter_of(lines[0].text);
     open.columns = columns_named(lines[0].text, open.marks.delimiter, report);
     if (problems.size() > others) return open.table;  // what is wrong here is so in every row
-    std::vector<RowLine> rows = row_lines(open, lines);
+    std::vector<TableRow> rows = rows_of_numbers(open, lines);
     if (!rows.empty()) {
       const bool has_units = is_line_of_units(rows[0].cells);
       if (has_units) take_units(open.columns, rows[0].cells, report_to(problems, *rows[0].line));

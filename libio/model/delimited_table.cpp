@@ -41,6 +41,9 @@ Delimiter delimiter_in(std::string_view names) {
   return found == Delimiter::blanks ? Delimiter::comma : found;
 }
 
+/// What nobody reads.
+const ColumnKind remarks{.name = "", .is_text = true};
+
 const ColumnKind* kind_named(const std::string& name, const std::vector<ColumnKind>& kinds) {
   const std::string plain = plain_name(name);
   for (const ColumnKind& kind : kinds) {
@@ -109,6 +112,7 @@ NamedColumn column_named(const Cell& cell, const std::vector<ColumnKind>& kinds,
                          const ReportProblem& report) {
   const NameAndUnit said = said_in(cell.text, kinds);
   NamedColumn column{kind_named(said.name, kinds), ""};
+  if (!column.kind && names_remarks(said.name)) return {&remarks, ""};
   if (!column.kind) {
     report_unknown(said.name, cell.place, kinds, report);
   } else if (!column.kind->problem.empty()) {
@@ -135,9 +139,9 @@ std::vector<NamedColumn> columns_of(std::vector<Cell> cells, const std::vector<C
   std::vector<NamedColumn> columns;
   for (const Cell& cell : cells) {
     const NamedColumn column = column_named(cell, kinds, report);
-    const bool is_double =
-        column.kind && std::any_of(columns.begin(), columns.end(),
-                                   [&](const NamedColumn& c) { return c.kind == column.kind; });
+    const bool is_double = column.kind && column.kind != &remarks &&
+                           std::any_of(columns.begin(), columns.end(),
+                                       [&](const NamedColumn& c) { return c.kind == column.kind; });
     if (is_double) report(cell.place, column.kind->name, "this column is there already");
     columns.push_back(column);
   }
@@ -186,28 +190,11 @@ void read_cell(const NamedColumn& column, const Cell& cell, const NumberMarks& m
   }
 }
 
-/// A line below the names.
-struct OpenRow {
-  int line = 0;
-  std::vector<Cell> cells;
-};
-
-std::vector<OpenRow> rows_of(const std::vector<TableLine>& lines, Delimiter delimiter,
-                             std::size_t columns) {
-  std::vector<OpenRow> rows;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    std::vector<Cell> cells = cells_of(lines[i].text, delimiter);
-    while (cells.size() > columns && cells.back().text.empty()) cells.pop_back();
-    rows.push_back({lines[i].number, std::move(cells)});
-  }
-  return rows;
-}
-
 /// What the marks in all numbers say.
-NumberMarks marks_in(const std::vector<OpenRow>& rows, const std::vector<NamedColumn>& columns,
+NumberMarks marks_in(const std::vector<TableRow>& rows, const std::vector<NamedColumn>& columns,
                      Delimiter delimiter) {
   NumberMarks marks{delimiter};
-  for (const OpenRow& row : rows) {
+  for (const TableRow& row : rows) {
     for (std::size_t i = 0; i < std::min(columns.size(), row.cells.size()); ++i) {
       if (!columns[i].kind->is_text) marks.add(row.cells[i].text);
     }
@@ -238,17 +225,17 @@ DelimitedTable parse_delimited(const std::string& text, const std::string& file,
   for (const NamedColumn& c : columns) table.columns.push_back(c.kind ? c.kind->name : "");
   if (problems.size() > before) return table;
 
-  std::vector<OpenRow> rows = rows_of(lines, delimiter, columns.size());
+  std::vector<TableRow> rows = table_rows(lines, delimiter, columns.size());
   if (!rows.empty() && take_units(columns, rows.front().cells)) rows.erase(rows.begin());
   const NumberMarks marks = marks_in(rows, columns, delimiter);
   for (const auto& [line, cells] : rows) {
-    const ReportProblem report = report_in({line});
+    const ReportProblem report = report_in({line->number});
     if (cells.size() != columns.size()) {
       report_count(cells, columns.size(), delimiter, report);
       continue;
     }
     DelimitedRow& row = table.rows.emplace_back();
-    row.line = line;
+    row.line = line->number;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       row.places[columns[i].kind->name] = cells[i].place;
       if (!cells[i].text.empty()) read_cell(columns[i], cells[i], marks, row, report);

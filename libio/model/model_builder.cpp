@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "libfe/assemble.hpp"
+#include "libio/text/encoding.hpp"
 #include "libio/text/file_bytes.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/units.hpp"
@@ -125,7 +126,8 @@ std::optional<ModelBuilder::NamedText> ModelBuilder::table_text(TableReader& tab
       return std::nullopt;
     }
     const std::filesystem::path path = files_.folder / *name;
-    const auto content = file_bytes(path, FileKind::regular, most_text_bytes);
+    auto content = file_bytes(path, FileKind::regular, most_text_bytes);
+    if (content) content = in_utf8(std::move(*content.value));
     if (!content) {
       table.problem(
           key, fmt::format("cannot read the file \"{}\"{}", path.string(),

@@ -174,9 +174,11 @@ std::vector<CoefficientColumn> columns_named(const std::string& line, Delimiter 
   for (const Cell& cell : cells) {
     const NameAndUnit said = split(cell.text);
     const auto column = column_of(said.name);
-    if (!column) report_unknown(said.name, cell.place, report);
+    const bool is_remark = !column && delimiter != Delimiter::blanks && names_remarks(said.name);
+    if (!column && !is_remark) report_unknown(said.name, cell.place, report);
     columns.push_back(column.value_or(CoefficientColumn{}));
     columns.back().place = cell.place;
+    columns.back().is_remark = is_remark;
     if (column && said.has_unit) set_unit(columns.back(), said.unit, cell.place, report);
   }
   return columns;
@@ -192,6 +194,7 @@ void take_units(std::vector<CoefficientColumn>& columns, const std::vector<Cell>
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string& text = cells[i].text;
+    if (columns[i].is_remark) continue;
     set_unit(columns[i], is_in_brackets(text) ? split(text).unit : text, cells[i].place, report);
   }
 }
@@ -219,7 +222,7 @@ void check_columns(const std::vector<CoefficientColumn>& columns, const ReportPr
 
 void doubt_columns(const std::vector<CoefficientColumn>& columns, const ReportProblem& report) {
   for (const CoefficientColumn& column : columns) {
-    if (column.kind != Kind::entry) continue;
+    if (column.kind != Kind::entry || column.is_remark) continue;
     // the one of the other direction: kyy of kxx, kyx of kxy
     std::string other = column.name;
     for (char& c : other) c = c == 'x' ? 'y' : c == 'y' ? 'x' : c;

@@ -20,6 +20,7 @@ struct CoefficientColumn {
   int row = 0, column = 0;
   bool needs_unit = false;  ///< named as other programs do, who do not mean SI
   int place = 1;            ///< of its name in the line
+  bool is_remark = false;   ///< words, which nobody reads
 };
 
 /// Columns that a line names, one per cell; what is not understood is reported.

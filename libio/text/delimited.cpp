@@ -83,11 +83,35 @@ bool has_number(const std::string& line) {
                      [](const Cell& cell) { return begins_as_number(cell.text); });
 }
 
+/// Where the names of columns are among the first lines: in the one that names most, two or more.
+std::size_t line_of_names(const std::vector<TableLine>& lines,
+                          const std::function<std::size_t(const std::string&)>& known_names) {
+  std::size_t at = 0, most = 1;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (begins_as_number(trimmed(lines[i].text))) break;
+    const std::size_t known = known_names(lines[i].text);
+    if (known <= most) continue;
+    at = i;
+    most = known;
+  }
+  return at;
+}
+
+/// Whether a line below the names says something in words, and fills no row.
+bool is_note(const std::vector<Cell>& cells, std::size_t columns) {
+  const auto is_empty = [](const Cell& cell) { return cell.text.empty(); };
+  const auto filled =
+      cells.size() - static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_empty));
+  return filled < columns && !cells.empty() && !is_empty(cells.front()) &&
+         std::none_of(cells.begin(), cells.end(),
+                      [](const Cell& cell) { return begins_as_number(cell.text); });
+}
+
 /// The one comma or point of a number.
 struct NumberMark {
   char sign = ',';
-  std::string before, after;      ///< digits around it, with the sign of the number
-  bool may_be_thousands = false;  ///< three digits behind it, up to three before
+  std::string_view before, after;  ///< digits around it, with the sign of the number
+  bool may_be_thousands = false;   ///< three digits behind it, up to three before
 };
 
 /// Where the numeral of a cell ends, behind which its unit is.
@@ -103,10 +127,10 @@ std::optional<NumberMark> mark_of(std::string_view cell) {
   std::size_t end = at + 1;
   while (end < numeral.size() && is_numeral(numeral[end])) ++end;
   NumberMark mark{.sign = numeral[at],
-                  .before = std::string(numeral.substr(0, at)),
-                  .after = std::string(numeral.substr(at + 1, end - at - 1))};
+                  .before = numeral.substr(0, at),
+                  .after = numeral.substr(at + 1, end - at - 1)};
   const bool is_signed = !mark.before.empty() && !is_numeral(mark.before[0]);
-  const std::string digits = mark.before.substr(is_signed ? 1 : 0);
+  const std::string_view digits = mark.before.substr(is_signed ? 1 : 0);
   mark.may_be_thousands = mark.after.size() == 3 && end == numeral.size() && !digits.empty() &&
                           digits.size() <= 3 && digits[0] != '0' &&
                           std::all_of(digits.begin(), digits.end(), is_numeral);
@@ -115,7 +139,7 @@ std::optional<NumberMark> mark_of(std::string_view cell) {
 
 /// What is wrong with a comma or point that may be either: what would be right.
 std::string doubt_of(std::string_view cell, const NumberMark& mark, const NumberMarks& all) {
-  std::string decimals = mark.after;
+  std::string decimals(mark.after);
   while (decimals.size() > 1 && decimals.back() == '0') decimals.pop_back();
   const bool is_comma = mark.sign == ',';
   const char* others = "no other number of this table shows which";
@@ -129,6 +153,18 @@ std::string doubt_of(std::string_view cell, const NumberMark& mark, const Number
       "the {} in {} may be that of thousands or of decimals, and {}; write {}{} or {}{}{}",
       is_comma ? "comma" : "point", in_quotes(cell), others, mark.before, mark.after, mark.before,
       is_comma ? '.' : ',', decimals);
+}
+
+/// Where the brackets begin that a unit stands in: those at the end, "shaft (DE) [um]", else the
+/// first.
+std::size_t unit_bracket(std::string_view cell) {
+  const bool is_round = cell.ends_with(')'), is_square = cell.ends_with(']');
+  int depth = 0;
+  for (std::size_t i = cell.size(); (is_round || is_square) && i-- > 0;) {
+    if (cell[i] == (is_round ? ')' : ']')) ++depth;
+    if (cell[i] == (is_round ? '(' : '[') && --depth == 0) return i;
+  }
+  return cell.find_first_of("[(");
 }
 
 /// A message without the numbers, which differ from row to row; digits in words are none.
@@ -162,7 +198,7 @@ std::string plain_name(std::string_view name) {
 NameAndUnit name_and_unit(
     const std::string& cell,
     const std::function<bool(const std::string&, const std::string&)>& is_known) {
-  const auto bracket = cell.find_first_of("[(");
+  const auto bracket = unit_bracket(cell);
   if (bracket != std::string::npos) {
     const auto end = cell.find_last_of("])");
     const auto from = bracket + 1;
@@ -199,7 +235,28 @@ std::vector<TableLine> table_lines(
     }
     lines.push_back({number, line});
   }
+  lines.erase(lines.begin(),
+              lines.begin() + static_cast<std::ptrdiff_t>(line_of_names(lines, known_names)));
   return lines;
+}
+
+bool names_remarks(std::string_view name) {
+  static constexpr std::string_view words[] = {
+      "remark",    "remarks",     "comment",   "comments",   "note",     "notes",
+      "bemerkung", "bemerkungen", "kommentar", "kommentare", "remarque", "observaciones"};
+  return std::find(std::begin(words), std::end(words), plain_name(name)) != std::end(words);
+}
+
+std::vector<TableRow> table_rows(const std::vector<TableLine>& lines, Delimiter delimiter,
+                                 std::size_t columns) {
+  std::vector<TableRow> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::vector<Cell> cells = cells_of(lines[i].text, delimiter);
+    while (cells.size() > columns && !begins_as_number(cells.back().text)) cells.pop_back();
+    rows.push_back({&lines[i], std::move(cells)});
+  }
+  while (!rows.empty() && is_note(rows.back().cells, columns)) rows.pop_back();
+  return rows;
 }
 
 Delimiter delimiter_of(std::string_view line) {
@@ -273,10 +330,12 @@ bool is_line_of_units(const std::vector<Cell>& cells) {
   return has_any;
 }
 
-void NumberMarks::add(std::string_view cell) {
+char NumberMarks::add(std::string_view cell) {
   const auto mark = mark_of(cell);
-  if (!mark || mark->may_be_thousands) return;
+  if (!mark) return '\0';
+  if (mark->may_be_thousands) return mark->sign;
   (mark->sign == ',' ? has_decimal_commas : has_decimal_points) = true;
+  return '\0';
 }
 
 Parsed<std::string> plain_number(std::string_view cell, const NumberMarks& marks) {

@@ -33,8 +33,10 @@ struct TableLine {
 
 /// Lines of a table that are no comments (#, !, %, //) and not empty, the names of columns first.
 ///
-/// Some programs write the names as a comment: the one right above the first line stands for the
-/// names if it has two known ones or more, and that line is one of numbers.
+/// Titles above the names are left out: the names are the line that names most columns, two or more
+/// of them, before the first line of numbers. Some programs write the names as a comment: the one
+/// right above the first line stands for the names if it has two known ones or more, and that line
+/// is one of numbers.
 ///
 /// @param known_names  how many columns a line names
 std::vector<TableLine> table_lines(
@@ -48,6 +50,21 @@ Delimiter delimiter_of(std::string_view line);
 /// Delimiters in quotes, (...) and [...] do not count. Where commas delimit, semicolons do, too.
 std::vector<Cell> cells_of(std::string_view line, Delimiter delimiter);
 
+/// Whether a name is that of a column of remarks, which nobody reads.
+bool names_remarks(std::string_view name);
+
+/// A line below the names.
+struct TableRow {
+  const TableLine* line = nullptr;
+  std::vector<Cell> cells;
+};
+
+/// The lines below the names as cells, without what people wrote beside and below: words behind the
+/// last column, and lines of words below the last row.
+/// @param lines  as table_lines gives them, the names first
+std::vector<TableRow> table_rows(const std::vector<TableLine>& lines, Delimiter delimiter,
+                                 std::size_t columns);
+
 /// Reports a line of more or fewer cells than there are columns.
 void report_count(const std::vector<Cell>& cells, std::size_t columns, Delimiter delimiter,
                   const ReportProblem& report);
@@ -59,7 +76,8 @@ struct NumberMarks {
   bool has_decimal_points = false;  ///< "0.5" likewise
 
   /// Takes a number of the table into account.
-  void add(std::string_view cell);
+  /// @return  its comma or point, if that may be one of thousands or of decimals; else 0
+  char add(std::string_view cell);
 };
 
 /// A number as parse_quantity reads it: decimal commas become points where commas do not delimit,

@@ -159,11 +159,13 @@ struct Product {
   }
 };
 
-/// Takes an exponent off the front: "^2", "^-1.5" or a plain "2"; none is 1. Twice its value.
+/// Takes an exponent off the front: "^2", "**2", "^-1.5" or a plain "2"; none is 1. Twice its
+/// value.
 std::optional<int> take_exponent(std::string_view& rest) {
-  const bool has_hat = rest.starts_with('^');
+  const bool has_stars = rest.starts_with("**");
+  const bool has_hat = rest.starts_with('^') || has_stars;
   if (!has_hat && (rest.empty() || !is_digit(rest.front()))) return 2;
-  if (has_hat) rest.remove_prefix(1);
+  if (has_hat) rest.remove_prefix(has_stars ? 2 : 1);
   if (rest.starts_with('+')) rest.remove_prefix(1);
   std::size_t size = rest.starts_with('-') ? 1 : 0;
   while (size < rest.size() && is_digit(rest[size])) ++size;

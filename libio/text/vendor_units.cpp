@@ -24,11 +24,12 @@ constexpr Spelling wholes[] = {{"rpm", "rpm"},       {"cpm", "rpm"},      {"r/mi
 
 /// Words of units, in lower case.
 constexpr Spelling words[] = {
-    {"lb", "lbf"},    {"lbs", "lbf"},  {"lbf", "lbf"},   {"klb", "klbf"},  {"klbs", "klbf"},
-    {"klbf", "klbf"}, {"kip", "klbf"}, {"kips", "klbf"}, {"sec", "s"},     {"secs", "s"},
-    {"in", "in"},     {"ft", "ft"},    {"mm", "mm"},     {"mils", "mil"},  {"inch", "in"},
-    {"inches", "in"}, {"ns", "N.s"},   {"nm", "N.m"},    {"nms", "N.m.s"}, {"kns", "kN.s"},
-    {"knm", "kN.m"}};
+    {"lb", "lbf"},    {"lbs", "lbf"},   {"lbf", "lbf"},   {"klb", "klbf"},  {"klbs", "klbf"},
+    {"klbf", "klbf"}, {"kip", "klbf"},  {"kips", "klbf"}, {"sec", "s"},     {"secs", "s"},
+    {"in", "in"},     {"ft", "ft"},     {"mm", "mm"},     {"mils", "mil"},  {"inch", "in"},
+    {"inches", "in"}, {"ns", "N.s"},    {"nm", "N.m"},    {"nms", "N.m.s"}, {"kns", "kN.s"},
+    {"knm", "kN.m"},  {"msec", "ms"},   {"msecs", "ms"},  {"second", "s"},  {"seconds", "s"},
+    {"micron", "um"}, {"microns", "um"}};
 
 bool is_latin_letter(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0;

@@ -260,10 +260,54 @@ TEST(ProbeReadings, TakesChannelsByGainAndUnit) {
   EXPECT_THROW(probe_readings(record, setup), OptionError) << "a voltage without a gain";
 }
 
+// Full scale is the recorder's: 1 was taken as 1 V, whatever the recorder's range, without a word.
+TEST(ProbeReadings, TakeFullScaleFromTheProbeOrSayThatNobodyToldIt) {
+  MeasuredRecord record{.rate = 100.0};
+  record.channels = {{"1", share_of_full_scale}};
+  record.samples = 0.5 * Mat::Ones(20, 1);
+  record.samples(7, 0) = -0.25;
+  const auto reading = [&](const MeasuredProbe& probe) {
+    return probe_readings(record, {.probes = {probe}});
+  };
+  const auto told = [&](const MeasuredProbe& probe) {
+    const ProbeReadings found = reading(probe);
+    return std::count_if(found.notes.begin(), found.notes.end(), [](const std::string& note) {
+      return note.find("full_scale = \"10 V\"") != std::string::npos;
+    });
+  };
+  MeasuredProbe probe{{"px", test::node(1)}, "1", {ProbeGain::Of::voltage, -8000.0}};
+  EXPECT_DOUBLE_EQ(reading(probe).displacement(0, 0), -0.5 / 8000.0);
+  EXPECT_EQ(told(probe), 1);
+  probe.full_scale = FullScale{10.0, "V"};
+  EXPECT_DOUBLE_EQ(reading(probe).displacement(0, 0), -5.0 / 8000.0);
+  EXPECT_EQ(told(probe), 0);
+  probe.gain = {};
+  EXPECT_THROW(reading(probe), OptionError) << "volts without a gain of them";
+  probe.full_scale = FullScale{2e-3, "m"};
+  EXPECT_DOUBLE_EQ(reading(probe).displacement(0, 0), 1e-3);
+  probe.full_scale.reset();
+  probe.is_unit_given = true;
+  EXPECT_EQ(told(probe), 1) << "a unit is not yet what full scale is";
+  probe.gain = {ProbeGain::Of::number, 1000.0};
+  EXPECT_DOUBLE_EQ(reading(probe).displacement(0, 0), 0.5e-3);
+  EXPECT_EQ(told(probe), 0);
+}
+
+// A gain in volts does not say that the numbers of the file are volts and not millivolts.
+TEST(ProbeReadings, SayThatNumbersWithoutUnitAreTakenAsVolts) {
+  MeasuredRecord record{.rate = 100.0};
+  record.channels = {{"a", ""}};
+  record.samples = Mat::Random(20, 1);
+  const MeasuredProbe probe{{"px", test::node(1)}, "a", {ProbeGain::Of::voltage, 8000.0}};
+  const ProbeReadings found = probe_readings(record, {.probes = {probe}});
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_EQ(found.notes[0], "no unit in the record for a: taken as V");
+}
+
 TEST(ProbeReadings, TellRowsThatAreLeftOutOnce) {
   MeasuredRecord record{.rate = 100.0};
   record.channels = {{"x", "m"}, {"y", "m"}, {"z", "m"}};
-  record.samples = Mat::Random(200, 3);
+  record.samples = 1e-4 * Mat::Random(200, 3);
   record.samples.row(7).setConstant(std::nan(""));
   record.samples.row(9).setConstant(std::nan(""));
   MeasurementSetup setup;

@@ -261,6 +261,28 @@ TEST(BearingTable, ACommaBeforeThreeDigitsIsDecimalOnlyWhereOthersShowIt) {
             std::string::npos);
 }
 
+// ---- what people write around a table ----
+
+// A title above, remarks beside, a note below, as in the workbooks of vendors.
+TEST(BearingTable, LeavesOutWhatPeopleWriteAroundIt) {
+  const CoefficientTable plain = table("rpm,Kxx (N/m),Kyy (N/m)\n3000,1e7,2e7\n7000,3e7,4e7\n");
+  for (const char* text :
+       {"Bearing DE, cold oil\nrpm,Kxx (N/m),Kyy (N/m)\n3000,1e7,2e7\n7000,3e7,4e7\n",
+        "Bearing DE, cold oil\n\nspeed,Kxx,Kyy\nrpm,N/m,N/m\n3000,1e7,2e7\n7000,3e7,4e7\n",
+        "rpm,Kxx (N/m),Kyy (N/m)\n3000,1e7,2e7\n7000,3e7,4e7\n,,\ncalculated for ISO VG 32,,\n",
+        "rpm,Kxx (N/m),Kyy (N/m)\n3000,1e7,2e7,cold\n7000,3e7,4e7,\n",
+        "rpm,Kxx (N/m),Kyy (N/m),Remark\n3000,1e7,2e7,cold\n7000,3e7,4e7,\n",
+        "Comment,rpm,Kxx (N/m),Kyy (N/m)\n,3000,1e7,2e7\nhot 2,7000,3e7,4e7\n"}) {
+    const CoefficientTable found = table(text);
+    ASSERT_EQ(found.rows.size(), 2u) << text;
+    EXPECT_EQ(found.speed, plain.speed) << text;
+    for (const std::size_t i : {0u, 1u}) EXPECT_EQ(found.rows[i].K, plain.rows[i].K) << text;
+  }
+  // nothing with a number in it is a note
+  EXPECT_NE(problems("rpm,kxx\n1000,2\nx2000,3\n").find("bearing.csv:3:1"), std::string::npos);
+  EXPECT_NE(problems("rpm,kxx\n1000,2\nword\n2000,3\n").find("bearing.csv:3"), std::string::npos);
+}
+
 // ---- one cause is told once, where it is ----
 
 TEST(BearingTable, OneCauseIsToldOnceWithItsRows) {

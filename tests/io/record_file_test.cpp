@@ -42,7 +42,7 @@ class RecordFile : public test::InResultFolder {
 
 MeasuredRecord example(double rate) {
   MeasuredRecord record{.rate = rate, .start = 0.25};
-  record.channels = {{"left x", "m"}, {"2", "V"}, {"key", ""}};
+  record.channels = {{"left (DE) x", "m"}, {"2", "V"}, {"key [1]", ""}};
   record.samples.resize(101, 3);
   for (Eigen::Index j = 0; j < 101; ++j) {
     const double t = static_cast<double>(j) / 7.0;
@@ -64,14 +64,11 @@ TEST_F(RecordFile, EveryFormatReadsBackWhatItWrote) {
     const bool is_text = name == std::string("a.uff");  // thirteen digits
     for (std::size_t c = 0; c < 3; ++c) {
       const auto index = static_cast<Eigen::Index>(c);
-      const bool has_names = name != std::string("a.wav");
-      const std::string called = has_names ? written.channels[c].name : std::to_string(c + 1);
-      const auto at = read.channel(called);
-      ASSERT_TRUE(at) << name << " " << called;
-      if (has_names) {
-        EXPECT_EQ(read.channels[static_cast<std::size_t>(*at)].unit, written.channels[c].unit);
-        EXPECT_NEAR(read.start, written.start, 1e-12) << name;
-      }
+      const auto at = read.channel(written.channels[c].name);
+      ASSERT_TRUE(at) << name << " " << written.channels[c].name;
+      EXPECT_EQ(read.channels[static_cast<std::size_t>(*at)].unit, written.channels[c].unit);
+      // a sound begins at zero
+      if (name != std::string("a.wav")) EXPECT_NEAR(read.start, written.start, 1e-12) << name;
       const Vec error = read.samples.col(*at) - written.samples.col(index);
       EXPECT_LE(error.cwiseAbs().maxCoeff(),
                 is_text ? 1e-12 * written.samples.col(index).cwiseAbs().maxCoeff() : 0.0)
@@ -303,6 +300,7 @@ TEST_F(RecordFile, ReadsSoundFiles) {
   EXPECT_EQ(record.samples(0, 1), -0.5);
   EXPECT_EQ(record.samples(1, 0), 32767.0 / 32768.0);
   EXPECT_EQ(record.samples(1, 1), -1.0);
+  EXPECT_EQ(record.channels[0].unit, share_of_full_scale);
   const std::string frame("\x00\x00\x40\x00\x00\xC0", 6);
   EXPECT_EQ(read_record(file("b.wav", wav_file(24, frame, 6))).samples(0, 1), -0.5);
   expect_problem("a.wav", wav_file(16, two_frames, 80), "is cut off");
@@ -422,6 +420,35 @@ TEST_F(RecordFile, ReadsCellsAndWholeNumbersOfMatlab) {
     EXPECT_NE(std::string(error.what()).find("units: has 4 texts"), std::string::npos)
         << error.what();
   }
+}
+
+// Channels in a struct, beside a calibration of other length: their names are those of the fields.
+TEST_F(RecordFile, ReadsStructsOfMatlabAndLeavesOtherVectorsOut) {
+  std::vector<double> x(20), calibration{1, 2, 3, 4, 5};
+  for (std::size_t j = 0; j < x.size(); ++j) x[j] = std::cos(static_cast<double>(j));
+  const std::string place = folder / "b.mat";
+  {
+    const MatlabFile mat(Mat_CreateVer(place.c_str(), nullptr, MAT_FT_MAT5), &Mat_Close);
+    const char* fields[] = {"X", "calibration", "fs"};
+    std::size_t one[] = {1, 1};
+    const MatlabVariable run(Mat_VarCreateStruct("run", 2, one, fields, 3), &Mat_VarFree);
+    const auto set = [&](const char* name, const std::vector<double>& values) {
+      Mat_VarSetStructFieldByName(run.get(), name, 0,
+                                  matlab_numbers(name, values, values.size(), 1).release());
+    };
+    set("X", x);
+    set("calibration", calibration);
+    set("fs", {1000.0});
+    ASSERT_EQ(Mat_VarWrite(mat.get(), run.get(), MAT_COMPRESSION_NONE), 0);
+  }
+  const MeasuredRecord record = read_record(place);
+  EXPECT_EQ(record.rate, 1000.0);
+  ASSERT_EQ(record.channels.size(), 1u);
+  EXPECT_EQ(record.channels[0].name, "X");
+  EXPECT_EQ(record.samples(7, 0), x[7]);
+  ASSERT_EQ(record.notes.size(), 1u);
+  EXPECT_EQ(record.notes[0],
+            "not as long as the 20 samples of the record, and left out: calibration (5)");
 }
 
 TEST_F(RecordFile, SaysWhatIsWrongInOtherFiles) {

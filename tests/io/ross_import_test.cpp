@@ -243,6 +243,122 @@ TEST(RossImport, TellsWhatItTakesAndWhatNot) {
   EXPECT_TRUE(has(odd.left_out, "min_w and max_w: the first one is above the other"));
 }
 
+/// A shaft of six elements with a disk in the middle, as ROSS saves it; `rest` is what else the
+/// file has.
+std::string wheel(const std::string& version, const std::string& rest) {
+  std::string text = fmt::format("ross_version = \"{}\"\n", version);
+  for (int n = 0; n < 6; ++n) {
+    text += fmt::format(
+        "[ShaftElement_S{0}]\nn = {0}\nL = 0.2\nidl = 0.0\nodl = 0.05\nshear_method_calc = "
+        "\"cowper\"\n[ShaftElement_S{0}.material]\nname = \"Steel\"\nrho = 7850.0\nE = 2.05e11\n"
+        "G_s = 78846153846.15384\n",
+        n);
+  }
+  return text + "[DiskElement_wheel]\nn = 3\nm = 20.0\nId = 0.1\nIp = 0.18\n" + rest;
+}
+
+/// Two bearings at the ends of the wheel's shaft.
+std::string two_bearings(const std::string& keys, const std::string& kind = "BearingElement") {
+  return fmt::format("[{1}_A]\nn = 0\n{0}[{1}_B]\nn = 6\n{0}", keys, kind);
+}
+
+bool has_part(const std::vector<std::string>& sentences, const std::string& part) {
+  return std::any_of(sentences.begin(), sentences.end(), [&](const std::string& sentence) {
+    return sentence.find(part) != std::string::npos;
+  });
+}
+
+/// Damped frequencies in rpm and damping ratios of the lowest modes.
+std::vector<std::pair<double, double>> lowest_modes(const ImportedModel& written, double Omega) {
+  const Model model = model_in_files(written);
+  std::vector<std::pair<double, double>> found;
+  for (const Mode& mode : complex_modes(Assembler(model.structure).at(Omega), 2).oscillatory) {
+    found.emplace_back(mode.lambda.imag() * 30.0 / 3.14159265358979, mode.damping_ratio());
+  }
+  return found;
+}
+
+// Damping of the whole rotor was dropped without a word: decrements of zero. The reference is ROSS
+// 3.0's, 2224.83 rpm and 0.019496, which C = 8 M + 2e-5 K gives, too.
+TEST(RossImport, HasTheDampingOfTheWholeRotor) {
+  const std::string bearings = two_bearings("kxx = 1e7\nkyy = 1e7\n");
+  const ImportedModel written =
+      imported(wheel("3.0.0", bearings + "[parameters]\nalpha = 8.0\nbeta = 2e-5\n"), "r.toml");
+  const auto [rpm, zeta] = lowest_modes(written, 0.0).at(0);
+  EXPECT_NEAR(rpm, 2224.83, 0.005);
+  EXPECT_NEAR(zeta, 0.019496, 5e-7);
+
+  const ImportedModel one =
+      imported(wheel("3.0.0", bearings + "[parameters]\ndefault_damping_ratio = 0.03\n"), "r.toml");
+  EXPECT_NEAR(lowest_modes(one, 0.0).at(0).second, 0.03, 1e-9);
+  EXPECT_TRUE(has_part(one.taken_differently, "damping ratios of modes"));
+  const ImportedModel list = imported(
+      wheel("3.0.0", bearings + "[parameters]\nmodal_damping_ratio = [0.01, 0.02]\n"), "r.toml");
+  const auto listed = lowest_modes(list, 0.0);  // two of one frequency, in either order
+  EXPECT_NEAR(std::min(listed.at(0).second, listed.at(1).second), 0.01, 1e-9);
+  EXPECT_NEAR(std::max(listed.at(0).second, listed.at(1).second), 0.02, 1e-9);
+  EXPECT_NE(list.text.find("modal    = [0.01, 0.02]"), std::string::npos) << list.text;
+  const ImportedModel wrong = imported(
+      wheel("3.0.0", bearings + "[parameters]\nalpha = -1.0\nmodal_damping_ratio = [2.0]\n"),
+      "r.toml");
+  EXPECT_EQ(wrong.text.find("[damping]"), std::string::npos);
+  EXPECT_TRUE(has_part(wrong.left_out, "alpha = -1: below zero"));
+  EXPECT_TRUE(has_part(wrong.left_out, "damping ratios of modes"));
+}
+
+// ROSS 3 has PCHIP between the rows of a table; straight lines give 1958.4 rpm at 150 rad/s where
+// ROSS gives 1931.8 and 1932.3. Earlier ones lay splines through them, which is said.
+TEST(RossImport, InterpolatesTablesAsItsVersionDoesOrSaysSo) {
+  const std::string bearings = two_bearings(
+      "kxx = [2e6, 3e6, 8e6, 9e6, 9.5e6]\nkyy = [2e6, 3e6, 8e6, 9e6, 9.5e6]\n"
+      "cxx = [1e3, 1e3, 1e3, 1e3, 1e3]\ncyy = [1e3, 1e3, 1e3, 1e3, 1e3]\n"
+      "speed = [100.0, 200.0, 300.0, 400.0, 600.0]\n");
+  const ImportedModel written = imported(wheel("3.0.0", bearings), "rotor.toml");
+  const auto modes = lowest_modes(written, 150.0);
+  EXPECT_NEAR(modes.at(0).first, 1931.8, 0.05);
+  EXPECT_NEAR(modes.at(1).first, 1932.3, 0.05);
+  EXPECT_FALSE(has_part(written.taken_differently, "splines"));
+  EXPECT_TRUE(has_part(written.taken_differently, "beyond the ends of a table"));
+  EXPECT_TRUE(has_part(imported(wheel("2.3.0", bearings), "rotor.toml").taken_differently,
+                       "ROSS before 3.0 lays smoothing splines"));
+}
+
+// Before 3.0 `frequency` was the speed, but of what is made for a frequency of the whirl.
+TEST(RossImport, TakesFrequenciesOfDampersForThoseOfTheWhirl) {
+  const std::string table = "kxx = [1e7, 2e7]\ncxx = [1e3, 1e3]\nfrequency = [100.0, 200.0]\n";
+  for (const char* kind : {"SqueezeFilmDamper", "MagneticBearingElement"}) {
+    const ImportedModel written = imported(wheel("2.3.0", two_bearings(table, kind)), "rotor.toml");
+    EXPECT_EQ(written.tables.at(0).text.substr(0, 13), "whirl [rad/s]") << kind;
+  }
+}
+
+TEST(RossImport, SaysThatThereAreTwoShafts) {
+  std::string coaxial = wheel("3.0.0", two_bearings("kxx = 1e7\n"));
+  for (const char* key : {"n = 5\n", "n = 4\n"}) {  // 0 to 4 and 6 to 8
+    const auto at = coaxial.find(key);
+    coaxial.replace(at, 6, key[4] == '5' ? "n = 7\n" : "n = 6\n");
+  }
+  EXPECT_NE(refusal(coaxial).find("there are 2 shafts, with the nodes 0 to 4, 6 to 8"),
+            std::string::npos)
+      << refusal(coaxial);
+}
+
+// Whatever nobody reads is said, by a comparison of keys and no list: in elements, in their
+// materials, in the parameters and beside them.
+TEST(RossImport, SaysEveryKeyThatItDoesNotRead) {
+  std::string text = wheel("3.0.0", two_bearings("kxx = 1e7\nhumidity = 0.3\ncolor = \"red\"\n") +
+                                        "[parameters]\nspeed_ratio = 1.5\nrated_w = 10.0\n");
+  text.insert(text.find("[ShaftElement_S0.material]") + 27, "specific_heat = 434.0\n");
+  text.insert(text.find("[ShaftElement_S0]"), "magic = 3\n");
+  const std::vector<std::string> left_out = imported(text, "rotor.toml").left_out;
+  EXPECT_TRUE(has_part(left_out, "humidity of 2 elements BearingElement: not known"));
+  EXPECT_TRUE(has_part(left_out, "material.specific_heat of \"S0\": not known"));
+  EXPECT_TRUE(has_part(left_out, "speed_ratio of \"parameters\": not known"));
+  EXPECT_TRUE(has_part(left_out, "magic: not known"));
+  EXPECT_TRUE(has_part(left_out, "colors and sizes of pictures"));
+  EXPECT_EQ(left_out.size(), 5u);
+}
+
 TEST(RossImport, SaysAMistakeOnce) {
   std::string text = small;
   text.replace(text.find("odl = 0.05"), 10, "odl = \"x\"");

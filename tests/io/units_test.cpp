@@ -76,6 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
         Good{"720 g.mm", "kg.m", 7.2e-4}, Good{"2 oz.in", "kg.m", 0.0283495231250 * 2 * 0.0254},
         Good{"7.8 g/cm^3", "kg/m^3", 7800.0}, Good{"7800 kg/m3", "kg/m^3", 7800.0},
         Good{"7800 kg/m³", "kg/m^3", 7800.0}, Good{"5 kg.m²", "kg.m^2", 5.0},
+        Good{"5 kg.m**2", "kg.m^2", 5.0}, Good{"7.8 g/cm**3", "kg/m^3", 7800.0},
+        Good{"5 s**-1", "1/s", 5.0}, Good{"3 N**1*m**2", "N.m^2", 3.0},
         Good{"5 kg.m^+2", "kg.m^2", 5.0}, Good{"5 kg.m^2.0", "kg.m^2", 5.0},
         Good{"7800 kg.m^-3", "kg/m^3", 7800.0}, Good{"9.81 m/s/s", "m/s^2", 9.81},
         Good{"2 m^2.kg", "kg.m^2", 2.0}, Good{"4 N/mm^1.5", "N/m^1.5", 4.0 / std::pow(1e-3, 1.5)},
