@@ -7,6 +7,7 @@
 #include "libio/model/model_file.hpp"
 #include "libio/results/temporary_folder.hpp"
 #include "libio/text/file_bytes.hpp"
+#include "libio/text/files_in_use.hpp"
 
 namespace whirl::inline io {
 
@@ -51,7 +52,7 @@ Model readable(const ImportedModel& written, const fs::path& file, const fs::pat
 }  // namespace
 
 Imported import_file(const fs::path& file, const fs::path& place, Replaces replaces) {
-  if (fs::exists(place) && is_same_file(file, place)) {
+  if (fs::exists(place) && is_same_file(file, place)) {  // left out, --out is beside it
     throw FileError(place.string() + " is the file that is read; give another one with --out");
   }
   const std::string text = content_of(file);

@@ -61,10 +61,11 @@ std::vector<std::string> options_without(const std::vector<std::string>& options
   return filtered(options, names, false);
 }
 
-std::vector<std::string> words_again(const std::string& program, const Call& call) {
+std::vector<std::string> words_again(const std::string& program, const Call& call,
+                                     std::vector<std::string_view> left_out) {
+  left_out.insert(left_out.end(), {"quiet", "force", "restart", "set", "speed"});
   std::vector<std::string> words{program, call.verb, call.file};
-  for (const std::string& option : options_without(
-           call.options, {"quiet", "force", "restart", "out", "json", "svg", "set", "speed"})) {
+  for (const std::string& option : options_without(call.options, left_out)) {
     words.push_back(option);
   }
   return words;

@@ -18,6 +18,7 @@
 
 #include "libbase/travel.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libio/text/files_in_use.hpp"
 
 namespace whirl::inline io {
 
@@ -172,6 +173,8 @@ OpenedFile::OpenedFile(const fs::path& file) {
   const auto fail = [&](std::string_view why) {
     throw FileError(fmt::format("cannot open {}: {}", file.string(), why));
   };
+  const std::string lost = problem_of_reading(file);
+  if (!lost.empty()) fail(lost);
   // not to wait for who writes into a pipe
   descriptor_ = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   if (descriptor_ < 0) fail(errno == ENOENT ? "there is no such file" : std::strerror(errno));

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "libio/results/hdf5.hpp"
+#include "libio/text/files_in_use.hpp"
 
 namespace whirl::inline io {
 
@@ -199,6 +200,7 @@ void mark_ogv(std::string& file) {
 }  // namespace
 
 Origin origin_of(const fs::path& place) {
+  const LooksAtOutput look;
   std::error_code ignored;
   if (!fs::is_regular_file(place, ignored) || fs::file_size(place, ignored) == 0) {
     return Origin::nowhere;

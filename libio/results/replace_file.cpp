@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "libio/results/own_file.hpp"
+#include "libio/text/files_in_use.hpp"
 
 namespace whirl::inline io {
 
@@ -44,19 +45,29 @@ void require_replaceable(const fs::path& place, Replaces what) {
       fmt::format("cannot write {}: this file {} and would be lost", place.string(), is));
 }
 
-FileReplacement::FileReplacement(const fs::path& place, Replaces what) : place_(place) {
+void require_place(const fs::path& place, Replaces what) {
   std::error_code ignored;
-  // what is behind a link is replaced, not the link
-  if (fs::is_symlink(place_, ignored)) place_ = fs::weakly_canonical(place_, ignored);
-  const fs::path directory = place_.has_parent_path() ? place_.parent_path() : ".";
-  if (!place_.has_filename()) fail(place, "this is not the name of a file");
-  if (fs::exists(place_, ignored) && !fs::is_regular_file(place_, ignored)) {
-    fail(place, fs::is_directory(place_, ignored) ? "it is a directory" : "it is not a file");
+  const fs::path file = behind_links(place);
+  const fs::path directory = file.has_parent_path() ? file.parent_path() : ".";
+  if (!file.has_filename()) {
+    fail(place,
+         place.has_filename() ? "its links lead in a circle" : "this is not the name of a file");
+  }
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
+    fail(place, fs::is_directory(file, ignored) ? "it is a directory" : "it is not a file");
   }
   if (!fs::is_directory(directory, ignored)) {
     fail(place, fmt::format("there is no directory {}", directory.string()));
   }
-  require_replaceable(place, what);
+  require_replaceable(file, what);
+}
+
+// what is behind a link is replaced, not the link
+FileReplacement::FileReplacement(const fs::path& place, Replaces what)
+    : place_(behind_links(place)) {
+  const std::string problem = problem_of_writing(place);
+  if (!problem.empty()) fail(place, problem);
+  require_place(place, what);
   temporary_ = place_;
   temporary_ += fmt::format(".tmp.{}", ::getpid());
 }
@@ -80,14 +91,6 @@ Replaces replaces_own(const fs::path& place, std::string_view head, Replaces wha
   std::string begin(head.size(), '\0');
   std::ifstream(place, std::ios::binary).read(begin.data(), std::ssize(begin));
   return begin == head ? Replaces::anything : what;
-}
-
-bool is_same_file(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  if (a.empty() || b.empty()) return false;  // no names
-  return fs::weakly_canonical(fs::absolute(a, ignored), ignored) ==
-             fs::weakly_canonical(fs::absolute(b, ignored), ignored) ||
-         fs::equivalent(a, b, ignored);
 }
 
 void replace_file(const fs::path& place, const std::function<void(std::ostream&)>& f,

@@ -30,6 +30,11 @@ enum class Replaces {
 /// @throws TakenPlace  if a file is there that may not be replaced
 void require_replaceable(const std::filesystem::path& place, Replaces what);
 
+/// Checks a place without writing there.
+/// @throws FileError  if there is no such directory, or if the place is taken by something that is not a
+///                    file, such as /dev/null, or by a file that may not be replaced
+void require_place(const std::filesystem::path& place, Replaces what);
+
 /// A file that is written under another name and takes its place when it is complete.
 ///
 /// Whoever opens the place finds the old file or the new one, whole, at whatever moment this
@@ -37,8 +42,7 @@ void require_replaceable(const std::filesystem::path& place, Replaces what);
 class FileReplacement {
  public:
   /// @param place  a file, which need not exist yet, in a directory that does
-  /// @throws FileError  if there is no such directory, or if the place is taken by something that
-  ///                    is not a file, such as /dev/null, or by a file that may not be replaced
+  /// @throws FileError  as require_place, and if the call of the program reads that file
   explicit FileReplacement(const std::filesystem::path& place,
                            Replaces what = Replaces::own_pictures);
   /// Removes what was written, unless it was committed.
@@ -61,9 +65,6 @@ class FileReplacement {
 /// What may be replaced: any file that begins as those of this program do, else as given.
 /// @param head  how they begin
 Replaces replaces_own(const std::filesystem::path& place, std::string_view head, Replaces what);
-
-/// Whether two names are those of one file, there or not.
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /// Replaces a file by what f writes.
 /// @throws FileError

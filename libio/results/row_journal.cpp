@@ -14,6 +14,7 @@
 #include "libbase/digest.hpp"
 #include "libio/results/hdf5/checksum.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libio/text/files_in_use.hpp"
 
 namespace whirl::inline io {
 
@@ -150,6 +151,9 @@ bool is_ours(int file) {
 
 RowJournal::RowJournal(const fs::path& place, std::string_view key, const ReadRow& f)
     : place_(place) {
+  if (const std::string problem = problem_of_writing(place); !problem.empty()) {
+    throw FileError(fmt::format("cannot write {}: {}", place.string(), problem));
+  }
   file_ = ::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (file_ < 0) fail_to(place, "write");
   try {

@@ -18,6 +18,7 @@
 #include "libio/results/result_schema.hpp"
 #include "libio/results/study_part.hpp"
 #include "libio/results/study_status.hpp"
+#include "libio/text/files_in_use.hpp"
 
 namespace whirl::inline io {
 
@@ -126,6 +127,7 @@ StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWri
   const bool goes_on = !place_.restarts && origin_of(place_.file) == Origin::result;
   if (goes_on) {
     const auto since = clock::now();
+    const LooksAtOutput look;
     resume(place_, place_.file, place_.call, "take another name, or --restart to replace it",
            [&](const ResultReader& earlier) {
              if (const auto work = read_work(earlier)) seconds_before_ = work->seconds;

@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "libio/text/files_in_use.hpp"
+
 namespace whirl::inline io {
 
 namespace {
@@ -46,6 +48,8 @@ Parsed<std::string> file_bytes(const std::filesystem::path& file, FileKind kind,
   if (kind == FileKind::regular && !is_regular) {
     return Result::failed("this is a device or a pipe, expected a file");
   }
+  const std::string lost = is_regular ? problem_of_reading(file) : "";
+  if (!lost.empty()) return Result::failed(lost);
   const auto too_large = [most] {
     return Result::failed(fmt::format("this is larger than {} MB", most >> 20u));
   };

@@ -57,6 +57,14 @@ Parsed<Value> parse_value(const std::string& text) {
   }
 }
 
+/// What becomes of the file whose name is the value of an option.
+enum class FileUse {
+  none,     ///< the value is no name of a file
+  read,     ///< or of several, where the placeholder says so: "FILE,..."
+  written,  ///< the verb writes it
+  stem      ///< the verb writes files whose names begin so
+};
+
 /// An option with its value.
 template <class Value>
 struct Option {
@@ -71,6 +79,9 @@ struct Option {
   Parse parse{};
   bool is_given = false;
   std::string text{};  ///< as it is given
+  FileUse use = FileUse::none;
+  std::string_view endings{};    ///< of a file that is written, as OptionSpec has them
+  std::string_view goes_with{};  ///< the option without which it counts for nothing; empty: none
 
   Option(std::string_view called, std::string_view what, std::string_view meaning,
          std::optional<Value> otherwise = {}, Parse read = parse_value<Value>)
@@ -91,6 +102,32 @@ struct Option {
     return wrong_option(std::string(name), text, std::move(problem));
   }
 };
+
+/// An option whose value names a file that is read.
+inline Option<std::string> file_option(std::string_view name, std::string_view placeholder,
+                                       std::string_view help) {
+  Option<std::string> option{name, placeholder, help};
+  option.use = FileUse::read;
+  return option;
+}
+
+/// An option whose value names a file that is written.
+/// @param endings  that such files have, ".json .txt"; empty: the verb asks for one
+inline Option<std::string> output_option(std::string_view name, std::string_view placeholder,
+                                         std::string_view help, std::string_view endings = "",
+                                         FileUse use = FileUse::written) {
+  Option<std::string> option{name, placeholder, help};
+  option.use = use;
+  option.endings = endings;
+  return option;
+}
+
+/// An option that counts for nothing without another one.
+template <class Value>
+Option<Value> going_with(std::string_view other, Option<Value> option) {
+  option.goes_with = other;
+  return option;
+}
 
 /// An option without a value.
 struct Flag {
@@ -116,8 +153,14 @@ struct OptionSpec {
   std::string_view help;
   std::string otherwise = "";  ///< the default; empty: none, or one that is decided elsewhere
   bool is_list = false;
+  FileUse use = FileUse::none;
+  /// That a file may have which is written, beside those that say nothing of what is in a file; empty:
+  /// any.
+  std::string_view endings = "";
+  std::string_view goes_with = "";  ///< the option without which it counts for nothing; empty: none
 
   bool is_flag() const { return value.empty(); }
+  bool writes() const { return use == FileUse::written || use == FileUse::stem; }
 };
 
 /// What the help says of an option, with its default in parentheses.
@@ -130,6 +173,9 @@ inline std::string help_of(const OptionSpec& option) {
 template <class Value>
 OptionSpec spec_of(const Option<Value>& option) {
   OptionSpec spec{option.name, option.placeholder, option.help};
+  spec.use = option.use;
+  spec.endings = option.endings;
+  spec.goes_with = option.goes_with;
   if constexpr (std::is_enum_v<Value>) {
     if (option) spec.otherwise = name_of(*option);
   } else if constexpr (std::is_arithmetic_v<Value> || std::same_as<Value, std::string>) {

@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <filesystem>
 
 #include "libbase/constants.hpp"
 #include "libio/text/parameter_axis.hpp"
@@ -16,11 +18,36 @@ namespace {
 
 constexpr int default_speeds = 101, default_frequencies = 401;
 
+/// Endings that say what is in a file, each between blanks.
+constexpr std::string_view endings_of_formats =
+    " .h5 .hdf5 .json .html .htm .svg .png .jpg .jpeg .gif .tif .tiff .pdf .eps .ps .ogv .mp4 .avi "
+    ".mkv .mov .webm .toml .csv .tsv .txt .wav .mat .uff .unv .ufb .vtk .vtu .vtp .pvd .xdmf .xmf "
+    ".mtx .npy .npz .xls .xlsx .ods .doc .docx .odt .md .tex .xml .yaml .yml .zip .gz ";
+
+bool is_among(const std::string& ending, std::string_view endings) {
+  return fmt::format(" {} ", endings).find(" " + ending + " ") != std::string::npos;
+}
+
 }  // namespace
 
 ModelError wrong_option(const std::string& option, const std::string& value, std::string problem) {
   return ModelError({fmt::format("--{}{}{}", option, value.empty() ? "" : " ", value)}, "",
                     std::move(problem));
+}
+
+std::string ending_problem(std::string_view file, std::string_view endings) {
+  if (file == "-") {
+    return is_among("-", endings)
+               ? ""
+               : "expected the name of a file; standard output, -, is for --json";
+  }
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool is_right = ending.empty() || endings.empty() || is_among(ending, endings);
+  if (is_right || !is_among(ending, endings_of_formats)) return "";
+  const std::string_view right = endings.substr(0, endings.find(' '));
+  return fmt::format("what is written is no {} file, expected a name that ends in {}",
+                     ending.substr(1), right);
 }
 
 Parsed<long> parse_whole(std::string_view text, long least) {

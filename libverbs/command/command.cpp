@@ -9,6 +9,7 @@
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/bare_speed.hpp"
+#include "libio/text/files_in_use.hpp"
 #include "libio/text/option_values.hpp"
 #include "libio/text/terminal.hpp"
 #include "libio/texts/problems_text.hpp"
@@ -34,6 +35,7 @@ void write_json(const Report& report, const std::string& to, Replaces replaces) 
   if (to == "-") {
     say(stdout, text);
   } else {
+    begin_last_output(to);
     replace_file(to, text, replaces);
   }
 }
@@ -107,6 +109,7 @@ int execute(const Verb& verb, CommandLine& line) {
 
 int run_command(const Verb& verb, const std::vector<std::string>& words, const StoredModel& stored,
                 const Ranks* ranks) {
+  const FilesInUse files;
   auto read = read_command_line(verb, words, stored);
   if (const int* status = std::get_if<int>(&read)) return *status;
   CommandLine& line = std::get<CommandLine>(read);
@@ -137,8 +140,11 @@ void serve_command(const Verb& verb, const std::vector<std::string>& words, cons
   if (!line) return;
   Invocation& call = line->call;
   call.ranks = &ranks;
-  call.sets.clear();  // the leader's model has them in it
-  for (const char* leaders : {"out", "json", "force", "restart"}) call.given.erase(leaders);
+  call.sets.clear();                                   // the leader's model has them in it
+  for (const OptionSpec& option : options_of(verb)) {  // the leader writes
+    if (option.writes()) call.given.erase(std::string(option.name));
+  }
+  for (const char* leaders : {"force", "restart"}) call.given.erase(leaders);
   call.given["quiet"] = {""};
   call.output = read_options<OutputOptions>(call.given);
   try {

@@ -1,10 +1,14 @@
 #include "libverbs/command/invocation.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "libio/model/model_file.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libio/text/files_in_use.hpp"
 #include "libio/text/interrupt.hpp"
+#include "libio/text/parameter_axis.hpp"
 #include "libverbs/command/arithmetic.hpp"
 #include "libverbs/command/verb.hpp"
 #include "libverbs/command/version.hpp"
@@ -64,19 +68,48 @@ Replaces Invocation::picture_replaces() const {
   return output.force ? Replaces::anything : Replaces::own_pictures;
 }
 
-CommandFiles Invocation::files() const {
-  const std::string json = output.json.value_or("");
-  const std::string_view kind = option_named(*verb_named(verb), "out")->value;
-  return {.input = model_text.empty() ? file : "",  // a stored model needs no file
-          .others = words,
-          .from = text("from"),
-          .out = out_file(),
-          .out_kind = kind == "FILE.h5" ? OutKind::result
-                      : kind == "NAME"  ? OutKind::stem
-                                        : OutKind::picture,
-          .svg = given.contains("svg") ? std::optional(text("svg")) : std::nullopt,
-          .json = json == "-" ? "" : json,
-          .is_forced = output.force};
+void Invocation::note_read_files() const {
+  const Verb& called = *verb_named(verb);
+  const auto take_down = [](const std::string& place, const std::string& by) {
+    const std::string problem = problem_of_reading(place, by);
+    if (!problem.empty()) throw FileError(fmt::format("cannot read {}: {}", place, problem));
+  };
+  if (model_text.empty() && !made) take_down(file, "it is the input of this command");
+  if (called.takes_more.ends_with(".h5")) {
+    for (const std::string& word : words) take_down(word, "this command reads it");
+  }
+  for (const OptionSpec& option : options_of(called)) {
+    if (option.use != FileUse::read) continue;
+    const std::string given_file = text(option.name);
+    const bool is_several = option.value.ends_with(",...");
+    for (const std::string& name : is_several ? split(given_file, ',') : std::vector{given_file}) {
+      take_down(name, fmt::format("--{} reads it", option.name));
+    }
+  }
+}
+
+void Invocation::note_written_files() const {
+  for (const OptionSpec& option : options_of(*verb_named(verb))) {
+    const bool is_last = option.name == "json", is_out = option.name == "out";
+    if (!option.writes() || !given.contains(option.name)) continue;
+    const std::string named = text(option.name);
+    const bool is_printed = is_last && named == "-";
+    const std::string place = is_out ? out_file() : named;
+    if (option.use == FileUse::written && !is_printed) {
+      const std::string problem =
+          problem_of_output(place, "--" + std::string(option.name), is_last);
+      if (!problem.empty()) throw FileError(fmt::format("cannot write {}: {}", place, problem));
+    }
+    const std::string problem = ending_problem(named, option.endings);
+    if (!problem.empty()) throw wrong_option(std::string(option.name), named, problem);
+    if (option.use != FileUse::written || is_printed) continue;
+    // what replaces files of its own kind looks at them itself
+    const bool is_result = is_out && option.value == "FILE.h5";
+    const bool is_picture = is_last || option.name == "svg";
+    require_place(place, is_result    ? result_replaces()
+                         : is_picture ? picture_replaces()
+                                      : Replaces::anything);
+  }
 }
 
 std::unique_ptr<ResultWriter> Invocation::begun(std::unique_ptr<ResultWriter> to,
@@ -102,7 +135,8 @@ std::unique_ptr<ResultWriter> Invocation::saved_file(const Model& model) const {
 void Invocation::prepare() {
   output = read_options<OutputOptions>(given);
   if (!ranks) adopt_arithmetic(text("isa"));  // ranks have agreed on one
-  require_free_places(files());
+  note_read_files();
+  note_written_files();
 }
 
 std::function<bool()> Invocation::stop_asked() const {

@@ -11,7 +11,7 @@
 #include "libbase/ranks.hpp"
 #include "libdyn/system/model.hpp"
 #include "libio/results/call.hpp"
-#include "libio/results/command_files.hpp"
+#include "libio/results/replace_file.hpp"
 #include "libio/results/study_part.hpp"
 #include "libio/text/option.hpp"
 #include "libio/text/record.hpp"
@@ -34,8 +34,9 @@ struct ModelOptions {
 
 /// Options of all verbs, behind their own.
 struct OutputOptions {
-  Option<std::string> out{"out", "FILE.h5", "result file (HDF5)"};
-  Option<std::string> json{"json", "FILE", "write the result as JSON; - is standard output"};
+  Option<std::string> out = output_option("out", "FILE.h5", "result file (HDF5)", ".h5 .hdf5");
+  Option<std::string> json = output_option(
+      "json", "FILE", "write the result as JSON; - is standard output", ".json .txt -");
   Option<long> threads{"threads", "N", "processors to use at most; left out: all that it may use"};
   Flag force{"force", "replace files that whirl did not write, too"};
   Flag quiet{"quiet", "print nothing but errors"};
@@ -87,9 +88,6 @@ class Invocation {
   /// The file of --out, or of this part of it; empty: none.
   std::string out_file() const;
 
-  /// The files that it reads and writes.
-  CommandFiles files() const;
-
   /// Whether somebody wants what a result file holds.
   bool wants_result() const { return output.out.is_given || kept; }
   /// Whether somebody looks at the record of its report, which of many points is large.
@@ -102,12 +100,15 @@ class Invocation {
   std::unique_ptr<ResultWriter> saved_file(const Model& model) const;
 
   /// Reads the options that all verbs have, and adopts what they say for the whole process.
-  /// @throws ModelError, FileError  for a wrong one, and for places that are not free
+  /// @throws ModelError, FileError  for a wrong one, and for places where nothing may be written: a file
+  ///         that is read or needed, another output, an ending that says another format
   void prepare();
   /// Tells whether to stop. Where nobody else is asked, Ctrl-C asks for it from now on.
   std::function<bool()> stop_asked() const;
 
  private:
+  void note_read_files() const;
+  void note_written_files() const;
   std::unique_ptr<ResultWriter> begun(std::unique_ptr<ResultWriter> to, const Model& model) const;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "libio/results/call.hpp"
 #include "libverbs/command/invocation.hpp"
 
 namespace whirl::inline cli {
@@ -32,6 +33,20 @@ std::vector<OptionSpec> options_of(const Verb& verb) {
     if (!is_own) all.push_back(option);
   }
   return all;
+}
+
+std::vector<std::string_view> left_out_again(const Verb& verb,
+                                             const std::vector<std::string>& added) {
+  const auto is_added = [&](std::string_view name) {
+    return std::any_of(added.begin(), added.end(),
+                       [&](const std::string& word) { return option_name(word) == name; });
+  };
+  std::vector<std::string_view> names;
+  for (const OptionSpec& option : options_of(verb)) {
+    const std::string_view other = option.goes_with;
+    if (option.writes() || (!other.empty() && !is_added(other))) names.push_back(option.name);
+  }
+  return names;
 }
 
 std::optional<OptionSpec> option_named(const Verb& verb, std::string_view name) {

@@ -19,7 +19,7 @@ inline Option<double> tolerance_option() {
   return {"tolerance", "T", "of a step, displacements by the clearance", 1e-10, parse_tolerance};
 }
 inline Option<std::string> from_option() {
-  return {"from", "FILE.h5", "start where a result ended"};
+  return file_option("from", "FILE.h5", "start where a result ended");
 }
 inline Option<std::string> isa_option() {
   return {"isa", "NAME",

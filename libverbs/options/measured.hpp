@@ -15,12 +15,13 @@ namespace whirl::inline cli {
 
 /// Options that say which record a verb takes.
 struct RecordVerbOptions {
-  Option<std::string> measured{
+  Option<std::string> measured = file_option(
       "measured", "FILE",
-      "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .ufb, .h5"};
-  Option<std::string> probes{"probes", "FILE.toml",
-                             "which channels of it are which probes; left out: those of the model, "
-                             "by their names"};
+      "a record of a measurement instead of a simulation: .csv, .wav, .mat, .uff, .ufb, .h5");
+  Option<std::string> probes =
+      file_option("probes", "FILE.toml",
+                  "which channels of it are which probes; left out: those of the model, by their "
+                  "names");
   Option<double> rate{"rate", "R", "samples per second, where the record does not say it",
                       parse_sampling_rate};
   auto fields() { return std::tie(measured, probes, rate); }
@@ -52,17 +53,20 @@ std::optional<OrderTracking> tracked_orders(const MeasuredVerbOptions& options,
 
 /// Options of verbs that write what a measurement of their motion would have recorded.
 struct RecordingVerbOptions {
-  Option<std::string> measure{"measure", "FILE.toml",
-                              "probes whose readings of the motion --measured-out takes; left out: "
-                              "those of the model"};
-  Option<std::string> out{
-      "measured-out", "FILE",
-      "a record as a measurement would have it: .csv, .wav, .mat, .uff, .ufb, .h5"};
-  Option<double> noise{"noise", "P",
-                       "of each of its channels, such as 1%: standard deviation, of "
-                       "the signal's",
-                       0.0, parse_noise_share};
-  Option<std::uint64_t> seed{"seed", "S", "of the noise", 1};
+  Option<std::string> measure = going_with(
+      "measured-out", file_option("measure", "FILE.toml",
+                                  "probes whose readings of the motion --measured-out takes; left "
+                                  "out: those of the model"));
+  Option<std::string> out =
+      output_option("measured-out", "FILE",
+                    "a record as a measurement would have it: .csv, .wav, .mat, .uff, .ufb, .h5");
+  Option<double> noise =
+      going_with("measured-out", Option<double>{"noise", "P",
+                                                "of each of its channels, such as 1%: standard "
+                                                "deviation, of the signal's",
+                                                0.0, parse_noise_share});
+  Option<std::uint64_t> seed =
+      going_with("measured-out", Option<std::uint64_t>{"seed", "S", "of the noise", 1});
   auto fields() { return std::tie(measure, out, noise, seed); }
 };
 

@@ -13,8 +13,8 @@ namespace whirl::inline cli {
 namespace {
 
 struct AnimateVerbOptions {
-  Option<std::string> out{
-      "out", "FILE", "video .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE"};
+  Option<std::string> out = output_option(
+      "out", "FILE", "video .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE");
   Option<long> mode{"mode", "N", "this mode; left out: the motion of a result, of others mode 1"};
   WindowVerbOptions window{
       .revolutions = {"revolutions", "N",

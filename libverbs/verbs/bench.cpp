@@ -22,7 +22,8 @@ struct BenchVerbOptions {
                                  "1e-4,1e-6,1e-8,1e-10,1e-12"};
   Option<std::string> isa = isa_option();
   Option<std::string> from = from_option();
-  Option<std::string> svg{"svg", "FILE", "picture of time over error, both logarithmic"};
+  Option<std::string> svg =
+      output_option("svg", "FILE", "picture of time over error, both logarithmic", ".svg");
   auto fields() { return std::tie(revolutions, discard, methods, tolerances, isa, from, svg); }
 };
 

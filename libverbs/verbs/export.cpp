@@ -18,8 +18,9 @@ struct ExportVerbOptions {
       "mat: M, C, G, K; vtu; with meshio abaqus, nastran, "
       "gmsh, exodus, med, stl, ...",
       "vtk"};
-  Option<std::string> out{"out", "NAME",
-                          "where the files go, without an ending; left out: beside FILE"};
+  Option<std::string> out =
+      output_option("out", "NAME", "where the files go, without an ending; left out: beside FILE",
+                    "", FileUse::stem);
   WindowVerbOptions window{
       .revolutions = {"revolutions", "N",
                       "revolutions of a motion, given alone: the last ones; left out: 4, xdmf 64"}};

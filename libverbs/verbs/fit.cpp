@@ -33,8 +33,8 @@ struct FitVerbOptions {
                      "the motion repeats after N revolutions: its average over all that count is "
                      "fitted to, as one that closes"};
   Flag offsets{"offsets", "find a constant that each probe adds, too, such as its gap"};
-  Option<std::string> against{"against", "FILE,...",
-                              "other models, told by their likelihood beside this one"};
+  Option<std::string> against =
+      file_option("against", "FILE,...", "other models, told by their likelihood beside this one");
   Option<int> starts{"starts", "N", "of the search, the first one at the model's values", 1};
   Option<std::uint64_t> seed = seed_option();
   auto fields() {

@@ -12,8 +12,9 @@ namespace whirl::inline cli {
 namespace {
 
 struct ImportVerbOptions {
-  Option<std::string> out{"out", "MODEL.toml",
-                          "where the model goes; left out: beside the file, with this ending"};
+  Option<std::string> out =
+      output_option("out", "MODEL.toml",
+                    "where the model goes; left out: beside the file, with this ending", ".toml");
   auto fields() { return std::tie(out); }
 };
 

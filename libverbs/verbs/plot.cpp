@@ -14,20 +14,21 @@ namespace whirl::inline cli {
 namespace {
 
 struct PlotVerbOptions {
-  Option<std::string> out{"out", "FILE",
-                          "picture, .svg, .png or .pdf; left out: .svg beside the result"};
+  Option<std::string> out =
+      output_option("out", "FILE", "picture, .svg, .png or .pdf; left out: .svg beside the result");
   Option<std::string> which{
       "which", "NAME",
       "of several of a kind: the station, probe, contact or plane; left out: the first"};
-  Option<std::string> with{
+  Option<std::string> with = file_option(
       "with", "OTHER.h5",
-      "branches over bifurcation, bifurcation curves over map, where both are of the same values"};
+      "branches over bifurcation, bifurcation curves over map, where both are of the same values");
   Option<PrintedSides> size{
       "size", "WxHmm", "of the printed picture, such as 85x60mm; cm, in and pt too", parse_sides};
   Option<double> font{
       "font", "PT", "letters of axes and legend in points; left out: 9, with --size 8", parse_font};
   Flag no_title{"no-title", "without title and subtitle, for a caption below"};
-  Option<PictureFormat> format{"format", "F", "svg, png or pdf, whatever --out ends in"};
+  Option<PictureFormat> format{"format", "F",
+                               "svg, png or pdf, where --out does not end in one of them"};
   WindowVerbOptions window{
       .revolutions = {"revolutions", "N",
                       "revolutions of a motion, given alone: the last ones; left out: 8, orbit 48, "
@@ -52,8 +53,12 @@ Report list_of(const Invocation& call, const PlotVerbOptions& options, const Res
 }
 
 PictureFormat format_of(const PlotVerbOptions& options) {
-  if (options.format) return *options.format;
   const std::string out = options.out.value_or("");
+  if (options.format) {
+    const std::string problem = ending_problem(out, fmt::format(".{}", name_of(*options.format)));
+    if (!problem.empty()) throw options.out.wrong(problem);
+    return *options.format;
+  }
   return out.empty() ? PictureFormat::svg : parsed_option("out", out, picture_format_of);
 }
 

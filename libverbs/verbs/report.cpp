@@ -16,7 +16,8 @@ namespace whirl::inline cli {
 namespace {
 
 struct ReportVerbOptions {
-  Option<std::string> out{"out", "FILE.html", "the page; left out: beside the result"};
+  Option<std::string> out =
+      output_option("out", "FILE.html", "the page; left out: beside the result", ".html .htm");
   Option<std::string> frequency = frequency_option();
   auto fields() { return std::tie(out, frequency); }
 };

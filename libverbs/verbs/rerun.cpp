@@ -2,6 +2,7 @@
 
 #include "libio/results/call.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libio/text/files_in_use.hpp"
 #include "libio/text/terminal.hpp"
 #include "libverbs/command/command.hpp"
 #include "libverbs/command/exit_status.hpp"
@@ -22,6 +23,7 @@ int run_rerun(const std::vector<std::string>& words, const Ranks* ranks) {
     say(stdout, rerun_usage);
     return exit_status::wrong_input;
   }
+  const FilesInUse files;
   const std::string& file = words[0];
   Call call;
   std::string text;
@@ -37,8 +39,9 @@ int run_rerun(const std::vector<std::string>& words, const Ranks* ranks) {
     say(stderr, fmt::format("whirl: {} does not hold the command that made it\n", file));
     return exit_status::wrong_input;
   }
-  std::vector<std::string> line = words_again("whirl", call);
-  line.insert(line.end(), words.begin() + 1, words.end());
+  const std::vector<std::string> added(words.begin() + 1, words.end());
+  std::vector<std::string> line = words_again("whirl", call, left_out_again(*verb, added));
+  line.insert(line.end(), added.begin(), added.end());
   return run_command(*verb, line, {text, call.sets}, ranks);
 }
 

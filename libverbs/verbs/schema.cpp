@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <optional>
 
 #include "libio/model/model_schema.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/text/terminal.hpp"
 #include "libverbs/command/exit_status.hpp"
 #include "libverbs/command/verb.hpp"
+#include "libverbs/command/words.hpp"
 
 namespace whirl::inline cli {
 
@@ -20,43 +20,31 @@ constexpr std::string_view schema_usage =
     "#:schema ./FILE.json\n";
 
 struct SchemaOptions {
-  std::string out;  ///< empty: standard output
-  bool is_forced = false;
+  Option<std::string> out =
+      output_option("out", "FILE.json", "where it goes; left out: standard output", ".json .txt");
+  Flag force{"force", "replace a file that whirl did not write, too"};
+  Flag quiet{"quiet", "print nothing but errors"};
+  auto fields() { return std::tie(out, force, quiet); }
 };
-
-/// What words ask for, in any order; nothing where they mean nothing.
-std::optional<SchemaOptions> options_in(const std::vector<std::string>& words) {
-  constexpr std::string_view out = "--out";
-  SchemaOptions asked;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::string& word = words[i];
-    if (word == out && i + 1 < words.size()) {
-      asked.out = words[++i];
-    } else if (word.starts_with(out) && word.substr(out.size(), 1) == "=") {
-      asked.out = word.substr(out.size() + 1);
-    } else if (word == "--force") {
-      asked.is_forced = true;
-    } else if (word != "--quiet") {  // it says nothing anyway
-      return std::nullopt;
-    }
-  }
-  return asked;
-}
 
 /// The schema of model files, to a file or to standard output.
 int run_schema(const std::vector<std::string>& words, const Ranks*) {
-  const auto asked = options_in(words);
-  if (!asked) {
+  const auto sorted = sorted_words(words, specs_of<SchemaOptions>());
+  const auto* read = std::get_if<SortedWords>(&sorted);
+  if (!read || !read->alone.empty()) {
     say(stderr, schema_usage);
     return exit_status::wrong_input;
   }
+  const auto asked = read_options<SchemaOptions>(read->given);
   const std::string text = model_schema().json();
-  if (asked->out.empty()) {
+  if (!asked.out) {
     say(stdout, text);
     return after_printing(exit_status::done);
   }
   try {
-    replace_file(asked->out, text, asked->is_forced ? Replaces::anything : Replaces::own_pictures);
+    const std::string problem = ending_problem(*asked.out, asked.out.endings);
+    if (!problem.empty()) throw FileError(fmt::format("--out {}: {}", *asked.out, problem));
+    replace_file(*asked.out, text, asked.force ? Replaces::anything : Replaces::own_pictures);
   } catch (const FileError& error) {
     return refused(error);
   }
@@ -74,8 +62,7 @@ Verb schema_verb() {
       .example = "whirl schema --out whirl.schema.json",
       .run_words = run_schema,
       .usage = schema_usage,
-      .options_in_words = {{"out", "FILE.json", "where it goes; left out: standard output"},
-                           {"force", "", "replace a file that whirl did not write, too"}},
+      .options_in_words = specs_of<SchemaOptions>(),
   };
 }
 

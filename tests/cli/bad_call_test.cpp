@@ -209,12 +209,12 @@ TEST_F(BadCall, PlacesThatCannotBeWrittenAreSaidBeforeTheWork) {
 
 // A slip of the pen must not cost the model: results take the place of results only.
 TEST_F(BadCall, ResultsReplaceNothingButResults) {
-  write("table.csv", "speed, kxx, kyy\n0, 1, 1\n");
+  write("table", "speed, kxx, kyy\n0, 1, 1\n");
   EXPECT_EQ(
-      problem_of_line({"modes", "rotor.toml", "--out", "rotor.toml"}),
-      "whirl: cannot write rotor.toml: this file is no result of whirl and would be lost; take "
+      problem_of_line({"modes", "rotor.toml", "--out", "table"}),
+      "whirl: cannot write table: this file is no result of whirl and would be lost; take "
       "another name, or --force to replace it\n");
-  EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--out", "table.csv"}), "would be lost"));
+  EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--out", "rotor.toml"}), "is the input"));
   for (const char* name : {"rotor.toml", "./rotor.toml"}) {
     EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--json", name}),
                     "it is the input of this command"));
@@ -222,7 +222,7 @@ TEST_F(BadCall, ResultsReplaceNothingButResults) {
   EXPECT_TRUE(has(problem_of_line({"modes", "rotor.toml", "--out", "x.h5", "--json", "./x.h5"}),
                   "--out and --json name the same file"));
   EXPECT_EQ(content(folder / "rotor.toml"), jeffcott);
-  EXPECT_EQ(content(folder / "table.csv"), "speed, kxx, kyy\n0, 1, 1\n");
+  EXPECT_EQ(content(folder / "table"), "speed, kxx, kyy\n0, 1, 1\n");
 }
 
 // Standard output on a full disk.

@@ -83,6 +83,45 @@ TEST_F(Parts, OfOtherStudiesAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder / "atlas.h5"));
 }
 
+// Where the name of the whole is forgotten, the first part stands in its place: no file is touched.
+TEST_F(Parts, AForgottenNameOfTheWholeCostsNoPart) {
+  for (const char* part : {"1/2", "2/2"}) {
+    ASSERT_EQ(whirl(with(map, {"--out", "atlas.h5", "--part", part})).status, 0);
+  }
+  const std::string before = content(folder / "atlas.part1of2.h5");
+  const Outcome forgotten = whirl({"merge", "atlas.part1of2.h5", "atlas.part2of2.h5", "--force"});
+  EXPECT_EQ(forgotten.status, 2);
+  EXPECT_NE(forgotten.err.find("name the file of the whole before it"), std::string::npos)
+      << forgotten.err;
+  EXPECT_EQ(content(folder / "atlas.part1of2.h5"), before);
+  EXPECT_EQ(whirl({"merge", "atlas.part1of2.h5", "atlas.part1of2.h5"}).status, 2);
+  // a file of another study in its place is kept, too
+  ASSERT_EQ(whirl({"modes", stator, "--out", "modes.h5"}).status, 0);
+  const std::string modes = content(folder / "modes.h5");
+  EXPECT_EQ(whirl({"merge", "modes.h5", "atlas.part1of2.h5", "--force"}).status, 2);
+  EXPECT_EQ(content(folder / "modes.h5"), modes);
+}
+
+// Options may stand before, between and behind the files.
+TEST_F(Parts, AreJoinedWithOptionsAnywhere) {
+  for (const char* part : {"1/2", "2/2"}) {
+    ASSERT_EQ(whirl(with(map, {"--out", "atlas.h5", "--part", part})).status, 0);
+  }
+  const std::string one = "atlas.part1of2.h5", two = "atlas.part2of2.h5";
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"merge", "atlas.h5", one, two, "--quiet"},
+        {"merge", "--quiet", "atlas.h5", one, two},
+        {"merge", "atlas.h5", "--json", "a.json", one, "--quiet", two}}) {
+    const Outcome merged = whirl(words);
+    EXPECT_EQ(merged.status, 0) << merged.err;
+    EXPECT_EQ(merged.out, "");
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder / "a.json"));
+  const Outcome wrong = whirl({"merge", "atlas.h5", one, "--quite"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("did you mean \"--quiet\"?"), std::string::npos) << wrong.err;
+}
+
 TEST_F(Parts, AreAskedForRightly) {
   for (const auto& [part, problem] : std::vector<std::pair<std::string, std::string>>{
            {"4/3", "such as 3/40"}, {"0/3", "such as 3/40"}, {"3", "such as 3/40"}}) {

@@ -112,7 +112,7 @@ TEST(CallWords, AgainAreThoseThatCount) {
                   .file = "r.toml",
                   .sets = {"a=1"},
                   .options = {"--discard=300", "--out=x.h5", "--force", "--fresh", "--json=-"}};
-  EXPECT_EQ(words_again("whirl", call),
+  EXPECT_EQ(words_again("whirl", call, {"out", "json"}),
             (Words{"whirl", "simulate", "r.toml", "--discard=300", "--fresh"}));
 }
 
