@@ -122,7 +122,8 @@ Modes sorted(QuadraticModes found, const System& system, const FreeBody& body, i
       modes.rigid_body.push_back(mode_of(is_zero ? Complex(0.0) : lambda, q, system.dofs));
     } else if (oscillates(lambda)) {
       modes.oscillatory.push_back(mode_of(lambda, q, system.dofs));
-    } else if (refinement.improve(lambda, q, reach_of(lambda, found.lambda))) {
+    } else if (refinement.improve(lambda, q, reach_of(lambda, found.lambda)) &&
+               !refinement.is_infinite(lambda, q)) {
       modes.overdamped.push_back(lambda);
     }
   }

@@ -40,6 +40,11 @@ bool Refinement::balances(Complex lambda, const CVec& q) const {
          unbalanced * (inertia.norm() + damping.norm() + elastic.norm());
 }
 
+bool Refinement::is_infinite(Complex lambda, const CVec& q) const {
+  const double size = std::abs(lambda);
+  return size * size * size_M_ > size * size_D_ + size_K_ && !balances(lambda, q);
+}
+
 bool Refinement::improve(Complex& lambda, CVec& q, double reach) {
   double error = backward_error(lambda, q);
   const Complex start = lambda;
