@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
@@ -29,14 +31,31 @@ struct UnbalanceVerbOptions {
   auto fields() { return std::tie(speeds, stations, axes); }
 };
 
+/// Whether the rotor is unstable at its operating speed with the first or last of the values.
+std::vector<std::string> notes_at_ends(const LinearAxis& over) {
+  std::vector<std::string> notes;
+  const std::vector<double>& values = over.axis().values;
+  for (const double value : {values.front(), values.back()}) {
+    const Model model = over.model_at()(value);
+    for (const std::string& note :
+         unstable_notes(Assembler(linear_structure(model)), {model.speed})) {
+      notes.push_back(
+          fmt::format("at the {} value {}", value == values.back() ? "last" : "first", note));
+    }
+  }
+  return notes;
+}
+
 Report run_response_over(const Invocation& call, const UnbalanceVerbOptions& options) {
   const LinearAxis over(call, options.axes);
   const UnbalanceOver found = unbalance_over(
       over.model_at(), over.axis().name(), over.axis().values,
       {.speeds = [&](const Model& m) { return options.speeds.value_or(speeds_of(m)); },
        .stations = options.stations.is_given ? *options.stations : ""});
+  std::vector<std::string> notes = notes_of_unbalance_over(over.model());
+  for (const std::string& note : notes_at_ends(over)) notes.push_back(note);
   return over_report(call, over, "Unbalance response over a value", found,
-                     text_of(found, over.axis()), notes_of_unbalance_over(over.model()));
+                     text_of(found, over.axis()), notes);
 }
 
 Report run_unbalance(const Invocation& call, const UnbalanceVerbOptions& options) {

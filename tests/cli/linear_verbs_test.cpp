@@ -46,6 +46,7 @@ damping = 1000
   const std::vector<std::vector<std::string>> calls{
       {"unbalance", "--speeds", "0:6000:500rpm"},
       {"frf", "--from", "disk:x", "--to", "disk:x", "--frequencies", "10:100:10Hz"},
+      {"unbalance", "--speeds", "0:6000:500rpm", "--over", "bearing.1.damping=900:1000:100"},
       {"campbell", "--speeds", "0:6000:500rpm"}};
   for (std::vector<std::string> call : calls) {
     SCOPED_TRACE(call.front());
