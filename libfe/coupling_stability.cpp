@@ -26,7 +26,7 @@ constexpr double coarse_step = 0.5;  ///< likewise, where a border below the lea
 constexpr double far_off = 0.25;     ///< Q_0 known so far times the receptance there
 constexpr double near_axis = 0.25;   ///< of a step: it may cross the axis twice
 constexpr double all_rounding = 1e12;  ///< Q times the static receptance
-constexpr int most_halvings = 12;      ///< of a step
+constexpr int most_splits = 12;        ///< of a step
 constexpr int most_steps = 200000;     ///< of a scan
 constexpr double last_decades = 1e3;   ///< times the fastest eigenvalue, where none was found
 
@@ -228,7 +228,7 @@ class BorderScan {
   /// From w to next, in halves where it is not clear what is between.
   Inverses walk(double w, const Inverses& here, double next, int halvings) {
     const Inverses there = at(next).as(here.p);
-    if (halvings < most_halvings && (!there.is_like(here) || is_near(here, there, halvings))) {
+    if (halvings < most_splits && (!there.is_like(here) || is_near(here, there, halvings))) {
       const double middle = 0.5 * (w + next);
       return walk(middle, walk(w, here, middle, halvings + 1), next, halvings + 1);
     }
