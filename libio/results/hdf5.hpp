@@ -139,15 +139,15 @@ class ResultWriter {
  private:
   /// Makes a dataset that holds nothing yet.
   /// @return  HDF5's handle
-  std::int64_t create(const std::string& path, std::int64_t type,
+  std::int64_t create(const std::string& path, ObjectKind kind,
                       const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
-  void write(const std::string& path, std::int64_t type, const void* values,
+  void write(const std::string& path, ObjectKind kind, const void* values,
              const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
   /// @param values  with so many elements as the shape says
   template <class Value>
-  void write_or_keep(const std::string& path, std::int64_t type, const Value* values,
+  void write_or_keep(const std::string& path, ObjectKind kind, const Value* values,
                      const std::vector<Eigen::Index>& shape, const DatasetInfo& info);
-  void write_attribute(const std::string& object, const std::string& name, std::int64_t type,
+  void write_attribute(const std::string& object, const std::string& name, ObjectKind kind,
                        const void* value);
 
   std::optional<FileReplacement> file_{};

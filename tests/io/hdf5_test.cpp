@@ -321,4 +321,22 @@ TEST_F(ResultFile, ErrorsAreSilentInEveryThread) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+// A reader's child copies what other threads hold: were one of them inside HDF5, the child would wait
+// for it for ever, and this test with it.
+TEST_F(ResultFile, IsReadWhileOtherThreadsWrite) {
+  write_example(path);
+  std::vector<std::jthread> writers;
+  for (int i = 0; i < 3; ++i) {
+    writers.emplace_back([&, i](const std::stop_token& end) {
+      while (!end.stop_requested()) {
+        ResultWriter out(folder / ("other" + std::to_string(i) + ".h5"));
+        for (int j = 0; j < 50; ++j) {
+          out.dataset("/" + std::to_string(j), CVec(CVec::Ones(3)), {"m", "ones"});
+        }
+      }
+    });
+  }
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(ResultReader(path).has("/modes"));
+}
+
 }  // namespace whirl::hdf5_test

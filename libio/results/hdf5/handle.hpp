@@ -1,5 +1,9 @@
 #pragma once
 /// What reading and writing HDF5 share. For the files of this folder only, which alone see HDF5.
+///
+/// Every call of HDF5 happens while an Attempt lives or library_lock() is held, the names of types
+/// included (H5T_NATIVE_DOUBLE is a call): a child made meanwhile by another thread would wait for
+/// ever for HDF5's own lock.
 
 #include <fmt/format.h>
 #include <hdf5.h>
@@ -13,6 +17,7 @@
 
 #include "libbase/linalg.hpp"
 #include "libio/results/confined_child.hpp"
+#include "libio/results/hdf5.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io::hdf5 {
@@ -100,6 +105,14 @@ inline Handle complex_type() {
   H5Tinsert(type, "r", 0, H5T_NATIVE_DOUBLE);
   H5Tinsert(type, "i", sizeof(double), H5T_NATIVE_DOUBLE);
   return type;
+}
+
+/// The type of numbers and texts in memory.
+/// @param kind  real, integer, complex or text
+inline Handle type_of(ObjectKind kind) {
+  if (kind == ObjectKind::text) return text_type();
+  if (kind == ObjectKind::complex) return complex_type();
+  return Handle(H5Tcopy(kind == ObjectKind::integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE));
 }
 
 /// Files are private to their writer and never change under a reader: no locks are needed, which

@@ -106,7 +106,7 @@ void ResultWriter::write(const KeptResult& kept) {
       dataset(d.path, *integers, d.shape, d.info);
     } else {
       const auto& complexes = std::get<std::vector<Complex>>(d.values);
-      write_or_keep(d.path, complex_type(), complexes.data(), d.shape, d.info);
+      write_or_keep(d.path, ObjectKind::complex, complexes.data(), d.shape, d.info);
     }
   }
   for (const KeptResult::Attribute& a : kept.attributes) {
@@ -115,8 +115,9 @@ void ResultWriter::write(const KeptResult& kept) {
 }
 
 void ResultWriter::write_attribute(const std::string& object, const std::string& name,
-                                   std::int64_t type, const void* value) {
+                                   ObjectKind kind, const void* value) {
   const Attempt attempt(file_->place(), "write attribute", object + '@' + name);
+  const Handle type = type_of(kind);
   if (object != "/" && !exists(id_, object)) make_groups(attempt, id_, object + '/');
   const Handle owner(attempt(H5Oopen(id_, object.c_str(), H5P_DEFAULT)));
   if (H5Aexists(owner, name.c_str()) > 0) attempt(H5Adelete(owner, name.c_str()));
@@ -131,22 +132,23 @@ void ResultWriter::attribute(const std::string& object, const std::string& name,
   if (kept_) kept_->attributes.push_back({object, name, value});
   if (!file_) return;
   const char* text = value.c_str();
-  write_attribute(object, name, text_type(), &text);
+  write_attribute(object, name, ObjectKind::text, &text);
 }
 
 void ResultWriter::attribute(const std::string& object, const std::string& name, double value) {
   if (kept_) kept_->attributes.push_back({object, name, value});
-  if (file_) write_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+  if (file_) write_attribute(object, name, ObjectKind::real, &value);
 }
 
 void ResultWriter::attribute(const std::string& object, const std::string& name, int value) {
   if (kept_) kept_->attributes.push_back({object, name, value});
-  if (file_) write_attribute(object, name, H5T_NATIVE_INT, &value);
+  if (file_) write_attribute(object, name, ObjectKind::integer, &value);
 }
 
-std::int64_t ResultWriter::create(const std::string& path, std::int64_t type,
+std::int64_t ResultWriter::create(const std::string& path, ObjectKind kind,
                                   const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
   const Attempt attempt(file_->place(), "write dataset", path);
+  const Handle type = type_of(kind);
   const std::vector<hsize_t> sizes(shape.begin(), shape.end());
   hsize_t count = 1;
   for (const hsize_t size : sizes) count *= size;
@@ -157,7 +159,7 @@ std::int64_t ResultWriter::create(const std::string& path, std::int64_t type,
   make_groups(attempt, id_, path);
   const std::size_t item_bytes = H5Tget_size(type);
   const bool is_compressed =
-      count * item_bytes > uncompressed_bytes && H5Tget_class(type) != H5T_STRING;
+      count * item_bytes > uncompressed_bytes && kind != ObjectKind::text;
   if (is_compressed) {
     const auto chunk = chunks(sizes, item_bytes);
     attempt(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()));
@@ -172,8 +174,8 @@ std::int64_t ResultWriter::create(const std::string& path, std::int64_t type,
   Handle dataset(
       attempt(H5Dcreate2(id_, path.c_str(), type, space, H5P_DEFAULT, properties, access)));
   const char *units = info.units.c_str(), *long_name = info.long_name.c_str();
-  write_attribute(path, "units", text_type(), &units);
-  write_attribute(path, "long_name", text_type(), &long_name);
+  write_attribute(path, "units", ObjectKind::text, &units);
+  write_attribute(path, "long_name", ObjectKind::text, &long_name);
 
   if (info.axes.size() > sizes.size()) attempt.fail("more axes than dimensions");
   for (std::size_t i = 0; i < info.axes.size(); ++i) {
@@ -193,10 +195,10 @@ std::int64_t ResultWriter::create(const std::string& path, std::int64_t type,
   return dataset.release();
 }
 
-void ResultWriter::write(const std::string& path, std::int64_t type, const void* values,
+void ResultWriter::write(const std::string& path, ObjectKind kind, const void* values,
                          const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
-  const Handle dataset(create(path, type, shape, info));
   const Attempt attempt(file_->place(), "write dataset", path);
+  const Handle type = type_of(kind), dataset(create(path, kind, shape, info));
   if (std::count(shape.begin(), shape.end(), 0) == 0) {
     attempt(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
   }
@@ -216,7 +218,7 @@ DatasetBlocks ResultWriter::dataset_blocks(const std::string& path, ObjectKind k
     if (is_integer) kept_->datasets.back().values = std::vector<int>();
   }
   if (file_)
-    blocks.id_ = create(path, is_integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE, shape, info);
+    blocks.id_ = create(path, is_integer ? ObjectKind::integer : ObjectKind::real, shape, info);
   return blocks;
 }
 
@@ -274,51 +276,51 @@ void DatasetBlocks::finish() {
 }
 
 template <class Value>
-void ResultWriter::write_or_keep(const std::string& path, std::int64_t type, const Value* values,
+void ResultWriter::write_or_keep(const std::string& path, ObjectKind kind, const Value* values,
                                  const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
   if (kept_) {
     const std::vector<Value> all(values, values + numbers_of(shape));
     kept_->datasets.push_back({path, all, shape, info});
   }
-  if (file_) write(path, type, values, shape, info);
+  if (file_) write(path, kind, values, shape, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const Vec& values, const DatasetInfo& info) {
-  write_or_keep(path, H5T_NATIVE_DOUBLE, values.data(), {values.size()}, info);
+  write_or_keep(path, ObjectKind::real, values.data(), {values.size()}, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const Mat& values, const DatasetInfo& info) {
-  write_or_keep(path, H5T_NATIVE_DOUBLE, row_major(values).data(), {values.rows(), values.cols()},
+  write_or_keep(path, ObjectKind::real, row_major(values).data(), {values.rows(), values.cols()},
                 info);
 }
 
 void ResultWriter::dataset(const std::string& path, const CVec& values, const DatasetInfo& info) {
-  write_or_keep(path, complex_type(), values.data(), {values.size()}, info);
+  write_or_keep(path, ObjectKind::complex, values.data(), {values.size()}, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const CMat& values, const DatasetInfo& info) {
-  write_or_keep(path, complex_type(), row_major(values).data(), {values.rows(), values.cols()},
+  write_or_keep(path, ObjectKind::complex, row_major(values).data(), {values.rows(), values.cols()},
                 info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<double>& values,
                            const DatasetInfo& info) {
-  write_or_keep(path, H5T_NATIVE_DOUBLE, values.data(), {std::ssize(values)}, info);
+  write_or_keep(path, ObjectKind::real, values.data(), {std::ssize(values)}, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<int>& values,
                            const DatasetInfo& info) {
-  write_or_keep(path, H5T_NATIVE_INT, values.data(), {std::ssize(values)}, info);
+  write_or_keep(path, ObjectKind::integer, values.data(), {std::ssize(values)}, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<double>& values,
                            const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
-  write_or_keep(path, H5T_NATIVE_DOUBLE, values.data(), shape, info);
+  write_or_keep(path, ObjectKind::real, values.data(), shape, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<int>& values,
                            const std::vector<Eigen::Index>& shape, const DatasetInfo& info) {
-  write_or_keep(path, H5T_NATIVE_INT, values.data(), shape, info);
+  write_or_keep(path, ObjectKind::integer, values.data(), shape, info);
 }
 
 void ResultWriter::dataset(const std::string& path, const std::vector<std::string>& values,
@@ -327,7 +329,7 @@ void ResultWriter::dataset(const std::string& path, const std::vector<std::strin
   if (!file_) return;
   std::vector<const char*> texts;
   for (const std::string& value : values) texts.push_back(value.c_str());
-  write(path, text_type(), texts.data(), {std::ssize(texts)}, info);
+  write(path, ObjectKind::text, texts.data(), {std::ssize(texts)}, info);
 }
 
 }  // namespace whirl::inline io
