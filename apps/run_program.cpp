@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cstdio>
 
 #include "libbase/travel.hpp"
@@ -9,6 +10,7 @@
 #include "libio/text/terminal.hpp"
 #include "libverbs/command/command.hpp"
 #include "libverbs/command/exit_status.hpp"
+#include "libverbs/command/field_words.hpp"
 #include "libverbs/command/verb.hpp"
 #include "libverbs/command/version.hpp"
 
@@ -33,8 +35,14 @@ std::string overview() {
          "More: whirl VERB --help, docs/command-line.md, docs/model-file.md\n";
 }
 
-/// A verb that does not exist, with the nearest one.
+/// A verb that does not exist, with where the field's word leads, or with the nearest one.
 int unknown_verb(const std::string& word) {
+  std::string plain = word;
+  for (char& c : plain) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (const std::string_view place = place_of(plain); !place.empty()) {
+    say(stderr, fmt::format("whirl: there is no verb \"{}\"; it is {}\n", word, place));
+    return exit_status::wrong_input;
+  }
   std::vector<std::string> known;
   for (const Verb& verb : verbs()) known.emplace_back(verb.name);
   for (const char* option : {"--help", "--version"}) known.emplace_back(option);

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "libbase/cgroups.hpp"
+
 namespace whirl::inline base {
 
 namespace {
@@ -60,56 +62,12 @@ std::optional<double> quota_v1(const fs::path& group) {
   return quota / period;
 }
 
-std::optional<double> smaller(const std::optional<double>& a, const std::optional<double>& b) {
-  if (!a || !b) return a ? a : b;
-  return std::min(*a, *b);
-}
-
-/// The smallest quota of a cgroup and of all that it is in.
-/// @param mount  where the groups are
-/// @param path   of the group there, "/a/b"
-template <class QuotaOf>
-std::optional<double> quota_along(const fs::path& mount, const fs::path& path,
-                                  const QuotaOf& quota_of) {
-  fs::path group = path.lexically_normal().relative_path();
-  std::optional<double> least = quota_of(mount);
-  for (; !group.empty(); group = group.parent_path()) {
-    least = smaller(least, quota_of(mount / group));
-  }
-  return least;
-}
-
-bool has_word(std::string_view list, std::string_view word) {
-  for (std::size_t begin = 0; begin <= list.size();) {
-    const std::size_t end = std::min(list.find(',', begin), list.size());
-    if (list.substr(begin, end - begin) == word) return true;
-    begin = end + 1;
-  }
-  return false;
-}
-
-/// What the cgroups of this process allow; their lines are "hierarchy:controllers:path".
+/// What the cgroups of this process allow.
 std::optional<double> cgroup_quota(const fs::path& root) {
-  const fs::path mounts = root / "sys/fs/cgroup";
-  std::ifstream groups(root / "proc/self/cgroup");
-  std::optional<double> least;
-  for (std::string line; std::getline(groups, line);) {
-    const std::size_t first = line.find(':');
-    const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
-    if (second == std::string::npos) continue;
-    const std::string controllers = line.substr(first + 1, second - first - 1);
-    const fs::path path = line.substr(second + 1);
-    if (line.starts_with("0::")) {
-      for (const fs::path& mount : {mounts, mounts / "unified"}) {  // alone, and beside version 1
-        least = smaller(least, quota_along(mount, path, quota_v2));
-      }
-    } else if (has_word(controllers, "cpu")) {
-      for (const char* name : {"cpu", "cpu,cpuacct", "cpuacct,cpu"}) {
-        least = smaller(least, quota_along(mounts / name, path, quota_v1));
-      }
-    }
-  }
-  return least;
+  return least_of_cgroups(root, {.name = "cpu",
+                                 .mounts = {"cpu", "cpu,cpuacct", "cpuacct,cpu"},
+                                 .of_v1 = quota_v1,
+                                 .of_v2 = quota_v2});
 }
 
 }  // namespace

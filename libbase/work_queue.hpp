@@ -8,6 +8,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -20,9 +21,13 @@ namespace whirl::inline base {
 template <class Result>
 class WorkQueue {
  public:
+  /// @param threads  wanted; where the system gives no more (`ulimit -u`), those that it gave do it
   explicit WorkQueue(int threads) {
-    for (int i = 0; i < threads; ++i) {
-      threads_.emplace_back([this](std::stop_token stop) { work(stop); });
+    try {
+      for (int i = 0; i < threads; ++i) {
+        threads_.emplace_back([this](std::stop_token stop) { work(stop); });
+      }
+    } catch (const std::system_error&) {
     }
   }
   /// What has not begun is dropped; what has is waited for.

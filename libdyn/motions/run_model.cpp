@@ -1,11 +1,13 @@
 #include "libdyn/motions/run_model.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
 
 #include "libbase/error.hpp"
+#include "libbase/memory.hpp"
 
 namespace whirl::inline dyn {
 
@@ -19,19 +21,6 @@ double bytes_of_sample(int coordinates, std::size_t contacts, std::size_t writte
   constexpr double of_station = 27.0;
   return of_coordinate * coordinates + of_contact * static_cast<double>(contacts) + of_transform +
          of_station * static_cast<double>(written_stations);
-}
-
-/// Whether a run fits this machine's memory; a wrong number of zeros is said at once.
-void require_memory(const SimulationOptions& options, double bytes) {
-  const double needed = bytes * options.samples * static_cast<double>(options.revolutions);
-  const double there =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  if (needed < there) return;
-  throw ModelError(
-      {fmt::format("{} revolutions", options.revolutions)}, "",
-      fmt::format("with {} samples each these take {:.0f} GB, this machine has {:.0f} GB; record "
-                  "fewer, those that are discarded take no memory",
-                  options.samples, 1e-9 * needed, 1e-9 * there));
 }
 
 /// The method of a name; empty: the one that suits.
@@ -56,8 +45,12 @@ Run run_model(const Model& model, const RunOptions& options,
   std::vector<NamedPoint> stations = select_points(model, scene.assembler, options.stations);
   // a probe takes no more than a station
   const std::size_t written_stations = stations.size() + model.structure.probes.size();
-  require_memory(simulated, bytes_of_sample(scene.contacts.coordinates(), model.contacts.size(),
-                                            options.is_written ? written_stations : 0));
+  const double bytes = bytes_of_sample(scene.contacts.coordinates(), model.contacts.size(),
+                                       options.is_written ? written_stations : 0);
+  require_memory(
+      "revolutions", bytes * simulated.samples * static_cast<double>(simulated.revolutions),
+      fmt::format("{} revolutions with {} samples each", simulated.revolutions, simulated.samples),
+      "record fewer, those that are discarded take no memory");
   const MotionState start = start_state(model, scene, earlier);
   if (start.phase > 0.0) {
     // samples begin with a revolution: what is left of this one is not recorded
@@ -68,9 +61,14 @@ Run run_model(const Model& model, const RunOptions& options,
     if (options.progress) options.progress(done, simulated.discard + simulated.revolutions);
     return !is_stopped();
   };
-  simulated.is_stopped = [&, steps = 0]() mutable {
-    constexpr int patience = 10'000;
-    return is_stopped() && ++steps > patience;
+  // the revolution that has begun may end, if that takes no longer than this
+  constexpr std::chrono::milliseconds patience(500);
+  simulated.is_stopped = [&, asked =
+                                 std::optional<std::chrono::steady_clock::time_point>()]() mutable {
+    if (!is_stopped()) return false;
+    const auto now = std::chrono::steady_clock::now();
+    if (!asked) asked = now;
+    return now - *asked > patience;
   };
   Simulation simulation = simulate(scene, start, simulated);
   Run run{std::move(scene), std::move(simulation), std::move(stations),

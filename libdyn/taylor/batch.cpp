@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cctype>
 #include <cstdint>
+#include <system_error>
 #include <thread>
 
 #include "libbase/processors.hpp"
@@ -57,7 +58,12 @@ void integrate_batch(std::span<Trajectory> trajectories, const BatchOptions& opt
     run(pattern, options, trajectories.subspan(begin, end - begin), nullptr);
   };
   std::vector<std::jthread> threads;
-  for (std::size_t chunk = 1; chunk < chunks; ++chunk) threads.emplace_back(run_chunk, chunk);
+  std::size_t chunk = 1;
+  try {
+    for (; chunk < chunks; ++chunk) threads.emplace_back(run_chunk, chunk);
+  } catch (const std::system_error&) {  // the system gives no more threads: the rest is done here
+  }
+  for (; chunk < chunks; ++chunk) run_chunk(chunk);
   run_chunk(0);
 }
 

@@ -41,12 +41,17 @@ std::vector<Mark> marks(const Model& model, const Assembler& assembler) {
 /// A name and what follows it in so many columns; a longer name loses its end.
 std::string shortened(const std::string& name, const std::string& rest, int columns) {
   const auto room = static_cast<std::size_t>(columns);
-  std::string kept = name;
-  while (!kept.empty() && display_width(kept + rest) + (kept == name ? 0 : 1) > room) {
-    while ((static_cast<unsigned char>(kept.back()) & 0xC0u) == 0x80u) kept.pop_back();
-    kept.pop_back();
+  const std::size_t beside = display_width(rest);
+  if (display_width(name) + beside <= room) return name + rest;
+  const std::size_t most = room > beside ? room - beside - 1 : 0;  // one is for the dots
+  std::size_t end = 0, letters = 0;
+  const auto begins_letter = [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u;
+  };
+  for (; end < name.size(); ++end) {
+    if (begins_letter(name[end]) && letters++ == most) break;
   }
-  return kept + (kept == name ? "" : "…") + rest;
+  return name.substr(0, end) + "…" + rest;
 }
 
 }  // namespace

@@ -123,8 +123,9 @@ class Writer {
   /// A name that nothing else of its kind has.
   std::string unique(const std::string& kind, const std::string& wanted) {
     std::string name = wanted;
-    for (int copy = 2; !names_[kind].insert(name).second; ++copy) {
-      name = fmt::format("{} {}", wanted, copy);
+    int& copies = copies_[{kind, wanted}];  // many may want one name: none looks from the first on
+    for (copies = std::max(copies, 1); !names_[kind].insert(name).second;) {
+      name = fmt::format("{} {}", wanted, ++copies);
     }
     return name;
   }
@@ -418,9 +419,10 @@ class Writer {
   const std::string &source_, &stem_;
   ImportedModel result_;
   std::vector<const RossElement*> shaft_, layers_;
-  int nodes_ = 0;                                       ///< on the shaft
-  std::map<int, std::string> supports_;                 ///< names of bodies
-  std::map<std::string, std::set<std::string>> names_;  ///< taken, by kind
+  int nodes_ = 0;                                              ///< on the shaft
+  std::map<int, std::string> supports_;                        ///< names of bodies
+  std::map<std::string, std::set<std::string>> names_;         ///< taken, by kind
+  std::map<std::pair<std::string, std::string>, int> copies_;  ///< of a kind that wanted a name
 };
 
 }  // namespace

@@ -18,9 +18,10 @@ namespace {
 
 /// A whole number from one; nothing if a text is none.
 std::optional<std::size_t> number_in(std::string_view text) {
+  constexpr std::size_t most = 1'000'000;  // each part has one point at least
   std::size_t number = 0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (problem != std::errc{} || end != text.data() + text.size() || number == 0) {
+  if (problem != std::errc{} || end != text.data() + text.size() || number == 0 || number > most) {
     return std::nullopt;
   }
   return number;
@@ -34,7 +35,7 @@ Parsed<Stripe> parse_stripe(std::string_view text) {
   const auto of = slash == text.npos ? std::nullopt : number_in(text.substr(slash + 1));
   if (!number || !of || *number > *of) {
     return Parsed<Stripe>::failed(
-        "expected the number of a part and how many there are, such as 3/40");
+        "expected the number of a part and how many there are, up to a million, such as 3/40");
   }
   return Stripe{*number, *of};
 }

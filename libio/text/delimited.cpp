@@ -276,14 +276,17 @@ Delimiter delimiter_of(std::string_view line) {
 
 std::vector<Cell> cells_of(std::string_view line, Delimiter delimiter) {
   std::vector<Cell> cells;
-  std::size_t start = 0;
+  std::size_t start = 0, counted = 0;
+  int place = 1;  // of the character at `counted`
   const auto add = [&](std::size_t end) {
     const std::string_view part = line.substr(start, end - start);
     const auto first = part.find_first_not_of(" \t\r\"");
     const bool is_empty = first == std::string_view::npos;
     if (!is_empty || delimiter != Delimiter::blanks) {
       const std::size_t begin = is_empty ? start : start + first;
-      cells.push_back({trimmed(part), characters_in(line.substr(0, begin)) + 1});
+      place += characters_in(line.substr(counted, begin - counted));
+      counted = begin;
+      cells.push_back({trimmed(part), place});
     }
     start = end + 1;
   };

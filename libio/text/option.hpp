@@ -3,7 +3,7 @@
 /// help.
 ///
 ///   struct CampbellVerbOptions {
-///     Option<int> modes{"modes", "N", "how many modes", 8};
+///     Option<int> modes{"modes", "N", "how many modes", 8, Whole{1, 10'000}};
 ///     Option<std::vector<double>> speeds{"speeds", "A:B:STEP", "of the rotor", parse_speeds};
 ///     auto fields() { return std::tie(modes, speeds); }
 ///   };
@@ -27,29 +27,25 @@
 
 namespace whirl::inline io {
 
-/// Reads whole numbers of any type.
+/// The whole numbers that an option takes. Both ends are said where it is declared, so that no number
+/// from outside costs more than somebody thought of.
 struct Whole {
-  long least = 1;
+  long least, most;
 
   template <class Number>
   Parsed<Number> read(std::string_view text) const {
-    const auto whole = parse_whole(text, least);
+    const auto whole = parse_whole(text, least, most);
     return whole ? Parsed(static_cast<Number>(*whole)) : Parsed<Number>::failed(whole.problem);
-  }
-  template <class Number>
-  operator std::function<Parsed<Number>(const std::string&)>() const {
-    return [this_one = *this](const std::string& text) { return this_one.read<Number>(text); };
   }
 };
 
-/// Reads what the type of a value says: a choice of an enumeration, a whole number of 1 or more, a
-/// number without unit, or any text.
+/// Reads what the type of a value says: a choice of an enumeration, a number without unit, or any
+/// text.
 template <class Value>
 Parsed<Value> parse_value(const std::string& text) {
+  static_assert(!std::integral<Value>, "a whole number is declared with its range, a Whole");
   if constexpr (std::is_enum_v<Value>) {
     return parse_choice<Value>(text);
-  } else if constexpr (std::integral<Value>) {
-    return Whole{}.read<Value>(text);
   } else if constexpr (std::floating_point<Value>) {
     return parse_as(text, "");
   } else {
@@ -77,6 +73,7 @@ struct Option {
   /// says.
   std::optional<Value> value{};
   Parse parse{};
+  std::optional<Whole> range{};  ///< of whole numbers
   bool is_given = false;
   std::string text{};  ///< as it is given
   FileUse use = FileUse::none;
@@ -92,6 +89,15 @@ struct Option {
         parse(std::move(read)) {}
   Option(std::string_view called, std::string_view what, std::string_view meaning, Parse read)
       : Option(called, what, meaning, {}, std::move(read)) {}
+  Option(std::string_view called, std::string_view what, std::string_view meaning,
+         std::optional<Value> otherwise, Whole whole) requires std::integral<Value>
+      : Option(called, what, meaning, std::move(otherwise),
+               [whole](const std::string& given) { return whole.read<Value>(given); }) {
+    range = whole;
+  }
+  Option(std::string_view called, std::string_view what, std::string_view meaning,
+         Whole whole) requires std::integral<Value>
+      : Option(called, what, meaning, std::nullopt, whole) {}
 
   explicit operator bool() const { return value.has_value(); }
   const Value& operator*() const { return *value; }
@@ -152,6 +158,7 @@ struct OptionSpec {
   std::string_view value;  ///< placeholder; empty: a flag
   std::string_view help;
   std::string otherwise = "";  ///< the default; empty: none, or one that is decided elsewhere
+  std::string range = "";      ///< of whole numbers: "1 to 100 000"
   bool is_list = false;
   FileUse use = FileUse::none;
   /// That a file may have which is written, beside those that say nothing of what is in a file; empty:
@@ -163,10 +170,11 @@ struct OptionSpec {
   bool writes() const { return use == FileUse::written || use == FileUse::stem; }
 };
 
-/// What the help says of an option, with its default in parentheses.
+/// What the help says of an option, with its range, and its default in parentheses.
 inline std::string help_of(const OptionSpec& option) {
-  if (option.otherwise.empty()) return std::string(option.help);
-  return fmt::format("{} ({})", option.help, option.otherwise);
+  std::string help(option.help);
+  if (!option.range.empty()) help += fmt::format("; {}", option.range);
+  return option.otherwise.empty() ? help : fmt::format("{} ({})", help, option.otherwise);
 }
 
 /// An option as it is before it is given.
@@ -181,13 +189,14 @@ OptionSpec spec_of(const Option<Value>& option) {
   } else if constexpr (std::is_arithmetic_v<Value> || std::same_as<Value, std::string>) {
     if (option) spec.otherwise = fmt::format("{}", *option);
   }
+  if (option.range) spec.range = range_text(option.range->least, option.range->most);
   return spec;
 }
 inline OptionSpec spec_of(const Flag& flag) {
   return {flag.name, "", flag.help};
 }
 inline OptionSpec spec_of(const ListOption& list) {
-  return {list.name, list.placeholder, list.help, "", true};
+  return {list.name, list.placeholder, list.help, "", "", true};
 }
 
 /// Values of options that are given, by name: one of most, an empty one of a flag.

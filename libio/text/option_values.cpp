@@ -50,13 +50,30 @@ std::string ending_problem(std::string_view file, std::string_view endings) {
                      ending.substr(1), right);
 }
 
-Parsed<long> parse_whole(std::string_view text, long least) {
-  constexpr long most = 1'000'000'000;
+namespace {
+
+/// "512", "100 000", "10 million"
+std::string count_text(long number) {
+  constexpr long billion = 1'000'000'000, million = 1'000'000, thousand = 1000;
+  if (number > 0 && number % billion == 0) return fmt::format("{} billion", number / billion);
+  if (number > 0 && number % million == 0) return fmt::format("{} million", number / million);
+  if (number < 10 * thousand) return std::to_string(number);
+  return fmt::format("{} {:03}", number / thousand, number % thousand);
+}
+
+}  // namespace
+
+std::string range_text(long least, long most) {
+  return fmt::format("{} to {}", count_text(least), count_text(most));
+}
+
+Parsed<long> parse_whole(std::string_view text, long least, long most) {
   long number = 0;
   const char* const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), last, number);
   if (error == std::errc{} && end == last && number >= least && number <= most) return number;
-  return Parsed<long>::failed(fmt::format("expected a whole number of {} or more", least));
+  return Parsed<long>::failed(
+      fmt::format("expected a whole number from {}", range_text(least, most)));
 }
 
 Parsed<double> parse_tolerance(std::string_view text) {

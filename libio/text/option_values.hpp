@@ -32,8 +32,10 @@ auto parsed_option(const std::string& option, const std::string& value, const Pa
 ///                 says no format, and none, are right in any case.
 std::string ending_problem(std::string_view file, std::string_view endings);
 
-/// A whole number from `least` to a billion.
-Parsed<long> parse_whole(std::string_view text, long least);
+/// A whole number from `least` to `most`.
+Parsed<long> parse_whole(std::string_view text, long least, long most);
+/// "1 to 100 000", "4 to 10 million"
+std::string range_text(long least, long most);
 
 /// Tolerance of an integrator's step.
 Parsed<double> parse_tolerance(std::string_view text);

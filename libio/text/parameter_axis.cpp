@@ -120,6 +120,14 @@ std::vector<ParameterAxis> parse_axes(const std::vector<std::string>& texts, int
     if (!axis) throw wrong_option("over", text, axis.problem);
     axes.push_back(*axis);
   }
+  constexpr double most_in_all = 1e8;
+  double points_in_all = 1.0;
+  for (const ParameterAxis& axis : axes) points_in_all *= static_cast<double>(axis.values.size());
+  if (points_in_all > most_in_all) {
+    throw ModelError({"--over"}, "",
+                     fmt::format("found {:.4g} points in all, expected up to {:.0f} million",
+                                 points_in_all, 1e-6 * most_in_all));
+  }
   if (least <= axes.size() && axes.size() <= most) return axes;
   const std::string right =
       least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);

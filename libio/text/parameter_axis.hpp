@@ -58,7 +58,8 @@ Parsed<ParameterAxis> parse_axis(std::string_view text, int points);
 
 /// Reads all of them.
 /// @param least, most  how many are right
-/// @throws ModelError  naming the one that is wrong, or saying how many there should be
+/// @throws ModelError  naming the one that is wrong, or saying how many there should be, of axes
+///                     and of points in all
 std::vector<ParameterAxis> parse_axes(const std::vector<std::string>& texts, int points,
                                       std::size_t least, std::size_t most);
 

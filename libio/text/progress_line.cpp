@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <system_error>
 
 #include "libio/text/terminal.hpp"
 
@@ -36,40 +37,56 @@ std::string progress_text(long done, long total, double elapsed) {
   return fmt::format("{} of {}, {}", done, total, rate_text(done, total, elapsed));
 }
 
-ProgressLine::ProgressLine(std::string what, long total, bool shows, double period)
+ProgressLine::ProgressLine(std::string what, bool shows, double period)
     : what_(shown_text(what)),
-      total_(total),
-      shows_(shows),
       is_terminal_(isatty(STDERR_FILENO) != 0),
-      period_(period),
-      begin_(seconds()),
-      last_(begin_) {}
+      period_(is_terminal_ ? 1.0 : period),
+      begin_(seconds()) {
+  if (!shows) return;
+  try {
+    ticker_ = std::jthread([this](const std::stop_token& stop) { tick(stop); });
+  } catch (const std::system_error&) {  // the system gives no more threads
+  }
+}
 
 ProgressLine::~ProgressLine() {
+  ticker_.request_stop();
+  if (ticker_.joinable()) ticker_.join();
   if (has_drawn_) std::fputs("\r\033[K", stderr);
 }
 
-void ProgressLine::update(long done) {
-  if (!shows_) return;
-  const double now = seconds(), elapsed = now - begin_;
-  if (is_terminal_ ? now - last_ < 0.1 || elapsed < 0.5 : now - last_ < period_) return;
-  last_ = now;
-  if (is_terminal_) {
-    redraw(done, elapsed);
-  } else {
-    fmt::print(stderr, "{}: {}\n", what_, progress_text(done, total_, elapsed));
-  }
-  std::fflush(stderr);
+void ProgressLine::update(long done, long total) {
+  const std::lock_guard lock(mutex_);
+  done_ = done;
+  total_ = total;
 }
 
-void ProgressLine::redraw(long done, double elapsed) {
+void ProgressLine::tick(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  const std::chrono::duration<double> period(period_);
+  while (!ends_.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) {
+    if (is_terminal_) {
+      redraw();
+    } else {
+      fmt::print(stderr, "{}: {}\n", what_, state());
+    }
+    std::fflush(stderr);
+  }
+}
+
+std::string ProgressLine::state() const {
+  const double elapsed = seconds() - begin_;
+  return total_ > 0 ? progress_text(done_, total_, elapsed) : clock_text(elapsed);
+}
+
+void ProgressLine::redraw() {
   has_drawn_ = true;
   constexpr int width = 30;
-  const double share = total_ > 0 ? static_cast<double>(done) / static_cast<double>(total_) : 0.0;
+  const double share = total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 0.0;
   std::string bar;
-  for (int i = 0; i < width; ++i) bar += i < share * width ? "━" : "╌";
-  fmt::print(stderr, "\r{} {} {:3.0f} %  {}\033[K", what_, bar, 100.0 * share,
-             progress_text(done, total_, elapsed));
+  for (int i = 0; i < width && total_ > 0; ++i) bar += i < share * width ? "━" : "╌";
+  if (total_ > 0) bar += fmt::format(" {:3.0f} %  ", 100.0 * share);
+  fmt::print(stderr, "\r{} {}{}\033[K", what_, bar, state());
 }
 
 }  // namespace whirl::inline io

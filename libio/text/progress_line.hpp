@@ -1,7 +1,10 @@
 #pragma once
 /// What is shown while something long goes on.
 
+#include <condition_variable>
+#include <mutex>
 #include <string>
+#include <thread>
 
 namespace whirl::inline io {
 
@@ -11,24 +14,34 @@ std::string rate_text(long done, long total, double elapsed);
 /// "120 of 600, 2.5/s, 3:12 left".
 std::string progress_text(long done, long total, double elapsed);
 
-/// A line on standard error: on a terminal one that is rewritten, elsewhere, as in the log of a job,
-/// one after the other.
+/// A line on standard error: on a terminal one that is rewritten every second, from the first one on;
+/// elsewhere, as in the log of a job, one after the other.
+///
+/// It is drawn by a thread of its own, so that it is there however long a step takes.
 class ProgressLine {
  public:
+  /// @param what    goes on
   /// @param period  between two lines where there is no terminal, and before the first one [s]
-  ProgressLine(std::string what, long total, bool shows, double period = 60.0);
+  ProgressLine(std::string what, bool shows, double period = 60.0);
   ~ProgressLine();
-  /// Redraws at most ten times a second.
-  void update(long done);
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  /// @param total  0: nobody knows, and the time alone is told
+  void update(long done, long total);
 
  private:
-  void redraw(long done, double elapsed);
+  void tick(const std::stop_token& stop);
+  void redraw();
+  std::string state() const;
 
   std::string what_;
-  long total_;
-  bool shows_, is_terminal_;
-  double period_, begin_, last_;
+  bool is_terminal_;
+  double period_, begin_;
+  std::mutex mutex_;
+  std::condition_variable_any ends_;
+  long done_ = 0, total_ = 0;
   bool has_drawn_ = false;
+  std::jthread ticker_;  // last: it uses the others
 };
 
 }  // namespace whirl::inline io

@@ -21,8 +21,25 @@ std::string times(std::string_view sign, std::size_t count) {
 
 struct ShownColumn {
   std::size_t width = 0;
-  bool is_number = true;
+  bool is_number = true;   ///< its cells stand at the right
+  bool has_words = false;  ///< all the same it can be folded: "-3536.4 (368 um), +57.3 (2 um)"
 };
+
+/// Lines of a cell in a column of a width; a word that is longer is cut.
+std::vector<std::string> cell_lines(const std::string& cell, std::size_t width) {
+  std::vector<std::string> lines;
+  for (const std::string& part : folded_words(cell, width)) {
+    std::size_t begin = 0, letters = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if ((static_cast<unsigned char>(part[i]) & 0xC0u) == 0x80u || letters++ < width) continue;
+      lines.push_back(part.substr(begin, i - begin));
+      begin = i;
+      letters = 1;
+    }
+    lines.push_back(part.substr(begin));
+  }
+  return lines;
+}
 
 using Cells = std::vector<std::string>;
 
@@ -38,6 +55,8 @@ std::vector<ShownColumn> columns_of(const Cells& head, const std::vector<Cells>&
       if (!(first >= '0' && first <= '9') && first != '-' && first != '+' && first != '.') {
         columns[c].is_number = false;
       }
+      const auto blanks = std::count(cells[c].begin(), cells[c].end(), ' ');
+      if (blanks > 1) columns[c].has_words = true;  // more than a number and its unit
     }
   }
   return columns;
@@ -50,7 +69,7 @@ std::string block(const Cells& head, const std::vector<Cells>& rows,
     std::vector<std::vector<std::string>> folded;
     std::size_t height = 1;
     for (const std::size_t c : shown) {
-      folded.push_back(folded_words(c < cells.size() ? cells[c] : "", columns[c].width));
+      folded.push_back(cell_lines(c < cells.size() ? cells[c] : "", columns[c].width));
       height = std::max(height, folded.back().size());
     }
     std::string text;
@@ -104,19 +123,25 @@ std::string table_text(const Cells& head, const std::vector<Cells>& rows, std::s
   while (limit > 0 && total() > limit) {
     ShownColumn* widest = nullptr;
     for (ShownColumn& column : all) {
-      if (column.is_number || column.width <= narrowest) continue;
+      if ((column.is_number && !column.has_words) || column.width <= narrowest) continue;
       if (!widest || column.width > widest->width) widest = &column;
     }
     if (!widest) break;
+    widest->is_number = false;
     widest->width = std::max(narrowest, widest->width - std::min(total() - limit, widest->width));
   }
-  // a word may be longer than a folded column
+  const std::size_t half = std::max<std::size_t>(limit / 2, gap + 1);
+  // a word may be longer than a folded column, but no column so wide that none fits beside the first
   for (std::size_t c = 0; c < all.size(); ++c) {
+    const std::size_t room = limit == 0 ? std::string::npos
+                             : c == 0   ? half - gap
+                                        : 2 * half - 2 * gap - all[0].width;
     const auto widen = [&](const std::string& cell) {
       for (const std::string& part : folded_words(cell, all[c].width)) {
-        all[c].width = std::max(all[c].width, display_width(part));
+        all[c].width = std::max(all[c].width, std::min(room, display_width(part)));
       }
     };
+    if (total() > limit) all[c].width = std::min(all[c].width, room);
     widen(head[c]);
     for (const auto& cells : rows) {
       if (c < cells.size()) widen(cells[c]);

@@ -10,7 +10,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr double most_points = 1e7;
+constexpr double most_points = 1e6;
 constexpr double same_step = 1e-9;
 
 std::vector<std::string> split(std::string_view text) {

@@ -11,7 +11,7 @@ namespace whirl::inline io {
 /// Values of a parameter as the command line gives them, first:last:step or first:last.
 struct ValueRange {
   double first = 0.0, last = 0.0;  ///< [SI], finite, first <= last
-  std::optional<double> step;      ///< [SI], > 0, for up to ten million values; none: not given
+  std::optional<double> step;      ///< [SI], > 0, for up to a million values; none: not given
 };
 
 /// Reads a range: parse_range("0:8000:50rpm", "rad/s").

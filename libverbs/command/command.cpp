@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <new>
+#include <stdexcept>
 
 #include "libbase/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
@@ -94,6 +95,11 @@ void require_agreed(const std::string& asked) {
                                instruction_set()));
 }
 
+int short_of_memory(const std::string& file) {
+  say(stderr, fmt::format("{}: not enough memory for this\n", file));
+  return exit_status::failed;
+}
+
 int execute(const Verb& verb, CommandLine& line) {
   Invocation& call = line.call;
   call.prepare();
@@ -129,8 +135,9 @@ int run_command(const Verb& verb, const std::vector<std::string>& words, const S
     say(stderr, fmt::format("{}: {}\n", file, error.what()));
     return exit_status::failed;
   } catch (const std::bad_alloc&) {
-    say(stderr, fmt::format("{}: not enough memory for this\n", file));
-    return exit_status::failed;
+    return short_of_memory(file);
+  } catch (const std::length_error&) {  // more than any container can have
+    return short_of_memory(file);
   }
 }
 

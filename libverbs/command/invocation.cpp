@@ -142,6 +142,7 @@ void Invocation::prepare() {
 std::function<bool()> Invocation::stop_asked() const {
   if (is_stopped) return is_stopped;
   install_interrupt_handler();
+  if (ranks) is_interrupted();  // whoever serves others is not to end before them
   return is_interrupted;
 }
 

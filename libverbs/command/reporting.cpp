@@ -28,10 +28,9 @@ std::function<void(long, long)> progress_of(const Invocation& call, std::string 
       show(what, done, total);
     };
   }
-  return [shown = std::make_shared<std::optional<ProgressLine>>(), what = std::move(what),
-          shows = !call.output.quiet](long done, long total) {
-    if (!*shown) shown->emplace(what, total, shows);
-    (*shown)->update(done);
+  const bool shows = !call.output.quiet;
+  return [line = std::make_shared<ProgressLine>(std::move(what), shows)](long done, long total) {
+    line->update(done, total);
   };
 }
 

@@ -12,8 +12,18 @@ inline Option<std::vector<double>> speeds_option() {
 }
 
 // of motions
+/// Ranges of what several verbs count. Each bounds what a number alone can cost; memory is checked
+/// besides, where it grows with several of them (libbase/memory.hpp).
+inline constexpr Whole mode_range{1, 10'000};
+inline constexpr Whole revolution_range{1, 10'000'000};
+inline constexpr Whole discard_range{0, 10'000'000};
+inline constexpr Whole point_range{2, 1'000'000};
+inline constexpr Whole start_range{1, 1'000'000};
+inline constexpr Whole period_range{1, 1000};
+inline constexpr Whole seed_range{0, 1'000'000'000};  // which costs nothing
+
 inline Option<long> discard_option() {
-  return {"discard", "N", "revolutions before them, for the transient", 500, Whole{0}};
+  return {"discard", "N", "revolutions before them, for the transient", 500, discard_range};
 }
 inline Option<double> tolerance_option() {
   return {"tolerance", "T", "of a step, displacements by the clearance", 1e-10, parse_tolerance};
@@ -26,7 +36,7 @@ inline Option<std::string> isa_option() {
           "instruction set of the integrator, such as avx2 or baseline; left out: the best one"};
 }
 inline Option<std::uint64_t> seed_option() {
-  return {"seed", "S", "of the random starts", 1};
+  return {"seed", "S", "of the random starts", 1, seed_range};
 }
 inline Option<double> start_size_option() {
   return {"size", "R", "how far they are, in clearances", 0.5};
@@ -40,8 +50,9 @@ inline Option<std::string> frequency_option() {
 /// Which stretch of a motion is shown.
 struct WindowVerbOptions {
   Option<long> from_revolution{"from-revolution", "N",
-                               "first revolution of a motion, counted from its start", Whole{0}};
-  Option<long> revolutions{"revolutions", "N", "of a motion, given alone: the last ones"};
+                               "first revolution of a motion, counted from its start", seed_range};
+  Option<long> revolutions{"revolutions", "N", "of a motion, given alone: the last ones",
+                           revolution_range};
   Option<std::pair<double, double>> times{
       "times", "A:B", "instead of revolutions, from A to B [s] of a motion", parse_times};
   auto fields() { return std::tie(from_revolution, revolutions, times); }

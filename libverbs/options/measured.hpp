@@ -10,6 +10,7 @@
 #include "libio/measured/record_values.hpp"
 #include "libio/text/option.hpp"
 #include "libverbs/command/invocation.hpp"
+#include "libverbs/options/common.hpp"
 
 namespace whirl::inline cli {
 
@@ -66,7 +67,7 @@ struct RecordingVerbOptions {
                                                 "deviation, of the signal's",
                                                 0.0, parse_noise_share});
   Option<std::uint64_t> seed =
-      going_with("measured-out", Option<std::uint64_t>{"seed", "S", "of the noise", 1});
+      going_with("measured-out", Option<std::uint64_t>{"seed", "S", "of the noise", 1, seed_range});
   auto fields() { return std::tie(measure, out, noise, seed); }
 };
 

@@ -15,7 +15,7 @@ namespace whirl::inline cli {
 /// A motion that has settled.
 struct SettledVerbOptions {
   Option<long> discard{"discard", "N", "revolutions before it, for the transient; with --from none",
-                       500, Whole{0}};
+                       500, discard_range};
   Option<double> tolerance = tolerance_option();
   Option<std::string> isa = isa_option();
   auto fields() { return std::tie(discard, tolerance, isa); }
@@ -26,14 +26,15 @@ struct OrbitMethodVerbOptions {
   Option<OrbitMethod> method{"method", "M", "shooting or harmonic-balance", OrbitMethod::shooting};
   Option<long> harmonics{
       "harmonics", "N",
-      "of harmonic balance, of the orbit's frequency; left out: as many as it takes"};
+      "of harmonic balance, of the orbit's frequency; left out: as many as it takes",
+      Whole{1, 10'000}};
   auto fields() { return std::tie(method, harmonics); }
 };
 
 /// What continue and torus follow motions along.
 struct AlongVerbOptions {
   ListOption over;
-  Option<int> points{"points", "N", "how many values a range without a step has", 101, Whole{2}};
+  Option<int> points{"points", "N", "how many values a range without a step has", 101, point_range};
   Option<std::string> at;
   auto fields() { return std::tie(over, points, at); }
 };

@@ -18,9 +18,10 @@ namespace whirl::inline cli {
 
 /// Options of simulate, and of identify behind its own.
 struct IntegrationVerbOptions {
-  Option<long> revolutions{"revolutions", "N", "revolutions that are recorded", 512};
+  Option<long> revolutions{"revolutions", "N", "revolutions that are recorded", 512,
+                           revolution_range};
   Option<long> discard = discard_option();
-  Option<int> samples{"samples", "N", "samples per revolution", 64, Whole{4}};
+  Option<int> samples{"samples", "N", "samples per revolution", 64, Whole{4, 100'000}};
   Option<std::string> method{
       "method", "M",
       "integrator: taylor, collocation (left out: the better of these), dop853, cvode-adams, "

@@ -17,7 +17,7 @@ struct AxesVerbOptions {
   ListOption over{"over", "PATH=A:B:STEP",
                   "a value of the model and what it runs over: first:last:step, first:last with "
                   "--points, or value,value,..."};
-  Option<int> points{"points", "N", "how many values a range without a step has", Whole{2}};
+  Option<int> points{"points", "N", "how many values a range without a step has", point_range};
   auto fields() { return std::tie(over, points); }
 };
 
@@ -30,9 +30,11 @@ struct KeptVerbOptions {
 
 /// Further options of all studies.
 struct StudyVerbOptions {
-  Option<long> revolutions{"revolutions", "N", "revolutions that are measured", 1000};
+  Option<long> revolutions{"revolutions", "N", "revolutions that are measured", 1000,
+                           revolution_range};
   Option<long> exponents{"exponents", "N",
-                         "of these, over which Lyapunov exponents are averaged at most", 1000};
+                         "of these, over which Lyapunov exponents are averaged at most", 1000,
+                         revolution_range};
   Option<long> discard = discard_option();
   Option<double> tolerance = tolerance_option();
   Option<std::string> isa = isa_option();

@@ -15,14 +15,17 @@ namespace {
 struct AnimateVerbOptions {
   Option<std::string> out = output_option(
       "out", "FILE", "video .ogv or .gif, or pictures .png, numbered; left out: .ogv beside FILE");
-  Option<long> mode{"mode", "N", "this mode; left out: the motion of a result, of others mode 1"};
+  Option<long> mode{"mode", "N", "this mode; left out: the motion of a result, of others mode 1",
+                    mode_range};
   WindowVerbOptions window{
       .revolutions = {"revolutions", "N",
-                      "revolutions of a motion, given alone: the last ones; left out: 4"}};
+                      "revolutions of a motion, given alone: the last ones; left out: 4",
+                      revolution_range}};
   Option<long> frames{"frames", "N",
-                      "pictures; left out: of a motion at most 120, of a mode's cycle 60"};
+                      "pictures; left out: of a motion at most 120, of a mode's cycle 60",
+                      Whole{1, 100'000}};
   Option<std::string> size{"size", "WxH", "pixels", "960x540"};
-  Option<long> rate{"rate", "N", "pictures per second of a video", 25};
+  Option<long> rate{"rate", "N", "pictures per second of a video", 25, Whole{1, 1000}};
   auto fields() { return std::tie(out, mode, window, frames, size, rate); }
 };
 
@@ -38,7 +41,10 @@ Report run_animate(const Invocation& call, const AnimateVerbOptions& options) {
                                      .window = window_of(options.window),
                                      .frames = options.frames.value});
   video.title = clip.title;
-  const auto files = write_video(source.scene, clip.frames, video);
+  const auto files = [&] {
+    const auto shown = progress_of(call, fmt::format("drawing {} pictures", clip.frames.size()));
+    return write_video(source.scene, clip.frames, video);
+  }();
 
   Report report = begin_report(call, source.model);
   report.record.set("files", file_list(files));

@@ -10,8 +10,9 @@ namespace whirl::inline cli {
 namespace {
 
 struct BasinsVerbOptions {
-  Option<long> starts{"starts", "N", "starts: that of the model, the others random around it", 256};
-  Option<std::uint64_t> seed{"seed", "S", "of the random starts", 1, Whole{0}};
+  Option<long> starts{"starts", "N", "starts: that of the model, the others random around it", 256,
+                      start_range};
+  Option<std::uint64_t> seed{"seed", "S", "of the random starts", 1, seed_range};
   Option<double> size = start_size_option();
   AxesVerbOptions axes{.over = {"over", "PATH=A:B:STEP",
                                 "instead of random starts, values of the model's start: "

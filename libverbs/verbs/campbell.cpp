@@ -19,7 +19,7 @@ struct CampbellVerbOptions {
       "modes", "N",
       "how many of the lowest modes; where bearings change with speed all that are among "
       "them at any speed",
-      8};
+      8, mode_range};
   Option<std::vector<double>> speeds = speeds_option();
   auto fields() { return std::tie(modes, speeds); }
 };

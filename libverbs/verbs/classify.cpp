@@ -9,7 +9,8 @@ namespace {
 
 struct ClassifyVerbOptions {
   Option<long> revolutions{"revolutions", "N",
-                           "revolutions over which Lyapunov exponents are averaged", 1000};
+                           "revolutions over which Lyapunov exponents are averaged", 1000,
+                           revolution_range};
   Option<long> discard = discard_option();
   Option<double> tolerance = tolerance_option();
   Option<std::string> isa = isa_option();

@@ -15,13 +15,13 @@ struct ContinueVerbOptions {
                "hundredth; a second one: bifurcation curves in the plane of both"},
       .at = {"at", "VALUE[,VALUE]",
              "where the first orbit is looked for, between first and last; left out: first"}};
-  Option<int> period{"period", "N", "revolutions after which the first orbit repeats", 1};
+  Option<int> period{"period", "N", "revolutions after which the first orbit repeats", 1, period_range};
   Option<OrbitFrame> frame = frame_option();
   OrbitMethodVerbOptions how{};
   Option<int> generations{"switch", "N",
                           "generations of branches that begin at period doublings and pitchforks",
-                          0, Whole{0}};
-  Option<int> most{"most", "N", "points of a branch at most", 2000};
+                          0, Whole{0, 100}};
+  Option<int> most{"most", "N", "points of a branch at most", 2000, Whole{1, 1'000'000}};
   Option<std::string> stations{
       "stations", "NAME,...",
       "whose amplitude is said: names, node numbers, all; left out: as sweep"};

@@ -20,7 +20,7 @@ Parsed<double> parse_order(std::string_view text) {
 }
 
 struct CriticalVerbOptions {
-  Option<int> modes{"modes", "N", "how many critical speeds", 6};
+  Option<int> modes{"modes", "N", "how many critical speeds", 6, mode_range};
   Option<double> order{"order", "N", "excitation frequency over speed", 1.0, parse_order};
   AxesVerbOptions axes{};
   auto fields() { return std::tie(modes, order, axes); }

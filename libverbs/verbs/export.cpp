@@ -23,9 +23,11 @@ struct ExportVerbOptions {
                     "", FileUse::stem);
   WindowVerbOptions window{
       .revolutions = {"revolutions", "N",
-                      "revolutions of a motion, given alone: the last ones; left out: 4, xdmf 64"}};
-  Option<long> frames{"frames", "N", "frames of a motion at most; left out: 128, xdmf all"};
-  Option<long> modes{"modes", "N", "mode shapes", 4};
+                      "revolutions of a motion, given alone: the last ones; left out: 4, xdmf 64",
+                      revolution_range}};
+  Option<long> frames{"frames", "N", "frames of a motion at most; left out: 128, xdmf all",
+                      Whole{1, 10'000'000}};
+  Option<long> modes{"modes", "N", "mode shapes", 4, mode_range};
   auto fields() { return std::tie(format, out, window, frames, modes); }
 };
 

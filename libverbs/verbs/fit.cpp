@@ -31,11 +31,13 @@ struct FitVerbOptions {
                            parse_probe_noise};
   Option<int> steady{"steady", "N",
                      "the motion repeats after N revolutions: its average over all that count is "
-                     "fitted to, as one that closes"};
+                     "fitted to, as one that closes",
+                     Whole{1, 10'000}};
   Flag offsets{"offsets", "find a constant that each probe adds, too, such as its gap"};
   Option<std::string> against =
       file_option("against", "FILE,...", "other models, told by their likelihood beside this one");
-  Option<int> starts{"starts", "N", "of the search, the first one at the model's values", 1};
+  Option<int> starts{"starts", "N", "of the search, the first one at the model's values", 1,
+                     Whole{1, 10'000}};
   Option<std::uint64_t> seed = seed_option();
   auto fields() {
     return std::tie(record, free, from, revolutions, noise, steady, offsets, against, starts, seed);

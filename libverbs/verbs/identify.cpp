@@ -8,7 +8,7 @@ namespace whirl::inline cli {
 namespace {
 
 struct IdentifyVerbOptions {
-  Option<int> modes{"modes", "N", "how many modes to compare with", 8};
+  Option<int> modes{"modes", "N", "how many modes to compare with", 8, mode_range};
   Flag rotations{"rotations", "let tilts count too, times the rotor's length"};
   Flag mass_weighted{"mass-weighted", "weight the MAC with the mass matrix"};
   Flag stiffened{"stiffened", "modes of the rotor with its contacts closed for good"};

@@ -14,7 +14,7 @@ namespace whirl::inline cli {
 namespace {
 
 struct ModesVerbOptions {
-  Option<int> modes{"modes", "N", "how many modes", 8};
+  Option<int> modes{"modes", "N", "how many modes", 8, mode_range};
   AxesVerbOptions axes{};
   auto fields() { return std::tie(modes, axes); }
 };

@@ -32,7 +32,8 @@ struct PlotVerbOptions {
   WindowVerbOptions window{
       .revolutions = {"revolutions", "N",
                       "revolutions of a motion, given alone: the last ones; left out: 8, orbit 48, "
-                      "poincare all"}};
+                      "poincare all",
+                      revolution_range}};
   Option<std::string> frequency = frequency_option();
   auto fields() {
     return std::tie(out, which, with, size, font, no_title, format, window, frequency);

@@ -14,11 +14,11 @@ namespace whirl::inline cli {
 namespace {
 
 struct ResonancesVerbOptions {
-  Option<int> modes{"modes", "N", "how many modes", 4};
+  Option<int> modes{"modes", "N", "how many modes", 4, mode_range};
   Option<std::vector<double>> speeds = speeds_option();
-  Option<int> largest{"largest", "N", "of p and q", 4};
+  Option<int> largest{"largest", "N", "of p and q", 4, Whole{1, 100}};
   Flag confirm{"confirm", "look for bouncing motions near each of them"};
-  Option<int> starts{"starts", "N", "of them at every speed that is tried", 16};
+  Option<int> starts{"starts", "N", "of them at every speed that is tried", 16, Whole{1, 10'000}};
   Option<std::uint64_t> seed = seed_option();
   Option<std::string> isa = isa_option();
   auto fields() { return std::tie(modes, speeds, largest, confirm, starts, seed, isa); }

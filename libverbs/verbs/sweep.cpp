@@ -10,8 +10,10 @@ namespace {
 struct SweepVerbOptions {
   AxesVerbOptions axes{};
   Flag fresh{"fresh", "every value from the model's start, not from the one before"};
-  Option<long> sections{"sections", "N", "Poincare sections kept of a motion", 64};
-  Option<long> spectra{"spectra", "N", "revolutions of a value's spectrum, 0: none", 32, Whole{0}};
+  Option<long> sections{"sections", "N", "Poincare sections kept of a motion", 64,
+                        Whole{1, 10'000}};
+  Option<long> spectra{"spectra", "N", "revolutions of a value's spectrum, 0: none", 32,
+                       Whole{0, 10'000}};
   Option<std::string> stations{
       "stations", "NAME,...",
       "of sections and spectra: names, node numbers, all; left out: contacts, disks, bearings"};

@@ -12,11 +12,13 @@ struct TorusVerbOptions {
       .over = {"over", "PATH=A:B:STEP", "a value of the model along which the circle is followed"},
       .at = {"at", "VALUE",
              "where the first circle is looked for, between first and last; left out: first"}};
-  Option<int> period{"period", "N", "revolutions of the map that it is a circle of", 1};
-  Option<int> harmonics{"harmonics", "N", "of the circle at first, doubled up to 64", 16};
+  Option<int> period{"period", "N", "revolutions of the map that it is a circle of", 1,
+                     period_range};
+  Option<int> harmonics{"harmonics", "N", "of the circle at first, doubled up to 64", 16,
+                        Whole{1, 1000}};
   Option<long> revolutions{"revolutions", "N", "sections from which it is guessed", 1000,
-                           Whole{200}};
-  Option<int> most{"most", "N", "circles at most", 200};
+                           Whole{200, 1'000'000}};
+  Option<int> most{"most", "N", "circles at most", 200, Whole{1, 1'000'000}};
   SettledVerbOptions settled{};
   KeptVerbOptions kept{};
   auto fields() { return std::tie(along, period, harmonics, revolutions, most, settled, kept); }

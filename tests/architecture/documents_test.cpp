@@ -6,6 +6,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -218,6 +219,21 @@ TEST(Docstrings, SayWhatToolsDocsKnowsOfParametersThatThereAre) {
     }
   }
   EXPECT_GT(found, 300);
+}
+
+// Whoever follows one tutorial after another in one folder keeps what each of them made.
+TEST(Documents, TutorialsWriteToFilesOfTheirOwn) {
+  static const std::regex written(R"((?:--(?:out|measured-out|svg|json)[ =]|```\w+ )([^\s`]+))");
+  std::map<std::string, std::set<std::string>> by_file;
+  for (const fs::path& document : documents()) {
+    const std::string name = document.filename().string(), text = content(document);
+    if (!name.starts_with("tutorial")) continue;
+    for (std::sregex_iterator i(text.begin(), text.end(), written), end; i != end; ++i) {
+      by_file[(*i)[1]].insert(name);
+    }
+  }
+  EXPECT_GT(by_file.size(), 10u);
+  for (const auto& [file, names] : by_file) EXPECT_EQ(names.size(), 1u) << file;
 }
 
 }  // namespace documents_test

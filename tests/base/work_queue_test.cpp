@@ -3,7 +3,10 @@
 #include "libbase/work_queue.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <set>
 #include <stdexcept>
 
@@ -56,6 +59,26 @@ TEST(WorkQueue, DropsWhatHasNotBegun) {
     }
   }
   EXPECT_LT(begun, 100);
+}
+
+// A system that gives no more threads is no end: those that there are do the work.
+TEST(WorkQueue, DoesWithTheThreadsThatItGets) {
+  const auto with_few = [] {
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    constexpr std::size_t for_some_stacks = std::size_t{100} << 20u;
+    const rlim_t most = pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + for_some_stacks;
+    const rlimit limit{most, most};
+    ::setrlimit(RLIMIT_AS, &limit);
+    WorkQueue<int> queue(10'000);
+    for (int i = 0; i < 5; ++i) queue.add([i] { return i; });
+    int sum = 0;
+    while (queue.has_open()) {
+      if (const auto r = queue.take(1s)) sum += *r;
+    }
+    ::_exit(sum);
+  };
+  EXPECT_EXIT(with_few(), testing::ExitedWithCode(10), "");
 }
 
 }  // namespace whirl::work_queue_test

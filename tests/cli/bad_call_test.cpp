@@ -70,9 +70,9 @@ TEST_F(BadCall, AStartInAModeThatTheRotorLacks) {
 
 TEST_F(BadCall, ValuesOfOptions) {
   EXPECT_EQ(problem({"modes", "rotor.toml", "--modes", "x"}),
-            "--modes x: expected a whole number of 1 or more\n");
+            "--modes x: expected a whole number from 1 to 10 000\n");
   EXPECT_EQ(problem({"modes", "rotor.toml", "--modes", "0"}),
-            "--modes 0: expected a whole number of 1 or more\n");
+            "--modes 0: expected a whole number from 1 to 10 000\n");
   EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--modes", "2.5"}), "--modes 2.5: expected"));
   EXPECT_TRUE(has(problem({"modes", "rotor.toml", "--threads", "0"}), "--threads 0: expected"));
   EXPECT_EQ(
@@ -93,9 +93,9 @@ TEST_F(BadCall, ValuesOfOptions) {
       "--method rk5: unknown method, expected one of taylor, collocation, dop853, cvode-adams, "
       "cvode-bdf, arkode, arkode-dirk, rk4\n");
   EXPECT_EQ(with("--tolerance", "5"), "--tolerance 5: expected a number from 1e-15 to 1e-2\n");
-  EXPECT_TRUE(has(with("--revolutions", "0"), "whole number of 1 or more"));
-  EXPECT_TRUE(has(with("--discard", "-1"), "whole number of 0 or more"));
-  EXPECT_TRUE(has(with("--samples", "2"), "whole number of 4 or more"));
+  EXPECT_TRUE(has(with("--revolutions", "0"), "whole number from 1 to 10 million"));
+  EXPECT_TRUE(has(with("--discard", "-1"), "whole number from 0 to 10 million"));
+  EXPECT_TRUE(has(with("--samples", "2"), "whole number from 4 to 100 000"));
   EXPECT_TRUE(has(with("--revolutions", "1000000000"), "record fewer"));
   EXPECT_EQ(with("--stations", "seal"),
             "--stations seal: there is no station \"seal\"; there are shaft, rotor\n");

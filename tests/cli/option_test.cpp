@@ -17,7 +17,7 @@ constexpr auto choices(Shape) {
 }
 
 struct MotionOptions {
-  Option<long> discard{"discard", "N", "before", 500, Whole{0}};
+  Option<long> discard{"discard", "N", "before", 500, Whole{0, 1000}};
   Option<double> tolerance{"tolerance", "T", "of a step", 1e-10, parse_tolerance};
   auto fields() { return std::tie(discard, tolerance); }
 };
@@ -25,12 +25,12 @@ struct MotionOptions {
 /// An option of every type; the help has them in another order than the struct.
 struct EveryOption {
   Option<std::string> station{"station", "NAME", "which", "disk"};
-  Option<int> modes{"modes", "N", "how many", 8};
+  Option<int> modes{"modes", "N", "how many", 8, Whole{1, 10'000}};
   Option<double> size{"size", "R", "how far", 0.5};
   Option<Shape> shape{"shape", "F", "round or flat", Shape::flat};
   Option<std::vector<double>> speeds{"speeds", "A:B", "of the rotor", parse_speeds};
-  Option<std::uint64_t> seed{"seed", "S", "left out: any"};
-  MotionOptions motion{.discard = {"discard", "N", "for the transient", 20, Whole{0}}};
+  Option<std::uint64_t> seed{"seed", "S", "left out: any", Whole{1, 20'000'000}};
+  MotionOptions motion{.discard = {"discard", "N", "for the transient", 20, Whole{0, 1000}}};
   Flag fresh{"fresh", "anew"};
   ListOption over{"over", "PATH", "several times"};
   auto fields() { return std::tie(over, station, modes, size, shape, speeds, motion, seed, fresh); }
@@ -45,11 +45,12 @@ TEST(Options, AreToldInTheOrderOfTheirFieldsWithTheirDefaults) {
     EXPECT_EQ(option.is_flag(), option.name == "fresh");
   }
   EXPECT_EQ(told,
-            (std::vector<std::string>{
-                "over PATH: several times", "station NAME: which (disk)", "modes N: how many (8)",
-                "size R: how far (0.5)", "shape F: round or flat (flat)",
-                "speeds A:B: of the rotor", "discard N: for the transient (20)",
-                "tolerance T: of a step (1e-10)", "seed S: left out: any", "fresh : anew"}));
+            (std::vector<std::string>{"over PATH: several times", "station NAME: which (disk)",
+                                      "modes N: how many; 1 to 10 000 (8)", "size R: how far (0.5)",
+                                      "shape F: round or flat (flat)", "speeds A:B: of the rotor",
+                                      "discard N: for the transient; 0 to 1000 (20)",
+                                      "tolerance T: of a step (1e-10)",
+                                      "seed S: left out: any; 1 to 20 million", "fresh : anew"}));
 }
 
 TEST(Options, LeftOutHaveTheirDefaults) {
@@ -98,10 +99,10 @@ TEST(Options, AreRefusedWithTheirNamesAndWhatWouldBeRight) {
     }
     return "";
   };
-  EXPECT_EQ(problem("modes", "0"), "--modes 0: expected a whole number of 1 or more");
-  EXPECT_EQ(problem("modes", "2.5"), "--modes 2.5: expected a whole number of 1 or more");
-  EXPECT_EQ(problem("seed", "-1"), "--seed -1: expected a whole number of 1 or more");
-  EXPECT_EQ(problem("discard", "-1"), "--discard -1: expected a whole number of 0 or more");
+  EXPECT_EQ(problem("modes", "0"), "--modes 0: expected a whole number from 1 to 10 000");
+  EXPECT_EQ(problem("modes", "2.5"), "--modes 2.5: expected a whole number from 1 to 10 000");
+  EXPECT_EQ(problem("seed", "-1"), "--seed -1: expected a whole number from 1 to 20 million");
+  EXPECT_EQ(problem("discard", "-1"), "--discard -1: expected a whole number from 0 to 1000");
   EXPECT_EQ(problem("tolerance", "5"), "--tolerance 5: expected a number from 1e-15 to 1e-2");
   EXPECT_EQ(problem("shape", "oval"), "--shape oval: expected round or flat");
   EXPECT_EQ(problem("size", "2 mm"), "--size 2 mm: " + parse_as("2 mm", "").problem);

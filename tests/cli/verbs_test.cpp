@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include "libverbs/command/field_words.hpp"
 #include "tests/cli/program.hpp"
 
 namespace whirl::test {
@@ -41,6 +42,12 @@ std::vector<std::string> code_in(const std::string& cell) {
     found.push_back((*i)[1]);
   }
   return found;
+}
+
+std::string trimmed(const std::string& cell) {
+  const auto first = cell.find_first_not_of(' ');
+  if (first == std::string::npos) return "";
+  return cell.substr(first, cell.find_last_not_of(' ') + 1 - first);
 }
 
 /// "--modes N" as help and documents write an option.
@@ -97,7 +104,8 @@ TEST(Verbs, StateADefaultInOnePlace) {
       if (option.otherwise.empty()) continue;
       ++defaults;
       EXPECT_FALSE(option.is_flag());
-      EXPECT_EQ(help_of(option), help + " (" + std::string(option.otherwise) + ")");
+      const std::string range = option.range.empty() ? "" : "; " + option.range;
+      EXPECT_EQ(help_of(option), help + range + " (" + std::string(option.otherwise) + ")");
     }
   }
   EXPECT_GT(defaults, 40);
@@ -196,6 +204,94 @@ TEST(Manual, ListsTheOptionsOfEveryVerb) {
   for (const auto& [of, meaning] : meanings) {
     ADD_FAILURE() << of.first << " has no " << of.second << ", as docs/command-line.md says";
   }
+}
+
+// No number from outside costs in proportion to itself without an end: every whole number has a range
+// (a declaration without one does not compile), and the table of limits says it.
+TEST(Manual, ListsTheRangeOfEveryWholeNumber) {
+  std::map<std::pair<std::string, std::string>, std::string> listed, known;  // of verb and option
+  const std::string part = below(manual(), "### Limits");
+  for (const auto& cells : rows_of(part.substr(0, part.find("\n| of |")))) {
+    if (cells.size() < 3) continue;
+    const auto verbs_of =
+        trimmed(cells[1]) == "all" ? std::vector<std::string>{"all"} : code_in(cells[1]);
+    for (const std::string& verb : verbs_of) {
+      for (const std::string& option : code_in(cells[0]))
+        listed[{verb, option}] = trimmed(cells[2]);
+    }
+  }
+  const auto add = [&](const std::string& verb, const std::vector<OptionSpec>& options) {
+    for (const OptionSpec& option : options) {
+      if (!option.range.empty()) known[{verb, written(option)}] = option.range;
+    }
+  };
+  add("all", options_of({.name = "any", .group = "", .summary = ""}));
+  for (const Verb& verb : verbs()) add(std::string(verb.name), own_options(verb));
+  EXPECT_GT(known.size(), 60u);
+  EXPECT_EQ(listed, known);
+}
+
+TEST(Manual, ListsTheWordsOfTheField) {
+  std::vector<std::pair<std::string, std::string>> listed, known;
+  for (const auto& cells : rows_of(below(manual(), "## Words of the field"))) {
+    if (cells.size() == 2 && !code_in(cells[0]).empty()) {
+      listed.emplace_back(code_in(cells[0]).front(), trimmed(cells[1]));
+    }
+  }
+  for (const FieldWord& field : field_words) known.emplace_back(field.word, field.place);
+  EXPECT_EQ(listed, known);
+}
+
+// Where a word leads there is a verb, and a kind of figure that the manual knows.
+TEST(FieldWords, LeadToVerbsAndFiguresThatThereAre) {
+  static const std::regex verb_in(R"(whirl (\w+))"), figure_in(R"(whirl plot \S+ (\w+)`)");
+  for (const FieldWord& field : field_words) {
+    SCOPED_TRACE(field.word);
+    const std::string place(field.place);
+    EXPECT_EQ(verb_named(field.word), nullptr);
+    int count = 0;
+    for (std::sregex_iterator i(place.begin(), place.end(), verb_in), end; i != end; ++i, ++count) {
+      EXPECT_NE(verb_named((*i)[1].str()), nullptr) << (*i)[1];
+    }
+    EXPECT_GT(count, 0);
+    std::smatch figure;
+    if (!std::regex_search(place, figure, figure_in)) continue;
+    const std::regex row("\n\\| [^|]*`" + figure[1].str() + "`[^|]*\\|");
+    EXPECT_TRUE(std::regex_search(manual(), row)) << figure[1];
+  }
+}
+
+TEST_F(VerbsOfTheProgram, TellWhereTheWordsOfTheFieldLead) {
+  for (const FieldWord& field : field_words) {
+    const Outcome outcome = whirl({std::string(field.word), "rotor.toml"});
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.err,
+              fmt::format("whirl: there is no verb \"{}\"; it is {}\n", field.word, field.place));
+  }
+}
+
+// A key without its tables is answered with its path, in every option that takes one.
+TEST_F(VerbsOfTheProgram, TellThePathOfAKeyAlone) {
+  write("rub.toml", rubbing);
+  const auto problem = [&](const std::vector<std::string>& words) { return whirl(words).err; };
+  const std::string speed = problem({"sweep", "rub.toml", "--over", "speed=90:100:1"});
+  EXPECT_TRUE(has(speed, "did you mean operation.speed?")) << speed;
+  const std::string friction = problem({"simulate", "rub.toml", "--set", "clearance=1mm"});
+  EXPECT_TRUE(has(friction, "did you mean contact.")) << friction;
+  write("run.csv", "time [s],x [um]\n0,1\n0.001,2\n");
+  const std::string free =
+      problem({"fit", "rub.toml", "--measured", "run.csv", "--free", "clearance"});
+  EXPECT_TRUE(has(free, "did you mean contact.")) << free;
+}
+
+// Threads are started one after another as long as the system gives them: a thousand million of them
+// took the machine down.
+TEST_F(VerbsOfTheProgram, StartNoMoreThreadsThanTheLimit) {
+  write("rub.toml", rubbing);
+  const Outcome outcome =
+      whirl({"sweep", "rub.toml", "--over", "operation.speed=90:100:5", "--threads", "1025"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err, "--threads 1025: expected a whole number from 1 to 1024\n");
 }
 
 TEST(Readme, NamesEveryVerb) {

@@ -24,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (!std::isfinite(v)) std::abort();
     }
   }
-  // an axis makes all of its values at once: up to ten million
+  // an axis makes all of its values at once: up to a million
   const bool is_short = text.find(':') == std::string_view::npos || !range || !range->step ||
                         (range->last - range->first) / *range->step < most_made;
   if (!is_short) return 0;

@@ -10,21 +10,21 @@
 namespace whirl::option_values_test {
 
 TEST(OptionValues, AWrongOneIsNamed) {
-  const auto whole = [](const std::string& text) { return parse_whole(text, 4); };
+  const auto whole = [](const std::string& text) { return parse_whole(text, 4, 100'000); };
   EXPECT_EQ(parsed_option("samples", "64", whole), 64);
   try {
     parsed_option("samples", "3", whole);
     FAIL();
   } catch (const ModelError& error) {
-    EXPECT_STREQ(error.what(), "--samples 3: expected a whole number of 4 or more");
+    EXPECT_STREQ(error.what(), "--samples 3: expected a whole number from 4 to 100 000");
   }
 }
 
 TEST(OptionValues, WholeNumbersHaveNothingBehindThem) {
-  EXPECT_EQ(*parse_whole("-1", -1), -1);
-  EXPECT_EQ(*parse_whole("1000000000", 1), 1'000'000'000);
+  EXPECT_EQ(*parse_whole("-1", -1, 9), -1);
+  EXPECT_EQ(*parse_whole("1000000000", 1, 1'000'000'000), 1'000'000'000);
   for (const char* text : {"", "1.5", "1e3", "7rpm", " 7", "+7", "1000000001", "0"}) {
-    EXPECT_FALSE(parse_whole(text, 1)) << text;
+    EXPECT_FALSE(parse_whole(text, 1, 1'000'000'000)) << text;
   }
 }
 

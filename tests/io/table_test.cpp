@@ -120,4 +120,22 @@ TEST(Folded, BreaksLinesAtBlanksAndKeepsTheirIndent) {
   EXPECT_EQ(folded("\n\na  b\n", 10), "\n\na  b\n");
 }
 
+// Names of any length and lists of peaks, which begin as numbers do, leave no line that a terminal
+// would wrap.
+TEST(Table, NoLineIsWiderThanTheTerminal) {
+  const std::vector<std::string> head{"station", "largest radius",
+                                      "strongest frequencies [rpm] (radius)",
+                                      "seen from the rotor [rpm]"};
+  const std::string peaks = "-3536.4 (368.2 um), +5789.5 (241.7 um), -12935.3 (112.1 um)";
+  const std::vector<std::vector<std::string>> rows{
+      {"4 left disk of the high pressure turbine rotor + left ring", "8.667 mm", peaks, peaks},
+      {"9 " + std::string(200, 'x') + "äöü" + std::string(200, 'y'), "10.1 mm", peaks, peaks},
+      {"13 right", "1.077 mm", peaks, peaks}};
+  for (const std::size_t limit : {40, 80, 120}) {
+    for (const std::string& line : lines(table_text(head, rows, limit))) {
+      EXPECT_LE(display_width(line), limit) << line;
+    }
+  }
+}
+
 }  // namespace whirl::table_test

@@ -52,8 +52,8 @@ TEST(ValueRange, ProblemsAreExplained) {
   EXPECT_EQ(problem("0:8:0", ""), R"("0:8:0": the step must be positive)");
   EXPECT_EQ(problem("0:8:-1", ""), R"("0:8:-1": the step must be positive)");
   EXPECT_EQ(problem("8:0:1", ""), R"("8:0:1": the last value is below the first)");
-  EXPECT_EQ(problem("0:1:1e-7", ""), R"("0:1:1e-7": more than 10 million values)");
-  EXPECT_EQ(problem("-1e308:1e308:1", ""), R"("-1e308:1e308:1": more than 10 million values)");
+  EXPECT_EQ(problem("0:1:1e-7", ""), R"("0:1:1e-7": more than 1 million values)");
+  EXPECT_EQ(problem("-1e308:1e308:1", ""), R"("-1e308:1e308:1": more than 1 million values)");
   EXPECT_EQ(
       problem("0rpm:8000rpm:50", "rad/s"),
       R"("0rpm:8000rpm:50": some parts have a unit and the last has none; write it at the end)");

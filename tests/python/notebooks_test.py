@@ -91,7 +91,7 @@ class Notebooks(unittest.TestCase):
         self.assertEqual([o.output_type for o in outputs[4]], ["display_data"])
         self.assertEqual(outputs[4][0].data["text/html"], "")
         error = outputs[6][0]
-        self.assertEqual((error.ename, error.evalue), ("ModelError", "--modes 0: expected a whole number of 1 or more"))
+        self.assertEqual((error.ename, error.evalue), ("ModelError", "--modes 0: expected a whole number from 1 to 10 000"))
         self.assertEqual(len(error.traceback), 5)  # a line, a head, the cell, the method, the message
 
     def test_are_kept_without_outputs(self):
