@@ -38,6 +38,14 @@ const tip = {
 };
 
 const unitOf = (title) => (title.match(/\[([^\]]*)\]\s*$/) || [, ""])[1];
+/** A command line with texts for its places, {x}; a brace of its own is written twice there. */
+const filled = (command, texts) =>
+  command.replace(/\{\{|\{(-?[nxy])\}/g, (place, name) => (name === undefined ? "{" : texts[name] ?? place));
+/** A text as a cell. One that a spreadsheet would take for a formula gets an apostrophe in front, "this is text". */
+const csvText = (t) => {
+  const text = String(t ?? "");
+  return `"${(/^[=+\-@\t\r]/.test(text) ? "'" + text : text).replace(/"/g, '""')}"`;
+};
 const withoutUnit = (title) => title.replace(/\s*\[[^\]]*\]\s*$/, "");
 const LENGTHS = { m: 1, mm: 1e-3, "µm": 1e-6, nm: 1e-9 };
 
@@ -369,14 +377,14 @@ class FigureView {
     const point = this.nearest(panel, x, y, (c) => c.details);
     if (point) {
       const { c, k } = point;
-      return this.tellCommand(c.command.replaceAll("{n}", String(c.along[k])), c.details[k].split("\n"));
+      return this.tellCommand(filled(c.command, { n: String(c.along[k]) }), c.details[k].split("\n"));
     }
     const cell = panel.cells?.command && this.cellAt(panel, x, y);
     if (!cell) return;
     const cells = panel.cells, number = (v) => String(Number(v.toPrecision(12)));
     const values = { x: cells.x[cell.i] * cells.x_factor, y: cells.y[cell.j] * cells.y_factor };
-    const told = (_, sign, name) => number(sign ? -values[name] : values[name]);
-    this.tellCommand(cells.command.replace(/\{(-?)([xy])\}/g, told), []);
+    const texts = Object.entries(values).flatMap(([name, v]) => [[name, number(v)], ["-" + name, number(-v)]]);
+    this.tellCommand(filled(cells.command, Object.fromEntries(texts)), []);
   }
 
   /** Shows a command line below the figure, with what is to be said before it. */
@@ -505,26 +513,25 @@ class FigureView {
   }
 
   csv() {
-    const quoted = (t) => `"${String(t ?? "").replace(/"/g, '""')}"`;
     const lines = [];
     for (const p of this.drawing.panels) {
       const named = p.title || p.y.title;
       if (p.cells) {
         const c = p.cells;
-        lines.push([p.x.title, p.y.title, c.title].map(quoted).join(","));
+        lines.push([p.x.title, p.y.title, c.title].map(csvText).join(","));
         for (let j = 0; j < c.y.length; ++j) {
           for (let i = 0; i < c.x.length; ++i) {
             const v = c.values[j * c.x.length + i];
-            lines.push([c.x_names ? quoted(c.x_names[i]) : c.x[i], c.y_names ? quoted(c.y_names[j]) : c.y[j],
-              c.categories ? quoted(c.categories[v]?.name) : v].join(","));
+            lines.push([c.x_names ? csvText(c.x_names[i]) : c.x[i], c.y_names ? csvText(c.y_names[j]) : c.y[j],
+              c.categories ? csvText(c.categories[v]?.name) : v].join(","));
           }
         }
       }
       if (!p.curves.length) continue;
-      lines.push(["panel", "curve", p.x.title, p.y.title, "along", "note"].map(quoted).join(","));
+      lines.push(["panel", "curve", p.x.title, p.y.title, "along", "note"].map(csvText).join(","));
       for (const c of p.curves) {
         for (let k = 0; k < c.x.length; ++k) {
-          lines.push([quoted(named), quoted(c.name || c.end_name), c.x[k], c.y[k], c.along ? c.along[k] : "", quoted(c.hover?.[k])].join(","));
+          lines.push([csvText(named), csvText(c.name || c.end_name), c.x[k], c.y[k], c.along ? c.along[k] : "", csvText(c.hover?.[k])].join(","));
         }
       }
     }

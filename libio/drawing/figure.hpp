@@ -96,7 +96,7 @@ struct Curve {
   std::string along_title{};           ///< "time [s]"; points of one time are shown together
   bool is_key = true;                  ///< counts for the range of the axes
   std::vector<std::string> details{};  ///< of points, told after a click; lines
-  std::string command{};  ///< command line of a point, {n} its number of `along`; after a click
+  std::string command{};  ///< of a point, with a place {n} for its number of `along`; after a click
 };
 
 struct Category {
@@ -114,7 +114,8 @@ struct Cells {
   std::string title{};             ///< of the values: "amplitude [um]"
   bool prints_values = false;
   std::vector<std::string> x_names{}, y_names{};  ///< instead of numbers along the axes
-  /// Command line of a cell, {x}, {y}, or negated {-x}, {-y}: in SI, the axes' numbers times factors.
+  /// Command line of a cell with places {x}, {y}, or negated {-x}, {-y}: in SI, the axes' numbers
+  /// times factors. "{{" is a brace that is no place, in those of curves, too.
   std::string command{};
   double x_factor = 1.0, y_factor = 1.0;
 

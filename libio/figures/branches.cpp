@@ -50,7 +50,7 @@ void add_points(Panel& p, const ResultView& result, const BranchPoints& b,
   const std::string command =
       fmt::format("{} --from {} --point {{n}}",
                   command_on_model(result, "orbit", {"method", "harmonics", "frame", "tolerance"}),
-                  shell_word(result.path));
+                  without_places(shell_word(result.path)));
   for (std::size_t number = 1; number <= b.period.size(); ++number) {
     Curve c{.paint = series_paint(number - 1), .has_line = false, .has_marker = true};
     c.size = 4.0;

@@ -89,13 +89,19 @@ std::vector<ShownAxis> shown_axes(const ResultView& result, std::string_view gro
   return axes;
 }
 
+std::string without_places(std::string text) {
+  for (auto at = text.find('{'); at != text.npos; at = text.find('{', at + 2))
+    text.insert(at, 1, '{');
+  return text;
+}
+
 std::string command_on_model(const ResultView& result, const std::string& verb,
                              const std::vector<std::string_view>& kept) {
   const Call call = read_call(result.file);
   std::vector<std::string> words{"whirl", verb, result.model_path};
   for (const std::string& set : call.sets) words.insert(words.end(), {"--set", set});
   for (const std::string& option : options_named(call.options, kept)) words.push_back(option);
-  return shell_line(words);
+  return without_places(shell_line(words));
 }
 
 namespace {
@@ -116,7 +122,7 @@ std::string set_command(const std::string& paths, const std::string& value,
     const std::size_t to = std::min(paths.find(',', from), paths.size());
     const bool is_negative = paths[from] == '-';
     const std::size_t start = from + (is_negative ? 1 : 0);
-    text += " --set " + shell_word(paths.substr(start, to - start) + "=");
+    text += " --set " + without_places(shell_word(paths.substr(start, to - start) + "="));
     text += is_negative ? negated(value) : value;
     if (!unit.empty()) text += shell_word(unit);
     from = to + 1;

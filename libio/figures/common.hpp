@@ -44,8 +44,12 @@ ShownAxis shown_axis(const ResultView& result, const std::string& path);
 /// Those of a study, with the values that are drawn.
 std::vector<ShownAxis> shown_axes(const ResultView& result, std::string_view group);
 
+/// A text in a command line with places, as Cells and Curve have them: its own braces are no
+/// places.
+std::string without_places(std::string text);
+
 /// A line for a shell that calls a verb on the model of a result, with what was set of it, and with
-/// some of the options of the result's own call.
+/// some of the options of the result's own call; places may be added.
 /// @param kept  names of these options, as far as they were given
 std::string command_on_model(const ResultView& result, const std::string& verb,
                              const std::vector<std::string_view>& kept);

@@ -129,6 +129,32 @@ def check_map(browser, name):
     return command
 
 
+def check_strangers(browser, whirl, folder, model):
+    """Names of strangers: braces in them are no places of a command, and no text of a saved table is a formula."""
+    strange = os.path.join(folder, "a{x}{n}{{y}.toml")
+    with open(model) as there, open(strange, "w") as file:
+        file.write(there.read().replace('name      = "ring"', 'name      = "r{-x}"').replace('name  = "rotor"', 'name  = "=1+{y}"')
+                   .replace('"rotor"', '"=1+{y}"'))
+    page = os.path.join(folder, "strange.html")
+    for verb, words in (("map", ["--over", "operation.speed=130:140:5rad/s", "--over", "contact.r{-x}.stiffness=20,40MN/m", "--discard", "5",
+                                 "--revolutions", "5"]), ("simulate", ["--revolutions", "12", "--discard", "5"])):
+        result = os.path.join(folder, f"strange_{verb}.h5")
+        for line in ([whirl, verb, strange, *words, "--out", result, "--quiet"], [whirl, "report", result, "--out", page, "--quiet"]):
+            done = subprocess.run(line, capture_output=True, text=True)
+            check(done.returncode in (0, 3), f"{line}: {done.stderr}")
+        browser.open(page)
+        browser.wait_for("document.documentElement.dataset.state === 'drawn'")
+        if verb == "map":
+            command = shlex.split(check_map(browser, "strange"))
+            check(command[2] == strange, f"the model is {command[2]}")
+            check(command[-1].startswith("contact.r{-x}.stiffness=") and float(command[-1].split("=")[1].removesuffix("N/m")) > 1e7,
+                  f"a click says {command}")
+        cells = [cell for table in browser.value("views.map(v => v.csv())") for line in table.split("\n") for cell in line.split('"')[1::2]]
+        check(not [cell for cell in cells if cell[:1] in ("=", "+", "-", "@")], f"{verb}: formulas in {cells[:9]}")
+        check(verb == "map" or any("'=1+{y}" in cell for cell in cells), f"{verb}: the name is not in the tables")
+    check(not browser.problems, f"strange: {browser.problems}")
+
+
 def check_branches(browser, whirl, folder, model):
     """A click on a point of a branch tells its multipliers and a command that finds its orbit."""
     result, page = os.path.join(folder, "branches.h5"), os.path.join(folder, "branches.html")
@@ -336,6 +362,8 @@ def main():
             check(not outside, f"{name} asks the network: {outside}")
             check(not browser.problems, f"{name}: {browser.problems}")
             print(name, flush=True)
+        browser.problems.clear()
+        check_strangers(browser, whirl, folder, model("jeffcott_stator"))
         browser.problems.clear()
         check_branches(browser, whirl, folder, model("jeffcott_stator"))
         browser.problems.clear()
