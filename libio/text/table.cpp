@@ -97,7 +97,13 @@ std::string block(const Cells& head, const std::vector<Cells>& rows,
 }  // namespace
 
 std::string Table::text() const {
-  return table_text(head_, rows_, terminal_columns());
+  const auto shown = [](Cells cells) {
+    for (std::string& cell : cells) cell = shown_line(cell);
+    return cells;
+  };
+  std::vector<Cells> rows;
+  for (const Cells& cells : rows_) rows.push_back(shown(cells));
+  return table_text(shown(head_), rows, terminal_columns());
 }
 
 std::string table_text(const Cells& head, const std::vector<Cells>& rows, std::size_t limit) {

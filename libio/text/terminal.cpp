@@ -111,6 +111,12 @@ std::string shown_text(std::string_view text) {
   return shown;
 }
 
+std::string shown_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) line += c == '\n' || c == '\r' ? "\ufffd" : std::string(1, c);
+  return line;
+}
+
 void say(std::FILE* to, std::string_view text) {
   const std::string shown = shown_text(text);
   std::fwrite(shown.data(), 1, shown.size(), to);

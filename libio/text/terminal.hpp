@@ -27,6 +27,9 @@ bool steers_terminal(std::string_view character);
 /// A text that only shows something: what steers a terminal, and bytes that are no UTF-8, become U+FFFD.
 std::string shown_text(std::string_view text);
 
+/// A name or title that may be a stranger's as part of a line: ends of lines become U+FFFD, too.
+std::string shown_line(std::string_view text);
+
 /// Prints a text as shown_text has it. All that a program tells people goes this way, since names, titles
 /// and files of strangers stand in it.
 void say(std::FILE* to, std::string_view text);

@@ -10,6 +10,7 @@
 #include "libfe/exceeded_tables.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
+#include "libio/text/terminal.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -77,7 +78,7 @@ std::string rest_text(const ModelFacts& facts) {
 }  // namespace
 
 std::string headline(std::string_view what, const Model& model) {
-  return std::string(what) + (model.title.empty() ? "" : ": " + model.title) + "\n";
+  return std::string(what) + (model.title.empty() ? "" : ": " + shown_line(model.title)) + "\n";
 }
 
 std::string text_of(const ModelFacts& facts, const Model& model) {

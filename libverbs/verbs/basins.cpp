@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "libio/text/terminal.hpp"
 #include "libio/texts/basins_text.hpp"
 #include "libverbs/options/study.hpp"
 
@@ -59,7 +60,8 @@ Report run_basins(const Invocation& call, const BasinsVerbOptions& asked) {
   Record record = record_of(shares);
   if (!points.axes().empty()) record.set("axes", columns::record_value(points.axes(), 1.0));
   const Model& model = points.model();
-  const std::string title = "Coexisting motions" + (model.title.empty() ? "" : ": " + model.title);
+  const std::string title =
+      "Coexisting motions" + (model.title.empty() ? "" : ": " + shown_line(model.title));
   return study_report(call, model, outcome, record,
                       fmt::format("{}; {} starts\n\n{}", title, shares.starts, text_of(shares)));
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libio/results/grid_record.hpp"
+#include "libio/text/terminal.hpp"
 #include "libio/texts/map_text.hpp"
 #include "libverbs/options/study.hpp"
 
@@ -40,7 +41,7 @@ Report run_map(const Invocation& call, const MapVerbOptions& asked) {
     record.merge(grid_record(motions, points.grid()));
   }
   const Model& model = points.model();
-  const std::string title = "Map" + (model.title.empty() ? "" : ": " + model.title);
+  const std::string title = "Map" + (model.title.empty() ? "" : ": " + shown_line(model.title));
   return study_report(call, model, outcome, record,
                       fmt::format("{}; {} points\n\n{}", title, result.points.size(),
                                   text_of(result, points.axes())));

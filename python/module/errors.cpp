@@ -6,6 +6,7 @@
 
 #include "libbase/error.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libio/text/terminal.hpp"
 
 namespace whirl::inline python {
 
@@ -19,7 +20,7 @@ void raise(const char* name, const py::object& value) {
 }
 
 void raise_text(const char* name, const std::exception& error) {
-  raise(name, py::str(error.what()));
+  raise(name, py::str(shown_text(error.what())));
 }
 
 py::list list_of(const std::vector<Problem>& problems) {

@@ -44,7 +44,7 @@ PYBIND11_MODULE(_whirl, module) {
 
   py::class_<Found>(module, "Found")
       .def_property_readonly("json", [](const Found& f) { return f.report.record.json(); })
-      .def_property_readonly("text", [](const Found& f) { return f.report.text; })
+      .def_property_readonly("text", [](const Found& f) { return shown_text(f.report.text); })
       .def_property_readonly("notes", [](const Found& f) { return f.report.notes; })
       .def_property_readonly(
           "failure", [](const Found& f) { return f.report.failure ? f.report.failure.text() : ""; })

@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import importlib
+import unicodedata
 from typing import Any, Optional
 
 import numpy as np
+
+
+def shown(text: Any, keeps: str = "") -> str:
+    """A text as it may be printed: names in files come from strangers, and what steers a terminal or turns the
+    direction of a text is shown as \ufffd, as the command line does. Line ends, too, unless they are kept."""
+    return "".join("\ufffd" if c not in keeps and unicodedata.category(c) in ("Cc", "Cf", "Cs", "Zl", "Zp") else c
+                   for c in str(text))
 
 
 class Array(np.ndarray):
@@ -100,7 +108,7 @@ class Array(np.ndarray):
     def __repr__(self) -> str:
         unit = f" [{self.unit}]" if self.unit else ""
         dims = ", ".join(f"{d}: {n}" for d, n in zip(self.dims, self.shape))
-        return f"<{self.name}{unit} ({dims}) {self.meaning}>\n{np.array2string(np.asarray(self), threshold=20)}"
+        return f"{shown(f'<{self.name}{unit} ({dims}) {self.meaning}>')}\n{np.array2string(np.asarray(self), threshold=20)}"
 
 
 def need(module: str) -> Any:

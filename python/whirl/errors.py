@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from .arrays import shown
+
 
 class Problem(NamedTuple):
     """One thing that is wrong in a model or a call."""
@@ -22,7 +24,7 @@ class Problem(NamedTuple):
         place = self.file
         if self.line:
             place += f":{self.line}:{self.column}"
-        return ": ".join(part for part in (place, self.key, self.message) if part)
+        return shown(": ".join(part for part in (place, self.key, self.message) if part), keeps="\n\t")
 
 
 class ModelError(ValueError):

@@ -14,6 +14,7 @@ from typing import Any, Iterator, Mapping, Optional, Union
 import numpy as np
 
 from . import _whirl
+from .arrays import shown
 from .methods import TABLES, Methods
 from .results import Result, run_verb
 from .state_space import StateSpace, state_space
@@ -113,8 +114,8 @@ class Matrices:
         return iter((self.M, self.C, self.G, self.K))
 
     def __repr__(self) -> str:
-        return (f"<whirl.Matrices M, C, G, K of {len(self.dofs)} coordinates ({self.dofs[0]}, ..., {self.dofs[-1]}) "
-                f"at {self.speed:.6g} rad/s>")
+        return shown(f"<whirl.Matrices M, C, G, K of {len(self.dofs)} coordinates ({self.dofs[0]}, ..., {self.dofs[-1]}) "
+                     f"at {self.speed:.6g} rad/s>")
 
 
 class Model(Methods):
@@ -279,7 +280,7 @@ class Model(Methods):
 
     def __repr__(self) -> str:
         title = f" {self.title!r}" if self.title else ""
-        return f"<whirl.Model{title} of {self.path}>"
+        return shown(f"<whirl.Model{title} of {self.path}>")
 
 
 def read(path: Union[str, os.PathLike]) -> Model:

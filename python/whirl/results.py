@@ -18,7 +18,7 @@ from typing import Any, Callable, Iterator, Optional, Union
 import numpy as np
 
 from . import _whirl, progress as _progress
-from .arrays import Array, attributes_of, dimension_of, labelled, need, title_of
+from .arrays import Array, attributes_of, dimension_of, labelled, need, shown, title_of
 from .errors import ModelError, Problem
 from .methods import ResultMethods
 from .verbs import VERBS, Verb, given_values
@@ -147,12 +147,12 @@ class Group:
         return pandas.DataFrame(columns, index=index)
 
     def __repr__(self) -> str:
-        lines = [f"<whirl.Group {self.path}>"]
+        lines = [shown(f"<whirl.Group {self.path}>")]
         for name in self._paths:
             a = self[name]
             unit = f" [{a.unit}]" if a.unit else ""
-            lines.append(f"  {name}{unit} ({', '.join(a.dims)}): {a.meaning}")
-        lines += [f"  {name} = {value!r}" for name, value in self.attributes.items()]
+            lines.append(shown(f"  {name}{unit} ({', '.join(a.dims)}): {a.meaning}"))
+        lines += [shown(f"  {name} = {value!r}") for name, value in self.attributes.items()]
         return "\n".join(lines)
 
 
@@ -412,7 +412,7 @@ class Result(ResultMethods):
     def __repr__(self) -> str:
         groups = ", ".join(name for name, group in self.groups.items() if group.keys())
         ended = "" if self.is_whole else f"; {self.failure or 'stopped'}"
-        return f"<whirl.Result of {self.verb}: {groups or 'no arrays'}{ended}>"
+        return shown(f"<whirl.Result of {self.verb}: {groups or 'no arrays'}{ended}>")
 
 
 _INTEGRATION = {o.name for keyword, o in VERBS["simulate"].options.items()

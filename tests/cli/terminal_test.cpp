@@ -86,6 +86,28 @@ TEST_F(Terminal, NamesOfStrangersDoNotSteerIt) {
   EXPECT_TRUE(has(whirl({"check", "m.toml"}).out, shown));
 }
 
+// A name or title in several lines is no line of the program's own.
+TEST_F(Terminal, NamesOfStrangersMakeNoLines) {
+  std::string model = jeffcott;
+  for (const std::string& word : {std::string("Jeffcott"), std::string("shaft")}) {
+    model.replace(model.find(word), word.size(), word + "\\nspoofed: passed");
+  }
+  for (auto at = model.find("\"rotor\""); at != model.npos; at = model.find("\"rotor\"", at + 9)) {
+    model.replace(at, 7, "\"rotor\\r\\nspoofed: passed\"");
+  }
+  write("lines.toml", model);
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"check", "lines.toml"},
+                                             {"static", "lines.toml"},
+                                             {"modes", "lines.toml", "--speed", "900rpm"},
+                                             {"simulate", "lines.toml", "--speed", "900rpm",
+                                              "--discard", "0", "--revolutions", "3"}}) {
+    const Outcome outcome = whirl(words);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_FALSE(has(outcome.out, "\nspoofed")) << outcome.out;
+  }
+}
+
 // The same calls with further verbs on one model of few dofs.
 TEST_F(Terminal, NeitherOfStudies) {
   write("rub.toml", rubbing);
