@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 
@@ -59,16 +60,16 @@ int run_verb(const std::vector<std::string>& words, const Ranks* ranks) {
   const Verb* const verb = verb_named(words[1]);
   if (!verb) return unknown_verb(words[1]);
   if (!verb->run_words) return run_command(*verb, words, {}, ranks);
-  if (words.size() > 2 && words[2] == "--help") {
+  const auto asks_for_help = [](const std::string& w) { return w == "--help" || w == "-h"; };
+  if (std::any_of(words.begin() + 2, words.end(), asks_for_help)) {
     say(stdout, verb->usage);
     return exit_status::done;
   }
   return verb->run_words({words.begin() + 2, words.end()}, ranks);
 }
 
-}  // namespace
-
-int run_program(const std::vector<std::string>& words, const Ranks* ranks) {
+/// Runs what the first word asks for.
+int run_words(const std::vector<std::string>& words, const Ranks* ranks) {
   const std::string word = words.size() > 1 ? words[1] : "--help";
   if (word == "--help" || word == "-h" || (word == "help" && words.size() == 2)) {
     say(stdout, overview());
@@ -85,6 +86,12 @@ int run_program(const std::vector<std::string>& words, const Ranks* ranks) {
     say(stderr, fmt::format("whirl: {}\n", error.what()));  // which may be full too
     return exit_status::failed;
   }
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& words, const Ranks* ranks) {
+  return after_printing(run_words(words, ranks));
 }
 
 void serve_program(const Ranks& ranks) {

@@ -14,6 +14,7 @@
 #include "libbase/digest.hpp"
 #include "libbase/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
+#include "libio/text/passing_file.hpp"
 #include "libio/text/terminal.hpp"
 #include "libverbs/command/arithmetic.hpp"
 #include "libverbs/command/exit_status.hpp"
@@ -146,6 +147,7 @@ int main(int argc, char** argv) {
     // for which the program may start again: not once MPI has begun
     if (asked_set({argv, argv + argc}) == baseline_set) adopt_arithmetic(std::string(baseline_set));
     MpiProcess process(argc, argv);
+    remove_passing_files_at_signals(exit_status::stopped);  // where MPI does nothing itself
     try {
       return work(process, whirl_words(argc, argv));
     } catch (const std::exception& error) {

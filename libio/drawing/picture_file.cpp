@@ -1,7 +1,6 @@
 #include "libio/drawing/picture_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <map>
@@ -11,6 +10,7 @@
 
 #include "libbase/program.hpp"
 #include "libio/results/own_file.hpp"
+#include "libio/results/temporary_folder.hpp"
 
 namespace whirl::inline io {
 
@@ -44,15 +44,6 @@ void convert(const fs::path& svg, const fs::path& to, const PictureFileOptions& 
     throw FileError(fmt::format("cannot write {}: rsvg-convert failed", to.string()));
   }
 }
-
-/// A file that is removed at the end.
-struct Passing {
-  fs::path path;
-  ~Passing() {
-    std::error_code ignored;
-    fs::remove(path, ignored);
-  }
-};
 
 }  // namespace
 
@@ -95,9 +86,10 @@ void write_picture(const std::string& svg, const fs::path& place,
                    const PictureFileOptions& options) {
   if (options.format == PictureFormat::svg) return replace_file(place, svg, options.replaces);
   FileReplacement file(place, options.replaces);
-  const Passing source{place.string() + fmt::format(".{}.svg", ::getpid())};
-  replace_file(source.path, svg);
-  convert(source.path, file.temporary(), options);
+  const TemporaryFolder folder("plot", place);
+  const fs::path source = folder.path() / "picture.svg";
+  replace_file(source, svg);
+  convert(source, file.temporary(), options);
   mark_as_own(file.temporary());
   file.commit();
 }

@@ -113,7 +113,7 @@ std::vector<fs::path> write_matrix_market(const fs::path& stem, const Model& mod
   std::string table(dofs_head);
   for (std::size_t q = 0; q < names.size(); ++q) {
     const std::string at = std::isnan(places[q]) ? "" : fmt::format("{}", places[q]);
-    table += fmt::format("{},{},{}\n", q + 1, csv_quoted(names[q]), at);
+    table += fmt::format("{},{},{}\n", q + 1, csv_quoted(spreadsheet_text(names[q])), at);
   }
   files.emplace_back(stem.string() + "_dofs.csv");
   replace_file(files.back(), table, replaces_own(files.back(), dofs_head, replaces));
@@ -124,23 +124,13 @@ std::vector<fs::path> write_matlab(const fs::path& stem, const Model& model,
                                    const Assembler& assembler, double Omega, Replaces replaces) {
   const System system = assembler.uncondensed(Omega);
   const fs::path place = stem.string() + ".mat";
-  FileReplacement file(place, replaces_own(place, matlab_head, replaces));
-  {
-    const MatlabFile mat(Mat_CreateVer(file.temporary().c_str(), matlab_head, MAT_FT_MAT5),
-                         &Mat_Close);
-    std::vector<MatlabVariable> variables;
-    for (const auto& [name, values] : matrices_of(system)) {
-      variables.push_back(sparse_variable(name, *values));
-    }
-    variables.push_back(matlab_numbers("Omega", {Omega}, 1, 1));
-    variables.push_back(matlab_texts("dofs", coordinate_names(system.dofs, model)));
-    for (const MatlabVariable& v : variables) {
-      if (!mat || !v || Mat_VarWrite(mat.get(), v.get(), MAT_COMPRESSION_NONE) != 0) {
-        throw FileError(place.string() + " cannot be written");
-      }
-    }
+  std::vector<MatlabVariable> variables;
+  for (const auto& [name, values] : matrices_of(system)) {
+    variables.push_back(sparse_variable(name, *values));
   }
-  file.commit();
+  variables.push_back(matlab_numbers("Omega", {Omega}, 1, 1));
+  variables.push_back(matlab_texts("dofs", coordinate_names(system.dofs, model)));
+  write_matlab_file(place, matlab_head, variables, replaces);
   return {place};
 }
 

@@ -1,12 +1,12 @@
 #include "libio/export/mesh_formats.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 
 #include "libbase/program.hpp"
 #include "libio/results/replace_file.hpp"
+#include "libio/results/temporary_folder.hpp"
 
 namespace whirl::inline io {
 
@@ -15,23 +15,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr bool lines = true, surface = false;
-
-/// Files beside a place, removed at the end.
-struct Beside {
-  fs::path mesh, result, output;
-  explicit Beside(const fs::path& place) {
-    const std::string stem = fmt::format("{}.{}", place.string(), ::getpid());
-    mesh = stem + ".vtu";
-    result = stem + ".part";
-    output = stem + ".txt";
-  }
-  ~Beside() {
-    std::error_code ignored;
-    for (const fs::path& file : {mesh, result, output}) fs::remove(file, ignored);
-  }
-  Beside(const Beside&) = delete;
-  Beside& operator=(const Beside&) = delete;
-};
 
 }  // namespace
 
@@ -72,16 +55,18 @@ const MeshFormat* mesh_format(std::string_view name) {
 void write_mesh(const fs::path& place, const MeshFormat& format, const RotorMesh& mesh,
                 Replaces replaces) {
   if (format.name == "vtu") return replace_file(place, vtu_of(mesh), replaces);
-  FileReplacement{place, replaces};  // a wrong place is said first
-  const Beside beside(place);
-  replace_file(beside.mesh, vtu_of(mesh));
+  FileReplacement file(place, replaces);  // a wrong place is said first
+  const TemporaryFolder folder("export", place);
+  const fs::path from = folder.path() / "mesh.vtu", to = folder.path() / "mesh",
+                 output = folder.path() / "output.txt";
+  replace_file(from, vtu_of(mesh));
   const auto fail = [&](const std::string& why) {
     throw FileError(fmt::format("cannot write {}: {}", place.string(), why));
   };
-  const std::optional<int> status = run_program(
-      {"meshio", "convert", "--input-format", "vtu", "--output-format", std::string(format.name),
-       fs::absolute(beside.mesh).string(), fs::absolute(beside.result).string()},
-      beside.output);
+  const std::optional<int> status =
+      run_program({"meshio", "convert", "--input-format", "vtu", "--output-format",
+                   std::string(format.name), from.string(), to.string()},
+                  output);
   if (!status) {
     fail(
         fmt::format("the format {} needs meshio, of the Debian package meshio-tools (vtu, vtk, "
@@ -89,12 +74,13 @@ void write_mesh(const fs::path& place, const MeshFormat& format, const RotorMesh
                     format.name));
   }
   std::error_code problem;
-  if (*status != 0) fail("meshio says: " + last_words(beside.output));
-  if (!fs::exists(beside.result, problem) || fs::file_size(beside.result, problem) == 0) {
-    fail("meshio wrote nothing: " + last_words(beside.output));
+  if (*status != 0) fail("meshio says: " + last_words(output));
+  if (!fs::exists(to, problem) || fs::file_size(to, problem) == 0) {
+    fail("meshio wrote nothing: " + last_words(output));
   }
-  fs::rename(beside.result, place, problem);
+  fs::copy_file(to, file.temporary(), fs::copy_options::overwrite_existing, problem);
   if (problem) fail(problem.message());
+  file.commit();
 }
 
 }  // namespace whirl::inline io

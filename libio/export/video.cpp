@@ -150,7 +150,12 @@ std::vector<fs::path> write_video(const VtkScene& scene, const std::vector<VtkFr
     places.push_back(
         fs::path(options.place).replace_filename(options.place.stem().string() + name));
     FileReplacement file(places.back(), options.replaces);
-    fs::copy_file(drawn, file.temporary());
+    std::error_code problem;
+    fs::copy_file(drawn, file.temporary(), fs::copy_options::overwrite_existing, problem);
+    if (problem) {
+      throw FileError(
+          fmt::format("cannot write {}: {}", places.back().string(), problem.message()));
+    }
     mark_as_own(file.temporary());
     file.commit();
   }

@@ -36,13 +36,13 @@ std::string attribute(const std::string& name, const std::string& type, const st
 
 std::vector<fs::path> write_xdmf_series(const fs::path& xdmf_path, const VtkScene& scene,
                                         const std::vector<VtkFrame>& frames, Replaces replaces) {
-  FileReplacement{xdmf_path, replaces};
+  const fs::path old = FileReplacement{xdmf_path, replaces}.place();
   const fs::path numbers =
       fs::path(xdmf_path).replace_filename(xdmf_path.stem().string() + "_xdmf.h5");
   const Replaces of_numbers = replaces == Replaces::anything ? replaces : Replaces::own_results;
-  require_replaceable(numbers, of_numbers);
+  FileReplacement{numbers, of_numbers};
   std::error_code ignored;
-  fs::remove(xdmf_path, ignored);
+  fs::remove(old, ignored);  // which tells of other numbers
   const std::string name = xml_text(numbers.filename().string());
   const auto points = std::ssize(scene.z);
 

@@ -225,26 +225,16 @@ void write_matlab_record(const std::filesystem::path& path, const MeasuredRecord
     names.push_back(c.name);
     units.push_back(c.unit);
   }
-  FileReplacement file(path, replaces_own(path, matlab_record_head, replaces));
-  {
-    const MatlabFile mat(Mat_CreateVer(file.temporary().c_str(), matlab_record_head, MAT_FT_MAT5),
-                         &Mat_Close);
-    std::vector<MatlabVariable> variables;
-    const Mat& samples = record.samples;
-    variables.push_back(matlab_numbers("fs", {record.rate}, 1, 1));
-    variables.push_back(matlab_numbers("start", {record.start}, 1, 1));
-    variables.push_back(matlab_texts("channels", names));
-    variables.push_back(matlab_texts("units", units));
-    variables.push_back(matlab_numbers("data", {samples.data(), samples.data() + samples.size()},
-                                       static_cast<std::size_t>(samples.rows()),
-                                       static_cast<std::size_t>(samples.cols())));
-    for (const MatlabVariable& v : variables) {
-      if (!mat || !v || Mat_VarWrite(mat.get(), v.get(), MAT_COMPRESSION_NONE) != 0) {
-        throw FileError(path.string() + " cannot be written");
-      }
-    }
-  }
-  file.commit();
+  std::vector<MatlabVariable> variables;
+  const Mat& samples = record.samples;
+  variables.push_back(matlab_numbers("fs", {record.rate}, 1, 1));
+  variables.push_back(matlab_numbers("start", {record.start}, 1, 1));
+  variables.push_back(matlab_texts("channels", names));
+  variables.push_back(matlab_texts("units", units));
+  variables.push_back(matlab_numbers("data", {samples.data(), samples.data() + samples.size()},
+                                     static_cast<std::size_t>(samples.rows()),
+                                     static_cast<std::size_t>(samples.cols())));
+  write_matlab_file(path, matlab_record_head, variables, replaces);
 }
 
 }  // namespace whirl::inline io

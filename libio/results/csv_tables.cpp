@@ -39,12 +39,9 @@ bool is_internal(const std::string& name) {
   return names.count(name) > 0;
 }
 
-/// A text as a cell: in quotation marks where it needs them. One that a spreadsheet would take for a
-/// formula gets an apostrophe in front, which spreadsheets take for "this is text".
+/// A text as a cell: in quotation marks where it needs them.
 std::string csv_text(const std::string& text) {
-  constexpr std::string_view formula = "=+-@\t\r";
-  const bool is_formula = !text.empty() && formula.find(text.front()) != std::string_view::npos;
-  const std::string cell = is_formula ? '\'' + text : text;
+  const std::string cell = spreadsheet_text(text);
   return cell.find_first_of(",\"\n\r") == std::string::npos ? cell : csv_quoted(cell);
 }
 
@@ -336,6 +333,12 @@ std::vector<std::string> real_axes(const ResultReader& file, const std::string& 
 }
 
 }  // namespace
+
+std::string spreadsheet_text(const std::string& text) {
+  constexpr std::string_view formula = "=+-@\t\r";
+  const bool is_formula = !text.empty() && formula.find(text.front()) != std::string_view::npos;
+  return is_formula ? '\'' + text : text;
+}
 
 std::string csv_quoted(std::string_view cell) {
   std::string result = "\"";

@@ -10,6 +10,10 @@
 
 namespace whirl::inline io {
 
+/// A text for a cell: one that a spreadsheet would take for a formula gets an apostrophe in front,
+/// which spreadsheets take for "this is text".
+std::string spreadsheet_text(const std::string& text);
+
 /// A cell in quotation marks; those in it are doubled.
 std::string csv_quoted(std::string_view cell);
 

@@ -1,9 +1,68 @@
 #include "libio/results/matlab_variables.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <fstream>
 
 namespace whirl::inline io {
+
+namespace {
+
+using Tag = std::array<std::uint32_t, 2>;  ///< type and size of an element; of a small one with it
+
+/// Goes over elements that follow each other in a file.
+/// @param f  called with the tag and the place of each
+/// @return   whether the last one ends where they all are said to end
+template <class F>
+bool are_whole(std::ifstream& in, std::streamoff at, std::streamoff end, const F& f) {
+  constexpr std::streamoff tag_bytes = 8;
+  while (at < end) {
+    Tag tag{};
+    if (!in.seekg(at).read(reinterpret_cast<char*>(tag.data()), tag_bytes) || !f(tag, at)) {
+      return false;
+    }
+    const bool is_small = tag[0] >> 16u != 0;
+    at += tag_bytes + (is_small ? 0 : (tag[1] + tag_bytes - 1) / tag_bytes * tag_bytes);
+  }
+  return at == end;
+}
+
+/// Whether a file has so many variables, each with all of its bytes, and nothing behind them.
+bool is_whole(const std::filesystem::path& file, std::size_t variables) {
+  constexpr std::streamoff head = 128, tag_bytes = 8;
+  std::ifstream in(file, std::ios::binary);
+  const std::streamoff size = in.seekg(0, std::ios::end).tellg();
+  std::size_t count = 0;
+  return are_whole(in, head, size,
+                   [&](const Tag& variable, std::streamoff at) {
+                     ++count;
+                     return are_whole(in, at + tag_bytes, at + tag_bytes + variable[1],
+                                      [](const Tag&, std::streamoff) { return true; });
+                   }) &&
+         count == variables;
+}
+
+}  // namespace
+
+void write_matlab_file(const std::filesystem::path& place, const char* head,
+                       const std::vector<MatlabVariable>& variables, Replaces replaces) {
+  FileReplacement file(place, replaces_own(place, head, replaces));
+  MatlabFile mat(Mat_CreateVer(file.temporary().c_str(), head, MAT_FT_MAT5), &Mat_Close);
+  for (const MatlabVariable& v : variables) {
+    if (!mat || !v || Mat_VarWrite(mat.get(), v.get(), MAT_COMPRESSION_NONE) != 0) {
+      throw FileError(place.string() + " cannot be written");
+    }
+  }
+  mat.reset();
+  if (!is_whole(file.temporary(), variables.size())) {
+    throw FileError(
+        fmt::format("cannot write {}: the disk is full, or the file too large", place.string()));
+  }
+  file.commit();
+}
 
 MatlabVariable matlab_texts(const char* name, const std::vector<std::string>& texts) {
   std::size_t width = 1;

@@ -3,14 +3,24 @@
 
 #include <matio.h>
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {
 
 using MatlabVariable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
 using MatlabFile = std::unique_ptr<mat_t, decltype(&Mat_Close)>;
+
+/// Writes a file of level 5.
+/// @param head  what it begins with, told to people
+/// @throws FileError  as FileReplacement, and if it is not whole: matio does not tell of a full
+///                    disk
+void write_matlab_file(const std::filesystem::path& place, const char* head,
+                       const std::vector<MatlabVariable>& variables, Replaces replaces);
 
 /// Texts as rows of equally many characters.
 MatlabVariable matlab_texts(const char* name, const std::vector<std::string>& texts);

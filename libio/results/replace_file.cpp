@@ -68,21 +68,23 @@ FileReplacement::FileReplacement(const fs::path& place, Replaces what)
   const std::string problem = problem_of_writing(place);
   if (!problem.empty()) fail(place, problem);
   require_place(place, what);
-  temporary_ = place_;
-  temporary_ += fmt::format(".tmp.{}", ::getpid());
-}
-
-FileReplacement::~FileReplacement() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  // a second one of this process, or what another process of this number has left, has the first
+  // name
+  constexpr int most = 100;
+  const std::string name = fmt::format("{}.tmp.{}", place_.string(), ::getpid());
+  int code = temporary_.make(name);
+  for (int i = 1; code == EEXIST && i < most; ++i) {
+    code = temporary_.make(fmt::format("{}.{}", name, i));
+  }
+  if (code != 0) fail(place, std::strerror(code));
 }
 
 void FileReplacement::commit() {
-  if (const int code = synchronize(temporary_)) fail(place_, std::strerror(code));
+  if (const int code = synchronize(temporary())) fail(place_, std::strerror(code));
   std::error_code problem;
-  fs::rename(temporary_, place_, problem);
+  fs::rename(temporary(), place_, problem);
   if (problem) fail(place_, problem.message());
-  temporary_.clear();
+  temporary_.forget();
   // the new name must reach the disk too; some file systems cannot do that, and then need not
   synchronize(place_.has_parent_path() ? place_.parent_path() : ".");
 }
@@ -97,9 +99,10 @@ void replace_file(const fs::path& place, const std::function<void(std::ostream&)
                   Replaces what) {
   FileReplacement file(place, what);
   std::ofstream stream(file.temporary(), std::ios::binary);
+  errno = 0;
   f(stream);
   stream.close();
-  if (!stream) fail(place, std::strerror(errno));
+  if (!stream) fail(place, errno != 0 ? std::strerror(errno) : "the disk is full or fails");
   file.commit();
 }
 

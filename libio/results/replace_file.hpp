@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "libio/text/passing_file.hpp"
+
 namespace whirl::inline io {
 
 /// A file cannot be read or written; says which one and why.
@@ -31,35 +33,33 @@ enum class Replaces {
 void require_replaceable(const std::filesystem::path& place, Replaces what);
 
 /// Checks a place without writing there.
-/// @throws FileError  if there is no such directory, or if the place is taken by something that is not a
-///                    file, such as /dev/null, or by a file that may not be replaced
+/// @throws FileError  if there is no such directory, or if the place is taken by something that is
+///                    not a file, such as /dev/null, or by a file that may not be replaced
 void require_place(const std::filesystem::path& place, Replaces what);
 
-/// A file that is written under another name and takes its place when it is complete.
+/// A file that is written under another name and takes its place when it is complete; without
+/// commit() it is removed at the end.
 ///
 /// Whoever opens the place finds the old file or the new one, whole, at whatever moment this
-/// process is killed; a killed one leaves "<name>.tmp.<process number>" behind.
+/// process is killed. The other name is "<name>.tmp.<process number>", of a new file, which SIGKILL
+/// alone leaves behind.
 class FileReplacement {
  public:
   /// @param place  a file, which need not exist yet, in a directory that does
   /// @throws FileError  as require_place, and if the call of the program reads that file
   explicit FileReplacement(const std::filesystem::path& place,
                            Replaces what = Replaces::own_pictures);
-  /// Removes what was written, unless it was committed.
-  ~FileReplacement();
-  FileReplacement(const FileReplacement&) = delete;
-  FileReplacement& operator=(const FileReplacement&) = delete;
-
   const std::filesystem::path& place() const { return place_; }
   /// Where to write: a file next to the place.
-  const std::filesystem::path& temporary() const { return temporary_; }
+  const std::filesystem::path& temporary() const { return temporary_.path(); }
 
   /// Brings the closed temporary file to the disk and moves it to its place.
   /// @throws FileError  the place then is as it was
   void commit();
 
  private:
-  std::filesystem::path place_, temporary_;
+  std::filesystem::path place_;
+  PassingFile temporary_{};
 };
 
 /// What may be replaced: any file that begins as those of this program do, else as given.

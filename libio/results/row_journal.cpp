@@ -147,6 +147,34 @@ bool is_ours(int file) {
   return got >= 0 && magic.starts_with({begin.data(), static_cast<std::size_t>(got)});
 }
 
+/// Opens a journal that nobody else has open.
+/// @return  a descriptor
+int open_alone(const fs::path& place) {
+  const int file = ::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (file < 0) fail_to(place, "write");
+  const auto refuse = [&](std::string_view why) {
+    ::close(file);
+    return fmt::format("cannot write {}: {}", place.string(), why);
+  };
+  if (::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    throw FileError(refuse("another run is writing it"));
+  }  // file systems without locks do without
+  if (!is_ours(file))
+    throw TakenPlace(refuse("this file is no journal of whirl and would be lost"));
+  return file;
+}
+
+/// Refuses to drop rows of a study that is another one than is asked for.
+void require_no_rows(int file, const fs::path& place) {
+  std::size_t rows = 0;
+  for_each_row(file, place, [&](std::uint64_t, std::string_view) { ++rows; });
+  if (rows == 0) return;
+  throw FileError(
+      fmt::format("cannot write {}: it has {} rows of another study, or of another model or "
+                  "version; take another name, or --restart to drop them",
+                  place.string(), rows));
+}
+
 }  // namespace
 
 RowJournal::RowJournal(const fs::path& place, std::string_view key, const ReadRow& f)
@@ -154,16 +182,8 @@ RowJournal::RowJournal(const fs::path& place, std::string_view key, const ReadRo
   if (const std::string problem = problem_of_writing(place); !problem.empty()) {
     throw FileError(fmt::format("cannot write {}: {}", place.string(), problem));
   }
-  file_ = ::open(place.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (file_ < 0) fail_to(place, "write");
+  file_ = open_alone(place);
   try {
-    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      throw FileError(fmt::format("cannot write {}: another run is writing it", place.string()));
-    }  // file systems without locks do without
-    if (!is_ours(file_)) {
-      throw TakenPlace(fmt::format(
-          "cannot write {}: this file is no journal of whirl and would be lost", place.string()));
-    }
     const Head wanted = head_of(key);
     const std::optional<Head> found = head_in(file_);
     if (found && bytes_of(*found) == bytes_of(wanted)) {
@@ -172,6 +192,7 @@ RowJournal::RowJournal(const fs::path& place, std::string_view key, const ReadRo
       });
       cut(file_, place_, end_);
     } else {
+      if (found) require_no_rows(file_, place_);
       cut(file_, place_, 0);
       write_at(file_, place_, bytes_of(wanted), 0);
       end_ = sizeof wanted;
@@ -222,6 +243,15 @@ void RowJournal::remove() {
   fs::remove(place_, ignored);
   ::close(file_);
   file_ = -1;
+}
+
+void drop_rows(const fs::path& place) {
+  if (!fs::exists(place)) return;
+  const int file = open_alone(place);
+  const int code = ::ftruncate(file, 0) == 0 ? 0 : errno;
+  ::close(file);
+  errno = code;
+  if (code != 0) fail_to(place, "write");
 }
 
 fs::path journal_of(const fs::path& file) {

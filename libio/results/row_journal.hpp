@@ -31,9 +31,10 @@ class RowJournal {
 
   /// Opens the journal at a place, or begins one.
   ///
-  /// @param key  which study the rows are of; those of another one are dropped
+  /// @param key  which study the rows are of
   /// @param f    called with each row that is there; may be empty
-  /// @throws FileError   if the file cannot be read or written, or another process has it open
+  /// @throws FileError   if the file cannot be read or written, if another process has it open, or
+  ///                     if it has rows of another study
   /// @throws TakenPlace  if there is a file that is no journal
   RowJournal(const std::filesystem::path& place, std::string_view key, const ReadRow& f = {});
   ~RowJournal();
@@ -64,6 +65,10 @@ class RowJournal {
   int file_ = -1;
   std::uint64_t end_ = 0;  ///< of the rows that are whole
 };
+
+/// Drops all rows of a journal, of whatever study they are.
+/// @throws FileError, TakenPlace  as RowJournal
+void drop_rows(const std::filesystem::path& place);
 
 /// Where the journal of a result file is: beside it, "atlas.h5.rows".
 std::filesystem::path journal_of(const std::filesystem::path& file);

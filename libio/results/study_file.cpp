@@ -99,7 +99,8 @@ void remove_leftovers(const std::filesystem::path& place) {
     int process = 0;
     const char* number = name.data() + begin.size();
     const auto [end, problem] = std::from_chars(number, name.data() + name.size(), process);
-    const bool is_number = problem == std::errc{} && end == name.data() + name.size();
+    const bool is_number =
+        problem == std::errc{} && (end == name.data() + name.size() || *end == '.');
     if (is_number && ::kill(process, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), ignored);
   }
 }
@@ -135,8 +136,8 @@ StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWri
            });
     cost_ = clock::now() - since;  // writing takes about as long as reading
     next_whole_ = clock::now() + first_of_run * cost_;
-  } else if (std::filesystem::exists(journal_of(place_.file))) {
-    journal().clear();  // of a study that is begun anew
+  } else if (place_.restarts) {
+    drop_rows(journal_of(place_.file));
   }
   for (const std::string& part : place_.joins) {
     resume(place_, part, place_.call, "it is no part of this study", take);

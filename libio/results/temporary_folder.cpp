@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
@@ -19,16 +18,10 @@ TemporaryFolder::TemporaryFolder(const std::string& what, const fs::path& beside
     parent = fs::absolute(beside).parent_path();
     ::setenv("TMPDIR", parent.c_str(), 1);  // for the programs that this one calls
   }
-  std::string name = (parent / fmt::format("whirl_{}_XXXXXX", what)).string();
-  if (!::mkdtemp(name.data())) {
-    throw FileError(fmt::format("cannot make the folder {}: {}", name, std::strerror(errno)));
+  const std::string name = (parent / fmt::format("whirl_{}_XXXXXX", what)).string();
+  if (const int code = folder_.make_folder(name)) {
+    throw FileError(fmt::format("cannot make the folder {}: {}", name, std::strerror(code)));
   }
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 }  // namespace whirl::inline io

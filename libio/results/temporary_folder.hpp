@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "libio/text/passing_file.hpp"
+
 namespace whirl::inline io {
 
 /// A folder that is removed at the end: among the system's temporary ones, or beside a file where
@@ -13,14 +15,11 @@ class TemporaryFolder {
   /// @param beside  a file
   /// @throws FileError  if there can be none
   TemporaryFolder(const std::string& what, const std::filesystem::path& beside);
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
 
  private:
-  std::filesystem::path path_;
+  PassingFile folder_{};
 };
 
 }  // namespace whirl::inline io

@@ -1,6 +1,6 @@
 #pragma once
-/// The files that a call of the program reads and writes, so that none of them is lost to it: a file
-/// that is read is not written, and no file is written by two.
+/// The files that a call of the program reads and writes, so that none of them is lost to it: a
+/// file that is read is not written, and no file is written by two.
 
 #include <filesystem>
 #include <string>
@@ -16,8 +16,8 @@ std::filesystem::path behind_links(const std::filesystem::path& path);
 /// Whether two names are those of one file, there or not.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-/// The list of a call. Every reader of files and every writer asks the one of its thread; where there is
-/// none, everything may be read and written.
+/// The list of a call. Every reader of files and every writer asks the one of its thread; where
+/// there is none, everything may be read and written.
 class FilesInUse {
  public:
   /// Begins a list; within a call that has one, that one goes on.
@@ -44,8 +44,8 @@ class FilesInUse {
   std::vector<Use> read_{}, outputs_{};
 };
 
-/// What is read meanwhile in this thread is what an output takes the place of or goes on from: looking
-/// at it does not keep it.
+/// What is read meanwhile in this thread is what an output takes the place of or goes on from:
+/// looking at it does not keep it.
 class LooksAtOutput {
  public:
   LooksAtOutput();
@@ -63,7 +63,8 @@ std::string problem_of_reading(const std::filesystem::path& file,
 /// Takes down the place of an output before its time, so that nothing else is written there.
 /// @param option   that names it: "--out"
 /// @param is_last  it is written when all else is
-/// @return         what is wrong with that: "--from reads it", "--out and --json name the same file"
+/// @return         what is wrong with that: "--from reads it", "--out and --json name the same
+///                 file"
 std::string problem_of_output(const std::filesystem::path& place, const std::string& option,
                               bool is_last = false);
 

@@ -4,23 +4,25 @@
 
 #include <atomic>
 
+#include "libio/text/passing_file.hpp"
+
 namespace whirl::inline io {
 
 namespace {
 
-std::atomic<bool> interrupted = false;
+std::atomic<bool> interrupted = false, by_hand = false;
 std::atomic<bool> is_looked_at = false;  ///< by somebody, so that there may be something to keep
 
-/// @param more  flags of sigaction beside SA_RESTART, by which files are written on
-void ask_to_stop_at(int signal, int more) {
+void ask_to_stop(int signal) {
+  const bool is_second = signal == SIGINT && by_hand.exchange(true);
+  interrupted = true;
+  if (is_second || !is_looked_at) end_by_signal(signal);
+}
+
+void ask_to_stop_at(int signal) {
   struct sigaction action {};
-  action.sa_handler = [](int number) {
-    interrupted = true;
-    if (is_looked_at) return;
-    ::signal(number, SIG_DFL);
-    ::raise(number);
-  };
-  action.sa_flags = SA_RESTART | more;
+  action.sa_handler = ask_to_stop;
+  action.sa_flags = SA_RESTART;  // files are written on
   sigemptyset(&action.sa_mask);
   ::sigaction(signal, &action, nullptr);
 }
@@ -28,9 +30,7 @@ void ask_to_stop_at(int signal, int more) {
 }  // namespace
 
 void install_interrupt_handler() {
-  ask_to_stop_at(SIGINT, static_cast<int>(SA_RESETHAND));  // only the first time
-  ask_to_stop_at(SIGTERM, 0);
-  ask_to_stop_at(SIGUSR1, 0);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1}) ask_to_stop_at(signal);
 }
 
 bool is_interrupted() {

@@ -161,8 +161,8 @@ struct OptionSpec {
   std::string range = "";      ///< of whole numbers: "1 to 100 000"
   bool is_list = false;
   FileUse use = FileUse::none;
-  /// That a file may have which is written, beside those that say nothing of what is in a file; empty:
-  /// any.
+  /// That a file may have which is written, beside those that say nothing of what is in a file;
+  /// empty: any.
   std::string_view endings = "";
   std::string_view goes_with = "";  ///< the option without which it counts for nothing; empty: none
 

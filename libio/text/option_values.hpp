@@ -26,10 +26,10 @@ auto parsed_option(const std::string& option, const std::string& value, const Pa
   return *found;
 }
 
-/// What is wrong with the name of a file that is written; empty: nothing. Wrong is an ending that says
-/// another format than the file will have, and "-", which is no file.
-/// @param endings  that are right, ".json .txt"; empty: the format is as the ending says. An ending that
-///                 says no format, and none, are right in any case.
+/// What is wrong with the name of a file that is written; empty: nothing. Wrong is an ending that
+/// says another format than the file will have, and "-", which is no file.
+/// @param endings  that are right, ".json .txt"; empty: the format is as the ending says. An ending
+///                 that says no format, and none, are right in any case.
 std::string ending_problem(std::string_view file, std::string_view endings);
 
 /// A whole number from `least` to `most`.

@@ -82,7 +82,7 @@ int print(Report report, const Invocation& call, const std::vector<BareSpeed>& b
   }
   for (const BareSpeed& s : bare) report.notes.push_back(s.warning());
   if (!json.empty()) write_json(report, json, call.picture_replaces());
-  return after_printing(report.status);
+  return report.status;
 }
 
 /// Checks the --isa of a command that ranks run again: they have agreed on one before it was read.

@@ -48,10 +48,32 @@ void declare(const Verb& verb, CLI::App& app, Invocation& call) {
     }
     app.add_option(name, help)
         ->type_name(std::string(option.value))
-        ->allow_extra_args(option.is_list)  // one --over may have several values, too
+        ->allow_extra_args(false)
         ->multi_option_policy(option.is_list ? CLI::MultiOptionPolicy::TakeAll
                                              : CLI::MultiOptionPolicy::TakeLast);
   }
+}
+
+/// Words in which every value of a list has its option: one --over may have several values, "--over
+/// a=1:2 b=3:4", and files may stand behind them.
+std::vector<std::string> with_lists_apart(const Verb& verb, const std::vector<std::string>& words) {
+  std::vector<std::string> apart;
+  std::string list;  // whose value may follow
+  bool is_first = false;
+  for (const std::string& word : words) {
+    const bool is_value = is_first || (!word.starts_with("--") && word.find('=') != word.npos);
+    if (!list.empty() && is_value) {
+      apart.push_back(list + "=" + word);
+      is_first = false;
+      continue;
+    }
+    const auto option = word.starts_with("--") ? option_named(verb, word.substr(2)) : std::nullopt;
+    is_first = option && option->is_list;
+    list = is_first ? word : "";
+    if (!is_first) apart.push_back(word);
+  }
+  if (is_first) apart.push_back(list);  // without its value
+  return apart;
 }
 
 /// What is wrong with words that CLI11 could not place: an unknown option, or a second file.
@@ -94,7 +116,8 @@ std::variant<CommandLine, int> read_command_line(const Verb& verb,
   call.joins = stored.joins;
   declare(verb, app, call);
   try {
-    std::vector<std::string> arguments(words.rbegin(), words.rend() - 2);
+    const std::vector<std::string> apart = with_lists_apart(verb, {words.begin() + 2, words.end()});
+    std::vector<std::string> arguments(apart.rbegin(), apart.rend());
     app.parse(arguments);
   } catch (const CLI::CallForHelp&) {
     say(stdout, app.help());

@@ -9,7 +9,7 @@
 namespace whirl::inline cli {
 
 int after_printing(int status) {
-  if (std::fflush(stdout) == 0) return status;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
   say(stderr, "whirl: cannot write to standard output\n");
   return exit_status::wrong_input;
 }

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "libio/model/model_file.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libio/results/output_lock.hpp"
 #include "libio/text/files_in_use.hpp"
 #include "libio/text/interrupt.hpp"
 #include "libio/text/parameter_axis.hpp"
@@ -31,8 +33,22 @@ Model Invocation::model() const {
   if (ranks && !ranks->leads()) return parse_model(ranks->share({}), file, {}, stored);
   Model model =
       model_text.empty() ? read_model(file, sets) : parse_model(model_text, file, sets, stored);
+  require_said_start(model);
   if (ranks) ranks->share([&] { return model.source; });
   return model;
+}
+
+void Invocation::require_said_start(const Model& model) const {
+  const auto is_start = [](const std::string& set) { return set.starts_with("start.file="); };
+  if (joins || model_text.empty() || model.start.from != StartFrom::file ||
+      given.contains("from") || !option_named(*verb_named(verb), "from") ||
+      std::any_of(sets.begin(), sets.end(), is_start)) {
+    return;
+  }
+  throw FileError(fmt::format(
+      "the stored model starts from another file, {}, and a result does not say what is "
+      "opened: add --from with its name",
+      model.start.file));
 }
 
 Call Invocation::parts() const {
@@ -57,7 +73,8 @@ Stripe Invocation::stripe() const {
 }
 
 std::string Invocation::out_file() const {
-  return output.out ? part_place(*output.out, stripe()).string() : "";
+  if (!output.out) return "";
+  return joins ? *output.out : part_place(*output.out, stripe()).string();
 }
 
 Replaces Invocation::result_replaces() const {
@@ -88,7 +105,8 @@ void Invocation::note_read_files() const {
   }
 }
 
-void Invocation::note_written_files() const {
+void Invocation::note_written_files() {
+  std::vector<std::string> places;
   for (const OptionSpec& option : options_of(*verb_named(verb))) {
     const bool is_last = option.name == "json", is_out = option.name == "out";
     if (!option.writes() || !given.contains(option.name)) continue;
@@ -109,7 +127,10 @@ void Invocation::note_written_files() const {
     require_place(place, is_result    ? result_replaces()
                          : is_picture ? picture_replaces()
                                       : Replaces::anything);
+    places.push_back(place);
   }
+  // not before all are known to be right; whoever comes second is refused before it does anything
+  for (const std::string& place : places) locks_.push_back(std::make_shared<OutputLock>(place));
 }
 
 std::unique_ptr<ResultWriter> Invocation::begun(std::unique_ptr<ResultWriter> to,

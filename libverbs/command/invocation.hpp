@@ -18,6 +18,7 @@
 #include "libverbs/command/exit_status.hpp"
 
 namespace whirl::inline io {
+class OutputLock;
 class ResultWriter;
 struct KeptResult;
 }  // namespace whirl::inline io
@@ -74,6 +75,7 @@ class Invocation {
   std::string text(std::string_view option) const;
 
   /// The model; where processes share the work, that of their leader. Asked once.
+  /// @throws ModelError, FileError  if it cannot be read, or is stored and starts from another file
   Model model() const;
 
   /// Its parts, to be stored in results.
@@ -101,16 +103,23 @@ class Invocation {
   std::unique_ptr<ResultWriter> saved_file(const Model& model) const;
 
   /// Reads the options that all verbs have, and adopts what they say for the whole process.
-  /// @throws ModelError, FileError  for a wrong one, and for places where nothing may be written: a file
-  ///         that is read or needed, another output, an ending that says another format
+  /// @throws ModelError, FileError  for a wrong one, and for places where nothing may be written: a
+  ///                                file
+  ///         that is read or needed, another output, an ending that says another format, another
+  ///         call's
   void prepare();
   /// Tells whether to stop. Where nobody else is asked, Ctrl-C asks for it from now on.
   std::function<bool()> stop_asked() const;
 
  private:
+  /// A stored model opens nothing by itself.
+  /// @throws FileError  if it would, its motion starting from a file that this call does not name
+  void require_said_start(const Model& model) const;
   void note_read_files() const;
-  void note_written_files() const;
+  void note_written_files();
   std::unique_ptr<ResultWriter> begun(std::unique_ptr<ResultWriter> to, const Model& model) const;
+
+  std::vector<std::shared_ptr<const OutputLock>> locks_{};  ///< of the outputs, until the call ends
 };
 
 /// What a verb found.

@@ -62,8 +62,8 @@ const std::vector<OptionSpec>& own_options(const Verb& verb);
 /// All options of a verb in the order of its help: those of all verbs around its own, which take
 /// their place where they have the same name. A verb that takes no file has only its own.
 std::vector<OptionSpec> options_of(const Verb& verb);
-/// Options that do not count where a line is run again that a file holds: only the words that are added
-/// say what is written.
+/// Options that do not count where a line is run again that a file holds: only the words that are
+/// added say what is written.
 std::vector<std::string_view> left_out_again(const Verb& verb,
                                              const std::vector<std::string>& added);
 /// The one of a name; nothing: there is none.

@@ -30,7 +30,7 @@ int run_completion(const std::vector<std::string>& words, const Ranks*) {
     }
   }
   say(stdout, bash_completion("whirl", completed));
-  return after_printing(exit_status::done);
+  return exit_status::done;
 }
 
 }  // namespace

@@ -38,18 +38,17 @@ struct MergeOptions {
 /// @param is_whole  the file takes what the others have
 Call call_to_join(const ResultReader& file, bool is_whole) {
   const Call call = read_call(file);
-  const std::string name = file.path().string();
   const Verb* const verb = verb_named(call.verb);
   if (!verb || !option_named(*verb, "part")) {
-    throw FileError(fmt::format("{} is no study that has parts", name));
+    throw FileError(fmt::format("{} is no study that has parts", file.path().string()));
   }
   if (is_whole && !stripe_of(call).is_all()) {
     throw FileError(
         fmt::format("{} is a part of a study: name the file of the whole before it, "
                     "whirl merge WHOLE.h5 PART.h5 ...",
-                    name));
+                    file.path().string()));
   }
-  return without_part(call);
+  return call;
 }
 
 /// Joins parts of a study in one file.
@@ -66,15 +65,16 @@ int join(const std::string& whole, const std::vector<std::string>& parts,
   if (is_begun) call_to_join(ResultReader(whole), !parts.empty());
   const ResultReader first(files.front());
   look.reset();
-  const Call call = call_to_join(first, false);
+  const Call stored_call = call_to_join(first, false);
+  const Call call = parts.empty() ? stored_call : without_part(stored_call);
   const Verb& verb = *verb_named(call.verb);
   std::vector<std::string> line = words_again("whirl", call, left_out_again(verb, {}));
   line.push_back("--out=" + whole);
   for (const auto& [name, values] : given) {
     line.push_back("--" + name + (values[0].empty() ? "" : "=" + values[0]));
   }
-  const StoredModel stored{.text = stored_model(first), .sets = call.sets, .joins = parts};
-  const int status = run_command(verb, line, stored);
+  const StoredModel study{.text = stored_model(first), .sets = call.sets, .joins = parts};
+  const int status = run_command(verb, line, study);
   if (status != exit_status::stopped) return status;
   for (const std::string& part : missing_parts({parts.begin(), parts.end()})) {
     say(stderr, fmt::format("whirl: missing: {}\n", part));

@@ -39,7 +39,7 @@ int run_schema(const std::vector<std::string>& words, const Ranks*) {
   const std::string text = model_schema().json();
   if (!asked.out) {
     say(stdout, text);
-    return after_printing(exit_status::done);
+    return exit_status::done;
   }
   try {
     const std::string problem = ending_problem(*asked.out, asked.out.endings);

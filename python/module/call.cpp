@@ -10,6 +10,7 @@
 
 #include "libbase/interruption.hpp"
 #include "libio/results/hdf5.hpp"
+#include "libio/text/files_in_use.hpp"
 #include "libverbs/command/command.hpp"
 
 namespace whirl::inline python {
@@ -134,6 +135,7 @@ std::unique_ptr<Found> run_verb(const std::string& name, const Subject& subject,
   const Verb& verb = *verb_named(name);
   auto found = std::make_unique<Found>();
   Watch watch(progress);
+  const FilesInUse files;
   try {
     Invocation call = call_of(verb, subject, given);
     call.kept = found->kept.get();

@@ -55,7 +55,8 @@ class LostFiles : public Program {
   const Words motion{"simulate", "rub.toml", "--revolutions", "30", "--discard", "4", "--quiet"};
 };
 
-// The ending of a name says what is in a file: a page called x.pdf is damaged for every reader of PDF.
+// The ending of a name says what is in a file: a page called x.pdf is damaged for every reader of
+// PDF.
 TEST_F(LostFiles, AnEndingThatSaysAnotherFormatIsRefused) {
   const std::string ross = WHIRL_SOURCE_DIR "/models/layered_ross.json";
   const std::vector<std::pair<Words, std::string>> calls{
@@ -156,11 +157,15 @@ TEST_F(LostFiles, RunningAgainWritesNoRecordThatTheStoredLineNames) {
   const Outcome again = whirl({"rerun", "run.h5"});
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(files(), before);
-  EXPECT_EQ(whirl({"rerun", "run.h5", "--measured-out", "new.csv", "--quiet"}).status, 0);
-  EXPECT_TRUE(fs::exists(folder / "new.csv"));  // with the probes of the stored line
+  EXPECT_EQ(whirl({"rerun", "run.h5", "--measured-out", "new.csv"}).status, 2);  // of which probes?
+  EXPECT_EQ(
+      whirl({"rerun", "run.h5", "--measured-out", "new.csv", "--measure", "probes.toml"}).status,
+      0);
+  EXPECT_TRUE(fs::exists(folder / "new.csv"));
 }
 
-// Options that write are declared to do so; the manual of what a file's line does not do again hangs on it.
+// Options that write are declared to do so; the manual of what a file's line does not do again
+// hangs on it.
 TEST(Outputs, AreDeclared) {
   for (const Verb& verb : verbs()) {
     for (const OptionSpec& option : options_of(verb)) {

@@ -15,7 +15,8 @@ class FilesInUseTest : public InResultFolder {
   fs::path at(const char* name) const { return folder / name; }
 };
 
-// Two names of one file: by "..", by links of both kinds, and by links whose targets are not there yet.
+// Two names of one file: by "..", by links of both kinds, and by links whose targets are not there
+// yet.
 TEST_F(FilesInUseTest, NamesOfOneFileAreTheSame) {
   std::ofstream(at("a.csv")) << "1";
   fs::create_hard_link(at("a.csv"), at("hard.csv"));

@@ -140,6 +140,33 @@ class BadCalls(unittest.TestCase):
             self.assertIn(f"needs numpy and the Python that it was built with, such as /usr/bin/python3; this is "
                           f"{sys.executable}", done.stderr.splitlines()[-1])
 
+    def test_names_of_strangers_do_not_steer_the_terminal(self):
+        steers = "\x1b]0;owned\x07\x9b31m\u202e"
+        m = (whirl.Model(title=steers).operation(speed="100 rad/s").add("body", name="r" + steers + "\nspoofed", mass=2.0, spins=True)
+             .bearing(body="r" + steers + "\nspoofed", stiffness=2e4, damping=4.0))
+        run = m.simulate(revolutions=2, discard=0)
+        run.save("strange.h5")
+        opened = whirl.open("strange.h5")
+        texts = [repr(m), run.text, repr(run), repr(opened), repr(run.trajectory), repr(run.x), repr(run.groups)]
+        m.contact(name=steers, body="r", stiffness=-1.0)
+        for call in (m.check, lambda: whirl.read(steers), lambda: whirl.open(steers)):
+            with self.assertRaises((whirl.ModelError, whirl.FileError)) as raised:
+                call()
+            texts.append(str(raised.exception))
+        for text in texts:
+            self.assertNotRegex(text, "[\x1b\x07\x9b\u202e]")
+        self.assertIn(steers, opened.trajectory.station[0])  # the name itself is what it is
+
+    def test_what_a_call_reads_is_not_written(self):
+        with open("probes", "w") as file:
+            file.write('[[probe]]\nname = "X"\nnode = 2\nangle = "0 deg"\n')
+        with open("probes") as file:
+            before = file.read()
+        with self.assertRaises(whirl.FileError):
+            model("jeffcott").simulate(revolutions=2, discard=0, measure="probes", out="probes", force=True)
+        with open("probes") as file:
+            self.assertEqual(file.read(), before)
+
     def test_errors_can_be_pickled(self):
         import pickle
 
