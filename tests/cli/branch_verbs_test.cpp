@@ -1,5 +1,7 @@
 // The command line: branches of orbits in the rotating frame, and where they are born.
 
+#include <fmt/format.h>
+
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
