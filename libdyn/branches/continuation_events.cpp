@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "libbase/constants.hpp"
 #include "libbase/roots.hpp"
@@ -19,8 +20,9 @@ constexpr double zero = 1e-3;        ///< of a test function, where it is locate
 constexpr double sharper = 1e-3;     ///< than asked for: a steep one must be as small there
 constexpr int most_grazings = 8;     ///< between two points
 constexpr double recognized = 1e-6;  ///< relative, of the numbers of an orbit that is met again
-constexpr double halved = 1e-6;      ///< share of the difference of both halves that is none
-constexpr double at_vertex = 1e-5;   ///< of the range, where a branch is born
+constexpr double sampled = 1e-3;  ///< likewise, of those taken at points of steps, which may differ
+constexpr double halved = 1e-6;   ///< share of the difference of both halves that is none
+constexpr double at_vertex = 1e-5;  ///< of the range, where a branch is born
 
 using enum BifurcationKind;
 
@@ -31,21 +33,35 @@ Vec half_difference(const BranchPoint& p, int period) {
   return p.z.segment(size / 2, size / 2) - p.z.head(size / 2);
 }
 
-/// Whether two points of the same value are one orbit, wherever on it their states are.
+/// Whether multipliers are the same ones in any order: rounding turns round those of one size.
+bool same_multipliers(const CVec& a, const CVec& b) {
+  if (a.size() != b.size()) return false;
+  std::vector<Complex> left(b.begin(), b.end());
+  for (const Complex& value : a) {
+    const auto nearest =
+        std::min_element(left.begin(), left.end(), [&](const Complex& x, const Complex& y) {
+          return std::abs(x - value) < std::abs(y - value);
+        });
+    if (!(std::abs(*nearest - value) <= recognized * b.cwiseAbs().maxCoeff())) return false;
+    left.erase(nearest);
+  }
+  return true;
+}
+
+/// Whether two points of the same value are one orbit, wherever on it their states are: an orbit of a
+/// free period comes back to itself with another phase.
 bool is_same(const BranchPoint& a, const BranchPoint& b) {
-  const auto equal = [](double x, double y) {
-    return std::abs(x - y) <= recognized * (std::abs(x) + std::abs(y));
+  const auto equal = [](double x, double y, double within) {
+    return std::abs(x - y) <= within * (std::abs(x) + std::abs(y));
   };
   for (std::size_t c = 0; c < a.contacts.size(); ++c) {
-    if (!equal(a.contacts[c].max_normal, b.contacts[c].max_normal) ||
-        !equal(a.contacts[c].duty, b.contacts[c].duty) ||
+    if (!equal(a.contacts[c].max_normal, b.contacts[c].max_normal, sampled) ||
+        !equal(a.contacts[c].duty, b.contacts[c].duty, recognized) ||
         a.contacts[c].impacts != b.contacts[c].impacts) {
       return false;
     }
   }
-  return a.multipliers.size() == b.multipliers.size() &&
-         (a.multipliers - b.multipliers).cwiseAbs().maxCoeff() <=
-             recognized * b.multipliers.cwiseAbs().maxCoeff();
+  return same_multipliers(a.multipliers, b.multipliers);
 }
 
 bool same_impacts(const std::vector<ContactMeasure>& a, const std::vector<ContactMeasure>& b) {

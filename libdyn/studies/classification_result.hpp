@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "libbase/column.hpp"
 #include "libdyn/studies/classify.hpp"
@@ -18,6 +19,13 @@ struct ClassificationResult {
   std::string motion() const { return std::string(name_of(of.kind)); }
   /// Lyapunov exponents, descending [1/s].
   Vec exponents() const { return of.exponents / revolution; }
+
+  /// Of each contact, the p of p/n.
+  std::vector<double> impacts_of_contacts() const {
+    std::vector<double> all;
+    for (const ContactMeasure& m : of.contacts) all.push_back(m.impacts);
+    return all;
+  }
 
   static constexpr std::string_view group = "/classify";
   static constexpr auto columns() {
@@ -76,6 +84,8 @@ struct ClassificationResult {
         column("residual", residual, "", "of the orbit, in length scales").only(in_json),
         column(
             "impacts", [](const Result& r) { return r.of.impacts(); }, "", "of all contacts")
+            .only(in_json),
+        column("impacts_of_contacts", &Result::impacts_of_contacts, "", "of each contact")
             .only(in_json),
         column(
             "revs", [](const Result& r) { return r.of.revolutions; }, "",

@@ -9,6 +9,7 @@
 #include "libbase/fractal_dimension.hpp"
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/proven_orbit.hpp"
+#include "libdyn/studies/stepped.hpp"
 #include "libdyn/system/oscillations.hpp"
 #include "libdyn/system/require_coordinates.hpp"
 #include "libdyn/taylor/mixed.hpp"
@@ -72,6 +73,11 @@ class BatchClassifier {
   }
 
   void settle() {
+    if (by_steps()) {
+      go(options_.discard, {});
+      for (ClassifyCandidate* s : open_) s->found.transient = options_.discard;
+      return;
+    }
     long done = 0;
     for (double next = first_search; done < options_.discard && !open_.empty();
          next *= later_search) {
@@ -104,18 +110,23 @@ class BatchClassifier {
     std::vector<ClassifyCandidate*> undecided;
     for (std::size_t i = 0; i < open_.size(); ++i) {
       judge(all[i], *open_[i]);
+      if (by_steps()) tell_period(all[i], *open_[i]);
       const Classification& c = open_[i]->found;
       const bool is_order = c.kind == MotionKind::periodic || c.kind == MotionKind::not_settled;
       if (is_order) undecided.push_back(open_[i]);
     }
     open_ = std::move(undecided);  // they have come nearer to their orbits by now
-    fly();
-    if (!open_.empty()) search(go(2L * options_.longest_period, {.sections = true}), true);
-    search_with_forces();
+    if (!by_steps()) {
+      fly();
+      if (!open_.empty()) search(go(2L * options_.longest_period, {.sections = true}), true);
+      search_with_forces();
+    }
     for (ClassifyCandidate* s : open_) tell_what_settles(*s);
   }
 
  private:
+  bool by_steps() const { return options_.rk4_steps > 0; }
+
   std::function<bool(long)> watch(bool counts) const {
     if (!options_.watch) return {};
     return [this, counts](long done) { return options_.watch(done_ + (counts ? done : 0)); };
@@ -133,7 +144,8 @@ class BatchClassifier {
       all.push_back(
           {.system = s->system, .state = std::move(s->found.end), .revolutions = revolutions});
     }
-    if (revolutions > 0) integrate_mixed(all, how);
+    if (revolutions > 0 && by_steps()) integrate_stepped(all, how, options_.rk4_steps);
+    if (revolutions > 0 && !by_steps()) integrate_mixed(all, how);
     std::vector<Trajectory> good;
     std::vector<ClassifyCandidate*> open;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -207,6 +219,15 @@ class BatchClassifier {
     }
   }
 
+  /// Of a motion by equal steps that is no chaos: its sections alone tell whether it repeats.
+  void tell_period(const Trajectory& t, ClassifyCandidate& s) const {
+    Classification& c = s.found;
+    if (c.kind == MotionKind::chaotic || c.kind == MotionKind::hyperchaotic) return;
+    c.period =
+        repeating_period(*s.system, t.sections, repeats[sure_repeats - 1], options_.longest_period);
+    if (c.period > 0) c.kind = MotionKind::periodic;
+  }
+
   /// Finds out when a motion would have settled that has not.
   void tell_what_settles(ClassifyCandidate& s) const {
     Classification& c = s.found;
@@ -249,6 +270,7 @@ class BatchClassifier {
   /// Closes the motions to which no contact can happen any more: they are those of the linear rotor,
   /// whose transient and multipliers are known.
   void fly() {
+    if (by_steps()) return;
     std::vector<OrbitCandidate> free;
     for (ClassifyCandidate* s : open_) {
       const ContactSystem& system = *s->system;

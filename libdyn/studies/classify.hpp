@@ -37,6 +37,9 @@ struct ClassifyOptions {
   /// That is looked for [revolutions]; that after which forces repeat, if it is longer, too.
   int longest_period = 32;
   long sections = 0;  ///< how many of the last ones are kept
+  /// Not 0: by the classical Runge-Kutta method with so many equal steps a revolution, to see what studies
+  /// that use it see. What repeats within 1e-4 length scales is periodic then, and nothing is proven.
+  long rk4_steps = 0;
   /// Called now and then with the revolutions done by all motions together; false: stop.
   std::function<bool(long)> watch;
 };

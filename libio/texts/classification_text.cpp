@@ -71,6 +71,11 @@ std::string kind_text(const Classification& c) {
     text += fmt::format("; {} in {}", plural(static_cast<long>(c.impacts()), "impact"),
                         plural(c.revolutions, "revolution"));
   }
+  if (c.contacts.size() > 1) {  // p/n of each, as the literature has it
+    for (const ContactMeasure& m : c.contacts) {
+      text += fmt::format(", {} {:.0f}/{}", m.name, m.impacts, c.revolutions);
+    }
+  }
   return text + "\n";
 }
 

@@ -1,6 +1,13 @@
 #pragma once
 /// Options that several verbs share.
 
+#include <fmt/format.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "libbase/field.hpp"
 #include "libio/results/motion_window.hpp"
 #include "libio/text/option.hpp"
 
@@ -41,6 +48,41 @@ inline Option<std::uint64_t> seed_option() {
 inline Option<double> start_size_option() {
   return {"size", "R", "how far they are, in clearances", 0.5};
 }
+
+/// What motions are classified with.
+enum class StepMethod { taylor, rk4 };
+constexpr auto choices(StepMethod) {
+  return std::array{Choice<StepMethod>{"taylor", StepMethod::taylor},
+                    Choice<StepMethod>{"rk4", StepMethod::rk4}};
+}
+struct StepVerbOptions {
+  Option<StepMethod> method{"method", "M",
+                            "taylor, or rk4: the classical Runge-Kutta method with equal steps, "
+                            "slow, to see what studies "
+                            "that use it see",
+                            StepMethod::taylor};
+  Option<long> steps{"steps", "N", "of rk4 in a revolution, up to 1000000", 1000};
+  auto fields() { return std::tie(method, steps); }
+
+  /// As ClassifyOptions has it: 0 without rk4.
+  /// @throws ModelError  for a number that is not right, or that nothing takes
+  long rk4_steps() const {
+    constexpr long most = 1'000'000;
+    const bool is_rk4 = *method == StepMethod::rk4;
+    if (steps.is_given && !is_rk4) throw steps.wrong("goes with --method rk4 only");
+    if (*steps > most) throw steps.wrong("expected a whole number from 1 to 1000000");
+    return is_rk4 ? *steps : 0;
+  }
+  /// What is to be known of motions by rk4; empty: they are not.
+  std::vector<std::string> notes() const {
+    if (rk4_steps() == 0) return {};
+    return {
+        fmt::format("motions are those that {} equal steps of rk4 a revolution make: kinds change "
+                    "with the steps, "
+                    "and no orbit is proven",
+                    *steps)};
+  }
+};
 
 // of results
 inline Option<std::string> frequency_option() {

@@ -12,17 +12,19 @@ struct ClassifyVerbOptions {
                            "revolutions over which Lyapunov exponents are averaged", 1000,
                            revolution_range};
   Option<long> discard = discard_option();
+  StepVerbOptions by{};
   Option<double> tolerance = tolerance_option();
   Option<std::string> isa = isa_option();
   Option<std::string> from = from_option();
-  auto fields() { return std::tie(revolutions, discard, tolerance, isa, from); }
+  auto fields() { return std::tie(revolutions, discard, by, tolerance, isa, from); }
 };
 
 ClassifyOptions classify_options(const Invocation& call, const ClassifyVerbOptions& asked) {
   ClassifyOptions options{.discard = *asked.discard,
                           .revolutions = *asked.revolutions,
                           .exponents = *asked.revolutions,
-                          .tolerance = *asked.tolerance};
+                          .tolerance = *asked.tolerance,
+                          .rk4_steps = asked.by.rk4_steps()};
   options.watch = [progress = progress_of(call, "classifying"), is_stopped = call.stop_asked(),
                    total = options.discard + options.revolutions](long done) {
     progress(done, total);
@@ -42,6 +44,7 @@ Report run_classify(const Invocation& call, const ClassifyVerbOptions& asked) {
   const ClassificationResult result{c, scene.contacts.period()};
 
   Report report = begin_report(call, model, record_of(result));
+  report.add_notes(asked.by.notes());
   report.failure = c.failure;
   report.status = status_of(c.outcome);
   note_tables(call, model, report);

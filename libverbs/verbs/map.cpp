@@ -13,20 +13,23 @@ namespace {
 
 struct MapVerbOptions {
   AxesVerbOptions axes{};
+  StepVerbOptions by{};
   StudyVerbOptions study{};
-  auto fields() { return std::tie(axes, study); }
+  auto fields() { return std::tie(axes, by, study); }
 };
 
 Report run_map(const Invocation& call, const MapVerbOptions& asked) {
   const StudyPoints points = study_points(call, asked.axes, asked.study.kept, 2, 3);
   const StudyModels models = points.models();
   points.first();
+  ClassifyOptions classify = study_classify(asked.study);
+  classify.rk4_steps = asked.by.rk4_steps();
   const MapOptions options{.grid = points.grid(),
-                           .classify = study_classify(asked.study),
+                           .classify = classify,
                            .threads = study_threads(call),
                            .stripe = call.stripe()};
   const auto [result, outcome] = run_study<MapResult>(
-      study_keeping(call, points.model(), asked.study.kept, "mapping"), points,
+      study_keeping(call, points.model(), asked.study.kept, "mapping", asked.by.notes()), points,
       options.grid.points(),
       [&](MapResult earlier, const auto& monitor) {
         return map(models, options, monitor, std::move(earlier));
@@ -42,9 +45,11 @@ Report run_map(const Invocation& call, const MapVerbOptions& asked) {
   }
   const Model& model = points.model();
   const std::string title = "Map" + (model.title.empty() ? "" : ": " + shown_line(model.title));
-  return study_report(call, model, outcome, record,
-                      fmt::format("{}; {} points\n\n{}", title, result.points.size(),
-                                  text_of(result, points.axes())));
+  Report report = study_report(call, model, outcome, record,
+                               fmt::format("{}; {} points\n\n{}", title, result.points.size(),
+                                           text_of(result, points.axes())));
+  report.add_notes(asked.by.notes());
+  return report;
 }
 
 }  // namespace

@@ -49,10 +49,13 @@ Report stationary_orbit(const Invocation& call, const OrbitVerbOptions& asked, c
 }
 
 /// An orbit that repeats as seen from the rotor, whose period is any.
-Report rotating_orbit(const Invocation& call, const OrbitVerbOptions& asked, const Model& model) {
+Report rotating_orbit(const Invocation& call, const OrbitVerbOptions& asked, const Model& model,
+                      const std::optional<BranchStart>& point) {
   const auto scene = std::make_shared<const Scene>(make_scene(model));
   const AutonomousFlow flow = rotating_flow(scene);
-  const auto state = settled_state(after_transient(call, asked.settled, asked.from, model, *scene));
+  const auto state =
+      point ? std::optional(point->in(*scene))
+            : settled_state(after_transient(call, asked.settled, asked.from, model, *scene));
   if (!state) {
     Report report = begin_report(call, model);
     report.failure = "stopped";
@@ -82,8 +85,7 @@ Report run_orbit(const Invocation& given, const OrbitVerbOptions& asked) {
   if (*asked.frame == OrbitFrame::stationary) {
     return stationary_orbit(call, asked, model, point);
   }
-  if (point) throw ModelError({"--point"}, "", "expected an orbit of the stationary frame");
-  if (method == OrbitMethod::shooting) return rotating_orbit(call, asked, model);
+  if (method == OrbitMethod::shooting) return rotating_orbit(call, asked, model, point);
   throw ModelError({"--frame rotating"}, "",
                    "harmonic balance finds orbits in the stationary frame only");
 }

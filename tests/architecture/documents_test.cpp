@@ -126,6 +126,22 @@ TEST(Documents, LinkToFilesAndHeadingsThatAreThere) {
   EXPECT_GT(found, 100);
 }
 
+// Tables of docs/validation.md head what is printed in a source as `printed`, what a program of ours finds as
+// `own program`, and what is known as `closed form`: a column headed `paper` held numbers of all three.
+TEST(Documents, ValidationHeadsItsReferencesByTheirKind) {
+  std::string before;
+  int tables = 0;
+  for (const std::string& line : prose(root / "docs/validation.md")) {
+    if (line.starts_with("|---")) {
+      ++tables;
+      EXPECT_EQ(before.find("paper"), std::string::npos) << before;
+      EXPECT_EQ(before.find("independent program"), std::string::npos) << before;
+    }
+    before = line;
+  }
+  EXPECT_GT(tables, 30);
+}
+
 // docs/cpp.md names an example before each passage of it; examples are programs that the tests run.
 TEST(Documents, QuoteExamplesAsTheyAre) {
   static const std::regex example("`(examples/[0-9a-z_]+\\.cpp)`"), indent("\\n +");

@@ -1,5 +1,7 @@
 // The command line: branches of orbits in the rotating frame, and where they are born.
 
+#include <fmt/format.h>
+
 #include "libio/results/hdf5.hpp"
 #include "tests/cli/program.hpp"
 
@@ -58,6 +60,25 @@ TEST_F(Branches, OfBouncingBeginAboveTheInternalResonance) {
                              "--speed", std::to_string(found["speed_rpm"].get<double>()) + "rpm"});
   EXPECT_NEAR(orbit["period_revs"], found["period_revs"], 1e-5);
   EXPECT_LE(orbit["steps"], 2);
+}
+
+// A point of a branch in the rotating frame is an orbit there, from which another branch begins: along the
+// speed first, then along the stiffness of the ring.
+TEST_F(Branches, OfTheRotatingFrameAreChainedFromTheirPoints) {
+  const json branch = result({"continue", two_disk, "--frame", "rotating", "--over",
+                              "operation.speed=3000:7000:20rpm", "--at", "4430rpm", "--most", "8",
+                              "--out", "branch.h5"});
+  const json& point = branch["points"][6];
+  const json orbit = result({"orbit", two_disk, "--frame", "rotating", "--from", "branch.h5",
+                             "--point", "7", "--out", "orbit.h5"});
+  EXPECT_NEAR(orbit["period_revs"], point["period_revs"], 1e-8);
+  EXPECT_LE(orbit["steps"], 1);
+  EXPECT_EQ(orbit["stable"], point["stable"]);
+  const std::string speed = fmt::format("{:.17g}rad/s", point["value"].get<double>());
+  const json next =
+      result({"continue", two_disk, "--frame", "rotating", "--speed", speed, "--from", "orbit.h5",
+              "--over", "contact.ring.stiffness=3:5:0.05MN/m", "--at", "4MN/m", "--most", "4"});
+  EXPECT_NEAR(next["points"][0]["period_revs"], point["period_revs"], 1e-8);
 }
 
 TEST_F(Branches, OfTheRotatingFrameTakeNeitherPeriodsNorSwitches) {

@@ -45,14 +45,14 @@ Force integrated(double x, double y, double a, double b) {
   return sum;
 }
 
-// Printed with the data of the two-disk rotor on oil films, to ten digits; the sign of one term of
+// Of an independent program for the two-disk rotor on oil films, to ten digits; the sign of one term of
 // the paper's fy is corrected there as here.
-TEST(ShortFilm, HasThePrintedForces) {
+TEST(ShortFilm, HasTheForcesOfAnIndependentProgram) {
   constexpr double digits = 5e-10;
-  const auto expect = [&](double x, double y, double x_rate, double y_rate, Force printed) {
+  const auto expect = [&](double x, double y, double x_rate, double y_rate, Force found) {
     const Force f = force(x, y, x - 2.0 * y_rate, y + 2.0 * x_rate);
-    EXPECT_NEAR(f.x, printed.x, digits);
-    EXPECT_NEAR(f.y, printed.y, digits);
+    EXPECT_NEAR(f.x, found.x, digits);
+    EXPECT_NEAR(f.y, found.y, digits);
   };
   expect(0.0, -0.5, 0.0, 0.0, {2.418399152, 1.777777778});
   expect(0.3, -0.4, 0.1, -0.2, {-1.821529841, 9.029516486});

@@ -1,4 +1,4 @@
-// Kinds of motion: published ones of the rotor and stator, and those that are known in closed form.
+// Kinds of motion: those of the rotor and stator, and some that are known in closed form.
 
 #include "libdyn/studies/classify.hpp"
 
@@ -19,7 +19,7 @@ Classification kind_of(const RotorStator& p, const ClassifyOptions& options = {}
   return c;
 }
 
-// Five impacts a revolution; the multipliers are those of the reference, to 1e-6 1/s.
+// Five impacts a revolution; the multipliers are those of an independent program, to 1e-6 1/s.
 TEST(Classify, ProvesAPeriodicMotion) {
   const Classification c = kind_of(test::P1);
   EXPECT_EQ(c.kind, MotionKind::periodic);

@@ -76,6 +76,32 @@ TEST(SwitchBranch, OfADoubledPeriodHasTwiceTheImpacts) {
   EXPECT_EQ(next->start.contacts[0].duty, 0.25);
 }
 
+// x^2 + u^2 = 1 is a closed branch. That it closes is seen although its multipliers, a complex pair, come in
+// any order, and the largest force, which is taken at points of steps, a little different each time: orbits
+// of a free period come back to themselves with another phase.
+TEST(Continuation, ClosesWhateverTheOrderOfMultipliers) {
+  int calls = 0;
+  const BranchEquations circle{[&](const Vec& x, double u, WithTangent) {
+    const bool is_odd = ++calls % 2 != 0;
+    const Complex mu(0.3, is_odd ? 0.4 : -0.4);
+    BranchEquations::Value at{.residual = Vec::Constant(1, x(0) * x(0) + u * u - 1.0),
+                              .jacobian = Mat::Constant(1, 1, 2.0 * x(0))};
+    at.multipliers = [mu] { return CVec{{mu, std::conj(mu)}}; };
+    at.contacts = {{.name = "ring",
+                    .duty = 0.5,
+                    .impacts = 1.0,
+                    .max_normal = 100.0 * (is_odd ? 1.0 : 1.0 + 1e-5)}};
+    return at;
+  }};
+  for (const double first : {0.3, 0.31, 0.32, 0.33}) {  // closed or not by chance, once
+    const ContinuationOptions options{
+        .low = -2.0, .high = 2.0, .first = first, .largest_step = 0.04, .most_points = 1000};
+    const Branch branch =
+        walk_to_the_end({circle, Vec::Constant(1, std::sqrt(1.0 - first * first)), options});
+    EXPECT_TRUE(branch.ends_as(EndKind::closed)) << first << ": " << branch.end_text();
+  }
+}
+
 // x -> x^2 + c: fixed points 1/2 +- sqrt(1/4 - c) meet at c = 1/4; the lower one doubles its period at
 // -3/4, that of period 2 at -5/4; period 3 comes up in a fold at -7/4.
 TEST(Continuation, FindsFoldsAndPeriodDoublingsOfTheQuadraticMap) {

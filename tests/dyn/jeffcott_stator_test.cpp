@@ -74,7 +74,7 @@ TEST(JeffcottStator, RubsAllAroundAtMediumSpeeds) {
 }
 
 // At 138.4 rad/s and 64 MN/m: chaos without friction and with much of it (largest exponent about 13
-// and 22 1/s), period 4 at 0.11, period 1 at 0.15.
+// and 22 1/s, of an independent program), period 4 at 0.11, period 1 at 0.15 (printed).
 TEST(JeffcottStator, FrictionTurnsChaosIntoOrderAndBack) {
   std::vector<RotorStator> rotors;
   for (const double mu : {0.0, 0.2, 0.11, 0.15}) {

@@ -206,7 +206,7 @@ TEST(OilFilm, KeepsTheOrderOfTheSeries) {
   EXPECT_NEAR(test::order_of(number, error), 9.0, 0.3);
 }
 
-/// Speeds and viscosities around the published ones.
+/// Speeds and viscosities around those of the study.
 test::Trajectories sample(int count, long revolutions) {
   test::Trajectories all;
   for (int i = 0; i < count; ++i) {
@@ -408,9 +408,9 @@ Rub carried_to(double Omega, MotionState& state, long revolutions) {
 }
 
 // "Double-rotor system under the coupling of rubbing and oil-film force", found with the usual set of
-// data: no rub at 200 rad/s, the rub begins at 334.6, at 460 one impact a revolution, duty cycle 0.109.
-TEST(TwoDisksOnFilms, RubAsPublishedOnTheWayUp) {
-  constexpr double digits = 1e-3;  // printed, of the duty cycle
+// data by an independent program: no rub at 200 rad/s, the rub begins at 334.6, at 460 one impact a revolution, duty cycle 0.109.
+TEST(TwoDisksOnFilms, RubAsAnIndependentProgramFindsOnTheWayUp) {
+  constexpr double digits = 1e-3;  // of its duty cycle
   MotionState state;
   EXPECT_EQ(carried_to(200.0, state, 30).impacts, 0.0);
   EXPECT_EQ(carried_to(334.0, state, 100).impacts, 0.0);
@@ -420,7 +420,8 @@ TEST(TwoDisksOnFilms, RubAsPublishedOnTheWayUp) {
   EXPECT_NEAR(rub.duty, 0.109, digits);
 }
 
-// At 660 rad/s three impacts in four revolutions, duty cycle 0.089; at 705 six in eight.
+// At 660 rad/s three impacts in four revolutions, at 705 six in eight (printed); duty cycle 0.089, of the
+// independent program.
 TEST(TwoDisksOnFilms, RubInFourAndInEightRevolutions) {
   constexpr double digits = 1e-3;
   MotionState state;

@@ -20,7 +20,7 @@ constexpr long revolutions = 20;
 struct Point {
   std::string name;
   RotorStator rotor;
-  double events;  ///< per revolution, as published for these points
+  double events;  ///< per revolution, as an independent program counts them
   double taylor, dop853, adams, bdf, arkode, dirk, collocation;
 };
 std::vector<Point> points() {

@@ -1,4 +1,5 @@
-// models/blade_seal.toml: numbers and claims of "Blade rotor with labyrinth-seal and blade-tip rub".
+// models/blade_seal.toml: what "Blade rotor with labyrinth-seal and blade-tip rub" tells in words, and numbers
+// of independent programs of ours, as its own stand in figures.
 
 #include <gtest/gtest.h>
 
@@ -64,8 +65,8 @@ Mat stiffness() {
   return F.inverse();
 }
 
-// The check values of the paper's condensed shaft, to their seven digits.
-TEST(BladeSeal, HasTheShaftOfThePaper) {
+// The condensed shaft of an independent program, to its seven digits.
+TEST(BladeSeal, HasTheShaftOfAnIndependentProgram) {
   const Mat K = stiffness();
   EXPECT_NEAR(K(0, 0), 4.927143e8, 50.0);
   EXPECT_NEAR(K(0, 1), -4.783495e8, 50.0);
@@ -75,8 +76,8 @@ TEST(BladeSeal, HasTheShaftOfThePaper) {
   EXPECT_NEAR(K(2, 2), 1.531659e6, 0.5);
 }
 
-// Forward critical speed 5186 rpm, the fourth digit rounded.
-TEST(BladeSeal, HasTheCriticalSpeedOfThePaper) {
+// Forward critical speed 5186 rpm, of an independent program, the fourth digit rounded.
+TEST(BladeSeal, HasTheCriticalSpeedOfAnIndependentProgram) {
   const Assembler assembler(bundled(5000.0).structure);
   bool found = false;
   for (const Critical& c : critical_speeds(assembler, {.count = 3})) {
@@ -146,14 +147,15 @@ TEST(BladeSeal, HasTheForcesOfItsEquations) {
     }
     const Vec mass = (Vec(6) << m1, m1, m2, m2, Jt, Jt).finished();
     const Vec expected = force.cwiseQuotient(mass);
-    for (const int k : {0, 2, 4}) {  // cb is printed to four digits
+    for (const int k : {0, 2, 4}) {  // cb has four digits
       EXPECT_LT((found - expected).segment(k, 2).norm(), 2e-4 * expected.segment(k, 2).norm());
     }
   }
   EXPECT_GT(touching, 200);
 }
 
-// Just below 5000 rpm rub begins, with the revolution: none at 4950, tips and labyrinth each alone
+// Just below 5000 rpm rub begins, with the revolution (in words, period 1; the speed is an independent
+// program's): none at 4950, tips and labyrinth each alone
 // and both at 5000.
 TEST(BladeSeal, BeginsToRubWithPeriodOneJustBelow5000Rpm) {
   const Classification free = classified(bundled(4950.0));
@@ -166,7 +168,8 @@ TEST(BladeSeal, BeginsToRubWithPeriodOneJustBelow5000Rpm) {
   }
 }
 
-// Run-down, the state carried from speed to speed: contact comes back by a jump near 5400 rpm. On
+// Run-down, the state carried from speed to speed: contact comes back by a jump near 5400 rpm, as an
+// independent program has it. On
 // run-up it had lasted.
 TEST(BladeSeal, ComesBackToRubByAJumpNear5400Rpm) {
   MotionState state;

@@ -1,5 +1,6 @@
-// models/overhung_face_rub.toml: the claims of "Overhung rotor with lateral and face contact", and
-// what this set of parameters, which is calibrated, does beyond them.
+// models/overhung_face_rub.toml: kinds of motion that "Overhung rotor with lateral and face contact" tells,
+// and numbers of an independent program for this set of parameters, which is calibrated: the paper
+// prints none.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +45,7 @@ TEST(OverhungFaceRub, HasTheMatricesOfItsEquations) {
   EXPECT_NEAR(start(1), -m * 9.81 * L * L * L / (3.0 * EI), rounding);
 }
 
-// Period 3, lateral duty 0.32, face duty 0.57: to the digits printed.
+// Period 3, lateral duty 0.32, face duty 0.57: to the digits of the independent program.
 TEST(OverhungFaceRub, HasPeriodThreeAt230RadPerSecond) {
   const Classification c = classified(bundled());
   EXPECT_EQ(c.kind, MotionKind::periodic);
@@ -54,7 +55,7 @@ TEST(OverhungFaceRub, HasPeriodThreeAt230RadPerSecond) {
   EXPECT_NEAR(c.contacts.at(1).duty, 0.57, 0.005);
 }
 
-// Also from the start of the paper, whose tilts are zero.
+// Also from the static sag of the disk with tilts of zero.
 TEST(OverhungFaceRub, HasPeriodThreeFromAStartWithoutTilts) {
   const Scene scene = make_scene(bundled());
   MotionState state;
