@@ -177,17 +177,19 @@ std::optional<Station> ModelBuilder::named_station(const std::string& name, Tabl
                                                    std::string_view key, bool may_be_ground) {
   Station s{.where = table.where(key), .key = table.path(key)};
   if (may_be_ground && name == "ground") return s;
-  std::vector<std::string> known;
-  if (may_be_ground) known.push_back("ground");
-  for (const Body& body : model_.structure.bodies) {
-    if (!body.name.empty()) known.push_back(body.name);
-  }
-  if (known.empty()) {
-    table.problem(key, fmt::format("found {}, but the model has no [[body]]", in_quotes(name)));
-    return std::nullopt;
-  }
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    table.unknown_choice(key, name, known);
+  const auto& bodies = model_.structure.bodies;
+  const auto is_it = [&](const Body& body) { return !name.empty() && body.name == name; };
+  if (std::none_of(bodies.begin(), bodies.end(), is_it)) {
+    std::vector<std::string> known;
+    if (may_be_ground) known.push_back("ground");
+    for (const Body& body : bodies) {
+      if (!body.name.empty()) known.push_back(body.name);
+    }
+    if (known.empty()) {
+      table.problem(key, fmt::format("found {}, but the model has no [[body]]", in_quotes(name)));
+    } else {
+      table.unknown_choice(key, name, known);
+    }
     return std::nullopt;
   }
   s.kind = Station::Kind::body;
