@@ -92,7 +92,7 @@ TEST_F(Study, StepsOfRk4MakeChaosOfATorus) {
     return o.err;
   };
   EXPECT_TRUE(has(problem({"--steps", "500"}), "goes with --method rk4 only"));
-  EXPECT_TRUE(has(problem({"--method", "rk4", "--steps", "1000001"}), "from 1 to 1000000"));
+  EXPECT_TRUE(has(problem({"--method", "rk4", "--steps", "1000001"}), "from 1 to 1 million"));
   EXPECT_TRUE(has(problem({"--method", "euler"}), "expected taylor or rk4"));
 }
 
