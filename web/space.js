@@ -1,4 +1,4 @@
-// What moves, in space: shaft and disks with true diameters, stators, touches and trails. The shaft's axis is z, drawn to
+// What moves, in space: shaft and disks with true diameters, symbols of disks without, stators, touches and trails. The shaft's axis is z, drawn to
 // the right; y is up. Displacements, and clearances with them, are enlarged by one scale.
 
 const spaces = [];
@@ -115,8 +115,9 @@ class SpaceView {
     this.trailLines = this.trailPoints.map(() => this.addTrail());
   }
 
-  /** A body of rings with as many facets each, whose corners a function places; closed: the last ring meets the first. */
-  addRings(rings, facets, isClosed, paintName, options, place) {
+  /** A body of rings with as many facets each, whose corners a function places; closed: the last ring meets the first;
+   *  broken: of every other sector only. */
+  addRings(rings, facets, isClosed, paintName, options, place, isBroken = false) {
     const geometry = new three.BufferGeometry(), n = rings * facets;
     const positions = new three.BufferAttribute(new Float32Array(3 * n), 3);
     positions.setUsage(three.DynamicDrawUsage);
@@ -126,6 +127,7 @@ class SpaceView {
       const next = (r + 1) % rings;
       for (let f = 0; f < facets; ++f) {
         const g = (f + 1) % facets;
+        if (isBroken && Math.floor((24 * f) / facets) % 2 === 1) continue;
         index.push(r * facets + f, next * facets + f, next * facets + g, r * facets + f, next * facets + g, r * facets + g);
       }
     }
@@ -150,13 +152,15 @@ class SpaceView {
   }
 
   addDisk(disk) {
-    const facets = 72, ring = [[disk.inner, -0.5], [disk.outer, -0.5], [disk.outer, 0.5], [disk.inner, 0.5]];
-    this.addRings(4, facets, true, "disk", { flatShading: true }, (array) => {
+    const facets = 72, isSymbol = disk.not_given !== undefined;
+    const ring = [[disk.inner, -0.5], [disk.outer, -0.5], [disk.outer, 0.5], [disk.inner, 0.5]];
+    const options = isSymbol ? { flatShading: true, transparent: true, opacity: 0.6 } : { flatShading: true };
+    this.addRings(4, facets, true, "disk", options, (array) => {
       const q = this.state(disk.point);
       ring.forEach(([r, side], s) => {
         for (let f = 0; f < facets; ++f) this.around(array, s * facets + f, q, r, (2 * Math.PI * f) / facets, side * disk.width);
       });
-    });
+    }, isSymbol);
   }
 
   /** A stator with the flash where it is touched. */
@@ -249,6 +253,8 @@ class SpaceView {
     this.message.textContent = m.kind === "motion"
       ? "Drag to turn, wheel to zoom, right button to move. The line after each disk and contact is its path; a stator lights up while it is touched."
       : `${m.about} Paths are its orbits. Drag to turn, wheel to zoom, right button to move.`;
+    this.message.textContent += this.stators.length > 0 ? " Lengths and thicknesses of stators are symbols." : "";
+    if (this.data.symbols) this.message.textContent += ` ${this.data.symbols}.`;
     this.trails = null;
     this.show();
     this.wake();

@@ -10,7 +10,7 @@ namespace whirl::inline io {
 
 namespace {
 
-constexpr std::array<PaintColors, 35> paints{{
+constexpr std::array<PaintColors, 39> paints{{
     {"ink", "#222222", "#222222", "#e6e6e6"},
     {"gray", "#707070", "#606060", "#9a9a9a"},
     {"faint", "#e4e4e4", "#707070", "#33373d"},
@@ -30,6 +30,10 @@ constexpr std::array<PaintColors, 35> paints{{
     {"period_2", "#7fb8e6", "#37719e", "#3f86ba"},
     {"period_3", "#2f7fc1", "#23639a", "#68b1ee"},
     {"period_4", "#0b4f8a", "#0b4f8a", "#a9d6ff"},
+    {"period_5", "#c9ecec", "#3c7c7e", "#1f5557"},
+    {"period_6", "#86cfd1", "#2f7f82", "#338a8d"},
+    {"period_7", "#3aa3a8", "#237b80", "#5cc3c7"},
+    {"period_8", "#0f6e75", "#0f6e75", "#a5eef0"},
     {"longer", "#7b6fc4", "#5d52a3", "#a79cf0"},
     {"quasi_periodic", "#3aa76d", "#257a4d", "#4fc487"},
     {"chaotic", "#e66101", "#b04a00", "#ff8b3d"},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "libio/drawing/disk_shape.hpp"
 #include "libio/text/table.hpp"
 
 namespace whirl::inline io {
@@ -54,6 +55,15 @@ std::string shortened(const std::string& name, const std::string& rest, int colu
   return name.substr(0, end) + "…" + rest;
 }
 
+bool is_flat(const std::vector<double>& radii) {
+  return std::all_of(radii.begin(), radii.end(), [](double r) { return r == 0.0; });
+}
+
+std::string legend(const Structure& s, bool has_disk, bool has_symbol) {
+  return std::string("  ▲ bearing   ") + (s.seals.empty() ? "" : "≋ seal   ") + "◯ contact" +
+         (has_disk ? "   ▓ disk" : "") + (has_symbol ? "\n  ╎ disk, size not given (symbol)" : "");
+}
+
 }  // namespace
 
 std::string draw_layout(const Model& model, const Assembler& assembler, int columns) {
@@ -63,8 +73,9 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
   const auto column = [&](double z) {
     return std::clamp(static_cast<int>(std::lround(z / length * (columns - 1))), 0, columns - 1);
   };
-  // radii of shaft and disks in every column
-  std::vector<double> shaft(static_cast<std::size_t>(columns)), disk(shaft.size());
+  // radii of shaft, disks and symbols of disks in every column
+  std::vector<double> shaft(static_cast<std::size_t>(columns)), disk(shaft.size()),
+      symbol(shaft.size());
   double largest = 0.0;
   for (int c = 0; c < columns; ++c) {
     shaft[static_cast<std::size_t>(c)] =
@@ -73,15 +84,15 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
   }
   for (const Disk& d : s.disks) {
     const double z = assembler.mesh().z[static_cast<std::size_t>(assembler.point(d.at).index)];
-    const double radius = d.outer_diameter > 0.0
-                              ? 0.5 * d.outer_diameter
-                              : 2.5 * 0.5 * shaft_diameter(s, assembler.mesh(), z);
+    const DiskShape shape = disk_shape(d, model, assembler);
     const int middle = column(z),
-              half = std::max(0, static_cast<int>(std::lround(0.5 * d.width / length * columns)));
+              half = static_cast<int>(std::lround(0.5 * shape.width / length * columns));
+    std::vector<double>& to = shape.not_given.empty() ? disk : symbol;
     for (int c = std::max(0, middle - half); c <= std::min(columns - 1, middle + half); ++c) {
-      disk[static_cast<std::size_t>(c)] = std::max(disk[static_cast<std::size_t>(c)], radius);
+      double& radius = to[static_cast<std::size_t>(c)];
+      radius = std::max(radius, shape.outer_radius);
     }
-    largest = std::max(largest, radius);
+    largest = std::max(largest, shape.outer_radius);
   }
 
   std::string text;
@@ -90,7 +101,7 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
     for (std::size_t c = 0; c < shaft.size(); ++c) {
       const double at = (std::abs(row) - 0.5) / half_rows * largest;  // inner edge of the row
       const bool in_shaft = row == 0 || at < shaft[c] - 0.25 * largest / half_rows;
-      line += in_shaft ? "█" : at < disk[c] ? "▓" : " ";
+      line += in_shaft ? "█" : at < disk[c] ? "▓" : at < symbol[c] ? "╎" : " ";
     }
     line.erase(line.find_last_not_of(' ') + 1);
     if (line.empty()) continue;
@@ -128,7 +139,7 @@ std::string draw_layout(const Model& model, const Assembler& assembler, int colu
     line.erase(line.find_last_not_of(' ') + 1);
     text += "  " + line + "\n";
   }
-  return text + "\n  ▲ bearing   " + (s.seals.empty() ? "" : "≋ seal   ") + "◯ contact   ▓ disk\n";
+  return text + "\n" + legend(s, !is_flat(disk), !is_flat(symbol)) + "\n";
 }
 
 }  // namespace whirl::inline io

@@ -47,7 +47,7 @@ struct RotorMesh {
 RotorMesh line_mesh(const Model& model, const Assembler& assembler,
                     const std::vector<MeshField>& fields, const std::string& group);
 
-/// The surface of shaft and disks. Cell data: "part", 0 shaft, 1 disk.
+/// The surface of shaft and disks, of disks whose size is given. Cell data: "part", 0 shaft, 1 disk.
 RotorMesh surface_mesh(const VtkScene& scene, const std::vector<MeshField>& fields);
 
 /// VTK's format of unstructured grids, as text.

@@ -74,6 +74,9 @@ Exported export_series(const SceneSource& source, const ExportOptions& options,
                        write(fmt::format("_mode{}", number), frames, told(number, mode));
                      });
   }
+  if (const std::string told = symbols_told(source.scene); !told.empty() && !is_xdmf) {
+    written.text += fmt::format("\n  {}\n", told);
+  }
   return written;
 }
 
@@ -150,10 +153,18 @@ Exported export_mesh(const SceneSource& source, const ExportOptions& options,
                                           : surface_mesh(source.scene, fields);
   const fs::path place = stem.string() + options.format.ending;
   write_mesh(place, format, mesh, options.replaces);
-  return {{place},
-          fmt::format("  {}: {} {} and {} points; where the format takes fields\n{}",
-                      place.string(), mesh.cells.size(), format.has_lines ? "lines" : "triangles",
-                      mesh.points.size(), told_fields)};
+  Exported written{
+      {place},
+      fmt::format("  {}: {} {} and {} points; where the format takes fields\n{}", place.string(),
+                  mesh.cells.size(), format.has_lines ? "lines" : "triangles", mesh.points.size(),
+                  told_fields)};
+  if (format.has_lines) return written;
+  for (const VtkDisk& d : source.scene.disks) {
+    if (d.not_given.empty()) continue;
+    written.notes.push_back(
+        fmt::format("\"{}\" is left out: the model does not give its {}", d.name, d.not_given));
+  }
+  return written;
 }
 
 }  // namespace

@@ -140,7 +140,11 @@ std::vector<fs::path> write_video(const VtkScene& scene, const std::vector<VtkFr
   const Folder folder(options.place);
   const fs::path series = folder.path() / "series.pvd";
   write_vtk_series(series, scene, frames);
-  render(series, folder.path() / (ending == ".gif" ? "video.png" : "video" + ending), options,
+  VideoOptions titled = options;
+  if (!symbols_told(scene).empty()) {
+    titled.title = "Broken plates: symbols of disks whose size is not given\n" + options.title;
+  }
+  render(series, folder.path() / (ending == ".gif" ? "video.png" : "video" + ending), titled,
          folder.output());
   if (ending == ".gif") make_gif(folder, options.rate);
   std::vector<fs::path> places;

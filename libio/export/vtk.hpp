@@ -24,6 +24,7 @@ struct VtkDisk {
   double outer_radius = 0.0;  ///< [m]
   double inner_radius = 0.0;  ///< [m]
   double width = 0.0;         ///< [m]
+  std::string not_given{};    ///< what is a symbol of it: "size", "diameter" or "width"
 };
 
 /// A ring around the rotor, or a plate beside it, fixed or moving with a body.
@@ -55,6 +56,11 @@ struct VtkScene {
   std::vector<VtkStator> stators;
   std::vector<VtkContact> contacts;
 };
+
+/// Says which disks of a scene are symbols; empty where there are none.
+///
+///   "Thin and broken: symbols, as the model does not give the size of fan, the width of rim"
+std::string symbols_told(const VtkScene& scene);
 
 /// The force at one contact.
 struct VtkForce {
@@ -90,8 +96,8 @@ struct VtkOptions {
 ///
 /// Point data: "displacement [m]" and "rotation [rad]", both true; "undeformed position [m]";
 /// "contact force [N]", at both ends of the lines. Cell data: "part" (0 shaft, 1 disk, 2 stator,
-/// 3 contact force), "member" (its number from 1 among its kind), "in touch" (0, 1). Field data:
-/// "time [s]", "deflection scale", "force scale [m/N]", "disk names", "stator names", "contact
+/// 3 contact force, 4 a disk whose size is not given: a symbol of which every other sector is
+/// there), "member" (its number from 1 among its kind), "in touch" (0, 1). Field data: "time [s]", "deflection scale", "force scale [m/N]", "disk names", "stator names", "contact
 /// names".
 ///
 /// The collection is removed first and written last: where there is one, it is complete.

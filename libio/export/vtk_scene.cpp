@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "libio/drawing/disk_shape.hpp"
+
 namespace whirl::inline io {
 
 namespace {
@@ -46,6 +48,29 @@ double contact_radius(const Model& model, const Assembler& assembler, const Cont
   return 5.0 * c.clearance;
 }
 
+/// Adds the bodies of the rotor. The model gives none of them a width; the radius of one is that at
+/// which a contact touches it, or a symbol.
+void add_bodies(const Model& model, const Assembler& assembler, VtkScene& scene) {
+  double typical = 0.0;  // radius of bodies that no contact touches
+  for (const Contact& c : model.contacts)
+    typical = std::max(typical, contact_radius(model, assembler, c));
+  if (!(typical > 0.0)) typical = 0.1;
+  const double length = model.structure.length();
+  for (std::size_t i = 0; i < model.structure.bodies.size(); ++i) {
+    const Body& body = model.structure.bodies[i];
+    if (!body.spins) continue;
+    const Point point{Point::Kind::body, static_cast<int>(i)};
+    double touched = 0.0;
+    for (const Contact& c : model.contacts) {
+      if (assembler.point(c.at) == point) touched = std::max(touched, c.friction.radius);
+    }
+    const double radius = touched > 0.0 ? touched : typical;
+    scene.disks.push_back({body.name, index_of(point, assembler), radius, 0.0,
+                           symbol_width * std::max(length, 2.0 * radius),
+                           touched > 0.0 ? "width" : "size"});
+  }
+}
+
 }  // namespace
 
 VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
@@ -69,23 +94,11 @@ VtkScene vtk_scene(const Model& model, const Assembler& assembler) {
                            0.5 * between(layer.left, layer.right, piece.to).outer});
   }
   for (const Disk& d : s.disks) {
-    const int node = assembler.point(d.at).index;
-    const double shaft = shaft_diameter(s, mesh, mesh.z[static_cast<std::size_t>(node)]);
-    VtkDisk disk{d.name, node, 0.5 * d.outer_diameter, 0.5 * std::max(d.inner_diameter, 0.0),
-                 d.width};
-    if (disk.outer_radius <= 0.0) disk.outer_radius = 2.5 * shaft;
-    if (disk.width <= 0.0) disk.width = 0.5 * shaft;
-    scene.disks.push_back(disk);
+    const DiskShape shape = disk_shape(d, model, assembler);
+    scene.disks.push_back({d.name, assembler.point(d.at).index, shape.outer_radius,
+                           shape.inner_radius, shape.width, shape.not_given});
   }
-  double typical = 0.0;  // radius for bodies that have no size
-  for (const Contact& c : model.contacts)
-    typical = std::max(typical, contact_radius(model, assembler, c));
-  for (std::size_t i = 0; i < s.bodies.size(); ++i) {
-    if (!s.bodies[i].spins) continue;
-    const double radius = typical > 0.0 ? typical : 0.1;
-    scene.disks.push_back(
-        {s.bodies[i].name, mesh.nodes() + static_cast<int>(i), radius, 0.0, 0.5 * radius});
-  }
+  add_bodies(model, assembler, scene);
   for (const Contact& c : model.contacts) {
     const Point at = assembler.point(c.at), against = assembler.point(c.against);
     scene.stators.push_back(

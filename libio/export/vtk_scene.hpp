@@ -11,7 +11,7 @@ namespace whirl::inline io {
 /// Shaft with its diameters and layers, disks, spinning bodies, stators of all contacts.
 ///
 /// Bodies have no place along the shaft: each is put where a contact, bearing or link joins it to
-/// the shaft. Sizes that the model does not tell (disks by mass, bodies) are plausible ones.
+/// the shaft. Disks and bodies whose size the model does not give are symbols, see disk_shape.
 VtkScene vtk_scene(const Model& model, const Assembler& assembler);
 
 /// One cycle of a mode, q = Re(shape e^(i phase)): damping is left out.

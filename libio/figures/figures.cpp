@@ -43,13 +43,18 @@
   order_bode_kind(),     \
   order_polar_kind(),    \
   poincare_kind(),       \
+  phase_plane_kind(),    \
+  tilts_kind(),          \
+  contact_motion_kind(), \
   contact_forces_kind(), \
   contact_angles_kind(), \
   mac_kind(),            \
+  all_spectra_kind(),    \
   stabilization_kind(),  \
   fit_kind(),            \
   exponents_kind(),      \
   bifurcation_kind(),    \
+  exponents_over_kind(), \
   spectral_map_kind(),   \
   cascade_kind(),        \
   branches_kind(),       \
@@ -58,6 +63,8 @@
   map_kind(),            \
   exponent_map_kind(),   \
   regime_map_kind(),     \
+  shares_kind(),         \
+  contact_edges_kind(),  \
   basins_kind(),         \
   work_precision_kind()
 // clang-format on

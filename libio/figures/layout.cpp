@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "libdyn/system/stations.hpp"
-#include "libio/export/vtk_scene.hpp"
+#include "libio/drawing/disk_shape.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/text/format.hpp"
 
@@ -102,13 +102,15 @@ std::vector<Figure> front_view(const ResultView& result) {
     const double gap = std::max(c.clearance, 0.12 * radius);
     p.x.title = "x [mm]";
     p.y.title = "y [mm]";
+    const bool is_given = c.friction.radius > 0.0;
     Curve rotor =
-        figures::circle(c.friction.radius > 0.0 ? "rotor" : "rotor, its size unknown", mm * radius);
+        figures::circle(is_given ? "rotor" : "rotor, size not given (symbol)", mm * radius);
     rotor.paint = Paint::disk;
-    rotor.dash = Dash::solid;
-    rotor.fill = 0.4;
+    rotor.dash = is_given ? Dash::solid : Dash::dashed;
+    rotor.fill = is_given ? 0.4 : 0.0;
     rotor.hover.assign(rotor.x.size(),
-                       fmt::format("{} of radius {}", c.at.body, format_length(radius)));
+                       is_given ? fmt::format("{} of radius {}", c.at.body, format_length(radius))
+                                : fmt::format("{}, its size not given", c.at.body));
     const auto direction = direction_of(geometry_of(c));
     const auto stator = [&](double distance) {
       return direction ? figures::line_across("stator", *direction, mm * distance, mm * radius)
@@ -184,17 +186,40 @@ void add_shaft(SideView& v) {
   }
 }
 
+/// A disk whose size is not given, as a broken line above and below the shaft.
+void add_symbol(Panel& p, const DiskShape& shape, double at, Section section,
+                const std::string& hover) {
+  for (const double side : {0.5, -0.5}) {
+    Curve c{.name = legend_name(shape), .paint = Paint::disk};
+    c.x = {at, at};
+    c.y = {side * section.inner, side * section.outer};
+    c.width = 2.4;
+    c.hover.assign(2, hover);
+    p.curves.push_back(std::move(c));
+  }
+}
+
 void add_disks(SideView& v) {
   const Structure& s = v.model.structure;
-  const VtkScene scene = vtk_scene(v.model, v.assembler);  // sizes of disks without one
-  for (std::size_t i = 0; i < s.disks.size(); ++i) {
-    const Disk& d = s.disks[i];
-    const double at = v.position(d.at), half = 0.5 * mm * scene.disks[i].width;
-    const double outer = 2.0 * mm * scene.disks[i].outer_radius;
+  for (const Disk& d : s.disks) {
+    const DiskShape shape = disk_shape(d, v.model, v.assembler);
+    const double at = v.position(d.at), half = 0.5 * mm * shape.width;
+    const double outer = 2.0 * mm * shape.outer_radius;
     const double inner = mm * shaft_diameter(s, v.assembler.mesh(), at / mm);
-    add_body(v.panel, "disk", Paint::disk, at - half, at + half, {outer, inner}, {outer, inner},
-             fmt::format("{}: {:.4g} kg, Ip {:.4g}, Id {:.4g} kg.m²{}", d.name, d.m, d.Ip, d.Id,
-                         d.outer_diameter > 0.0 ? "" : ", its size unknown"));
+    const std::string hover =
+        fmt::format("{}: {:.4g} kg, Ip {:.4g}, Id {:.4g} kg.m²{}", d.name, d.m, d.Ip, d.Id,
+                    shape.not_given.empty() ? "" : fmt::format(", {} not given", shape.not_given));
+    const std::size_t before = v.panel.curves.size();
+    if (shape.not_given == "size") {
+      add_symbol(v.panel, shape, at, {outer, inner}, hover);
+    } else {
+      add_body(v.panel, legend_name(shape), Paint::disk, at - half, at + half, {outer, inner},
+               {outer, inner}, hover);
+    }
+    for (std::size_t i = before; i < v.panel.curves.size() && !shape.not_given.empty(); ++i) {
+      v.panel.curves[i].dash = Dash::dashed;
+      v.panel.curves[i].fill = 0.0;
+    }
     v.add_name(at, 0.5 * outer, d.name, Paint::disk, false);
   }
 }
@@ -334,7 +359,10 @@ std::vector<Figure> layout_figures(const ResultView& result) {
   p.x.last = 1.04 * v.length;
   p.y.first = -reach;
   p.y.last = reach;
-  Figure f{.subtitle = "Layout, to scale", .width = 860.0};
+  Figure f{.subtitle = "Layout, shaft and disks of given size to scale", .width = 860.0};
+  f.notes = {
+      "Symbols without scale: bearings, seals, probes, and the length and height of contacts. Gaps "
+      "are drawn as 0.4 % of the shaft's length where they are less."};
   f.height = std::clamp(140.0 + 2.0 * reach / (1.08 * v.length) * 750.0, 260.0, 760.0);
   f.panels.push_back(std::move(p));
   return {f};
@@ -346,7 +374,7 @@ FigureKind layout_kind() {
   return {
       .name = "layout",
       .title = "Layout",
-      .summary = "the rotor to scale, with disks, bearings, seals, oil films and contacts",
+      .summary = "shaft and disks to scale, with bearings, seals, oil films and contacts",
       .subject = Subject::rotor,
       .needs_model = true,
       .make = layout_figures,

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "libdyn/studies/basins.hpp"
-#include "libio/figures/common.hpp"
+#include "libio/figures/map_planes.hpp"
 #include "libio/figures/result_of.hpp"
 
 namespace whirl::inline io {
@@ -14,33 +14,6 @@ namespace whirl::inline io {
 namespace {
 
 using namespace figures;
-
-/// The planes of a study of two or three parameters.
-struct Planes {
-  /// @param axes  two or three
-  explicit Planes(std::vector<ShownAxis> axes)
-      : x(std::move(axes.at(0))), y(std::move(axes.at(1))) {
-    if (axes.size() > 2) z = std::move(axes[2]);
-  }
-  ShownAxis x, y, z;
-  std::size_t count() const { return std::max<std::size_t>(1, z.values.size()); }
-  std::size_t point(std::size_t i, std::size_t j, std::size_t plane) const {
-    return (i * y.values.size() + j) * count() + plane;
-  }
-  std::string variant(std::size_t plane) const {
-    return z.values.empty() ? "" : fmt::format("{} = {:.6g}", z.title, z.values[plane]);
-  }
-  /// Cells with a value of every point.
-  template <class Value>
-  Cells cells(std::size_t plane, const Value& value) const {
-    Cells c{.x = x.values, .y = y.values};
-    for (std::size_t j = 0; j < y.values.size(); ++j) {
-      for (std::size_t i = 0; i < x.values.size(); ++i)
-        c.values.push_back(value(point(i, j, plane)));
-    }
-    return c;
-  }
-};
 
 /// The command that looks at one cell as the study did.
 std::string command_of(const ResultView& result, const Planes& planes, std::size_t plane,
@@ -88,56 +61,6 @@ void keep_used(Cells& cells, const std::vector<Category>& all) {
   for (double& v : cells.values) {
     if (std::isfinite(v)) v = renamed[static_cast<std::size_t>(v)];
   }
-}
-
-Paint paint_of(MotionKind kind) {
-  switch (kind) {
-    case MotionKind::equilibrium:
-      return Paint::rest;
-    case MotionKind::periodic:
-      return Paint::longer;
-    case MotionKind::quasi_periodic:
-      return Paint::quasi_periodic;
-    case MotionKind::chaotic:
-      return Paint::chaotic;
-    case MotionKind::hyperchaotic:
-      return Paint::hyperchaotic;
-    case MotionKind::not_settled:
-      return Paint::not_settled;
-  }
-  return Paint::failed;
-}
-
-constexpr int told_periods = 4;  ///< that have a color of their own
-
-/// What a cell of a map may be: periodic motions by their period, others by their kind.
-const std::vector<Category>& motions() {
-  static const std::vector<Category> all = [] {
-    std::vector<Category> list;
-    for (const auto& [name, kind] : choices(MotionKind{})) {
-      if (kind != MotionKind::periodic) {
-        list.push_back({std::string(name), paint_of(kind)});
-        continue;
-      }
-      for (int p = 1; p <= told_periods; ++p) {
-        const int paint = static_cast<int>(Paint::period_1) + p - 1;
-        list.push_back({fmt::format("period {}", p), static_cast<Paint>(paint)});
-      }
-      list.push_back({"longer period", Paint::longer});
-    }
-    list.push_back({"failed", Paint::failed});
-    return list;
-  }();
-  return all;
-}
-
-/// Which of motions() it is.
-double motion_number(std::optional<MotionKind> kind, int period) {
-  if (!kind) return static_cast<double>(motions().size() - 1);
-  const auto number = static_cast<int>(*kind), periodic = static_cast<int>(MotionKind::periodic);
-  if (number < periodic) return number;
-  if (number > periodic) return number + told_periods;
-  return periodic + (period >= 1 && period <= told_periods ? period - 1 : told_periods);
 }
 
 std::vector<Figure> map_figures(const ResultView& result) {

@@ -11,6 +11,7 @@
 #include "libdyn/studies/classification_result.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libio/figures/common.hpp"
+#include "libio/figures/mac_panel.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"
 #include "libio/figures/shaft_shapes.hpp"
@@ -135,36 +136,14 @@ std::vector<Figure> mode_figures(const ResultView& result) {
 }
 
 std::vector<Figure> mac_figures(const ResultView& result) {
-  const std::vector<IdentifiedPeak>& peaks = result_of<Identification>(result).peaks;
-  const std::vector<Mode>& modes = result_of<ModesAtPoints>(result).oscillatory;
-  const std::size_t columns = peaks.empty() ? 0 : peaks.front().mac.size();
-  if (columns == 0) return {};
+  std::optional<Panel> p = mac_panel(result);
+  if (!p) return {};
   Figure f;
   f.subtitle = "Modal assurance criterion: deflection shapes of the motion against modes" +
                (speed_text(result).empty() ? "" : " at " + speed_text(result));
-  f.width = 200.0 + 80.0 * static_cast<double>(columns);
-  f.width = std::max(f.width, 560.0);
-  f.height = 150.0 + 34.0 * static_cast<double>(peaks.size());
-  f.height = std::max(f.height, 320.0);
-  Panel p;
-  p.x.title = with_unit("mode, its frequency", result.frequency);
-  p.y.title = with_unit("peak", result.frequency);
-  Cells& c = p.cells;
-  c.title = "MAC";
-  c.prints_values = true;
-  for (std::size_t j = 0; j < columns; ++j) {
-    c.x.push_back(static_cast<double>(j + 1));
-    const Mode& mode = modes.at(j);
-    c.x_names.push_back(fmt::format("{}{} {:.1f}", j + 1, whirl_style(mode.whirl).letter,
-                                    mode.frequency() * result.frequency.factor));
-  }
-  for (std::size_t i = peaks.size(); i-- > 0;) {  // the strongest peak on top
-    c.y.push_back(static_cast<double>(peaks.size() - i));
-    c.y_names.push_back(
-        with_minus(fmt::format("{:+.2f}", peaks[i].frequency * result.frequency.factor)));
-    c.values.insert(c.values.end(), peaks[i].mac.begin(), peaks[i].mac.end());
-  }
-  f.panels.push_back(std::move(p));
+  f.width = std::max(560.0, 200.0 + 80.0 * static_cast<double>(p->cells.x.size()));
+  f.height = std::max(320.0, 150.0 + 34.0 * static_cast<double>(p->cells.y.size()));
+  f.panels.push_back(std::move(*p));
   return {f};
 }
 

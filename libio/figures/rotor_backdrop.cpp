@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "libio/drawing/disk_shape.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/common.hpp"
 
@@ -33,6 +34,36 @@ Curve area(const std::string& name, Paint paint, std::vector<double> x, std::vec
 Curve box(const std::string& name, Paint paint, double from, double to, double low, double high,
           double fill, const std::string& hover) {
   return area(name, paint, {from, to, to, from, from}, {low, low, high, high, low}, fill, hover);
+}
+
+/// A disk whose size is not given: a broken line, as thick in every picture.
+Curve symbol_line(const std::string& name, double at, double axis, double radius,
+                  const std::string& hover) {
+  Curve c{.name = name, .paint = Paint::disk};
+  c.x = {at, at};
+  c.y = {axis - radius, axis + radius};
+  c.dash = Dash::dashed;
+  c.is_key = false;
+  c.hover.assign(2, hover);
+  return c;
+}
+
+/// @param factor  height in the panel per radius [m]
+void add_disk(Panel& panel, const Disk& disk, const ResultView& result, double axis,
+              double factor) {
+  const Point point = result.assembler->point(disk.at);
+  if (point.kind != Point::Kind::node) return;
+  const double at = result.assembler->mesh().z[static_cast<std::size_t>(point.index)];
+  const DiskShape shape = disk_shape(disk, *result.model, *result.assembler);
+  const double radius = factor * shape.outer_radius;
+  if (!shape.not_given.empty()) {
+    panel.curves.push_back(symbol_line(legend_name(shape), mm * at, axis, radius, disk.name));
+    return;
+  }
+  const double least = narrowest_disk * result.model->structure.length();
+  const double half = 0.5 * std::max(shape.width, least);
+  panel.curves.push_back(box("disk", Paint::disk, mm * (at - half), mm * (at + half), axis - radius,
+                             axis + radius, 0.35, disk.name));
 }
 
 }  // namespace
@@ -72,14 +103,7 @@ void add_rotor(Panel& panel, const ResultView& result, double axis, double heigh
     const LayerSpan span = span_of(layer, s, mesh);
     add_part(layer, span.from, span.to);
   }
-  for (std::size_t i = 0; i < s.disks.size(); ++i) {
-    const double at = position(s.disks[i].at);
-    if (at < 0.0) continue;
-    const double half = std::max(0.5 * scene.disks[i].width, 0.5 * narrowest_disk * length);
-    const double radius = factor * scene.disks[i].outer_radius;
-    panel.curves.push_back(box("disk", Paint::disk, mm * (at - half), mm * (at + half),
-                               axis - radius, axis + radius, 0.35, s.disks[i].name));
-  }
+  for (const Disk& disk : s.disks) add_disk(panel, disk, result, axis, factor);
   const double half = mm * symbol * length;
   const auto add_bearing = [&](const Station& station, const std::string& name) {
     const double at = mm * position(station);

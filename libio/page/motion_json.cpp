@@ -29,6 +29,7 @@ Record scene_record(const VtkScene& scene) {
   for (const VtkDisk& d : scene.disks) {
     Record r;
     r.set("name", d.name).set("point", d.point).set("outer", d.outer_radius);
+    if (!d.not_given.empty()) r.set("not_given", d.not_given);
     disks.add(r.set("inner", d.inner_radius).set("width", d.width));
   }
   for (std::size_t i = 0; i < scene.stators.size(); ++i) {
@@ -42,6 +43,7 @@ Record scene_record(const VtkScene& scene) {
   }
   Record r;
   r.set("z", scene.z).set("shaft", shaft).set("disks", disks);
+  if (const std::string told = symbols_told(scene); !told.empty()) r.set("symbols", told);
   return r.set("stators", stators);
 }
 

@@ -86,6 +86,20 @@ TEST(Layout, SealsHaveASignOfTheirOwn) {
   EXPECT_EQ(count(draw(all_parts), "≋"), 0u);
 }
 
+// A disk by its mass has no size: it is a sign of its own that hides neither shaft nor wheels, and
+// the legend says what it is. With its size it is drawn as one by its shape.
+TEST(Layout, ADiskByItsMassIsASymbol) {
+  const std::string text = draw(all_parts);
+  EXPECT_EQ(count(text, "╎ disk, size not given (symbol)"), 1u) << text;
+  EXPECT_GE(count(text, "╎"), 3u) << text;  // above, below, and the legend
+  EXPECT_LE(count(text, "╎"), 5u) << text;
+  const std::string sized = draw(std::string(all_parts) +
+                                 "[[disk]]\nname = \"hub\"\nat = 0\nmass = 1\n"
+                                 "outer_diameter = \"200 mm\"\nwidth = \"40 mm\"\n");
+  EXPECT_GT(count(sized, "▓"), count(text, "▓"));
+  EXPECT_EQ(count(draw("[[disk]]\nat = 0\nmass = 1\n"), "▓"), 0u);
+}
+
 TEST(Layout, NoLineIsWiderThanAsked) {
   for (const int columns : {40, 72, 120}) {
     EXPECT_LE(widest(draw(all_parts, columns)), static_cast<std::size_t>(columns) + 2) << columns;

@@ -417,6 +417,70 @@ TEST_F(VtkSeries, ARotorMayBeBodiesOnly) {
   EXPECT_EQ(data->GetNumberOfCells(), 48 + 2);
 }
 
+/// Two disks by mass, one of them with its size, and a seal ring that one runs in.
+const char* masses = R"(format = 1
+[material.steel]
+density = 7800
+youngs_modulus = "211 GPa"
+poisson_ratio = 0.3
+[[shaft]]
+material = "steel"
+length = 1
+outer_diameter = "80 mm"
+elements = 4
+[[disk]]
+name = "wheel"
+node = 3
+mass = 5
+[[disk]]
+name = "hub"
+node = 4
+mass = 5
+outer_diameter = "0.3 m"
+width = "60 mm"
+[[contact]]
+name = "ring"
+node = 2
+clearance = "1 mm"
+stiffness = 1e6
+)";
+
+// A wheel by its mass has no size, and none is invented: what stands for it is thin, ends near the
+// shaft, leaves every other sector open, and is named as what it is. A size that is given stays.
+TEST_F(VtkSeries, ADiskByItsMassIsAThinBrokenSymbol) {
+  const Model model = parse_model(masses, "rotor.toml");
+  const VtkScene scene = vtk_scene(model, Assembler(model.structure));
+  ASSERT_EQ(scene.disks.size(), 2u);
+  const VtkDisk &wheel = scene.disks[0], &hub = scene.disks[1];
+  EXPECT_EQ(wheel.not_given, "size");
+  EXPECT_LE(wheel.width, 0.01);
+  EXPECT_LE(wheel.outer_radius, 0.04 + 0.05);
+  EXPECT_GT(wheel.outer_radius, 0.04);
+  EXPECT_EQ(hub.not_given, "");
+  EXPECT_EQ(hub.outer_radius, 0.15);
+  EXPECT_EQ(hub.width, 0.06);
+  EXPECT_EQ(symbols_told(scene),
+            "Thin and broken: symbols, as the model does not give the size of wheel");
+  const auto data = written(scene, at_rest(scene), {.facets = 48});
+  EXPECT_EQ(cells(data, 1).size(), 48u + 2u);       // the hub, whole
+  EXPECT_EQ(cells(data, 4).size(), 4u * 48u / 2u);  // the wheel, half of its sectors
+}
+
+// A diameter without a width is drawn true; where a contact says at which radius it touches the disk, the
+// symbol is as large.
+TEST_F(VtkSeries, OnlyWhatIsNotGivenIsASymbol) {
+  std::string text = masses;
+  text.replace(text.find("width = \"60 mm\""), 15, "# none");
+  text.replace(text.find("stiffness = 1e6"), 15, "stiffness = 1e6\nfriction = 0.1\nradius = 0.2");
+  text.replace(text.find("node = 2\nclearance"), 8, "node = 3");
+  const Model model = parse_model(text, "rotor.toml");
+  const VtkScene scene = vtk_scene(model, Assembler(model.structure));
+  EXPECT_EQ(scene.disks[1].not_given, "width");
+  EXPECT_EQ(scene.disks[1].outer_radius, 0.15);
+  EXPECT_LE(scene.disks[1].width, 0.01);
+  EXPECT_EQ(scene.disks[0].outer_radius, 0.2);
+}
+
 TEST_F(VtkSeries, CollectionListsTimesAndFiles) {
   const VtkScene scene = example();
   VtkFrame first = at_rest(scene), second = at_rest(scene);

@@ -1,5 +1,8 @@
 #include "libio/export/vtk/surfaces.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -38,6 +41,7 @@ class Builder {
   /// Quadrangles between two rings; the normal is that of (along the ring) x (from ring to ring).
   void band(const Ring& from, const Ring& to) {
     for (std::size_t i = 0; i < from.size(); ++i) {
+      if (part_ == disk_symbol && is_open(static_cast<int>(i))) continue;
       const std::size_t next = (i + 1) % from.size();
       add({from[i], from[next], to[next], to[i]});
     }
@@ -65,6 +69,11 @@ class Builder {
   void right_cap(const Ring& ring) { add(ring); }
 
  private:
+  /// Whether a facet is of a sector that a symbol leaves out.
+  bool is_open(int facet) const {
+    const int sectors = std::min(24, facets_);
+    return sectors * facet / facets_ % 2 == 1;
+  }
   void add(std::vector<int> vertices) {
     surfaces_.cells.push_back({std::move(vertices), part_, member_});
   }
@@ -120,15 +129,18 @@ Surfaces surfaces_of(const VtkScene& scene, const VtkOptions& options) {
   }
   for (std::size_t k = 0; k < scene.disks.size(); ++k) {
     const VtkDisk& d = scene.disks[k];
-    Builder builder(surfaces, options.facets, disk, k);
+    const bool is_symbol = !d.not_given.empty();
+    Builder builder(surfaces, options.facets, is_symbol ? disk_symbol : disk, k);
+    const double bore = is_symbol ? std::max(d.inner_radius, 0.05 * d.outer_radius)  // no caps
+                                  : d.inner_radius;
     const Vertex left{d.point, d.point, 0.0, Vector3d(0.0, 0.0, -0.5 * d.width)};
     const Vertex right{d.point, d.point, 0.0, Vector3d(0.0, 0.0, 0.5 * d.width)};
     const Ring outer_left = builder.ring(left, d.outer_radius);
     const Ring outer_right = builder.ring(right, d.outer_radius);
     builder.band(outer_left, outer_right);
-    if (d.inner_radius > 0.0) {
-      const Ring inner_left = builder.ring(left, d.inner_radius);
-      const Ring inner_right = builder.ring(right, d.inner_radius);
+    if (bore > 0.0) {
+      const Ring inner_left = builder.ring(left, bore);
+      const Ring inner_right = builder.ring(right, bore);
       builder.band(inner_right, inner_left);
       builder.band(inner_left, outer_left);
       builder.band(outer_right, inner_right);
@@ -186,6 +198,19 @@ double force_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames) {
 }
 
 }  // namespace vtk
+
+std::string symbols_told(const VtkScene& scene) {
+  constexpr std::size_t most = 3;  // names
+  std::vector<std::string> names;
+  for (const VtkDisk& d : scene.disks) {
+    if (!d.not_given.empty()) names.push_back(fmt::format("the {} of {}", d.not_given, d.name));
+  }
+  if (names.empty()) return "";
+  const std::size_t more = names.size() > most ? names.size() - most : 0;
+  names.resize(names.size() - more);
+  return fmt::format("Thin and broken: symbols, as the model does not give {}{}",
+                     fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
 
 double vtk_fitting_scale(const VtkScene& scene, const std::vector<VtkFrame>& frames) {
   constexpr double drawn_share = 0.12;  // of the scene's size

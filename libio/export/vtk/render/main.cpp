@@ -47,12 +47,13 @@ std::vector<fs::path> frames_of(const fs::path& pvd) {
   return frames;
 }
 
-/// Colors of shaft, disks, stators and contact forces, as "part" numbers them.
+/// Colors of shaft, disks, stators, contact forces and symbols of disks, as "part" numbers them.
 void color_parts(vtkColorTransferFunction* colors) {
   colors->AddRGBPoint(0.0, 0.62, 0.66, 0.72);
   colors->AddRGBPoint(1.0, 0.27, 0.45, 0.69);
   colors->AddRGBPoint(2.0, 0.80, 0.72, 0.55);
   colors->AddRGBPoint(3.0, 0.84, 0.15, 0.16);
+  colors->AddRGBPoint(4.0, 0.45, 0.59, 0.77);
 }
 
 void look_at(vtkRenderer* renderer, const double bounds[6]) {
@@ -92,6 +93,7 @@ class Stage {
 
     title_->GetTextProperty()->SetFontSize(std::max(12, height / 28));
     title_->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
+    title_->GetTextProperty()->SetLineSpacing(1.4);
     title_->SetPosition(12.0, 10.0);
     renderer_->AddActor2D(title_);
   }
@@ -126,13 +128,20 @@ class Stage {
 
   /// A picture of a frame, with the time below it.
   vtkNew<vtkWindowToImageFilter> picture(const fs::path& frame, const char* title) {
-    double time = 0.0;
-    if (auto* array = read(frame)->GetFieldData()->GetArray("time [s]")) {
-      time = array->GetTuple1(0);
+    vtkFieldData* const facts = read(frame)->GetFieldData();
+    const auto number = [facts](const char* name, double otherwise) {
+      auto* array = facts->GetArray(name);
+      return array ? array->GetTuple1(0) : otherwise;
+    };
+    char text[128];
+    std::snprintf(text, sizeof text, "    t = %.5g s", number("time [s]", 0.0));
+    std::string words = title + std::string(text);
+    // of a mode, which has no amplitude of its own, it is 1
+    if (const double scale = number("deflection scale", 1.0); std::abs(scale - 1.0) > 1e-9) {
+      std::snprintf(text, sizeof text, "    displacements and clearances x %.3g", scale);
+      words += text;
     }
-    char text[512];
-    std::snprintf(text, sizeof text, "%s    t = %.5g s", title, time);
-    title_->SetInput(text);
+    title_->SetInput(words.c_str());
     window_->Render();
     vtkNew<vtkWindowToImageFilter> image;
     image->SetInput(window_);

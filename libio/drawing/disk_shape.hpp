@@ -1,0 +1,30 @@
+#pragma once
+/// How a disk is drawn: as large as the model says, or as a symbol. Every drawing asks here.
+
+#include <string>
+
+#include "libdyn/system/model.hpp"
+#include "libfe/assemble.hpp"
+
+namespace whirl::inline io {
+
+constexpr double symbol_width = 0.006;  ///< of a disk whose width is not given, of the rotor's size
+
+/// A disk as it is drawn. What the model does not give is a symbol of a fixed share of the rotor,
+/// thin, so that it hides nothing, and is drawn broken.
+struct DiskShape {
+  double outer_radius = 0.0, inner_radius = 0.0;  ///< [m]
+  double width = 0.0;                             ///< [m]
+  std::string not_given;  ///< "size", "diameter" or "width"; empty: all as the model gives it
+};
+
+/// The shape of a disk on the shaft.
+///
+/// A width that is not given is symbol_width of the rotor's length. A radius that is not given is
+/// that at which a contact of the same node touches it, or else 4 % of the length above the shaft.
+DiskShape disk_shape(const Disk& disk, const Model& model, const Assembler& assembler);
+
+/// "disk", or of a symbol "disk, size not given (symbol)", for legends.
+std::string legend_name(const DiskShape& shape);
+
+}  // namespace whirl::inline io
