@@ -5,11 +5,11 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 
+#include "libio/model/meant_path.hpp"
 #include "libio/text/nearest.hpp"
 
 namespace whirl::inline io {
@@ -347,46 +347,6 @@ ConfigNode parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
-namespace {
-
-/// Adds the paths of some values with a key, below the top of the tree, as set_value takes them.
-void paths_to(const ConfigNode& node, std::string_view key, const std::string& path,
-              std::vector<std::string>& found) {
-  constexpr std::size_t most_found = 4;
-  const auto inner = [&](const std::string& part, const ConfigNode& below) {
-    paths_to(below, key, path.empty() ? part : path + "." + part, found);
-  };
-  for (const auto& [name, entry] : node.entries) {
-    if (found.size() == most_found) return;
-    if (name == key && !path.empty()) found.push_back(path + "." + name);
-    inner(name, entry);
-  }
-  for (std::size_t i = 0; i < node.items.size() && found.size() < most_found; ++i) {
-    const ConfigNode* const name = node.items[i].find("name");
-    const bool is_plain = name && name->text.find_first_of(". ,=\"") == std::string::npos;
-    inner(is_plain ? name->text : std::to_string(i + 1), node.items[i]);
-  }
-}
-
-/// What is meant by a key alone, without the tables that it is in; empty: nobody knows.
-std::string meant_by(const ConfigNode& root, const std::string& key) {
-  std::vector<std::string> found;
-  paths_to(root, key, "", found);
-  // what a model need not have, and what the field calls otherwise
-  constexpr std::array others{
-      std::pair{"speed", "operation.speed"},    std::pair{"rpm", "operation.speed"},
-      std::pair{"omega", "operation.speed"},    std::pair{"Omega", "operation.speed"},
-      std::pair{"mu", "contact.NAME.friction"}, std::pair{"gap", "contact.NAME.clearance"}};
-  for (const auto& [word, path] : others) {
-    if (key == word && std::find(found.begin(), found.end(), path) == found.end()) {
-      found.insert(found.begin(), path);
-    }
-  }
-  return fmt::format("{}", fmt::join(found, " or "));
-}
-
-}  // namespace
-
 void set_value(ConfigNode& root, std::string_view assignment) {
   const auto equals = assignment.find('=');
   const Where where{.file = "--set " + std::string(assignment),
@@ -418,13 +378,7 @@ void set_value(ConfigNode& root, std::string_view assignment) {
   if (parts.size() > most_parts) {
     throw ModelError(where, "", fmt::format("a path has {} parts at most", most_parts));
   }
-  if (parts.size() == 1 && !root.find(path)) {
-    const std::string meant = meant_by(root, path);
-    if (!meant.empty()) {
-      throw ModelError(where, path,
-                       fmt::format("is in a table of the model: did you mean {}?", meant));
-    }
-  }
+  if (parts.size() == 1 && !root.find(path)) throw_if_meant(root, path, path, where);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const bool is_last = i + 1 == parts.size();
     if (node->kind == ConfigNode::Kind::array) {
@@ -465,13 +419,7 @@ const ConfigNode& value_at(ConfigNode& root, std::string_view asked) {
     }
     std::vector<std::string> names;
     for (const auto& [key, value] : node->entries) names.push_back(key);
-    if (node == &root) {
-      const std::string meant = meant_by(root, part);
-      if (!meant.empty()) {
-        throw ModelError({}, path,
-                         fmt::format("is in a table of the model: did you mean {}?", meant));
-      }
-    }
+    if (node == &root) throw_if_meant(root, part, path, {});
     const auto near = nearest(part, names);
     throw ModelError({}, path,
                      near ? fmt::format("is not in the model; did you mean \"{}\"?", *near)
