@@ -6,107 +6,109 @@
 
 #include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libdyn/methods/kinsol.hpp"
+#include "libdyn/system/port_balance.hpp"
 
 namespace whirl::inline dyn {
 
 namespace {
 
-/// What is left over of the balance, as accelerations, with oil that is so many times as thick;
-/// returns whether a contact pushes.
-bool imbalance(const ContactSystem& system, const Vec& eta, Vec& left, double thickness = 1.0) {
-  const int n = system.coordinates();
-  Vec y = Vec::Zero(2 * n);
-  y.head(n) = eta;
-  left = system.constant_load() - system.K() * eta;
-  bool pushes = false;
-  for (const ReducedContact& c : system.contacts()) {
-    const ContactForces f = kinematics(c, 0.0, y.data(), n);
-    if (f.depth <= 0.0) continue;
-    pushes = true;
-    left -= c.B * (f.normal * f.n);
-  }
-  for (const ReducedFilm& film : system.films())
-    left += film.B * (thickness * film_force(film, y.data(), n));
-  return pushes;
-}
+/// Reciprocal condition number below which nothing holds a rotor, its journals or its contacts.
+constexpr double lightest = 1e-16;
 
-constexpr double lightest = 1e-16;  ///< reciprocal condition number of what holds a rotor
-
-/// Where the rotor would lie if springs stood in for its films, from stiff springs to soft ones, as
-/// long as the journals are 0.05 to 0.99 of their clearance off; nothing if it were not held.
-std::vector<Vec> guesses(const ContactSystem& system) {
-  const int n = system.coordinates();
-  std::vector<Vec> all;
-  for (double sag = 1e-6; sag < 1e6; sag *= 1.7) {  // of one journal under the load on it alone
-    Mat K = system.K();
-    Vec pull = system.constant_load();
-    for (const ReducedFilm& film : system.films()) {
-      const double load = least_squares(film.B, system.constant_load()).norm();
-      const double stiffness = load / (sag * film.clearance);
-      K += stiffness * film.B * film.U;
-      pull += stiffness * film.B * film.offset;
-    }
-    const DenseLu<Mat> held(K);
-    if (!(held.rcond() > lightest)) continue;
-    Vec y = Vec::Zero(2 * n);
-    y.head(n) = held.solve(pull);
-    double farthest = 0.0;
-    for (const ReducedFilm& film : system.films()) {
-      farthest = std::max(farthest, eccentricity(film, y.data(), n));
-    }
-    if (farthest >= 0.99) break;
-    if (farthest >= 0.05) all.push_back(y.head(n));
-  }
-  return all;
-}
-
-/// Where the journals come to rest in their films. Where Newton's method does not get there at once,
-/// it starts with oil so thick that it does, and thins it step by step.
-Vec equilibrium_on_films(const ContactSystem& system) {
-  constexpr double thinning = 0.8;
-  const int n = system.coordinates();
-  const Vec scale = system.state_scale().head(n);
-  const double size = system.constant_load().cwiseAbs().maxCoeff();
-  const auto solve = [&](const Vec& guess, double thickness) -> std::optional<Vec> {
-    const auto f = [&](const Vec& eta, Vec& left) { imbalance(system, eta, left, thickness); };
-    const auto found = find_root(f, guess, scale, size);
-    if (!found) return std::nullopt;
-    Vec y = Vec::Zero(2 * n);
-    y.head(n) = *found;
-    return system.left_bearing(y.data()) ? std::nullopt : found;
+/// The rotor held at its films and at some contacts, in coordinates of a motion: nothing, if that
+/// leaves it free.
+///
+///   [K  s B; s W  0] (eta, -F / s) = (f0, s w)
+///
+/// W are rows of independent ports, B the accelerations that forces there make.
+std::optional<HeldRotor> held_rotor(const ContactSystem& system,
+                                    const std::vector<ReducedContact>& contacts) {
+  const Eigen::Index n = system.coordinates();
+  const auto rows = 2 * (std::ssize(system.films()) + std::ssize(contacts));
+  Mat U(rows, n), B(n, rows);
+  Eigen::Index row = 0;
+  const auto add = [&](const auto& port) {
+    U.middleRows<2>(row) = port.U, B.middleCols<2>(row) = port.B;
+    row += 2;
   };
-  const std::vector<Vec> starts = guesses(system);
-  for (const double thickest : {1.0, 10.0, 100.0, 1000.0}) {
-    for (const Vec& guess : starts) {
-      std::optional<Vec> found = solve(guess, thickest);
-      for (double thickness = thickest; found && thickness > 1.0;) {
-        thickness = std::max(1.0, thinning * thickness);
-        found = solve(*found, thickness);
-      }
-      if (found) return *found;
-    }
+  for (const ReducedFilm& film : system.films()) add(film);
+  for (const ReducedContact& contact : contacts) add(contact);
+  HeldRotor held;
+  held.ports = independent_rows(U);
+  const auto ports = std::ssize(held.ports.chosen);
+  const double largest = system.K().cwiseAbs().maxCoeff();
+  const double s = largest > 0.0 ? largest : 1.0;
+  Mat A = Mat::Zero(n + ports, n + ports), wanted = Mat::Zero(n + ports, 1 + ports);
+  Vec size = Vec::Ones(ports);  // of a column of B
+  A.topLeftCorner(n, n) = system.K();
+  for (Eigen::Index k = 0; k < ports; ++k) {
+    const Eigen::Index own = held.ports.chosen[static_cast<std::size_t>(k)];
+    size(k) = B.col(own).cwiseAbs().maxCoeff();
+    A.col(n + k).head(n) = s / size(k) * B.col(own);
+    A.row(n + k).head(n) = s * U.row(own);
+    wanted(n + k, 1 + k) = s;
   }
-  throw NumericalError(
-      starts.empty() ? "the rotor has no equilibrium: it is not held, not even by its oil films"
-                     : "the equilibrium of the rotor on its oil films was not found: without speed "
-                       "a film carries nothing; start.from = \"rest\" starts in the centers");
+  wanted.col(0).head(n) = system.constant_load();
+  const DenseLu<Mat> lu(A);
+  if (!(lu.rcond() > lightest)) return std::nullopt;
+  Mat found = lu.solve(wanted);
+  found += lu.solve(wanted - A * found);  // rotors of all their coordinates are stiff
+  held.rest = found.col(0).head(n);
+  held.shapes = found.topRightCorner(n, ports);
+  const Vec force = -s * size.cwiseInverse();
+  held.R = force.cwiseProduct(found.col(0).tail(ports));
+  held.K = force.asDiagonal() * found.bottomRightCorner(ports, ports);
+  return held;
+}
+
+/// Whether any contact is reached at a place.
+bool any_pushes(const ContactSystem& system, const Vec& eta) {
+  Vec y = Vec::Zero(system.size());
+  y.head(system.coordinates()) = eta;
+  return std::any_of(system.contacts().begin(), system.contacts().end(), [&](const auto& c) {
+    return kinematics(c, 0.0, y.data(), system.coordinates()).depth > 0.0;
+  });
+}
+
+/// Displacements of the independent ports of films and all contacts at a place.
+Vec ports_at(const ContactSystem& system, const HeldRotor& held, const Vec& eta) {
+  std::vector<Vec2> all;
+  for (const ReducedFilm& film : system.films()) all.push_back(film.U * eta);
+  for (const ReducedContact& contact : system.contacts()) all.push_back(contact.U * eta);
+  Vec w(std::ssize(held.ports.chosen));
+  for (Eigen::Index k = 0; k < w.size(); ++k) {
+    const Eigen::Index own = held.ports.chosen[static_cast<std::size_t>(k)];
+    w(k) = all[static_cast<std::size_t>(own / 2)](own % 2);
+  }
+  return w;
 }
 
 }  // namespace
 
 Vec equilibrium(const ContactSystem& system) {
-  if (!system.films().empty()) return equilibrium_on_films(system);
-  const DenseLu<Mat> K(system.K());
-  if (!(K.rcond() > lightest)) throw NumericalError("the rotor has no equilibrium: it is not held");
-  const Vec sag = K.solve(system.constant_load());
-  Vec left;
-  if (!imbalance(system, sag, left)) return sag;
-  const auto found =
-      find_root([&](const Vec& eta, Vec& f) { imbalance(system, eta, f); }, sag,
-                system.state_scale().head(system.coordinates()), left.cwiseAbs().maxCoeff());
-  if (!found) throw NumericalError("the equilibrium of the rotor in its stators was not found");
-  return *found;
+  const bool has_films = !system.films().empty();
+  const std::vector<FilmAtSpeed> films(system.films().begin(), system.films().end());
+  const auto held = held_rotor(system, {});
+  if (!held) {
+    throw NumericalError(has_films ? "the rotor has no equilibrium: it is not held, even where oil "
+                                     "films hold its journals"
+                                   : "the rotor has no equilibrium: it is not held");
+  }
+  std::optional<Vec> eta;  // as if there were no contacts
+  if (const auto place = PortBalance(*held, films).find()) {
+    eta = held->rest + held->shapes * place->w;
+    if (!any_pushes(system, *eta)) return *eta;
+  }
+  const auto with_contacts =
+      system.contacts().empty() ? std::nullopt : held_rotor(system, system.contacts());
+  if (with_contacts) {
+    const PortBalance balance(*with_contacts, films, system.contacts());
+    const auto place = eta ? balance.find(ports_at(system, *with_contacts, *eta)) : balance.find();
+    if (place) return with_contacts->rest + with_contacts->shapes * place->w;
+  }
+  if (eta) throw NumericalError("the equilibrium of the rotor in its stators was not found");
+  throw NumericalError(not_found_on_films(system.Omega()) +
+                       "; start.from = \"rest\" starts in the middles of the bearings");
 }
 
 }  // namespace whirl::inline dyn

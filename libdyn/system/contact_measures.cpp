@@ -23,7 +23,7 @@ double top(double a, double b, double c) {
 ContactMeter::ContactMeter(const ContactSystem& system)
     : system_(system),
       sums_(static_cast<std::size_t>(system.owners())),
-      was_in_touch_(system.contacts().size()) {
+      was_apart_(system.contacts().size()) {
   for (const ReducedContact& c : system.contacts()) {
     sums_[static_cast<std::size_t>(c.owner)].times.name = c.name;
   }
@@ -70,9 +70,9 @@ void ContactMeter::add(const Step& step) {
         m.max_tangential =
             std::max(m.max_tangential, top(friction[i][k - 1], friction[i][k], friction[i][k + 1]));
       }
-      if (has_begun_ && !was_in_touch_[i]) m.impacts += 1.0;
+      if (has_begun_ && was_apart_[i]) m.impacts += 1.0;
     }
-    was_in_touch_[i] = in_touch;
+    was_apart_[i] = step.contacts[i].touch == Touch::apart;
   }
   has_begun_ = true;
 }

@@ -21,9 +21,11 @@ constexpr auto choices(Regime) {
 /// What a contact of the model did over a stretch of motion: times, which add up.
 struct ContactTimes {
   std::string name;
-  double in_touch = 0.0;        ///< with any of its blades [s]
-  double sticking = 0.0;        ///< [s]
-  double impacts = 0.0;         ///< times it began to touch, all blades together
+  double in_touch = 0.0;  ///< with any of its blades [s]
+  double sticking = 0.0;  ///< [s]
+  /// Times it came to touch, all blades together. One whose force lets go and presses again while the
+  /// rotor stays beyond the surface, as damped laws do, has not come to touch again.
+  double impacts = 0.0;
   double max_normal = 0.0;      ///< of one blade [N]
   double max_tangential = 0.0;  ///< of one blade [N]
 
@@ -35,7 +37,7 @@ struct ContactTimes {
 struct ContactMeasure {
   std::string name;
   double duty = 0.0;            ///< share of time in touch, with any of its blades
-  double impacts = 0.0;         ///< times it began to touch, all blades together
+  double impacts = 0.0;         ///< as of ContactTimes
   double sticking = 0.0;        ///< share of time sticking
   double max_normal = 0.0;      ///< of one blade [N]
   double max_tangential = 0.0;  ///< of one blade [N]
@@ -92,7 +94,7 @@ class ContactMeter {
 
   const ContactSystem& system_;
   std::vector<Sum> sums_;
-  std::vector<bool> was_in_touch_;
+  std::vector<bool> was_apart_;
   bool has_begun_ = false;
   double time_ = 0.0;
 };

@@ -15,9 +15,10 @@ namespace whirl::inline dyn {
 namespace {
 
 constexpr int gauss_points = 16;
-constexpr double panel = 10.0;    ///< of a span [rad of the product of two highest harmonics]
-constexpr int per_harmonic = 8;   ///< instants of what touches all the time, and of films
-constexpr double nothing = 1e-9;  ///< of a force that does not jump, over that of a clearance
+constexpr double panel = 10.0;         ///< of a span [rad of the product of two highest harmonics]
+constexpr int per_harmonic = 8;        ///< instants of what touches all the time, and of films
+constexpr double same_surface = 1e-9;  ///< depth over the clearance, of a touch that was located
+constexpr double nothing = 1e-9;       ///< of a force that does not jump, over that of a clearance
 
 /// Derivative of the rate of the phase, over it.
 double faster_phase(const ContactSystem& system, const NumberSlopes& slopes) {
@@ -318,7 +319,9 @@ std::vector<ContactMeasure> measures_on(const ContactSystem& system, const Perio
     const ContactPath path(c, ports);
     for (const ContactPath::Span& span : path.spans()) {
       touching[owner].emplace_back(span.from, span.to);
-      if (span.begins) m.impacts += 1.0;
+      // a force that begins beyond the surface presses again, and the contact has not come to touch
+      const bool is_beyond = path.at(span.from).depth > same_surface * c.clearance;
+      if (span.begins && !is_beyond) m.impacts += 1.0;
       const double length = span.to - span.from;
       const int N = 16 + static_cast<int>(4.0 * length * motion.harmonics());
       for (int i = 0; i <= N; ++i) {

@@ -1,17 +1,13 @@
 #include "libdyn/system/film_equilibrium.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <exception>
 #include <map>
 #include <mutex>
-#include <optional>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/newton.hpp"
 #include "libbase/sparse_lu.hpp"
+#include "libdyn/system/port_balance.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/forces.hpp"
 
@@ -19,14 +15,10 @@ namespace whirl::inline dyn {
 
 namespace {
 
-/// The linear rotor as its journals feel it, at displacements u of all of them, (x, y) one after the
-/// other: it takes the forces R + K u to hold them there, and the rotor is at q = rest + shapes u.
+/// The linear rotor as its journals feel it.
 struct Ports {
   System system;
-  Vec rest;
-  Mat shapes;
-  Vec R;  ///< [N]
-  Mat K;  ///< [N/m]
+  HeldRotor held;  ///< by displacements of journals
 };
 
 /// Rows of the displacements of the journals from their bearings.
@@ -49,6 +41,14 @@ Sparse journal_rows(const std::vector<OilFilm>& films, const Assembler& assemble
   return U;
 }
 
+Sparse chosen_rows(const Sparse& all, const std::vector<Eigen::Index>& chosen) {
+  std::vector<Triplet> entries;
+  for (std::size_t k = 0; k < chosen.size(); ++k) entries.emplace_back(k, chosen[k], 1.0);
+  Sparse pick(std::ssize(chosen), all.rows());
+  pick.setFromTriplets(entries.begin(), entries.end());
+  return pick * all;
+}
+
 /// [K  s U^T; s U  0], with s of the size of K.
 Sparse held_matrix(const Sparse& K, const Sparse& U, double s) {
   const int n = static_cast<int>(K.rows());
@@ -68,8 +68,10 @@ Sparse held_matrix(const Sparse& K, const Sparse& U, double s) {
 }
 
 Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, double Omega) {
-  Ports p{.system = assembler.uncondensed(Omega)};
-  const Sparse U = journal_rows(films, assembler, p.system.dofs);
+  Ports p{.system = assembler.uncondensed(Omega), .held = {}};
+  const Sparse all = journal_rows(films, assembler, p.system.dofs);
+  p.held.ports = independent_rows(Mat(all));  // two films may be at one station
+  const Sparse U = chosen_rows(all, p.held.ports.chosen);
   const Eigen::Index n = p.system.size(), ports = U.rows();
   const double largest =
       p.system.K.coeffs().size() > 0 ? p.system.K.coeffs().abs().maxCoeff() : 0.0;
@@ -86,99 +88,12 @@ Ports ports_of(const std::vector<OilFilm>& films, const Assembler& assembler, do
   wanted.col(0).head(n) = p.system.dofs.T.transpose() * static_load(assembler);
   wanted.bottomRightCorner(ports, ports).diagonal().setConstant(s);
   const Mat found = lu.solve(wanted);
-  p.rest = found.col(0).head(n);
-  p.shapes = found.topRightCorner(n, ports);
-  p.R = -s * found.col(0).tail(ports);
-  p.K = -s * found.bottomRightCorner(ports, ports);
+  p.held.rest = found.col(0).head(n);
+  p.held.shapes = found.topRightCorner(n, ports);
+  p.held.R = -s * found.col(0).tail(ports);
+  p.held.K = -s * found.bottomRightCorner(ports, ports);
   return p;
 }
-
-/// The balance of the journals, over displacements x from the middles of their bearings in clearances.
-class JournalBalance {
- public:
-  JournalBalance(const Ports& ports, const std::vector<OilFilm>& films, double Omega)
-      : ports_(ports), scale_(ports.R.size()), middle_(ports.R.size()) {
-    for (std::size_t i = 0; i < films.size(); ++i) {
-      films_.push_back(at_speed(films[i], Omega));
-      films_.back().offset.setZero();  // an offset would cost digits near the wall
-      scale_.segment<2>(start(i)).setConstant(films_[i].clearance);
-      middle_.segment<2>(start(i)) = films[i].offset;
-    }
-    load_ = ports.R + ports.K * middle_;
-    const double size = load_.cwiseAbs().maxCoeff();
-    size_ = size > 0.0 ? size : 1.0;
-  }
-
-  /// Displacements of the journals from their middles, and from their bearings [m].
-  Vec places(const Vec& x) const { return scale_.cwiseProduct(x); }
-  Vec displacement(const Vec& x) const { return middle_ + places(x); }
-
-  /// Where every film alone carries the load that it has with all journals in the middle.
-  std::optional<Vec> shared() const {
-    Vec x(load_.size());
-    for (std::size_t i = 0; i < films_.size(); ++i) {
-      const auto u = place_under(films_[i], -load_.segment<2>(start(i)));
-      if (!u) return std::nullopt;
-      x.segment<2>(start(i)) = *u / films_[i].clearance;
-    }
-    return x;
-  }
-
-  /// Where all films together carry a share of the load, from a place nearby.
-  std::optional<Vec> solve(const Vec& from, double share) const {
-    At at = look(from, share);
-    const auto step = [](const At& here) { return newton_step(here.J, here.r); };
-    const auto moved = [&](const At& here, const Vec& dx) { return look(here.x - dx, share); };
-    const NewtonSearch search = newton(
-        at, step, moved, {.most_steps = 60, .accurate = 1e-12, .most_halvings = 20, .worse = 1.0});
-    return search.has_converged() ? std::optional(at.x) : std::nullopt;
-  }
-
-  /// The load put on little by little.
-  std::optional<Vec> loaded_slowly() const {
-    Vec x = Vec::Zero(load_.size());
-    double share = 0.0;
-    for (double step = 0.1; step > 1e-6;) {
-      const double next = std::min(1.0, share + step);
-      if (const auto found = solve(x, next)) {
-        if (next == 1.0) return found;
-        x = *found, share = next, step *= 2.0;
-      } else {
-        step *= 0.5;
-      }
-    }
-    return std::nullopt;
-  }
-
- private:
-  struct At {
-    Vec x;
-    double residual = std::numeric_limits<double>::infinity();
-    Vec r;
-    Mat J;
-  };
-  static Eigen::Index start(std::size_t film) { return 2 * static_cast<Eigen::Index>(film); }
-
-  At look(const Vec& x, double share) const {
-    At at{.x = x};
-    at.r = share * load_ + ports_.K * scale_.cwiseProduct(x);
-    at.J = ports_.K * scale_.asDiagonal();
-    for (std::size_t i = 0; i < films_.size(); ++i) {
-      const Vec2 place = films_[i].clearance * x.segment<2>(start(i));
-      const auto film = film_slopes(films_[i], place, Vec2::Zero());
-      if (!film) return at;
-      at.r.segment<2>(start(i)) -= film->force;
-      at.J.block<2, 2>(start(i), start(i)) -= films_[i].clearance * film->by_u;
-    }
-    at.residual = at.r.cwiseAbs().maxCoeff() / size_;
-    return at;
-  }
-
-  const Ports& ports_;
-  std::vector<FilmAtSpeed> films_;
-  Vec scale_, middle_, load_;
-  double size_ = 1.0;
-};
 
 }  // namespace
 
@@ -206,24 +121,17 @@ std::shared_ptr<const RotorOnFilms> FilmEquilibrium::State::found(double Omega) 
   if (!ports || assembler.depends_on_speed()) {
     ports = std::make_shared<const Ports>(ports_of(films, assembler, Omega));
   }
-  const JournalBalance balance(*ports, films, Omega);
-  std::optional<Vec> x;
-  if (const auto guess = balance.shared()) x = balance.solve(*guess, 1.0);
-  if (!x) x = balance.loaded_slowly();
-  if (!x) {
-    throw NumericalError(
-        fmt::format("the equilibrium of the rotor on its oil films was not found at {:.6g} rpm{}",
-                    Omega / rpm, Omega == 0.0 ? ": without speed a film carries nothing" : ""));
-  }
-  const Vec u = balance.displacement(*x), places = balance.places(*x);
+  std::vector<FilmAtSpeed> at_this_speed;
+  for (const OilFilm& film : films) at_this_speed.push_back(at_speed(film, Omega));
+  const auto place = PortBalance(ports->held, std::move(at_this_speed)).find();
+  if (!place) throw NumericalError(not_found_on_films(Omega));
   RotorOnFilms rotor{.Omega = Omega,
                      .system = ports->system,
-                     .q = ports->rest + ports->shapes * u,
+                     .q = ports->held.rest + ports->held.shapes * place->w,
                      .load = static_load(assembler)};
   rotor.system.Omega = Omega;
   for (std::size_t i = 0; i < films.size(); ++i) {
-    const Vec2 place = places.segment<2>(2 * static_cast<Eigen::Index>(i));
-    rotor.films.push_back(running_film(films[i], Omega, place));
+    rotor.films.push_back(running_film(films[i], Omega, place->journals[i]));
     for (const int component : {X, Y}) {
       const double force = -rotor.films.back().load(component);
       const int at = rotor.system.dofs.full_index(assembler.point(films[i].at), component);

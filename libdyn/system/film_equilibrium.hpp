@@ -26,9 +26,8 @@ struct RotorOnFilms {
 ///   (K + Omega H) q = f + sum_i U_i^T F_i(U_i q)
 ///
 /// is solved in the displacements U_i q of the journals alone: the rotor between them is linear, and
-/// acts on them as a load and a stiffness, which are found once if they do not change with speed.
-/// Newton's method with exact slopes starts where each film alone carries its share of the load; where
-/// that leads nowhere, the load is put on little by little.
+/// acts on them as a load and a stiffness, which are found once if they do not change with speed
+/// (PortBalance).
 class FilmEquilibrium {
  public:
   explicit FilmEquilibrium(const Model& model);

@@ -192,12 +192,13 @@ HWY_ATTR void Engine<P>::apply_events(uint64_t instant) {
       LaneRecord& record = records_[static_cast<size_t>(l)];
       ++record.events;
       const bool was_touching = ((c.touching ^ (common & bit)) & bit) != 0;
+      const bool was_beyond = was_touching || (c.receding & bit) != 0;
       if (!(common & bit)) {
         apply_rare_event(l, i);
       } else if constexpr (carries_slopes<P>) {
         tell_event(i, was_touching ? EventKind::release : EventKind::touch, false);
       }
-      if (!was_touching && (c.touching & bit)) record.impacts[i] += 1.0;
+      if (!was_beyond && (c.touching & bit)) record.impacts[i] += 1.0;
       record.instant_events = instant & bit ? record.instant_events + 1 : 0;
       if (record.instant_events > most_instant_events) {
         fail(l, Outcome::step_too_small, "events follow without time passing");

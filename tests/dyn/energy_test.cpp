@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "libbase/quadrature.hpp"
+#include "libdyn/system/contact_measures.hpp"
+#include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::energy_test {
@@ -123,6 +126,38 @@ TEST(DampedContact, NeverPulls) {
   EXPECT_GT(impacts, 50);
   EXPECT_GE(receding, impacts);
   EXPECT_GT(smallest, -1e-9 * largest);
+}
+
+// A damped contact whose force lets go and presses again while the rotor stays beyond the surface has
+// not come to touch again: impacts are touches, of the meter and of lanes alike.
+TEST(DampedContact, CountsTouchesAsImpactsAndNoForcesThatPressAgain) {
+  long touches = 0, retouches = 0;
+  for (const double U : {1e-3, 1.5e-3, 2e-3}) {
+    const MassInRing p{.k = 1e3, .c = 1.0, .U = U, .kC = 1e5, .cC = 5e3, .gravity = 20.0};
+    const Scene scene = p.scene();
+    MotionState state = test::start_of(p.model(), scene);
+    test::run(scene, state, 50, {});
+    ContactMeter meter(scene.contacts);
+    Trajectory lane{.system = &scene.contacts, .state = state, .revolutions = 20};
+    integrate_single(lane, {.measures = true});
+    long own = 0;
+    std::optional<Touch> before;
+    test::run(scene, state, 20, {}, [&](const Step& step) {
+      meter.add(step);
+      const Touch now = step.contacts[0].touch;
+      if (before && now == Touch::sliding) {
+        own += *before == Touch::apart;
+        retouches += *before == Touch::receding;
+      }
+      before = now;
+      return true;
+    });
+    EXPECT_EQ(meter.measures()[0].impacts, static_cast<double>(own)) << U;
+    EXPECT_NEAR(lane.contacts[0].impacts, static_cast<double>(own), 1.0) << U;  // at an end
+    touches += own;
+  }
+  EXPECT_GT(touches, 20);
+  EXPECT_GT(retouches, 20);
 }
 
 // A free mass on a stop with m d'' + c d' + k d = 0, d(0) = 0, d'(0) = v:

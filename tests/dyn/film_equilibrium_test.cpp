@@ -254,7 +254,7 @@ Model flexible(double k_middle = 0.0, double Omega = 300.0) {
   return model;
 }
 
-// The same place as KINSOL finds in coordinates of the motion, and no acceleration there.
+// In coordinates of the motion nothing is accelerated there.
 void expect_at_rest(const Model& model) {
   const Scene scene = make_scene(model);
   const auto rotor = FilmEquilibrium(model).at(model.speed);

@@ -15,7 +15,7 @@ add_library(whirl_solvers INTERFACE)
 target_link_libraries(whirl_solvers INTERFACE
   ${WHIRL_FUZZ_SOLVERS}/libdyn/libwhirl_dyn.a ${WHIRL_FUZZ_SOLVERS}/libfe/libwhirl_fe.a
   ${WHIRL_FUZZ_SOLVERS}/libbase/libwhirl_base.a
-  SUNDIALS::cvode SUNDIALS::arkode SUNDIALS::kinsol SUNDIALS::nvecserial SUNDIALS::sunmatrixdense
+  SUNDIALS::cvode SUNDIALS::arkode SUNDIALS::nvecserial SUNDIALS::sunmatrixdense
   SUNDIALS::sunlinsoldense SUNDIALS::sunnonlinsolfixedpoint PkgConfig::highway quadmath
   Threads::Threads)
 
