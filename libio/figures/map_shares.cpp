@@ -11,8 +11,8 @@ namespace {
 
 using namespace figures;
 
-/// Shares of the points that have each value of a parameter, by the motion that was found there: areas one
-/// upon the other, which fill all of the panel where all is computed.
+/// Shares of the points that have each value of a parameter, by the motion that was found there:
+/// areas one upon the other, which fill all of the panel where all is computed.
 Figure shares_along(const MapResult& study, const std::vector<ShownAxis>& axes, std::size_t along) {
   const ShownAxis& axis = axes[along];
   const std::size_t values = axis.values.size();
