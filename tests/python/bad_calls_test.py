@@ -163,7 +163,8 @@ class BadCalls(unittest.TestCase):
         with open("probes") as file:
             before = file.read()
         with self.assertRaises(whirl.FileError):
-            model("jeffcott").simulate(revolutions=2, discard=0, measure="probes", out="probes", force=True)
+            model("jeffcott").simulate(revolutions=2, discard=0, measure="probes", measured_out="new.csv", out="probes",
+                                       force=True)
         with open("probes") as file:
             self.assertEqual(file.read(), before)
 
