@@ -8,7 +8,8 @@ namespace whirl::inline io::figures {
 /// A full spectrum, backward left, forward right, with its strongest lines in orders.
 /// @param frequency  signed, ascending [rad/s]
 /// @param amplitude  radius per line, one at least above zero [m]
+/// @param unit       of lengths
 Figure full_spectrum(const ResultView& result, const std::string& station, const Vec& frequency,
-                     const Vec& amplitude);
+                     const Vec& amplitude, const DisplayUnit& unit);
 
 }  // namespace whirl::inline io::figures
