@@ -9,6 +9,7 @@
 #include "libbase/interruption.hpp"
 #include "libbase/sparse_lu.hpp"
 #include "libfe/bow.hpp"
+#include "libfe/eigen/symmetric.hpp"
 #include "libfe/elements/body.hpp"
 #include "libfe/elements/connection.hpp"
 #include "libfe/elements/disk.hpp"
@@ -253,7 +254,7 @@ Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
   }
   const Rayleigh& r = structure_.damping;
   if (r.mass != 0.0) f.C += r.mass * f.M;
-  if (r.stiffness != 0.0) f.C += r.stiffness * f.K;
+  if (r.stiffness != 0.0) f.C += r.stiffness * symmetric_part(f.K);
   if (modal_.nonZeros() > 0) f.C += modal_;
   if (structure_.linearized.empty()) return f;
   Collector linearized;  // damping of the rotor is not in proportion to their stiffness

@@ -1,6 +1,8 @@
 #pragma once
 /// What kinds of figures share.
 
+#include <algorithm>
+
 #include "libbase/constants.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libfe/modes.hpp"
@@ -62,6 +64,15 @@ std::string set_command(const std::string& paths, const std::string& value,
 
 /// The unit of a probe, and its name with the direction: "DE 1X, 45°".
 DisplayUnit unit_of(const ProbeLabel& probe);
+/// The unit that all probes of a list have; else that in which the largest of their readings [m]
+/// reads well.
+template <class Probes>
+DisplayUnit unit_of(const Probes& probes, double largest) {
+  const bool is_one = !probes.empty() && std::all_of(probes.begin(), probes.end(), [&](auto& p) {
+    return p.unit == probes.front().unit;
+  });
+  return is_one ? unit_of(probes.front()) : unit_for(largest, "m");
+}
 std::string probe_name(const ProbeLabel& probe);
 
 /// Position of the first number along a title of an axis with a unit: "x [mm]".

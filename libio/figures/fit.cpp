@@ -78,7 +78,7 @@ Figure fitted_orbit(const MeasuredFit& fit, const FittedStation& s) {
   const FittedSamples samples(fit, s.record);
   const double size = std::max(s.x.head(samples.count).cwiseAbs().maxCoeff(),
                                s.y.head(samples.count).cwiseAbs().maxCoeff());
-  const DisplayUnit unit = unit_for(size, "m");
+  const DisplayUnit unit = unit_of(fit.probes, size);
   Figure f{.variant = fit.files.size() > 1 ? samples.record.file + ", " + s.station : s.station,
            .width = 560.0,
            .height = 560.0};

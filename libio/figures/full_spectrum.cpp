@@ -8,14 +8,13 @@
 namespace whirl::inline io::figures {
 
 Figure full_spectrum(const ResultView& result, const std::string& station, const Vec& frequency,
-                     const Vec& amplitude, const std::optional<DisplayUnit>& of_unit) {
+                     const Vec& amplitude, const DisplayUnit& unit) {
   const double speed = speed_of(result);
   const bool spins = std::isfinite(speed) && speed > 0.0;
   const double largest = amplitude.maxCoeff();
   Figure f{.variant = station, .width = 860.0, .height = 430.0};
   f.subtitle = fmt::format("{}: full spectrum{}{}, backward left, forward right", station,
                            spins ? " at " : "", speed_text(result));
-  const DisplayUnit unit = of_unit.value_or(unit_for(largest, "m"));
   Panel p;
   p.cursor = "frequency";
   const DisplayUnit in = result.frequency;

@@ -30,7 +30,8 @@ std::vector<Figure> measured_spectrum_figures(const ResultView& result) {
       throw FileError("the measured spectra are not of their frequencies");
     }
     if (!(s.amplitude.maxCoeff() > 0.0)) continue;
-    figures.push_back(full_spectrum(result, s.station, measured.frequency, s.amplitude));
+    figures.push_back(full_spectrum(result, s.station, measured.frequency, s.amplitude,
+                                    unit_of(measured.probes, s.amplitude.maxCoeff())));
   }
   return figures;
 }
@@ -128,6 +129,7 @@ struct LastRevolutions {
 
 std::vector<Figure> measured_orbit_figures(const ResultView& result) {
   const auto& record = result_of<StationRecord>(result);
+  const std::vector<ProbeLabel>& probes = result_of<MeasuredIdentification>(result).probes;
   const Eigen::Index n = record.time.size();
   if (n < 2) return {};
   const double* times = record.time.data();
@@ -140,7 +142,7 @@ std::vector<Figure> measured_orbit_figures(const ResultView& result) {
     }
     const Vec x = s.x.tail(n - from), y = s.y.tail(n - from);
     const DisplayUnit unit =
-        unit_for(std::hypot(x.cwiseAbs().maxCoeff(), y.cwiseAbs().maxCoeff()), "m");
+        unit_of(probes, std::hypot(x.cwiseAbs().maxCoeff(), y.cwiseAbs().maxCoeff()));
     Figure f{.variant = s.station, .width = 560.0, .height = 560.0};
     f.subtitle = fmt::format("{}: measured orbit at {:.4g} rpm", s.station, last.rpm);
     Panel p;

@@ -168,7 +168,7 @@ std::vector<Figure> measured_deflection_figures(const ResultView& result) {
     if (shape.has_mode() && shape.mode >= shapes.x.cols()) {
       throw FileError("the modes of the peaks are not those of the result");
     }
-    const DisplayUnit unit = unit_for(largest, "m");
+    const DisplayUnit unit = unit_of(measured.probes, largest);
     const double frequency = peaks[i].frequency * result.frequency.factor;
     const std::string name =
         fmt::format("{} {}", with_minus(fmt::format("{:+.5g}", frequency)), result.frequency.name);

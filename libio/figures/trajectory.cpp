@@ -286,7 +286,8 @@ std::vector<Figure> spectrum_figures(const ResultView& result) {
   for (const std::size_t i : stations_by_interest(result, stations)) {
     const Vec& amplitude = spectra.stations.at(i).amplitude;
     if (!(amplitude.maxCoeff() > 0.0)) continue;
-    figures.push_back(full_spectrum(result, stations[i], spectra.frequency, amplitude));
+    figures.push_back(full_spectrum(result, stations[i], spectra.frequency, amplitude,
+                                    unit_for(amplitude.maxCoeff(), "m")));
   }
   return figures;
 }

@@ -246,7 +246,10 @@ void read_bearing(const Section& s, RossRotor& rotor, bool is_before_3) {
   }
   for (std::size_t k = 0; k < ross_coefficients.size(); ++k) {
     const std::vector<double> values = k == 0 ? kxx : coefficients_of(s, ross_coefficients[k]);
-    if (values.empty()) continue;
+    if (values.empty()) {  // along y: as along x
+      for (RossBearing::Row& row : b.rows) row.values[k] = k % 4 == 3 ? row.values[k - 3] : 0.0;
+      continue;
+    }
     if (values.size() != rows && values.size() != 1) {
       s.problem(s.where(), ross_coefficients[k],
                 fmt::format("has {} values, kxx has {}", values.size(), rows));

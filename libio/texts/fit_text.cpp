@@ -7,6 +7,7 @@
 
 #include "libbase/constants.hpp"
 #include "libio/text/format.hpp"
+#include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -74,14 +75,21 @@ std::string probe_table(const MeasuredFit& found) {
                          return found.files[static_cast<std::size_t>(p.record)].file;
                        }});
   }
-  columns.push_back(shown("residual").as("left, rms"));
+  const auto told = [](double P::*length) {
+    return [=](const P& p) { return std::isfinite(p.*length) ? reading_text(p.*length, p) : "-"; };
+  };
+  columns.push_back({"left, rms", told(&P::residual)});
   const bool has_offsets = std::any_of(found.probes.begin(), found.probes.end(),
                                        [](const P& p) { return p.offset_deviation > 0.0; });
   if (has_offsets) {
-    columns.push_back(shown("offset"));
-    columns.push_back(shown("offset_deviation").as("±"));
+    columns.push_back({"offset", told(&P::offset)});
+    columns.push_back({"±", told(&P::offset_deviation)});
   }
-  columns.push_back(found.is_noise_known ? shown("noise") : shown("noise_floor").as("noise floor"));
+  if (found.is_noise_known) {
+    columns.push_back({"noise", told(&P::noise)});
+  } else {
+    columns.push_back({"noise floor", told(&P::floor)});
+  }
   return "\n" + table_of(found.probes, columns);
 }
 

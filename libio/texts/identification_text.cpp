@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
-#include "libio/text/format.hpp"
+#include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
 namespace whirl::inline io {
@@ -33,7 +33,8 @@ std::string mode_heading(const Mode& m, std::size_t number) {
 
 }  // namespace
 
-std::string text_of(const Identification& found, double Omega, bool has_sense) {
+std::string text_of(const Identification& found, double Omega, bool has_sense,
+                    const ProbeLabel* told_like) {
   TableColumns<IdentifiedPeak> columns{
       shown("frequency", "rpm", has_sense ? "+.1f" : ".1f").as("peak")};
   if (has_sense) {
@@ -41,7 +42,13 @@ std::string text_of(const Identification& found, double Omega, bool has_sense) {
                          return texts::number_text((p.frequency - Omega) / rpm, "+.1f");
                        }});
   }
-  columns.push_back(shown("amplitude").as(has_sense ? "radius" : "amplitude"));
+  const std::string size = has_sense ? "radius" : "amplitude";
+  if (told_like) {
+    columns.push_back(
+        {size, [=](const IdentifiedPeak& p) { return reading_text(p.amplitude, *told_like); }});
+  } else {
+    columns.push_back(shown("amplitude").as(size));
+  }
   for (std::size_t i = 0; i < found.modes.size(); ++i) {
     columns.push_back({mode_heading(found.modes[i], i + 1), [i](const IdentifiedPeak& p) {
                          return p.mac[i] < 0.005 ? "·" : fmt::format("{:.2f}", p.mac[i]);
@@ -57,6 +64,14 @@ std::string text_of(const Identification& found, double Omega, bool has_sense) {
                         r->high / rpm, r->low / rpm, r->p, r->q, 100.0 * r->error);
   }
   return text;
+}
+
+const ProbeLabel* probe_told_like(const MeasuredIdentification& measured) {
+  const std::vector<ProbeLabel>& probes = measured.probes;
+  const bool is_one = !probes.empty() && std::all_of(probes.begin(), probes.end(), [&](auto& p) {
+    return p.unit == probes.front().unit;
+  });
+  return is_one ? &probes.front() : nullptr;
 }
 
 std::string text_of(const MeasuredIdentification& measured) {
@@ -86,7 +101,7 @@ std::string deflection_text(const MeasuredIdentification& measured) {
     for (std::size_t i = 0; i < peaks; ++i) {
       const Complex reading =
           measured.deflection(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(p));
-      row.push_back(fmt::format("{} {:>6}", format_engineering(std::abs(reading), "m"),
+      row.push_back(fmt::format("{} {:>6}", reading_text(std::abs(reading), measured.probes[p]),
                                 fmt::format("{:+.0f}°", std::arg(reading) / degree)));
     }
     table.row(std::move(row));
@@ -106,7 +121,7 @@ std::string text_of(const OrderTracking& tracking) {
       shown("name").as("probe"),
       {"order", [](const OrderCurve& c) { return fmt::format("{:g}X", c.order); }},
       {"largest p-p",
-       [&](const OrderCurve& c) { return format_engineering(c.peak_to_peak()(largest(c)), "m"); }},
+       [&](const OrderCurve& c) { return reading_text(c.peak_to_peak()(largest(c)), c); }},
       {"at [rpm]",
        [&](const OrderCurve& c) {
          return texts::number_text(tracking.speed(largest(c)) / rpm, ".1f");

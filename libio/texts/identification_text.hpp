@@ -11,7 +11,12 @@ namespace whirl::inline io {
 /// Table of peaks against modes, the best mode of a peak beside it; the resonance below.
 /// @param Omega      speed of the rotor [rad/s]
 /// @param has_sense  whether frequencies have a sense of whirl
-std::string text_of(const Identification& found, double Omega, bool has_sense = true);
+/// @param told_like  a probe in whose unit amplitudes are told; null: with an engineer's prefix
+std::string text_of(const Identification& found, double Omega, bool has_sense = true,
+                    const ProbeLabel* told_like = nullptr);
+
+/// A probe in whose unit all readings are told; null: their units differ.
+const ProbeLabel* probe_told_like(const MeasuredIdentification& measured);
 
 /// What was measured: probes, speed and length of the record.
 std::string text_of(const MeasuredIdentification& measured);

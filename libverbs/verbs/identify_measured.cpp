@@ -35,7 +35,8 @@ Report identify_measured(const Invocation& call, const MeasuredVerbOptions& aske
   report.record.merge(record_of(measured.found)).merge(record_of(modes));
   report.text = headline("Measured motion", model) + "\n" + text_of(measured) + "\n" +
                 mac_heading(model, options) +
-                text_of(measured.found, model.speed, !measured.is_in_one_direction) +
+                text_of(measured.found, model.speed, !measured.is_in_one_direction,
+                        probe_told_like(measured)) +
                 doubt_text(measured) + deflection_text(measured);
   if (orders) {
     report.record.set("orders", record_of(*orders));

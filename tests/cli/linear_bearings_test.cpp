@@ -30,6 +30,22 @@ body = "journal"
 offset = "1 um"
 )";
 
+// Tables as spreadsheets save them: UTF-16 with its mark, and Windows-1252, were refused.
+TEST_F(Linear, TablesMayBeInOtherEncodings) {
+  write("table.toml",
+        "format = 1\n[operation]\nspeed = \"3000 rpm\"\n[[body]]\nname = \"mass\"\nmass = 20\n"
+        "spins = true\n[[bearing]]\nname = \"left\"\nbody = \"mass\"\ntable = \"table.csv\"\n");
+  const std::string rows = "speed [rpm];kxx [N/m];kyy [N/m]\n1000;1e6;2e6\n5000;3e6;4e6\n";
+  std::string wide = "\xFF\xFE";
+  for (const char c : rows) wide += {c, '\0'};
+  write("table.csv", rows);
+  const json plain = result({"modes", "table.toml"})["modes"];
+  for (const std::string& text : {wide, "# K\xFChlung aus\n" + rows}) {
+    write("table.csv", text);
+    EXPECT_EQ(result({"modes", "table.toml"})["modes"], plain);
+  }
+}
+
 TEST_F(Linear, VerbsThatLeaveContactsAndOilFilmsOutSaySo) {
   write("oil.toml", on_oil);
   write("rubbing.toml", rubbing);

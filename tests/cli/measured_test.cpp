@@ -100,6 +100,34 @@ TEST_F(Measured, TellsNoSenseOfMotionsAlongALine) {
   EXPECT_FALSE(has(whirl(words).out, "from the rotor"));
 }
 
+// Probes of a machine in US units: tables and figures told micrometres, whatever the unit of the probes.
+TEST_F(Measured, TellsReadingsInTheUnitOfTheProbes) {
+  std::string text = "time [s],x [mil],y [mil],key [V]\n";
+  const double rate = 4430.0 / 60.0 * 32.0;
+  for (int j = 0; j < 32 * 64; ++j) {
+    const double angle = 2.0 * std::numbers::pi * j / 32.0;
+    text += fmt::format("{:.17g},{:.17g},{:.17g},{}\n", j / rate, 2.0 * std::cos(angle),
+                        2.0 * std::sin(angle), j % 32 == 0 ? 5 : 0);
+  }
+  write("line.csv", text);
+  std::string probes = "[keyphasor]\nchannel = \"key\"\n";
+  for (const auto& [name, angle] : {std::pair{"x", 0}, {"y", 90}}) {
+    probes += fmt::format(
+        "[[probe]]\nname = \"{}\"\nnode = 4\nangle = \"{} deg\"\nunit = \"mil\"\n", name, angle);
+  }
+  write("mil.toml", probes);
+  const Outcome told = whirl({"identify", model, "--measured", "line.csv", "--probes", "mil.toml",
+                              "--orders", "1", "--out", "m.h5"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_FALSE(has(told.out, "0 um")) << told.out;
+  EXPECT_TRUE(has(told.out, "2 mil ")) << told.out;  // radius, and the deflection shape
+  EXPECT_TRUE(has(told.out, "4 mil ")) << told.out;  // of the order, peak to peak
+  for (const char* kind : {"measured_orbit", "measured_spectrum"}) {
+    ASSERT_EQ(whirl({"plot", "m.h5", kind, "--out", "picture.svg"}).status, 0) << kind;
+    EXPECT_TRUE(has(content(folder / "picture.svg"), "[mil]")) << kind;
+  }
+}
+
 TEST_F(Measured, TakesSpeedFromTheKeyPhasor) {
   write("probes.toml", probes_at(4, 7) + "[keyphasor]\nchannel = \"key\"\nangle = \"30 deg\"\n");
   for (const std::string record : {"run.csv", "run.mat", "run.h5", "run.uff"}) {

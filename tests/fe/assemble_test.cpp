@@ -104,6 +104,28 @@ TEST(Assemble, RayleighDampingTakesTheWholeStiffness) {
   EXPECT_TRUE(Mat(system.C).isApprox(3.0 * Mat(system.M) + 2e-5 * Mat(system.K), rounding));
 }
 
+// ... and with the conservative part of it alone: neither cross-coupling k_xy = -k_yx of a bearing,
+// nor what a torque has of it, makes damping forces across the motion. What is symmetric, k_xy =
+// k_yx, does.
+TEST(Assemble, RayleighDampingTakesNothingOfCrossCoupling) {
+  const auto rotor = [](double kxy, double kyx) {
+    BearingCoefficients bearing = test::orthotropic(1e6, 2e6);
+    bearing.K(0, 1) = kxy;
+    bearing.K(1, 0) = kyx;
+    Structure s = test::two_disk(bearing);
+    s.damping = {.stiffness = 2e-5};
+    return s;
+  };
+  const auto C = [](const Structure& s) { return Mat(assemble(s, 100.0).C); };
+  const Mat without = C(rotor(0.0, 0.0)), symmetric = C(rotor(5e5, 5e5));
+  EXPECT_EQ(C(rotor(5e5, -5e5)), without);
+  EXPECT_TRUE(C(rotor(7e5, 3e5)).isApprox(symmetric, rounding));
+  EXPECT_NEAR((symmetric - without).cwiseAbs().maxCoeff(), 2e-5 * 5e5, 1e-9);
+  Structure twisted = rotor(0.0, 0.0);
+  for (Segment& segment : twisted.shaft) segment.torque = 1e4;
+  EXPECT_TRUE(C(twisted).isApprox(C(twisted).transpose(), rounding));
+}
+
 // ---- rigid connections --------------------------------------------------------------------------
 
 // Elimination is the limit of stiff springs, and the difference falls as 1 / k.

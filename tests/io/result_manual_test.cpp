@@ -1,5 +1,6 @@
-// The manual's table of result files says what the columns of results say: every dataset has its row
-// there, with its unit and its dimensions, and every attribute is named.
+// The manual says what the columns of results say: of result files every dataset has its row there,
+// with its unit and its dimensions, and every attribute is named; of JSON every key is named as it
+// is printed.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,16 +10,50 @@
 #include <fstream>
 #include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
+#include "libdyn/fit/measured_fit.hpp"
+#include "libdyn/measured/measured_identification.hpp"
+#include "libdyn/measured/order_tracking.hpp"
+#include "libdyn/measured/running_modes.hpp"
+#include "libdyn/motions/frequency_response.hpp"
+#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/motions/run_result.hpp"
+#include "libdyn/motions/static_study.hpp"
+#include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/studies/basins.hpp"
+#include "libdyn/studies/branch_result.hpp"
+#include "libdyn/studies/classification_result.hpp"
+#include "libdyn/studies/critical_over.hpp"
+#include "libdyn/studies/curve_result.hpp"
+#include "libdyn/studies/modes_over.hpp"
+#include "libdyn/studies/orbit_result.hpp"
+#include "libdyn/studies/orbit_search.hpp"
+#include "libdyn/studies/resonance_study.hpp"
+#include "libdyn/studies/study_outcome.hpp"
+#include "libdyn/studies/sweep.hpp"
+#include "libdyn/studies/torus_result.hpp"
+#include "libdyn/studies/unbalance_over.hpp"
+#include "libdyn/studies/work_precision_study.hpp"
+#include "libdyn/system/model_facts.hpp"
+#include "libfe/campbell.hpp"
+#include "libfe/critical_map.hpp"
+#include "libio/results/columns.hpp"
 #include "libio/results/result_schema.hpp"
 
 namespace whirl::result_manual_test {
 
 std::string manual() {
   std::ifstream file(std::filesystem::path(WHIRL_SOURCE_DIR) / "docs/command-line.md");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  return text.substr(text.find("\n## Result file\n"));
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The part below a heading, up to the next one.
+std::string part(const std::string& heading) {
+  const std::string text = manual();
+  const std::size_t begin = text.find("\n## " + heading + "\n") + 1;
+  return text.substr(begin, text.find("\n## ", begin) - begin);
 }
 
 struct Row {
@@ -49,7 +84,7 @@ std::ptrdiff_t count_of(const std::string& list, char separator) {
 }
 
 TEST(ResultManual, SaysWhatColumnsSay) {
-  const std::string text = manual();
+  const std::string text = part("Result file");
   const std::map<std::string, Row> rows = rows_of(text);
   int stated = 0;
   for (const ResultSet& set : result_schema()) {
@@ -73,6 +108,56 @@ TEST(ResultManual, SaysWhatColumnsSay) {
     }
   }
   EXPECT_GE(stated, 60);
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------
+
+/// Words of what is written as code.
+std::set<std::string> code_words(const std::string& text) {
+  std::set<std::string> words;
+  const std::regex code("`([^`]+)`"), word(R"([A-Za-z_]\w*)");
+  for (std::sregex_iterator c(text.begin(), text.end(), code), end; c != end; ++c) {
+    const std::string written = (*c)[1];
+    for (std::sregex_iterator w(written.begin(), written.end(), word); w != end; ++w) {
+      words.insert(w->str());
+    }
+  }
+  return words;
+}
+
+void add_keys(std::span<const columns::AnyColumn> columns, std::set<std::string>& keys) {
+  for (const columns::AnyColumn& c : columns) {
+    if (!c.is_rows) {
+      if (c.record) keys.insert(columns::json_key(c.info));
+    } else if (c.rows.written != Written::in_file) {
+      keys.insert(columns::dimension_names(c.rows.dimension).front());
+      add_keys(c.of_row, keys);
+    }
+  }
+}
+
+template <class... Results>
+std::set<std::string> json_keys_of() {
+  std::set<std::string> keys;
+  (add_keys(columns::any_columns<Results>, keys), ...);
+  return keys;
+}
+
+// `phase` stood there for phase_rad, `height` for height_1_hz: whoever reads the manual asks for
+// what is not.
+TEST(ResultManual, NamesTheKeysOfJsonAsTheyArePrinted) {
+  const std::set<std::string> told = code_words(part("JSON"));
+  const std::set<std::string> keys =
+      json_keys_of<ModelFacts, StaticStudy, ModesAtPoints, ModesOver, ModesOverThreshold,
+                   CriticalOver, UnbalanceOver, Campbell, ResonanceStudy, CriticalSpeeds,
+                   UnbalanceStudy, FrequencyResponse, ResponsePair, LateralReport, RunSummary,
+                   Identification, IdentifiedPeak, MeasuredIdentification, OrderTracking,
+                   RunningModes, MeasuredFit, FittedParameter, ClassificationResult, ContactShares,
+                   ReductionFacts, OrbitResult, OrbitSearch, BranchResult, CurveResult, TorusResult,
+                   SweepEntry, BasinShares, StudyOutcome, UnsettledMotions, WorkPrecisionStudy,
+                   TimedRun>();
+  for (const std::string& key : keys) EXPECT_TRUE(told.contains(key)) << key;
+  EXPECT_GT(keys.size(), 150u);
 }
 
 }  // namespace whirl::result_manual_test

@@ -323,6 +323,17 @@ TEST(RossImport, InterpolatesTablesAsItsVersionDoesOrSaysSo) {
                        "ROSS before 3.0 lays smoothing splines"));
 }
 
+// What is left out along y is as along x in ROSS, and was zero here without a word.
+TEST(RossImport, TakesWhatIsLeftOutAlongYAsAlongX) {
+  const std::string text =
+      imported(wheel("3.0.0", two_bearings("kxx = 1e7\ncxx = 50.0\nkyy = 2e7\nmxx = 0.5\n")),
+               "r.toml")
+          .text;
+  EXPECT_NE(text.find("stiffness  = { xx = 1e7, yy = 2e7 }"), std::string::npos) << text;
+  EXPECT_NE(text.find("damping    = 50"), std::string::npos);
+  EXPECT_NE(text.find("added_mass = 0.5"), std::string::npos);
+}
+
 // Before 3.0 `frequency` was the speed, but of what is made for a frequency of the whirl.
 TEST(RossImport, TakesFrequenciesOfDampersForThoseOfTheWhirl) {
   const std::string table = "kxx = [1e7, 2e7]\ncxx = [1e3, 1e3]\nfrequency = [100.0, 200.0]\n";
