@@ -1,8 +1,6 @@
 #pragma once
 /// Full spectra, simulated or measured.
 
-#include <optional>
-
 #include "libio/figures/common.hpp"
 
 namespace whirl::inline io::figures {
