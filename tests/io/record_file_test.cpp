@@ -68,7 +68,9 @@ TEST_F(RecordFile, EveryFormatReadsBackWhatItWrote) {
       ASSERT_TRUE(at) << name << " " << written.channels[c].name;
       EXPECT_EQ(read.channels[static_cast<std::size_t>(*at)].unit, written.channels[c].unit);
       // a sound begins at zero
-      if (name != std::string("a.wav")) EXPECT_NEAR(read.start, written.start, 1e-12) << name;
+      if (name != std::string("a.wav")) {
+        EXPECT_NEAR(read.start, written.start, 1e-12) << name;
+      }
       const Vec error = read.samples.col(*at) - written.samples.col(index);
       EXPECT_LE(error.cwiseAbs().maxCoeff(),
                 is_text ? 1e-12 * written.samples.col(index).cwiseAbs().maxCoeff() : 0.0)
