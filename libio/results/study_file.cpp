@@ -138,6 +138,8 @@ StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWri
     next_whole_ = clock::now() + first_of_run * cost_;
   } else if (place_.restarts) {
     drop_rows(journal_of(place_.file));
+  } else if (std::filesystem::exists(journal_of(place_.file))) {
+    journal().clear();  // whoever takes the file of this study away means all of it
   }
   for (const std::string& part : place_.joins) {
     resume(place_, part, place_.call, "it is no part of this study", take);

@@ -153,7 +153,7 @@ TEST_F(Bench, GoesOnWhereAResultEnded) {
 
 // Ctrl-C in a transient that would take days: nothing is measured, and that is said.
 TEST_F(Bench, StopsOnCtrlC) {
-  const pid_t child = start(WHIRL_PROGRAM, {"bench", "rub.toml", "--discard", "900000000"});
+  const pid_t child = start(WHIRL_PROGRAM, {"bench", "rub.toml", "--discard", "10000000"});
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   kill(child, SIGINT);
   const Outcome outcome = wait(child);

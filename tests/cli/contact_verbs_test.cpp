@@ -313,7 +313,7 @@ TEST_F(Interrupt, SavesWhatWasComputed) {
 
 TEST_F(Interrupt, BeforeTheFirstRecordedRevolution) {
   double seconds = 0.0;
-  const Outcome outcome = stopped({"identify", "rub.toml", "--discard", "900000000",
+  const Outcome outcome = stopped({"identify", "rub.toml", "--discard", "10000000",
                                    "--revolutions", "4", "--out", "run.h5", "--json", "-"},
                                   seconds);
   EXPECT_EQ(outcome.status, 130);
@@ -329,7 +329,7 @@ TEST_F(Interrupt, InTheTransientOfClassify) {
   const Outcome outcome =
       stopped({"classify", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--speed", "138.4rad/s",
                "--set", "contact.ring.stiffness=64e6", "--set", "contact.ring.friction=0.2",
-               "--discard", "900000000", "--out", "kind.h5", "--json",
+               "--discard", "10000000", "--out", "kind.h5", "--json",
                "-"},  // chaos, which has no orbit that would end it
               seconds);
   EXPECT_EQ(outcome.status, 130);

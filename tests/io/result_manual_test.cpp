@@ -28,7 +28,7 @@
 #include "libdyn/studies/critical_over.hpp"
 #include "libdyn/studies/curve_result.hpp"
 #include "libdyn/studies/modes_over.hpp"
-#include "libdyn/studies/orbit_result.hpp"
+#include "libdyn/studies/found_orbit.hpp"
 #include "libdyn/studies/orbit_search.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libdyn/studies/study_outcome.hpp"
@@ -153,7 +153,7 @@ TEST(ResultManual, NamesTheKeysOfJsonAsTheyArePrinted) {
                    UnbalanceStudy, FrequencyResponse, ResponsePair, LateralReport, RunSummary,
                    Identification, IdentifiedPeak, MeasuredIdentification, OrderTracking,
                    RunningModes, MeasuredFit, FittedParameter, ClassificationResult, ContactShares,
-                   ReductionFacts, OrbitResult, OrbitSearch, BranchResult, CurveResult, TorusResult,
+                   ReductionFacts, RotatingOrbit, OrbitSearch, BranchResult, CurveResult, TorusResult,
                    SweepEntry, BasinShares, StudyOutcome, UnsettledMotions, WorkPrecisionStudy,
                    TimedRun>();
   for (const std::string& key : keys) EXPECT_TRUE(told.contains(key)) << key;

@@ -180,8 +180,8 @@ TEST(RossImport, ReadsCoefficientsOverSpeedAndFrequency) {
       "[BearingElement_left]\nn = 0\nspeed = [10.0, 20.0]\nfrequency = [1.0, 2.0, 3.0]\n"
       "kxx = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]\n";
   EXPECT_EQ(imported(small + bearing, "rotor.toml").tables.at(0).text,
-            "speed [rad/s], whirl [rad/s], kxx [N/m]\n"
-            "10, 1, 1\n10, 2, 2\n10, 3, 3\n20, 1, 4\n20, 2, 5\n20, 3, 6\n");
+            "speed [rad/s], whirl [rad/s], kxx [N/m], kyy [N/m]\n"
+            "10, 1, 1, 1\n10, 2, 2, 2\n10, 3, 3, 3\n20, 1, 4, 4\n20, 2, 5, 5\n20, 3, 6, 6\n");
 }
 
 // Seals push their rotors off; two things of one name have a table each; a version of two lines is
