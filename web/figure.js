@@ -420,7 +420,8 @@ class Drawing {
     if (p.y.step && p.ay.last - p.ay.first > 2 * p.y.step) up = every(p.ay, p.y.step);
     if (p.cells?.x_names) along = named(p.cells.x, p.cells.x_names, w, 66);
     if (p.cells?.y_names) up = named(p.cells.y, p.cells.y_names, h, 15);
-    along = along.filter((t) => t.value >= p.ax.first - 1e-12 && t.value <= p.ax.last * (1 + 1e-12) + 1e-12 || p.cells?.x_names);
+    const rounding = 1e-9 * (p.ax.last - p.ax.first);
+    along = along.filter((t) => t.value >= p.ax.first - rounding && t.value <= p.ax.last + rounding || p.cells?.x_names);
     ctx.font = `12px ${FONT}`;
     for (const [ticks, isX] of [[along, true], [up, false]]) {
       for (const t of ticks) {

@@ -121,13 +121,14 @@ def try_probes(b):
     b.try_record(b.rows(), backward, probes=WITH_KEY.replace("node = 4", "node = 4\ngain = -1", 1))
     both = WITH_KEY.replace("90 deg", "-90 deg")
     b.try_record(b.rows(), "1X turns backward at DE x + DE y, ring x + ring y: probes are swapped", probes=both)
-    b.try_record(b.rows(), 'probe "DE x" reads 25', names=[NAMES[T], "DE x [mil]", *NAMES[2:]])
+    b.try_record(b.rows(), 'probe "DE x" reads 0.195 m', 'probe "DE x" reads 25', names=[NAMES[T], "DE x [mil]", *NAMES[2:]])
     b.try_record(b.rows(), "at DE x + DE y probes see one direction only",
                  probes=WITH_KEY.replace("90 deg", "180 deg", 1))
+    b.try_record(b.rows(), *[f'probe "{name}" reads 0.' for name in ("DE x", "DE y", "ring x", "ring y")],
+                 names=[name.replace("um", "mil") for name in NAMES])
     # what no record shows by itself, as the manual says: MACs are lower
     b.try_record(swap(DE_X, RING_X))
     b.try_record(b.rows(), probes=WITH_KEY.replace("node = 4", "node = 4\ngain = -1"))
-    b.try_record(b.rows(), names=[name.replace("um", "mil") for name in NAMES])
     b.try_record(b.rows(), "no unit in the record for DE x, DE y: taken as um",
                  names=[NAMES[T], "DE x", "DE y", *NAMES[3:]])
     for unit, said in (("furlong", "expected a length"), ("m/s^2", "expected a length"), ("V", "give the probe a gain")):

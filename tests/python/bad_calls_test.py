@@ -48,7 +48,7 @@ CALLS = [
     (lambda m: m.simulate(tolerance=0.0), ME, "tolerance"),
     (lambda m: m.simulate(tolerance="1 m"), ME, "tolerance"),
     (lambda m: m.simulate(revolutions=-1), ME, "revolutions"),
-    (lambda m: m.simulate(revolutions=10**9, samples=10**6), ME, "GB"),
+    (lambda m: m.simulate(revolutions=10**7, samples=10**5), ME, "GB"),
     (lambda m: m.simulate(stations="nowhere"), ME, "nowhere"),
     (lambda m: m.simulate(from_="nothing.h5"), whirl.FileError, "nothing.h5"),
     (lambda m: m.simulate(isa="z80"), ME, "isa"),
@@ -60,7 +60,7 @@ CALLS = [
     (lambda m: m.frf(from_="1:sideways"), ME, "from"),
     (lambda m: m.lateral(stages="1:2"), ME, "stages"),
     (lambda m: m.modes(out="no/such/folder/x.h5"), whirl.FileError, "no/such/folder"),
-    (lambda m: m.modes(out=FILE), whirl.FileError, "jeffcott_stator.toml"),
+    (lambda m: m.modes(out=FILE), ME, "jeffcott_stator.toml"),
     # paths and values of the model
     (lambda m: m["contact.ring.frictoin"], ME, 'did you mean "friction"'),
     (lambda m: m["contact.rong.friction"], ME, 'did you mean "ring"'),
