@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "libbase/constants.hpp"
 #include "libbase/names.hpp"
@@ -26,39 +28,35 @@ constexpr double slimmest =
     500.0;  ///< lengths of a shaft in its diameters; of line shafts some 100
 constexpr double same_diameter = 1e-6;  ///< relative: rounding of units
 
-/// The value of a path as messages have it; names of elements may have dots in them.
-const ConfigNode* find(const ConfigNode& node, std::string_view path) {
-  if (path.empty()) return &node;
-  const auto inside = [&](const ConfigNode& value, std::string_view label) -> const ConfigNode* {
-    if (!path.starts_with(label)) return nullptr;
-    const std::string_view rest = path.substr(label.size());
-    if (rest.empty()) return &value;
-    return rest[0] == '.' ? find(value, rest.substr(1)) : nullptr;
+using NumbersByPath = std::map<std::string, const ConfigNode*>;
+
+/// Adds numbers without a unit that are more than a turn, by the paths that messages may have for
+/// them: what is in a list has its name or its number.
+void add_bare_turns(const ConfigNode& node, const std::string& path, NumbersByPath& found) {
+  using enum ConfigNode::Kind;
+  const bool is_bare = node.kind == integer || node.kind == real;
+  if (is_bare && std::abs(node.number) > 2.0 * std::numbers::pi) found.emplace(path, &node);
+  const auto inside = [&](const ConfigNode& value, const std::string& label) {
+    add_bare_turns(value, path.empty() ? label : path + '.' + label, found);
   };
-  for (const auto& [key, value] : node.entries) {
-    if (const ConfigNode* found = inside(value, key)) return found;
-  }
+  for (const auto& [key, value] : node.entries) inside(value, key);
   for (std::size_t i = 0; i < node.items.size(); ++i) {
-    const ConfigNode& item = node.items[i];
-    const ConfigNode* name = item.find("name");
-    const bool has_name = name && name->kind == ConfigNode::Kind::string;
-    const ConfigNode* found = has_name ? inside(item, name->text) : nullptr;
-    if (!found) found = inside(item, std::to_string(i + 1));
-    if (found) return found;
+    const ConfigNode* name = node.items[i].find("name");
+    if (name && name->kind == string) inside(node.items[i], name->text);
+    inside(node.items[i], std::to_string(i + 1));
   }
-  return nullptr;
 }
 
 /// Angles without a unit that are more than a turn.
 void doubt_angles(const ConfigNode& root, const std::vector<AskedKey>& asked,
                   std::vector<Problem>& doubts) {
+  NumbersByPath turns;
+  add_bare_turns(root, "", turns);
   for (const AskedKey& key : asked) {
     if (key.form != AskedKey::Form::quantity || key.unit != "rad") continue;
-    const ConfigNode* value = find(root, key.path);
-    if (!value) continue;
-    const bool is_bare =
-        value->kind == ConfigNode::Kind::integer || value->kind == ConfigNode::Kind::real;
-    if (!is_bare || !(std::abs(value->number) > 2.0 * std::numbers::pi)) continue;
+    const auto found = turns.find(key.path);
+    if (found == turns.end()) continue;
+    const ConfigNode* value = found->second;
     doubts.push_back({value->where, key.path,
                       fmt::format("{0:g} without a unit is {0:g} rad = {1:.4g} deg; did you mean "
                                   "\"{0:g} deg\"?",

@@ -37,7 +37,7 @@ struct FitVerbOptions {
   Option<std::string> against =
       file_option("against", "FILE,...", "other models, told by their likelihood beside this one");
   Option<int> starts{"starts", "N", "of the search, the first one at the model's values", 1,
-                     Whole{1, 10'000}};
+                     start_range};
   Option<std::uint64_t> seed = seed_option();
   auto fields() {
     return std::tie(record, free, from, revolutions, noise, steady, offsets, against, starts, seed);

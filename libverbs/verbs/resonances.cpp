@@ -18,7 +18,7 @@ struct ResonancesVerbOptions {
   Option<std::vector<double>> speeds = speeds_option();
   Option<int> largest{"largest", "N", "of p and q", 4, Whole{1, 100}};
   Flag confirm{"confirm", "look for bouncing motions near each of them"};
-  Option<int> starts{"starts", "N", "of them at every speed that is tried", 16, Whole{1, 10'000}};
+  Option<int> starts{"starts", "N", "of them at every speed that is tried", 16, start_range};
   Option<std::uint64_t> seed = seed_option();
   Option<std::string> isa = isa_option();
   auto fields() { return std::tie(modes, speeds, largest, confirm, starts, seed, isa); }

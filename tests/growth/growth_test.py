@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""No input costs much more than its size: every reader and every linear verb gets inputs of size n, 2n and 4n, and the
+"""No input costs much more than its size: readers of texts and linear verbs (but critical and lateral) get inputs of size n, 2n and 4n, and the
 instructions that it takes (callgrind: the same in every run, whatever else the machine does) grow as n log n does. Each
 runs within one limit of memory, too.
 
@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-whirl, source, wanted = os.path.abspath(sys.argv[1]), sys.argv[2], sys.argv[3:]
+whirl, source, wanted = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3:]
 MOST = 1.25  # times the growth of n log n: what is there at any size is taken off, rounding of sizes is left
 MEMORY = 1 << 30  # bytes of addresses, of the largest size
 
