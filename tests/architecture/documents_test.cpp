@@ -252,4 +252,19 @@ TEST(Documents, TutorialsWriteToFilesOfTheirOwn) {
   for (const auto& [file, names] : by_file) EXPECT_EQ(names.size(), 1u) << file;
 }
 
+// What is counted has a place among the benchmarks.
+TEST(Documents, NameEveryRowOfInstructions) {
+  const std::string benchmarks = content(root / "docs/benchmarks.md");
+  std::ifstream table(root / "bench/instructions/table.tsv");
+  int rows = 0;
+  for (std::string line; std::getline(table, line);) {
+    if (line.starts_with('#')) continue;
+    const std::string name = line.substr(0, line.find('\t'));
+    EXPECT_NE(benchmarks.find('`' + name + '`'), std::string::npos)
+        << "docs/benchmarks.md does not name `" << name << "`";
+    ++rows;
+  }
+  EXPECT_GT(rows, 20);
+}
+
 }  // namespace documents_test

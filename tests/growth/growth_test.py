@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""No input costs much more than its size: readers of texts and linear verbs (but critical and lateral) get inputs of size n, 2n and 4n, and the
-instructions that it takes (callgrind: the same in every run, whatever else the machine does) grow as n log n does. Each
-runs within one limit of memory, too.
+"""No input costs much more than its size: readers of texts and linear verbs (but critical and lateral) get inputs of
+size n, 2n and 4n, and the instructions that these take (callgrind: the same in every run, whatever else the machine
+does) grow as n log n does. Each runs within one limit of memory, too.
 
 usage: growth_test.py WHIRL SOURCE [CASE...]; status 77 without valgrind
 """
@@ -123,4 +123,4 @@ with tempfile.TemporaryDirectory() as folder:
     with open("probes.toml", "w", encoding="utf-8") as made:
         made.write(PROBES)
     wrong = [text for name in (wanted or CASES) if (text := wrong_with(name))]
-sys.exit("\n".join(wrong))
+sys.exit("\n".join(wrong) or 0)

@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+"""tools/instructions fails where a command takes more instructions than accepted, and names it.
+
+    guard_test.py BUILD ROOT    status 77 without valgrind
+"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+build, root = sys.argv[1:]
+
+
+def guard(table, *words):
+    done = subprocess.run([root + "/tools/instructions", "--build", build, "--table", table, *words],
+                          capture_output=True, text=True)
+    if done.returncode == 77:
+        sys.exit(77)
+    return done
+
+
+with tempfile.TemporaryDirectory() as folder:
+    table = pathlib.Path(folder) / "table.tsv"
+    table.write_text("# a comment\nversion\t1.0\twhirl --version\n")
+    grown = guard(table)
+    assert grown.returncode == 1 and "failed: version" in grown.stderr, grown
+
+    accepted = guard(table, "--accept")
+    assert accepted.returncode == 0 and table.read_text().startswith("# a comment\nversion\t"), accepted
+    counted = float(table.read_text().splitlines()[1].split("\t")[1])
+    assert counted > 1.0
+    assert guard(table).returncode == 0
+
+    table.write_text(f"version\t{counted / 1.04:.1f}\twhirl --version\n")
+    assert guard(table).returncode == 1
+    table.write_text(f"version\t{counted / 1.02:.1f}\twhirl --version\n")
+    assert guard(table).returncode == 0
+
+    table.write_text("wrong\t1.0\twhirl nothing-of-this-name\n")
+    assert guard(table).returncode == 1
+    assert guard(table, "unknown").returncode == 2
