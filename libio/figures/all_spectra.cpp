@@ -27,6 +27,7 @@ struct CoordinateSpectra {
   explicit CoordinateSpectra(const Motion& m) {
     const Mat& eta = m.record.coordinates;
     const Eigen::Index count = spectrum_samples(m);
+    if (count < 3) return;
     lines.resize(eta.rows(), count);
     for (Eigen::Index i = 0; i < eta.rows(); ++i) {
       const Vec samples = eta.row(i).tail(count).transpose();

@@ -46,6 +46,7 @@ std::vector<Eigen::Index> touches(const Mat& normal, Eigen::Index contact,
 Eigen::Index spectrum_samples(const Motion& motion) {
   const long all = static_cast<long>(motion.size()),
              each = static_cast<long>(motion.per_revolution);
+  if (all == 0 || each == 0) return 0;
   return static_cast<Eigen::Index>(all < each ? smooth_length(all)
                                               : smooth_length(smooth_length(all / each) * each));
 }

@@ -78,6 +78,7 @@ Figure tilt_figure(const ResultView& result, const Motion& m, const std::string&
 Figure tilt_spectrum(const ResultView& result, const Motion& m, const std::string& station,
                      const Mat& tilts) {
   const Eigen::Index count = spectrum_samples(m);
+  if (count < 3) return {};
   CVec slopes = (tilts.col(1).tail(count).cast<Complex>() -
                  Complex(0, 1) * tilts.col(0).tail(count).cast<Complex>());
   slopes.array() -= slopes.mean();
