@@ -18,6 +18,22 @@ long smooth_length(long n) {
   return n;
 }
 
+long whole_revolutions(long samples, long each) {
+  return each < 1 || samples < each ? smooth_length(samples) : smooth_length(samples / each) * each;
+}
+
+CVec Spectrum::ascending() const {
+  CVec all(size());
+  for (Eigen::Index k = 0; k < size(); ++k) all(k) = at(k - size() / 2);
+  return all;
+}
+
+Vec signed_frequencies(Eigen::Index count, double bin) {
+  Vec all(count);
+  for (Eigen::Index k = 0; k < count; ++k) all(k) = static_cast<double>(k - count / 2) * bin;
+  return all;
+}
+
 Spectrum hann_spectrum(const CVec& samples, double spacing) {
   const auto n = samples.size();
   CVec windowed(n);

@@ -15,7 +15,12 @@ struct Spectrum {
   Eigen::Index size() const { return lines.size(); }
   /// Line at a signed number, -N/2 <= k < N/2 (and beyond, cyclic).
   Complex at(Eigen::Index k) const { return lines((k % size() + size()) % size()); }
+  /// All lines by ascending frequency, that at -N/2 first: those of signed_frequencies().
+  CVec ascending() const;
 };
+
+/// Frequencies of so many lines, ascending from -N/2 bins [rad/s].
+Vec signed_frequencies(Eigen::Index count, double bin);
 
 /// A line that stands out, located between the bins.
 struct Peak {
@@ -26,6 +31,11 @@ struct Peak {
 
 /// Largest number up to n with no prime factor above five.
 long smooth_length(long n);
+
+/// How many of the last samples of a motion a spectrum is made of: whole revolutions, so that
+/// harmonics of the speed are lines, a smooth_length() of them; less than one: as many samples.
+/// @param each  samples of a revolution
+long whole_revolutions(long samples, long each);
 
 /// Windowed spectrum of complex samples; a constant c gives a line c at zero.
 /// @param spacing  time between samples [s]

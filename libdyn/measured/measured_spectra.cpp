@@ -18,8 +18,7 @@ Eigen::Index transformed_samples(const ProbeReadings& readings, double Omega) {
   const double whole = std::round(per_turn);
   const double turns = static_cast<double>(all) / whole;
   if (Omega > 0.0 && turns >= 1.0 && std::abs(per_turn / whole - 1.0) * turns < even_drift) {
-    const auto samples = static_cast<Eigen::Index>(whole);
-    return smooth_length(all / samples) * samples;
+    return whole_revolutions(all, static_cast<long>(whole));
   }
   return smooth_length(all);
 }

@@ -88,16 +88,9 @@ MotionRecord recorded_motion(const Run& run) {
 
 StationSpectra spectra_of(const Run& run) {
   const ResponseSpectra& spectra = *run.spectra;
-  const Eigen::Index bins = spectra.size(), half = bins / 2;
-  StationSpectra result{.frequency = Vec(bins)};
-  for (Eigen::Index k = 0; k < bins; ++k) {
-    result.frequency(k) = static_cast<double>(k - half) * spectra.bin();
-  }
+  StationSpectra result{.frequency = signed_frequencies(spectra.size(), spectra.bin())};
   for (const NamedPoint& p : run.stations) {
-    const Spectrum s = spectra.at(p.point);
-    Vec amplitude(bins);
-    for (Eigen::Index k = 0; k < bins; ++k) amplitude(k) = std::abs(s.at(k - half));
-    result.stations.push_back({std::move(amplitude)});
+    result.stations.push_back({spectra.at(p.point).ascending().cwiseAbs()});
   }
   return result;
 }

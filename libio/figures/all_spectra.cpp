@@ -17,12 +17,12 @@ namespace {
 
 using namespace figures;
 
-constexpr std::size_t most_columns = 600;  ///< of cells: the largest of several lines is one
+constexpr Eigen::Index most_columns = 600;  ///< of cells: the largest of several lines is one
 
 /// Spectra of all reduced coordinates; those of any degree of freedom follow by summation.
 struct CoordinateSpectra {
-  CMat lines;                     ///< coordinates x lines, in ascending frequency
-  std::vector<double> frequency;  ///< signed [rad/s]
+  CMat lines;     ///< coordinates x lines, in ascending frequency
+  Vec frequency;  ///< signed [rad/s]
 
   explicit CoordinateSpectra(const Motion& m) {
     const Mat& eta = m.record.coordinates;
@@ -33,10 +33,8 @@ struct CoordinateSpectra {
       const Vec samples = eta.row(i).tail(count).transpose();
       const Spectrum s = hann_spectrum((samples.array() - samples.mean()).matrix().cast<Complex>(),
                                        m.period / static_cast<double>(m.per_revolution));
-      for (Eigen::Index k = 0; k < count; ++k) {
-        lines(i, k) = s.at(k - count / 2);
-        if (i == 0) frequency.push_back(static_cast<double>(k - count / 2) * s.bin);
-      }
+      lines.row(i) = s.ascending().transpose();
+      frequency = signed_frequencies(count, s.bin);
     }
   }
 };
@@ -57,31 +55,28 @@ Mat radii(const CoordinateSpectra& spectra, const MotionRecord& record, const Do
 }
 
 /// @param reach  of the frequencies that are drawn [rad/s]
-Panel spectra_panel(const ResultView& result, const Mat& all, const std::vector<double>& frequency,
+Panel spectra_panel(const ResultView& result, const Mat& all, const Vec& frequency,
                     const std::vector<NamedPoint>& points, double reach, bool is_slope) {
   const DisplayUnit unit = is_slope ? tilt_unit(all.maxCoeff()) : unit_for(all.maxCoeff(), "m");
   Panel p;
   p.title = is_slope ? "tilts, θy − i θx" : "lateral, x + i y";
   p.x.title = with_unit("whirl frequency", result.frequency);
   p.y.title = "point";
-  std::vector<std::size_t> inside;
-  for (std::size_t k = 0; k < frequency.size(); ++k) {
-    if (std::abs(frequency[k]) <= reach) inside.push_back(k);
-  }
-  const std::size_t group = (inside.size() + most_columns - 1) / most_columns;
+  // frequencies ascend: those that are drawn are neighbors
+  const auto first =
+      std::find_if(frequency.begin(), frequency.end(), [&](double f) { return f >= -reach; });
+  const auto end = std::find_if(first, frequency.end(), [&](double f) { return f > reach; });
+  const Eigen::Index from = first - frequency.begin(), count = end - first;
+  const Eigen::Index group = std::max<Eigen::Index>(1, (count + most_columns - 1) / most_columns);
   Cells& c = p.cells;
-  for (std::size_t k = 0; k + group <= inside.size(); k += group) {
-    c.x.push_back(result.frequency.factor * 0.5 *
-                  (frequency[inside[k]] + frequency[inside[k + group - 1]]));
+  for (Eigen::Index k = from; k + group <= from + count; k += group) {
+    c.x.push_back(result.frequency.factor * 0.5 * (frequency(k) + frequency(k + group - 1)));
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     c.y.push_back(static_cast<double>(i + 1));
     c.y_names.push_back(points[i].label());
-    for (std::size_t k = 0; k + group <= inside.size(); k += group) {
-      const double top =
-          all.row(static_cast<Eigen::Index>(i))
-              .segment(static_cast<Eigen::Index>(inside[k]), static_cast<Eigen::Index>(group))
-              .maxCoeff();
+    for (Eigen::Index k = from; k + group <= from + count; k += group) {
+      const double top = all.row(static_cast<Eigen::Index>(i)).segment(k, group).maxCoeff();
       c.values.push_back(top > 0.0 ? std::log10(unit.factor * top) : std::nan(""));
     }
   }
@@ -94,28 +89,22 @@ Panel spectra_panel(const ResultView& result, const Mat& all, const std::vector<
 
 std::vector<Figure> all_spectra_figures(const ResultView& result) {
   const Motion m(result);
-  const DofMap& dofs = result.assembler->dofs();
-  if (m.record.basis.rows() != dofs.full_size) {
-    throw FileError("/trajectory/basis is not of the degrees of freedom of its model");
-  }
+  const DofMap& dofs = dofs_of(result, m.record);
   const std::vector<NamedPoint> points = named_points(*result.model, *result.assembler);
   const CoordinateSpectra spectra(m);
   if (spectra.frequency.size() < 3) return {};
   const Mat lateral = radii(spectra, m.record, dofs, points, false),
             slopes = radii(spectra, m.record, dofs, points, true);
-  if (!(lateral.maxCoeff() > 0.0)) return {};
+  const Vec top = lateral.colwise().maxCoeff();
+  if (!(top.maxCoeff() > 0.0)) return {};
   // as far as lines of a thousandth of the largest, and the speed twice
   double reach = m.spins ? 2.2 * speed_of(result) : 0.0;
-  for (std::size_t k = 0; k < spectra.frequency.size(); ++k) {
-    const double top = lateral.col(static_cast<Eigen::Index>(k)).maxCoeff();
-    if (top > 1e-3 * lateral.maxCoeff()) {
-      reach = std::max(reach, 1.1 * std::abs(spectra.frequency[k]));
-    }
+  const double least = 1e-3 * top.maxCoeff();
+  for (Eigen::Index k = 0; k < top.size(); ++k) {
+    if (top(k) > least) reach = std::max(reach, 1.1 * std::abs(spectra.frequency(k)));
   }
   Figure f{.width = 1000.0};
-  f.subtitle = "Spectra of all points" +
-               (speed_text(result).empty() ? "" : " at " + speed_text(result)) +
-               ", backward left, forward right";
+  f.subtitle = "Spectra of all points" + at_speed(result) + ", backward left, forward right";
   f.columns = 2;
   f.panels.push_back(spectra_panel(result, lateral, spectra.frequency, points, reach, false));
   if (slopes.maxCoeff() > 0.0) {

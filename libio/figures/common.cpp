@@ -40,6 +40,11 @@ std::string speed_text(const ResultView& result) {
   return std::isfinite(speed) && speed > 0.0 ? fmt::format("{:.6g} rpm", speed / rpm) : "";
 }
 
+std::string at_speed(const ResultView& result) {
+  const std::string speed = speed_text(result);
+  return speed.empty() ? "" : " at " + speed;
+}
+
 WhirlStyle whirl_style(Whirl whirl) {
   switch (whirl) {
     case Whirl::forward:
@@ -196,6 +201,20 @@ Curve line_across(const std::string& name, const Vec2& direction, double distanc
     c.y.push_back(end(1));
   }
   return c;
+}
+
+Curve dots_of_revolutions() {
+  Curve dots{.name = "once a revolution", .paint = Paint::alarm, .has_line = false};
+  dots.has_marker = true;
+  dots.size = 4.5;
+  dots.along_title = "time";
+  return dots;
+}
+
+void keep_room(FigureAxis& axis, const std::vector<double>& values, double room) {
+  if (values.empty()) return;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  if (*high - *low <= room) axis.first = *low - room, axis.last = *high + room;
 }
 
 std::vector<std::string> recorded_stations(const ResultView& result) {

@@ -23,6 +23,8 @@ double largest_displacement(const StationMotion& motion);
 
 /// "4430 rpm"; empty for a result without a speed.
 std::string speed_text(const ResultView& result);
+/// " at 4430 rpm", to go on in a sentence; empty likewise.
+std::string at_speed(const ResultView& result);
 /// The operating speed [rad/s], or NaN.
 double speed_of(const ResultView& result);
 
@@ -95,6 +97,12 @@ Curve circle(const std::string& name, double radius, double x = 0.0, double y = 
 /// A line across a direction, so far from a point and so long to both sides.
 Curve line_across(const std::string& name, const Vec2& direction, double distance, double length,
                   const Vec2& from = Vec2::Zero());
+
+/// The dots of a path in time, one a revolution; none is in it yet.
+Curve dots_of_revolutions();
+/// Gives an axis a range where its values are one but for rounding, which would be drawn large.
+/// @param room  to both sides of them; values that are farther apart have the range that they need
+void keep_room(FigureAxis& axis, const std::vector<double>& values, double room);
 
 /// Names of the stations that the motion of a result was recorded at; none without a motion.
 std::vector<std::string> recorded_stations(const ResultView& result);

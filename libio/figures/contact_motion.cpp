@@ -70,8 +70,7 @@ std::vector<Figure> contact_motion_figures(const ResultView& result) {
     const Vec distance = distance_to_middle(result, m.record, c);
     const auto begins = touches(m.record.normal, static_cast<Eigen::Index>(i), shown);
     Figure f{.variant = c.name, .width = 900.0, .height = 460.0};
-    f.subtitle = fmt::format("{}: motion relative to the stator{}{}", c.name,
-                             speed_text(result).empty() ? "" : " at ", speed_text(result));
+    f.subtitle = fmt::format("{}: motion relative to the stator{}", c.name, at_speed(result));
     Panel plane =
         phase_plane(m, shown, {"distance", distance, rates(distance, m.time), "m"}, begins);
     const DisplayUnit unit = unit_for(distance.cwiseAbs().maxCoeff(), "m");

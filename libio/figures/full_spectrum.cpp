@@ -13,8 +13,8 @@ Figure full_spectrum(const ResultView& result, const std::string& station, const
   const bool spins = std::isfinite(speed) && speed > 0.0;
   const double largest = amplitude.maxCoeff();
   Figure f{.variant = station, .width = 860.0, .height = 430.0};
-  f.subtitle = fmt::format("{}: full spectrum{}{}, backward left, forward right", station,
-                           spins ? " at " : "", speed_text(result));
+  f.subtitle =
+      fmt::format("{}: full spectrum{}, backward left, forward right", station, at_speed(result));
   Panel p;
   p.cursor = "frequency";
   const DisplayUnit in = result.frequency;

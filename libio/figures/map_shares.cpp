@@ -38,20 +38,21 @@ Figure shares_along(const MapResult& study, const std::vector<ShownAxis>& axes, 
     Curve c{.name = motions()[k].name, .paint = motions()[k].paint, .x = {}};
     c.fill = 0.9;
     c.width = 0.8;
-    std::vector<double> back_x, back_y;
+    std::vector<double> under;
     for (std::size_t i = 0; i < values; ++i) {
       if (all[i] == 0.0) continue;
       const double share = 100.0 * counts[k][i] / all[i];
-      back_x.insert(back_x.begin(), axis.values[i]);
-      back_y.insert(back_y.begin(), below[i]);
+      under.push_back(below[i]);
       below[i] += share;
       c.x.push_back(axis.values[i]);
       c.y.push_back(below[i]);
       c.hover.push_back(fmt::format("{}: {:.3g} %", c.name, share));
     }
-    c.hover.resize(2 * c.x.size());
-    c.x.insert(c.x.end(), back_x.begin(), back_x.end());
-    c.y.insert(c.y.end(), back_y.begin(), back_y.end());
+    // and back below it
+    const std::vector<double> there = c.x;
+    c.hover.resize(2 * there.size());
+    c.x.insert(c.x.end(), there.rbegin(), there.rend());
+    c.y.insert(c.y.end(), under.rbegin(), under.rend());
     p.curves.push_back(std::move(c));
   }
   f.panels.push_back(std::move(p));

@@ -111,7 +111,7 @@ std::vector<Figure> mode_figures(const ResultView& result) {
   const auto& modes = result_of<ModesAtPoints>(result);
   const ShaftShapes shapes = shaft_shapes(result, modes.shape);
   constexpr Eigen::Index most = 6;  // beside each other
-  const std::string speed = speed_text(result).empty() ? "" : " at " + speed_text(result);
+  const std::string speed = at_speed(result);
   Figure all{.variant = "all", .subtitle = "Mode shapes" + speed, .width = 1080.0};
   all.table = table_of(modes, result);
   std::vector<Figure> singles;
@@ -139,8 +139,8 @@ std::vector<Figure> mac_figures(const ResultView& result) {
   std::optional<Panel> p = mac_panel(result);
   if (!p) return {};
   Figure f;
-  f.subtitle = "Modal assurance criterion: deflection shapes of the motion against modes" +
-               (speed_text(result).empty() ? "" : " at " + speed_text(result));
+  f.subtitle =
+      "Modal assurance criterion: deflection shapes of the motion against modes" + at_speed(result);
   f.width = std::max(560.0, 200.0 + 80.0 * static_cast<double>(p->cells.x.size()));
   f.height = std::max(320.0, 150.0 + 34.0 * static_cast<double>(p->cells.y.size()));
   f.panels.push_back(std::move(*p));
@@ -156,7 +156,7 @@ std::vector<Figure> exponent_figures(const ResultView& result) {
   if (result.file.has_attribute(group, "motion")) {
     f.subtitle += ": " + result.file.string_attribute(group, "motion") + " motion";
   }
-  if (!speed_text(result).empty()) f.subtitle += " at " + speed_text(result);
+  f.subtitle += at_speed(result);
   Panel p;
   p.x = {.title = "number", .first = 0.0, .last = static_cast<double>(exponents.size()) + 1.0};
   p.y.title = "exponent [1/s]";

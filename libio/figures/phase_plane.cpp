@@ -19,8 +19,7 @@ std::vector<Figure> phase_plane_figures(const ResultView& result) {
     const StationMotion& s = m.record.stations[i];
     Figure f{.variant = m.stations[i], .width = 900.0, .height = 460.0};
     f.columns = 2;
-    f.subtitle = fmt::format("{}: phase planes{}{}", m.stations[i],
-                             speed_text(result).empty() ? "" : " at ", speed_text(result));
+    f.subtitle = fmt::format("{}: phase planes{}", m.stations[i], at_speed(result));
     const auto begins = touches(m.record.normal, contact_at(result, m.stations[i]), shown);
     f.panels = {phase_plane(m, shown, {"x", s.x, rates(s.x, m.time), "m"}, begins),
                 phase_plane(m, shown, {"y", s.y, rates(s.y, m.time), "m"}, begins)};

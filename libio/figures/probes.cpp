@@ -87,8 +87,7 @@ std::vector<Figure> probe_histories(const ResultView& result) {
   const Motion m(result);
   const MotionSamples drawn = m.drawn(seen_of_probes), shown = m.shown(seen_of_probes);
   Figure f{.variant = "probes"};
-  f.subtitle = fmt::format("Along the probes: time history{}{}",
-                           speed_text(result).empty() ? "" : " at ", speed_text(result));
+  f.subtitle = fmt::format("Along the probes: time history{}", at_speed(result));
   for (const ProbeSignal& probe : m.record.probes) {
     if (!is_drawn(result, probe)) continue;
     f.probes.push_back(probe.name);
@@ -194,8 +193,7 @@ std::vector<Figure> probe_spectra(const ResultView& result) {
     if (known == units.end()) {
       known = units.insert(units.end(), unit.name);
       Figure f{.variant = "probes in " + unit.name, .width = 860.0, .height = 430.0};
-      f.subtitle = fmt::format("Along the probes: spectrum{}{}, peak to peak",
-                               speed_text(result).empty() ? "" : " at ", speed_text(result));
+      f.subtitle = fmt::format("Along the probes: spectrum{}, peak to peak", at_speed(result));
       Panel p;
       p.cursor = "frequency";
       p.x = {.title = with_unit("frequency", in), .first = 0.0, .last = 0.0};

@@ -9,11 +9,16 @@
 
 namespace whirl::inline io::figures {
 
-Mat motion_of_point(const ResultView& result, const MotionRecord& record, const Point& point) {
+const DofMap& dofs_of(const ResultView& result, const MotionRecord& record) {
   const DofMap& dofs = result.assembler->dofs();
   if (record.basis.rows() != dofs.full_size) {
     throw FileError("/trajectory/basis is not of the degrees of freedom of its model");
   }
+  return dofs;
+}
+
+Mat motion_of_point(const ResultView& result, const MotionRecord& record, const Point& point) {
+  const DofMap& dofs = dofs_of(result, record);
   Mat motion = Mat::Zero(record.coordinates.cols(), 4);
   for (int c = 0; c < 4; ++c) {
     const int row = dofs.full_index(point, c);
@@ -44,11 +49,7 @@ std::vector<Eigen::Index> touches(const Mat& normal, Eigen::Index contact,
 }
 
 Eigen::Index spectrum_samples(const Motion& motion) {
-  const long all = static_cast<long>(motion.size()),
-             each = static_cast<long>(motion.per_revolution);
-  if (all == 0 || each == 0) return 0;
-  return static_cast<Eigen::Index>(all < each ? smooth_length(all)
-                                              : smooth_length(smooth_length(all / each) * each));
+  return whole_revolutions(motion.size(), static_cast<long>(motion.per_revolution));
 }
 
 DisplayUnit tilt_unit(double largest) {
@@ -74,14 +75,12 @@ Panel phase_plane(const Motion& motion, const MotionSamples& shown, const Moving
   };
   Curve path{.name = "path", .paint = Paint::forward};
   path.width = 1.0;
-  Curve dots{.name = "once a revolution", .paint = Paint::alarm, .has_line = false};
-  dots.has_marker = true;
-  dots.size = 4.5;
+  Curve dots = dots_of_revolutions();
   Curve marks{.name = "touch begins", .paint = Paint::stator, .has_line = false};
   marks.has_marker = true;
   marks.marker = Marker::triangle;
   marks.size = 6.0;
-  for (Curve* c : {&path, &dots, &marks}) c->along_title = "time";
+  for (Curve* c : {&path, &marks}) c->along_title = "time";
   for (Eigen::Index j = shown.first; j <= shown.last; ++j) {
     add(path, j);
     if (motion.ends_revolution(j)) add(dots, j);

@@ -7,10 +7,14 @@
 
 namespace whirl::inline io::figures {
 
+/// Degrees of freedom of the model of a motion.
+/// @pre  the result has a model
+/// @throws FileError  if the motion is of another number of them
+const DofMap& dofs_of(const ResultView& result, const MotionRecord& record);
+
 /// Motion of a point at all samples: x, y [m], theta_x, theta_y [rad] in columns; zero where the
 /// point has no such degree of freedom.
-/// @pre  the result has a model
-/// @throws FileError  if the motion is of another number of degrees of freedom than the model
+/// @throws FileError  as dofs_of
 Mat motion_of_point(const ResultView& result, const MotionRecord& record, const Point& point);
 
 /// Rates of numbers at the samples, by central differences, at both ends by one-sided ones.
@@ -20,8 +24,7 @@ Vec rates(const Vec& values, const Vec& time);
 std::vector<Eigen::Index> touches(const Mat& normal, Eigen::Index contact,
                                   const MotionSamples& samples);
 
-/// How many samples at the end are taken for spectra: whole revolutions, so that harmonics of the
-/// speed are lines, of a number without prime factors above five.
+/// How many samples at the end are taken for spectra, see whole_revolutions().
 Eigen::Index spectrum_samples(const Motion& motion);
 
 /// rad, mrad or µrad.

@@ -22,8 +22,7 @@ Figure tilt_figure(const ResultView& result, const Motion& m, const std::string&
                    const Mat& tilts) {
   Figure f{.variant = station, .width = 900.0, .height = 480.0};
   f.columns = 2;
-  f.subtitle = fmt::format("{}: tilts{}{}", station, speed_text(result).empty() ? "" : " at ",
-                           speed_text(result));
+  f.subtitle = fmt::format("{}: tilts{}", station, at_speed(result));
   const MotionSamples shown = m.shown(drawn_tilts), all = m.drawn(1e9);
   const DisplayUnit unit = tilt_unit(tilts.cwiseAbs().maxCoeff());
   Panel path, section;
@@ -34,9 +33,7 @@ Figure tilt_figure(const ResultView& result, const Motion& m, const std::string&
   path.y.title = section.y.title = with_unit("θy", unit);
   Curve line{.name = "tilt", .paint = Paint::forward};
   line.width = 1.0;
-  Curve dots{.name = "once a revolution", .paint = Paint::alarm, .has_line = false};
-  dots.has_marker = true;
-  dots.size = 4.5;
+  Curve dots = dots_of_revolutions();
   Curve points{.paint = Paint::forward, .has_line = false};
   points.has_marker = true;
   points.size = 4.0;
@@ -45,7 +42,7 @@ Figure tilt_figure(const ResultView& result, const Motion& m, const std::string&
     c.y.push_back(unit.factor * tilts(j, 1));
     c.along.push_back(m.time(j));
   };
-  for (Curve* c : {&line, &dots, &points}) c->along_title = "time";
+  for (Curve* c : {&line, &points}) c->along_title = "time";
   for (Eigen::Index j = shown.first; j <= shown.last; ++j) {
     add(line, j);
     if (m.ends_revolution(j)) add(dots, j);
@@ -59,11 +56,8 @@ Figure tilt_figure(const ResultView& result, const Motion& m, const std::string&
   if (m.spins && !points.x.empty()) {
     // a motion that repeats is one point: the path's size is the scale then, not rounding
     const double room = 1e-3 * unit.factor * tilts.cwiseAbs().maxCoeff();
-    for (const auto& [axis, values] :
-         {std::pair{&section.x, &points.x}, std::pair{&section.y, &points.y}}) {
-      const auto [low, high] = std::minmax_element(values->begin(), values->end());
-      if (*high - *low <= room) axis->first = *low - room, axis->last = *high + room;
-    }
+    keep_room(section.x, points.x, room);
+    keep_room(section.y, points.y, room);
     section.curves.push_back(std::move(points));
     f.panels.push_back(std::move(section));
   } else {
@@ -83,14 +77,10 @@ Figure tilt_spectrum(const ResultView& result, const Motion& m, const std::strin
                  Complex(0, 1) * tilts.col(0).tail(count).cast<Complex>());
   slopes.array() -= slopes.mean();
   const Spectrum s = hann_spectrum(slopes, m.period / static_cast<double>(m.per_revolution));
-  Vec frequency(count), amplitude(count);
-  const Eigen::Index half = count / 2;
-  for (Eigen::Index k = 0; k < count; ++k) {
-    frequency(k) = static_cast<double>(k - half) * s.bin;
-    amplitude(k) = std::abs(s.at(k - half));
-  }
+  const Vec amplitude = s.ascending().cwiseAbs();
   if (!(amplitude.maxCoeff() > 0.0)) return {};
-  Figure f = full_spectrum(result, station, frequency, amplitude, tilt_unit(amplitude.maxCoeff()));
+  Figure f = full_spectrum(result, station, signed_frequencies(count, s.bin), amplitude,
+                           tilt_unit(amplitude.maxCoeff()));
   f.variant = station + ", spectrum";
   f.notes.push_back("Of the slopes dx/dz + i dy/dz = θy − i θx.");
   return f;

@@ -59,8 +59,7 @@ std::vector<Figure> time_history_figures(const ResultView& result) {
   for (const std::size_t i : stations_by_interest(result, m.stations)) {
     const StationMotion& s = m.record.stations[i];
     Figure f{.variant = m.stations[i], .height = 500.0};
-    f.subtitle = fmt::format("{}: time history{}{}", m.stations[i],
-                             speed_text(result).empty() ? "" : " at ", speed_text(result));
+    f.subtitle = fmt::format("{}: time history{}", m.stations[i], at_speed(result));
     const DisplayUnit unit = unit_for(largest_displacement(s), "m");
     for (const auto& [name, values] : {std::pair{"x", &s.x}, std::pair{"y", &s.y}}) {
       Panel p;
@@ -118,10 +117,7 @@ std::vector<Curve> orbit_curves(const Motion& m, const MotionSamples& shown,
   Curve c{.name = "orbit", .paint = is_rotating ? series_paint(2) : Paint::forward};
   c.width = 1.0;
   c.along_title = "time";
-  Curve dots{.name = "once a revolution", .paint = Paint::alarm, .has_line = false};
-  dots.has_marker = true;
-  dots.size = 4.5;
-  dots.along_title = "time";
+  Curve dots = dots_of_revolutions();
   for (Eigen::Index j = shown.first; j <= shown.last; ++j) {
     const Complex q = (Complex(of.x(j), of.y(j)) - middle) *
                       (is_rotating ? std::polar(1.0, -m.phase(j)) : Complex(1.0));
@@ -178,8 +174,7 @@ std::vector<Figure> orbit_figures(const ResultView& result) {
     const StationMotion& s = m.record.stations[i];
     Figure f{.variant = m.stations[i], .width = 900.0, .height = 480.0};
     f.columns = 2;
-    f.subtitle = fmt::format("{}: orbit{}{}", m.stations[i],
-                             speed_text(result).empty() ? "" : " at ", speed_text(result));
+    f.subtitle = fmt::format("{}: orbit{}", m.stations[i], at_speed(result));
     const double size = largest_displacement(s);
     const std::vector<Probe> probes = probes_at(result, m.stations[i]);
     const DisplayUnit unit = probes.empty() ? unit_for(size, "m") : unit_of(probes.front());
@@ -253,15 +248,10 @@ std::vector<Figure> poincare_figures(const ResultView& result) {
     if (count == 0) return {};
     // a motion that repeats is one point: an orbit's size is the scale then, not rounding
     const double room = 1e-3 * unit.factor * s.x.cwiseAbs().maxCoeff();
-    const auto around = [&](Panel& p, const Curve& points) {
-      const auto [left, right] = std::minmax_element(points.x.begin(), points.x.end());
-      const auto [low, high] = std::minmax_element(points.y.begin(), points.y.end());
-      if (points.x.empty() || (*right - *left > room && *high - *low > room)) return;
-      if (*right - *left <= room) p.x.first = *left - room, p.x.last = *right + room;
-      if (*high - *low <= room) p.y.first = *low - room, p.y.last = *high + room;
-    };
-    around(plane, c);
-    around(next, after);
+    keep_room(plane.x, c.x, room);
+    keep_room(plane.y, c.y, room);
+    keep_room(next.x, after.x, room);
+    keep_room(next.y, after.y, room);
     Curve diagonal{.paint = Paint::gray};
     diagonal.width = 1.0;
     diagonal.dash = Dash::dashed;
@@ -296,8 +286,7 @@ std::vector<Figure> contact_force_figures(const ResultView& result) {
   const Motion m(result);
   const auto& contacts = result_of<ContactShares>(result).contacts;
   Figure f{.height = 90.0 + 190.0 * static_cast<double>(contacts.size())};
-  f.subtitle = fmt::format("Contact forces{}{}", speed_text(result).empty() ? "" : " at ",
-                           speed_text(result));
+  f.subtitle = fmt::format("Contact forces{}", at_speed(result));
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Panel p;
     show(m, p);

@@ -53,9 +53,7 @@ ShortTimeSpectra short_time_spectra(const RecordedMotion& m, const Vec& x, const
     z.array() -= z.mean();
     const Spectrum spectrum = hann_spectrum(z, spacing);
     s.bin = spectrum.bin;
-    for (Eigen::Index k = 0; k < s.count; ++k) {
-      s.amplitude(i, k) = std::abs(spectrum.at(k - s.count / 2));
-    }
+    s.amplitude.row(i) = spectrum.ascending().cwiseAbs().transpose();
     s.time.push_back(0.5 * (m.time(from) + m.time(from + s.count - 1)));
   }
   return s;
@@ -64,9 +62,10 @@ ShortTimeSpectra short_time_spectra(const RecordedMotion& m, const Vec& x, const
 /// The largest magnitude of a frequency with more than a thousandth of the largest amplitude.
 double reach_of(const ShortTimeSpectra& s) {
   const Vec most = s.amplitude.colwise().maxCoeff().transpose();
+  const double least = 1e-3 * most.maxCoeff();
   double reach = 0.0;
   for (Eigen::Index k = 0; k < s.count; ++k) {
-    if (most(k) > 1e-3 * most.maxCoeff()) reach = std::max(reach, std::abs(s.frequency(k)));
+    if (most(k) > least) reach = std::max(reach, std::abs(s.frequency(k)));
   }
   return reach;
 }
@@ -114,9 +113,8 @@ std::optional<Figure> waterfall(const ResultView& result, const RecordedMotion& 
   Figure f{.variant = place.name, .probes = place.probes};
   f.width = 760.0;
   f.height = 680.0;
-  f.subtitle = fmt::format("{}: waterfall of {}{}{}{}", place.name,
-                           place.is_probe() ? "spectra" : "full spectra",
-                           speed_text(result).empty() ? "" : " at ", speed_text(result),
+  f.subtitle = fmt::format("{}: waterfall of {}{}{}", place.name,
+                           place.is_probe() ? "spectra" : "full spectra", at_speed(result),
                            place.is_probe() ? ", peak to peak" : ", backward left, forward right");
   const double speed = speed_of(result);
   double reach = 1.15 * reach_of(s);
