@@ -301,16 +301,18 @@ void read_coupling(const Section& s, RossRotor& rotor) {
   }
 }
 
+/// A number from 0 on, which one that is missing is; one below is left out.
+double positive_of(const Section& s, std::string_view key, RossRotor& rotor) {
+  const double value = s.number_or(key, 0.0);
+  if (value < 0.0) rotor.left_out.push_back(fmt::format("{} = {}: below zero", key, value));
+  return std::max(0.0, value);
+}
+
 /// Speeds that the rotor is made for; one that is none is left out.
 void read_speeds(const Section& s, RossRotor& rotor) {
-  const auto speed = [&](std::string_view key) {
-    const double value = s.number_or(key, 0.0);
-    if (value < 0.0) rotor.left_out.push_back(fmt::format("{} = {}: below zero", key, value));
-    return std::max(0.0, value);
-  };
-  rotor.rated_speed = speed("rated_w");
-  rotor.minimum_speed = speed("min_w");
-  rotor.maximum_speed = speed("max_w");
+  rotor.rated_speed = positive_of(s, "rated_w", rotor);
+  rotor.minimum_speed = positive_of(s, "min_w", rotor);
+  rotor.maximum_speed = positive_of(s, "max_w", rotor);
   if (rotor.maximum_speed > 0.0 && rotor.minimum_speed > rotor.maximum_speed) {
     rotor.left_out.emplace_back("min_w and max_w: the first one is above the other");
     rotor.minimum_speed = rotor.maximum_speed = 0.0;
@@ -319,13 +321,8 @@ void read_speeds(const Section& s, RossRotor& rotor) {
 
 /// Damping of the whole rotor.
 void read_damping(const Section& s, RossRotor& rotor) {
-  const auto factor = [&](std::string_view key) {
-    const double value = s.number_or(key, 0.0);
-    if (value < 0.0) rotor.left_out.push_back(fmt::format("{} = {}: below zero", key, value));
-    return std::max(0.0, value);
-  };
-  rotor.mass_damping = factor("alpha");
-  rotor.stiffness_damping = factor("beta");
+  rotor.mass_damping = positive_of(s, "alpha", rotor);
+  rotor.stiffness_damping = positive_of(s, "beta", rotor);
   rotor.damping_ratios = s.numbers("modal_damping_ratio");
   rotor.default_ratio = s.number_or("default_damping_ratio", 0.0);
   const auto is_wrong = [](double ratio) { return ratio < 0.0 || ratio >= 1.0; };
