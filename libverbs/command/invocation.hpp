@@ -33,15 +33,22 @@ struct ModelOptions {
   auto fields() { return std::tie(sets, speed); }
 };
 
+inline Option<std::string> json_option() {
+  return output_option("json", "FILE", "write the result as JSON; - is standard output",
+                       ".json .txt -");
+}
+inline Flag quiet_flag() {
+  return {"quiet", "print nothing but errors"};
+}
+
 /// Options of all verbs, behind their own.
 struct OutputOptions {
   Option<std::string> out = output_option("out", "FILE.h5", "result file (HDF5)", ".h5 .hdf5");
-  Option<std::string> json = output_option(
-      "json", "FILE", "write the result as JSON; - is standard output", ".json .txt -");
+  Option<std::string> json = json_option();
   Option<long> threads{"threads", "N", "processors to use at most; left out: all that it may use",
                        Whole{1, 1024}};
   Flag force{"force", "replace files that whirl did not write, too"};
-  Flag quiet{"quiet", "print nothing but errors"};
+  Flag quiet = quiet_flag();
   auto fields() { return std::tie(out, json, threads, force, quiet); }
 };
 

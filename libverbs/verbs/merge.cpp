@@ -27,10 +27,9 @@ constexpr std::string_view merge_usage =
     "rows that a stopped\nrun has left beside it.\n";
 
 struct MergeOptions {
-  Option<std::string> json = output_option(
-      "json", "FILE", "write the result as JSON; - is standard output", ".json .txt -");
+  Option<std::string> json = json_option();
   Flag force{"force", "replace files that whirl did not write, too"};
-  Flag quiet{"quiet", "print nothing but errors"};
+  Flag quiet = quiet_flag();
   auto fields() { return std::tie(json, force, quiet); }
 };
 

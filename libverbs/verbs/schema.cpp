@@ -23,7 +23,7 @@ struct SchemaOptions {
   Option<std::string> out =
       output_option("out", "FILE.json", "where it goes; left out: standard output", ".json .txt");
   Flag force{"force", "replace a file that whirl did not write, too"};
-  Flag quiet{"quiet", "print nothing but errors"};
+  Flag quiet = quiet_flag();
   auto fields() { return std::tie(out, force, quiet); }
 };
 
