@@ -1,5 +1,6 @@
-// models/blade_seal.toml: what "Blade rotor with labyrinth-seal and blade-tip rub" tells in words, and numbers
-// of independent programs of ours, as its own stand in figures.
+// models/blade_seal.toml: what "Dynamic response and stability of a blade rotor with coupled rubbing
+// in the labyrinth seal and tip seal" tells in words, and numbers of independent programs of ours,
+// as its own stand in figures.
 
 #include <gtest/gtest.h>
 

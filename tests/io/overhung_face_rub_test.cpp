@@ -1,6 +1,6 @@
-// models/overhung_face_rub.toml: kinds of motion that "Overhung rotor with lateral and face contact" tells,
-// and numbers of an independent program for this set of parameters, which is calibrated: the paper
-// prints none.
+// models/overhung_face_rub.toml: kinds of motion that "Rotor-stator rubbing contact in an overhung
+// rotordynamic system" tells, and numbers of an independent program for this set of parameters,
+// which is calibrated: the paper prints none.
 
 #include <gtest/gtest.h>
 
