@@ -282,9 +282,9 @@ bool Continuation::advance() {
       std::ssize(branch_.points) > 1) {
     branch_.end = range_end;
   } else {
-    end_at_failure(why);
+    cross_or_end(why);
   }
-  return false;
+  return !branch_.end;
 }
 
 }  // namespace whirl::inline dyn

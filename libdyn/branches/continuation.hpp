@@ -106,8 +106,13 @@ class Continuation {
   /// False: it could not be located.
   bool locate(BifurcationKind kind, const BranchPoint& a, const BranchPoint& b);
   bool locate_grazings(const BranchPoint& a, const BranchPoint& b);
-  /// Says why a branch ends where no step succeeds; a grazing ahead is looked for.
-  void end_at_failure(const std::string& why);
+  /// Where no step succeeds: looks for a grazing ahead, beyond which the branch goes on if an orbit is found
+  /// there; else says why it ends.
+  void cross_or_end(const std::string& why);
+  /// An orbit beyond a grazing at which all of a circle touches at once, so that no tangent leads across: it
+  /// touches all the time where the last one does not touch, or the other way round.
+  /// @param u  where it grazes, 0 at low and 1 at high
+  Trial beyond_grazing(const Bifurcation& grazes, double u) const;
   double limited(double step, const Vec& tangent) const;
 
   BranchEquations equations_;

@@ -64,9 +64,16 @@ bool is_same(const BranchPoint& a, const BranchPoint& b) {
   return same_multipliers(a.multipliers, b.multipliers);
 }
 
-bool same_impacts(const std::vector<ContactMeasure>& a, const std::vector<ContactMeasure>& b) {
+/// How many impacts a period a contact has more at the second of two orbits; one that touches all the time
+/// has none, and begins or ends as one touch.
+double change_of(const ContactMeasure& from, const ContactMeasure& to) {
+  if (from.impacts != to.impacts) return to.impacts - from.impacts;
+  return (to.duty > 0.0 ? 1.0 : 0.0) - (from.duty > 0.0 ? 1.0 : 0.0);
+}
+
+bool touch_alike(const std::vector<ContactMeasure>& a, const std::vector<ContactMeasure>& b) {
   for (std::size_t c = 0; c < std::min(a.size(), b.size()); ++c) {
-    if (a[c].impacts != b[c].impacts) return false;
+    if (change_of(a[c], b[c]) != 0.0) return false;
   }
   return true;
 }
@@ -114,29 +121,61 @@ void Continuation::forget_vertex(const BranchPoint& vertex) {
   });
 }
 
-void Continuation::end_at_failure(const std::string& why) {
+Continuation::Trial Continuation::beyond_grazing(const Bifurcation& grazes, double u) const {
+  constexpr double near = 0.1;  // of the last orbit, in scales
+  const BranchPoint& last = branch_.points.back();
+  const Eigen::Index size = last.z.size() - 1;
+  const auto duty_of = [&](const BranchPoint& point) {
+    const auto found =
+        std::find_if(point.contacts.begin(), point.contacts.end(),
+                     [&](const ContactMeasure& c) { return c.name == grazes.contact; });
+    return found == point.contacts.end() ? nan : found->duty;
+  };
+  const double before = duty_of(last);
+  if (before != 0.0 && before != 1.0) return {.failure = "it touches now and then"};
+  const double wanted = 1.0 - before, outward = before == 0.0 ? 1.0 : -1.0;
+  const double onward = std::copysign(1.0, last.tangent(size));
+  for (const double ahead : {1e-4, 1e-3, 1e-2}) {
+    for (const double way : {onward, -onward}) {
+      for (const double moved : {1e-4, 1e-3, 1e-2}) {
+        Vec z = (1.0 + outward * moved) * last.z;
+        z(size) = u + way * ahead;
+        if (z(size) < 0.0 || z(size) > 1.0) continue;
+        Trial trial = correct({Vec::Unit(size + 1, size), z}, Vec());
+        if (trial.failure || duty_of(trial.point) != wanted) continue;
+        const Vec step = trial.point.z - last.z;
+        if (dot(step, step) > near * near || !add_tangent(trial, step)) continue;
+        trial.point.step = limited(ahead, trial.point.tangent);
+        return trial;
+      }
+    }
+  }
+  return {.failure = "no orbit is near"};
+}
+
+void Continuation::cross_or_end(const std::string& why) {
   const BranchPoint& last = branch_.points.back();
   branch_.end = {EndKind::no_orbit,
                  fmt::format("no orbit is found beyond {:.10g}: {}", last.value, why), why};
   // the motions that the tangent predicts: do they touch otherwise, and from where on
-  const auto impacts_differ = [&](double length, std::vector<ContactMeasure>& seen) {
+  const auto touches_differ = [&](double length, std::vector<ContactMeasure>& seen) {
     Vec z = last.z + length * last.tangent;
     z(z.size() - 1) = std::clamp(z(z.size() - 1), 0.0, 1.0);
     BranchEquations::Value at = evaluate(z, WithTangent::no);
     if (at.residual.size() == 0) return false;
     seen = std::move(at.contacts);
-    return !same_impacts(seen, last.contacts);
+    return !touch_alike(seen, last.contacts);
   };
   std::vector<ContactMeasure> seen;
   double low = 0.0, high = options_.smallest_step;
-  while (high < probed && !impacts_differ(high, seen)) {
+  while (high < probed && !touches_differ(high, seen)) {
     low = high;
     high *= 2.0;
   }
   if (high >= probed) return;
   for (std::vector<ContactMeasure> middle; high - low > 1e-3 * high;) {
     const double half = 0.5 * (low + high);
-    if (impacts_differ(half, middle)) {
+    if (touches_differ(half, middle)) {
       high = half;
       seen = middle;
     } else {
@@ -144,7 +183,7 @@ void Continuation::end_at_failure(const std::string& why) {
     }
   }
   for (std::size_t c = 0; c < seen.size(); ++c) {
-    const double change = seen[c].impacts - last.contacts[c].impacts;
+    const double change = change_of(last.contacts[c], seen[c]);
     if (change == 0.0) continue;
     Bifurcation end{.kind = grazing,
                     .at = last,
@@ -152,8 +191,16 @@ void Continuation::end_at_failure(const std::string& why) {
                     .contact = last.contacts[c].name,
                     .change = change,
                     .multiplier = critical_multiplier(grazing, {})};
-    const double u = last.z(last.z.size() - 1) + high * last.tangent(last.z.size() - 1);
-    end.at.value = value_of(std::clamp(u, 0.0, 1.0));
+    const double u =
+        std::clamp(last.z(last.z.size() - 1) + high * last.tangent(last.z.size() - 1), 0.0, 1.0);
+    end.at.value = value_of(u);
+    if (Trial beyond = beyond_grazing(end, u); !beyond.failure) {
+      end.change = change_of(last.contacts[c], beyond.point.contacts[c]);
+      branch_.bifurcations.push_back(std::move(end));
+      branch_.end.reset();
+      accept(std::move(beyond));
+      return;
+    }
     branch_.end = {
         EndKind::grazing,
         fmt::format("contact {} grazes at about {:.7g}, beyond {:.10g} no orbit is found",
@@ -195,7 +242,7 @@ bool Continuation::find_bifurcations(const BranchPoint& a, const BranchPoint& b)
   if (changes(period_doubling)) all = locate(period_doubling, a, b) && all;
   if (changes(pitchfork) != folds) all = locate(pitchfork, a, b) && all;
   if (changes(neimark_sacker)) all = locate(neimark_sacker, a, b) && all;
-  if (!same_impacts(a.contacts, b.contacts)) all = locate_grazings(a, b) && all;
+  if (!touch_alike(a.contacts, b.contacts)) all = locate_grazings(a, b) && all;
   const Vec chord = b.z - a.z;
   std::stable_sort(branch_.bifurcations.begin() + static_cast<std::ptrdiff_t>(known),
                    branch_.bifurcations.end(), [&](const Bifurcation& x, const Bifurcation& y) {
@@ -234,7 +281,7 @@ bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
   const double whole = std::sqrt(dot(chord, chord));
   double from = 0.0;
   BranchPoint before = a;
-  for (int k = 0; k < most_grazings && !same_impacts(before.contacts, b.contacts); ++k) {
+  for (int k = 0; k < most_grazings && !touch_alike(before.contacts, b.contacts); ++k) {
     double low = from, high = whole;
     BranchPoint beyond = b;
     while (high - low > 1e-12 && std::abs(beyond.z(beyond.z.size() - 1) -
@@ -242,7 +289,7 @@ bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
       const double middle = 0.5 * (low + high);
       Trial trial = between(a, b, middle);
       if (trial.failure) return false;
-      if (same_impacts(trial.point.contacts, before.contacts)) {
+      if (touch_alike(trial.point.contacts, before.contacts)) {
         low = middle;
         before = std::move(trial.point);
       } else {
@@ -251,7 +298,7 @@ bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
       }
     }
     for (std::size_t c = 0; c < beyond.contacts.size(); ++c) {
-      const double change = beyond.contacts[c].impacts - before.contacts[c].impacts;
+      const double change = change_of(before.contacts[c], beyond.contacts[c]);
       if (change == 0.0) continue;
       branch_.bifurcations.push_back({.kind = grazing,
                                       .at = beyond,
@@ -263,7 +310,7 @@ bool Continuation::locate_grazings(const BranchPoint& a, const BranchPoint& b) {
     before = std::move(beyond);
     from = high;
   }
-  return same_impacts(before.contacts, b.contacts);
+  return touch_alike(before.contacts, b.contacts);
 }
 
 }  // namespace whirl::inline dyn

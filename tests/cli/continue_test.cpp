@@ -1,7 +1,9 @@
 // continue: branches that are known, going on after kills, refusing.
 
 #include <cmath>
+#include <complex>
 
+#include "libbase/roots.hpp"
 #include "tests/cli/studies.hpp"
 
 namespace whirl::test {
@@ -172,6 +174,60 @@ TEST_F(ContinueStudy, ContinueSaysWhatIsWrong) {
   EXPECT_TRUE(has(error({"--over", "operation.speed=130:140rad/s", "--method", "harmonic-balance",
                          "--switch", "1"}),
                   "goes with --method shooting only"));
+}
+
+// A rotor without gravity goes round a circle of radius e w^2 / |k - m w^2 + i c w|, which touches its stator
+// all around at once where that is the clearance: the grazing is found there, and crossed both ways.
+TEST_F(ContinueStudy, CrossesTheOnsetOfRubOfACircle) {
+  write("circle.toml", R"(format = 1
+[operation]
+speed = 0.5
+[[body]]
+name = "disk"
+mass = 1
+spins = true
+[[bearing]]
+body = "disk"
+stiffness = 0.04
+damping = 0.1
+[[unbalance]]
+body = "disk"
+offset = 1
+[[contact]]
+name = "stator"
+body = "disk"
+clearance = 1.05
+stiffness = 1
+friction = 0.2
+radius = 21
+)");
+  const auto radius = [](double w) {
+    return w * w / std::abs(std::complex<double>(0.04 - w * w, 0.1 * w));
+  };
+  const double onset = bracketed_root([&](double w) { return radius(w) - 1.05; }, 0.1, 0.18, 1e-12);
+  const auto branch = [&](const std::string& at) {
+    return result({"continue", "circle.toml", "--over", "operation.speed=0.1:0.25:0.005rad/s",
+                   "--at", at, "--most", "200", "--out", "branch.h5", "--restart"});
+  };
+  for (const std::string at : {"0.1 rad/s", "0.25 rad/s"}) {
+    const json r = branch(at);
+    std::vector<double> grazings;
+    for (const json& b : r["bifurcations"]) {
+      if (b["kind"] == "grazing") grazings.push_back(b["value"]);
+    }
+    ASSERT_EQ(grazings.size(), 1u) << at;
+    EXPECT_NEAR(grazings[0], onset, 1e-5) << at;
+    const ResultReader file(folder / "branch.h5");
+    EXPECT_EQ(file.numbers("/branch/bifurcation_change"),
+              std::vector<double>{at == "0.1 rad/s" ? 1.0 : -1.0});
+    bool touches = false, is_free = false;
+    for (const json& p : r["points"]) {
+      touches = touches || p["duty"][0] == 1.0;
+      is_free = is_free || p["duty"][0] == 0.0;
+    }
+    EXPECT_TRUE(touches && is_free) << at;
+    EXPECT_EQ(r["branches"][0]["end_kind"], "range") << at << r["branches"];
+  }
 }
 
 }  // namespace continue_test
