@@ -58,11 +58,6 @@ class CollocationRun {
     result_.failure = failure_text(system_, state_, what);
     return Result::ended;
   }
-  bool is_boundless(const Vec& y) const {
-    const auto n = system_.coordinates();
-    return !((y.head(n).array() / system_.state_scale().head(n).array()).abs().maxCoeff() <
-             boundless);
-  }
   Result advance();
   /// To the end of a step.
   void move_on(double turn, bool ends_revolution, const std::optional<Event>& event);
@@ -205,7 +200,7 @@ CollocationRun::Result CollocationRun::advance() {
   } else {
     step_.advance(limit, state_, end_);
   }
-  if (is_boundless(end_)) return fail(Outcome::step_too_small, "the motion grows without bound");
+  if (is_boundless(system_, end_)) return fail(Outcome::step_too_small, boundless_text);
   instant_events_ = 0;
   if (observer_ && show(limit)) return Result::ended;
   move_on(limit * h * rate, ends_revolution, event);
@@ -260,12 +255,14 @@ CollocationRun::Result CollocationRun::finish(long last) {
   if (!observer_) {
     ++result_.cost.steps;
     free_flight_.finish(state_, last);
+    if (is_boundless(system_, state_.y)) return fail(Outcome::step_too_small, boundless_text);
     return Result::goes_on;
   }
   while (state_.revolution < last) {
     step_.solve({0}, state_);
     const double limit = 1.0 - state_.phase / whole_turn;
     step_.advance(limit, state_, end_);
+    if (is_boundless(system_, end_)) return fail(Outcome::step_too_small, boundless_text);
     if (show(limit)) return Result::ended;
     state_.y = end_;
     state_.phase = 0.0;

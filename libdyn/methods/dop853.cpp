@@ -292,6 +292,7 @@ Dop853Run::Result Dop853Run::apply_at_once(const Event& event) {
 
 Dop853Run::Result Dop853Run::accept(const std::optional<Event>& event, bool ends_revolution,
                                     double next) {
+  if (is_boundless(system_, stepper_.end())) return fail(Outcome::step_too_small, boundless_text);
   instant_events_ = 0;
   longest_ = std::numeric_limits<double>::infinity();
   state_.y = stepper_.end();

@@ -73,10 +73,10 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
       const double phase = first + i * turn;
       try_step(derivative, phase, turn, h, y, s);
       has_left = has_left || system.left_bearing(s.end.data()) != nullptr;
-      if (has_left || !s.end.allFinite()) {
+      if (has_left || is_boundless(system, s.end)) {
         state.contacts = system.classify(state.instant(), y.data());
         fail(result, system, state, has_left ? Outcome::left_bearing : Outcome::not_finite,
-             has_left ? "a step of RK4 leaves a bearing" : "a step of RK4 gave no finite numbers");
+             has_left ? "a step of RK4 leaves a bearing" : boundless_text);
         return result;
       }
       ++cost.steps;

@@ -172,6 +172,7 @@ Integration Motion::run(const Solver& solver, void* memory, long revolutions,
       ++result_.cost.steps;
       instant_events = 0;
     }
+    if (is_boundless(system_, now)) return fail(Outcome::step_too_small, boundless_text);
     state_.y = now;
     state_.phase = t * rate;
     if (flag == Flag::root) {

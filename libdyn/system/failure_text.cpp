@@ -50,6 +50,12 @@ std::string left_bearing_text(const ReducedFilm& film) {
   return fmt::format("the journal of oil film \"{}\" is not inside its bearing", film.name);
 }
 
+bool is_boundless(const ContactSystem& system, const Vec& y) {
+  const auto n = system.coordinates();
+  const auto sizes = y.head(n).array() / system.state_scale().head(n).array();
+  return !(sizes.abs().maxCoeff() < boundless);
+}
+
 void fail(Integration& result, const ContactSystem& system, const MotionState& state,
           Outcome outcome, std::string_view what) {
   const ReducedFilm* film = system.left_bearing(state.y.data());

@@ -14,6 +14,9 @@ std::string failure_text(const ContactSystem& system, const MotionState& state,
 /// Says that the journal of a film is not inside its bearing.
 std::string left_bearing_text(const ReducedFilm& film);
 
+/// Whether a state is beyond all bounds, or no number.
+bool is_boundless(const ContactSystem& system, const Vec& y);
+
 /// Sets outcome and failure of an integration that failed: left_bearing where a journal has left
 /// its bearing, else as given.
 void fail(Integration& result, const ContactSystem& system, const MotionState& state,

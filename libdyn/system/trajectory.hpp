@@ -51,8 +51,10 @@ struct IntegrationOptions {
                              ///< (one-step methods)
 };
 
-/// Displacement beyond which a motion is given up, in length scales.
-constexpr double boundless = 1e30;
+/// Displacement beyond which a motion is given up, in length scales: that of a clearance of 1 mm is as far
+/// as the moon, three times over.
+constexpr double boundless = 1e12;
+constexpr const char* boundless_text = "the motion grows without bound";
 
 enum class Outcome {
   reached_end,

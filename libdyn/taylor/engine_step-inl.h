@@ -99,7 +99,7 @@ HWY_ATTR void Engine<P>::fail_steps(uint64_t bad) {
       fail(l, Outcome::not_finite, "the state is not finite");
     } else {
       fail(l, Outcome::step_too_small,
-           (bounded >> l & 1) != 0 ? "the step underflowed" : "the motion grows without bound");
+           (bounded >> l & 1) != 0 ? "the step underflowed" : boundless_text);
     }
   }
 }

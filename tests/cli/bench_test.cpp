@@ -117,7 +117,7 @@ TEST_F(Bench, SaysWhichMethodsFail) {
   ASSERT_EQ(r["runs"].size(), 2u);
   EXPECT_TRUE(r["runs"][0]["error"].is_null());
   EXPECT_TRUE(r["runs"][0]["ns_per_revolution"].is_null());
-  EXPECT_TRUE(has(r["runs"][0]["failure"], "no finite numbers"));
+  EXPECT_TRUE(has(r["runs"][0]["failure"], "grows without bound"));
   EXPECT_LT(r["runs"][1]["error"], 1e-5);
   EXPECT_FALSE(r["runs"][1].contains("failure"));
   EXPECT_TRUE(has(whirl(stiff).out, "rk4 at 1e-8 failed"));
