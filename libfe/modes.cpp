@@ -16,6 +16,7 @@
 #include "libfe/eigen/refine.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/own_frequency_modes.hpp"
+#include "libfe/reduced_modes.hpp"
 
 namespace whirl::inline fe {
 
@@ -317,6 +318,28 @@ Mode mode_of(Complex lambda, const CVec& q, const DofMap& dofs) {
     mode.kappa = at[largest].kappa();
   }
   return mode;
+}
+
+std::vector<Mode> reduced_modes(const ReducedSystem& reduced, int count) {
+  // about a shift below all frequencies, as stiffness may leave something free
+  double lowest = 1.0;
+  for (Eigen::Index i = 0; i < reduced.K.rows(); ++i) {
+    const double square = reduced.K(i, i) / reduced.M(i, i);
+    if (square > 0.0) lowest = std::min(i > 0 ? lowest : square, square);
+  }
+  QuadraticModes found = dense_quadratic_modes(reduced.M.sparseView(), reduced.D().sparseView(),
+                                               reduced.K.sparseView(), -0.1 * std::sqrt(lowest));
+  found.q = reduced.Phi * found.q;
+  if (reduced.Omega == 0.0) separate_planes(found, reduced.dofs);
+  std::vector<Mode> modes;
+  for (Eigen::Index i = 0; i < found.lambda.size(); ++i) {
+    if (!oscillates(found.lambda(i))) continue;
+    modes.push_back(mode_of(found.lambda(i), found.q.col(i), reduced.dofs));
+  }
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const Mode& a, const Mode& b) { return a.frequency() < b.frequency(); });
+  if (static_cast<int>(modes.size()) > count) modes.resize(static_cast<std::size_t>(count));
+  return modes;
 }
 
 Modes complex_modes(const System& system, int count) {

@@ -10,6 +10,7 @@
 #include "libfe/campbell.hpp"
 #include "libfe/forces.hpp"
 #include "libfe/own_frequency_modes.hpp"
+#include "libfe/reduced_modes.hpp"
 
 namespace whirl::inline dyn {
 
@@ -152,6 +153,7 @@ System stiffened(const Model& model, const Scene& scene, System system) {
 
 std::vector<Mode> compared_modes(const Model& model, const Scene& scene,
                                  const IdentifyOptions& options) {
+  if (options.reduced) return reduced_modes(scene.reduced, options.modes);
   const auto closed = [&](System at) {
     return options.stiffened ? stiffened(model, scene, std::move(at)) : at;
   };

@@ -16,6 +16,7 @@ struct IdentifyOptions {
   int modes = 8;               ///< compared with
   bool rotations = false;      ///< tilts count too, times a length
   bool mass_weighted = false;  ///< MAC with the mass matrix instead
+  bool reduced = false;        ///< modes of the reduced rotor that the motion was computed with
   bool stiffened = false;      ///< modes of the system with its contacts closed for good
   double share = 0.02;         ///< of the largest peak, below which peaks are left out
   int most_peaks = 10;

@@ -20,6 +20,9 @@ struct ClassificationResult {
   /// Lyapunov exponents, descending [1/s].
   Vec exponents() const { return of.exponents / revolution; }
 
+  /// Estimates from the first revolutions alone, exponents x estimates [1/s]; empty: none.
+  Mat settling() const { return of.path.exponents / revolution; }
+
   /// Of each contact, the p of p/n.
   std::vector<double> impacts_of_contacts() const {
     std::vector<double> all;
@@ -50,6 +53,17 @@ struct ClassificationResult {
         column("exponent", &Result::exponents, "1/s", "Lyapunov exponents, descending")
             .along("exponents")
             .only(in_file),
+        column(
+            "averaged", [](const Result& r) { return r.of.path.revolutions; }, "",
+            "revolutions that estimates are of")
+            .axis("averaged")
+            .only(in_file)
+            .maybe(),
+        column("exponent_estimate", &Result::settling, "1/s",
+               "Lyapunov exponents, descending, of the first revolutions alone")
+            .along("exponents averaged")
+            .only(in_file)
+            .maybe(),
         column("motion", &Result::motion, "", "kind of motion").only(in_file),
         column(
             "period_revolutions", [](const Result& r) { return r.of.period; }, "", "period")

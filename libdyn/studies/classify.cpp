@@ -204,6 +204,7 @@ class BatchClassifier {
     c.exponents = estimate.exponents;
     c.zero = estimate.zero;
     c.resolution = estimate.resolution;
+    if (options_.path > 0) c.path = exponent_path(growths, options_.path);
     c.section_dimension = dimension(t);
     const Eigen::Map<const Mat> sections(t.sections.data(), size, std::ssize(t.sections) / size);
     c.drift = drift_of(s.system->state_scale().cwiseInverse().asDiagonal() * sections);

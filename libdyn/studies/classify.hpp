@@ -11,6 +11,7 @@
 #include "libbase/failure.hpp"
 #include "libbase/field.hpp"
 #include "libdyn/flow/free_flight.hpp"
+#include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/settling.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/contact_system.hpp"
@@ -40,6 +41,7 @@ struct ClassifyOptions {
   /// Not 0: by the classical Runge-Kutta method with so many equal steps a revolution, to see what studies
   /// that use it see. What repeats within 1e-4 length scales is periodic then, and nothing is proven.
   long rk4_steps = 0;
+  Eigen::Index path = 0;  ///< at how many numbers of revolutions exponents are told at most
   /// Called now and then with the revolutions done by all motions together; false: stop.
   std::function<bool(long)> watch;
 };
@@ -55,6 +57,7 @@ struct Classification {
   /// All Lyapunov exponents per revolution, descending. Of a proven periodic motion they are those
   /// of its Floquet multipliers, else means.
   Vec exponents;
+  ExponentPath path{};     ///< how they settled, if asked for; empty of an orbit that is proven
   bool is_proven = false;  ///< periodic: the orbit was found, and it attracts
   /// Of a proven orbit: no contact can happen on the way to it, so that it is that of the linear
   /// rotor; else Newton's method found it.

@@ -47,4 +47,15 @@ ExponentEstimate estimate_exponents(const Mat& growths) {
   return estimate;
 }
 
+ExponentPath exponent_path(const Mat& growths, Eigen::Index most) {
+  const Eigen::Index estimates = std::min(most, growths.cols());
+  ExponentPath path{.exponents = Mat(growths.rows(), estimates)};
+  for (Eigen::Index i = 0; i < estimates; ++i) {
+    const Eigen::Index revolutions = growths.cols() * (i + 1) / estimates;
+    path.revolutions.push_back(static_cast<double>(revolutions));
+    path.exponents.col(i) = estimate_exponents(growths.leftCols(revolutions)).exponents;
+  }
+  return path;
+}
+
 }  // namespace whirl::inline dyn

@@ -1,6 +1,8 @@
 #pragma once
 /// Lyapunov exponents from the growth of tangents, and how well they are known.
 
+#include <vector>
+
 #include "libbase/linalg.hpp"
 
 namespace whirl::inline dyn {
@@ -26,5 +28,14 @@ struct ExponentEstimate {
 ///                 revolution, at least one of each
 /// @source [Benettin1980] for the means
 ExponentEstimate estimate_exponents(const Mat& growths);
+
+/// How exponents settle: estimates from the first revolutions alone.
+struct ExponentPath {
+  std::vector<double> revolutions;  ///< that each estimate is of
+  Mat exponents;                    ///< descending, a column per estimate [1/revolution]
+};
+
+/// At so many numbers of revolutions at most, evenly spread up to all of them.
+ExponentPath exponent_path(const Mat& growths, Eigen::Index most);
 
 }  // namespace whirl::inline dyn

@@ -42,13 +42,19 @@ void travel(Bytes& bytes, Is<Drift> auto& drift) {
 }
 
 template <class Bytes>
+void travel(Bytes& bytes, Is<ExponentPath> auto& path) {
+  auto& [revolutions, exponents] = path;
+  bytes(revolutions, exponents);
+}
+
+template <class Bytes>
 void travel(Bytes& bytes, Is<Classification> auto& found) {
-  auto& [kind, period, period_time, exponents, is_proven, is_free, residual, zero, resolution,
+  auto& [kind, period, period_time, exponents, path, is_proven, is_free, residual, zero, resolution,
          drift, settles_after, section_dimension, revolutions, transient, contacts, sections, end,
          outcome, failure] = found;
-  bytes(kind, period, period_time, exponents, is_proven, is_free, residual, zero, resolution, drift,
-        settles_after, section_dimension, revolutions, transient, contacts, sections, end, outcome,
-        failure);
+  bytes(kind, period, period_time, exponents, path, is_proven, is_free, residual, zero, resolution,
+        drift, settles_after, section_dimension, revolutions, transient, contacts, sections, end,
+        outcome, failure);
 }
 
 /// Without its scene, which the other process makes again, and what is remembered of that.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <set>
 
 #include "libio/figures/map_planes.hpp"
 #include "libio/figures/result_of.hpp"
@@ -59,6 +60,34 @@ Figure shares_along(const MapResult& study, const std::vector<ShownAxis>& axes, 
   return f;
 }
 
+/// How many kinds of motion a point of the plane has over the values of the third parameter.
+Figure kinds_of_points(const MapResult& study, const Planes& planes) {
+  Figure f{.variant = "kinds over " + planes.z.path, .width = 780.0, .height = 560.0};
+  f.subtitle = fmt::format("Number of kinds of motion over {}", planes.z.path);
+  Cells cells = planes.cells(0, [&](std::size_t first) {
+    std::set<double> kinds;
+    for (std::size_t plane = 0; plane < planes.count(); ++plane) {
+      const auto point = study.points[first + plane];
+      if (!point || !point->kind || *point->kind == MotionKind::not_settled) continue;
+      kinds.insert(motion_number(point->kind, point->period));
+    }
+    return kinds.empty() ? std::nan("") : static_cast<double>(kinds.size());
+  });
+  cells.title = "kinds of motion";
+  cells.first = 0.0;
+  cells.last = std::max(1.0, largest_of(cells.values));
+  Panel p;
+  p.x.title = planes.x.title;
+  p.y.title = planes.y.title;
+  p.cells = std::move(cells);
+  f.panels.push_back(std::move(p));
+  f.notes.push_back(
+      "Each period up to 8 is a kind of its own, longer ones are one; motions that failed or have "
+      "not "
+      "settled do not count.");
+  return f;
+}
+
 std::vector<Figure> shares_figures(const ResultView& result) {
   const std::vector<ShownAxis> axes = shown_axes(result, MapResult::group);
   const auto& study = study_of<MapResult>(result);
@@ -66,6 +95,7 @@ std::vector<Figure> shares_figures(const ResultView& result) {
   for (std::size_t along = axes.size(); along-- > 0;) {  // planes first, as their axis is the last
     figures.push_back(shares_along(study, axes, along));
   }
+  if (axes.size() > 2) figures.push_back(kinds_of_points(study, Planes(axes)));
   return figures;
 }
 

@@ -147,6 +147,30 @@ std::vector<Figure> mac_figures(const ResultView& result) {
   return {f};
 }
 
+/// How the exponents settle over the revolutions that they are averaged over; nothing: that is not known.
+std::optional<Figure> exponents_over_time(const ResultView& result) {
+  const std::string path = "/classify/exponent_estimate";
+  if (!result.file.has(path) || !result.file.has("/classify/averaged")) return std::nullopt;
+  const Mat estimates = result.file.matrix(path);
+  const std::vector<double> revolutions = result.file.numbers("/classify/averaged");
+  if (estimates.cols() != std::ssize(revolutions) || revolutions.empty()) return std::nullopt;
+  Figure f{.variant = "over time", .height = 420.0};
+  f.subtitle = "Lyapunov exponents of the first revolutions alone" + at_speed(result);
+  Panel p;
+  p.x = {.title = "revolutions", .first = 0.0, .last = revolutions.back()};
+  p.y.title = "exponent [1/s]";
+  p.rules.push_back({Rule::Kind::horizontal, 0.0, "", Paint::ink, Dash::solid});
+  for (Eigen::Index i = 0; i < estimates.rows(); ++i) {
+    Curve c{.name = std::to_string(i + 1), .paint = series_paint(static_cast<std::size_t>(i))};
+    c.x = revolutions;
+    for (const double value : estimates.row(i)) c.y.push_back(value);
+    if (i % 2 == 1) c.dash = Dash::dashed;
+    p.curves.push_back(std::move(c));
+  }
+  f.panels.push_back(std::move(p));
+  return f;
+}
+
 std::vector<Figure> exponent_figures(const ResultView& result) {
   using Result = ClassificationResult;
   const std::string group(Result::group);
@@ -175,7 +199,9 @@ std::vector<Figure> exponent_figures(const ResultView& result) {
   }
   p.curves.push_back(c);
   f.panels.push_back(std::move(p));
-  return {f};
+  std::vector<Figure> figures{std::move(f)};
+  if (auto over_time = exponents_over_time(result)) figures.push_back(std::move(*over_time));
+  return figures;
 }
 
 }  // namespace

@@ -105,6 +105,23 @@ Panel force_panel(const SweepView& v) {
   return n;
 }
 
+/// The same over the force of all unbalances, as if these were at one angle; nothing: there are none, or
+/// they are what is varied.
+std::optional<Panel> relative_force_panel(const ResultView& result, const SweepView& v) {
+  if (!result.model || v.axis.path.starts_with("unbalance.")) return std::nullopt;
+  double moment = 0.0;
+  for (const Unbalance& u : result.model->structure.unbalances) moment += std::abs(u.moment);
+  const bool is_speed = v.axis.path == "operation.speed";
+  const std::size_t values = v.axis.values.size();
+  Panel p = panel_along(v.axis, "largest force / unbalance");
+  p.y.first = 0.0;
+  add_lines(p, v.axis, v.ways, [&](std::size_t i) {
+    const double Omega = is_speed ? v.axis.factor * v.axis.values[i % values] : result.model->speed;
+    return v.most(i, &ContactDoing::max_normal) / (moment * Omega * Omega);
+  });
+  return moment > 0.0 ? std::optional(std::move(p)) : std::nullopt;
+}
+
 Panel radius_panel(const SweepView& v, std::size_t station, const DisplayUnit& unit) {
   Panel r = panel_along(v.axis, with_unit("largest radius", unit));
   r.y.first = 0.0;
@@ -171,6 +188,13 @@ std::vector<Figure> bifurcation_figures(const ResultView& result) {
     }
     figures.push_back(std::move(f));
   }
+  auto force = has_contacts ? relative_force_panel(result, v) : std::nullopt;
+  if (!force) return figures;
+  Figure f{.variant = "force over unbalance", .height = 560.0};
+  f.subtitle =
+      fmt::format("Largest contact force over that of the unbalance along {}", v.axis.path);
+  f.panels = {std::move(*force), duty_panel(v)};
+  figures.push_back(std::move(f));
   return figures;
 }
 

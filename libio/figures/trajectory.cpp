@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "libcontact/blade.hpp"
 #include "libio/figures/full_spectrum.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
@@ -282,10 +283,31 @@ std::vector<Figure> spectrum_figures(const ResultView& result) {
   return figures;
 }
 
+/// How far friction bends the blade that touches; nothing: the contact has no blades.
+std::optional<Panel> blade_panel(const ResultView& result, const Motion& m, std::size_t contact) {
+  if (!result.model || contact >= result.model->contacts.size()) return std::nullopt;
+  const Contact& of = result.model->contacts[contact];
+  const auto* blade = std::get_if<BladeTip<>>(&of.law);
+  if (!blade) return std::nullopt;
+  const Vec deflection = blade_deflection(*blade, result.model->speed) *
+                         m.record.friction.row(static_cast<Eigen::Index>(contact));
+  const DisplayUnit unit = unit_for(deflection.cwiseAbs().maxCoeff(), "m");
+  const MotionSamples drawn = m.drawn(seen_revolutions);
+  Panel p;
+  show(m, p);
+  p.title = of.name + ", blade in touch";
+  p.y.title = with_unit("deflection of its tip", unit);
+  Curve c{.name = "tip of the blade", .paint = series_paint(4), .x = numbers(m.time, drawn)};
+  c.y = scaled(numbers(deflection, drawn), unit.factor);
+  c.width = 1.1;
+  p.curves.push_back(std::move(c));
+  return p;
+}
+
 std::vector<Figure> contact_force_figures(const ResultView& result) {
   const Motion m(result);
   const auto& contacts = result_of<ContactShares>(result).contacts;
-  Figure f{.height = 90.0 + 190.0 * static_cast<double>(contacts.size())};
+  Figure f;
   f.subtitle = fmt::format("Contact forces{}", at_speed(result));
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Panel p;
@@ -294,7 +316,9 @@ std::vector<Figure> contact_force_figures(const ResultView& result) {
     add_forces(m, static_cast<Eigen::Index>(i), p, "");
     if (p.curves[0].y.empty() || largest_of(p.curves[0].y) == 0.0) p.title += " (never touches)";
     f.panels.push_back(std::move(p));
+    if (auto bent = blade_panel(result, m, i)) f.panels.push_back(std::move(*bent));
   }
+  f.height = 90.0 + 190.0 * static_cast<double>(f.panels.size());
   f.notes = m.notes(seen_revolutions);
   return f.panels.empty() ? std::vector<Figure>{} : std::vector<Figure>{f};
 }

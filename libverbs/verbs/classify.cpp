@@ -1,4 +1,5 @@
 #include "libio/texts/classification_text.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/options/common.hpp"
 #include "libverbs/options/simulation.hpp"
@@ -19,12 +20,15 @@ struct ClassifyVerbOptions {
   auto fields() { return std::tie(revolutions, discard, by, tolerance, isa, from); }
 };
 
+constexpr Eigen::Index told_estimates = 400;  ///< of exponents over time
+
 ClassifyOptions classify_options(const Invocation& call, const ClassifyVerbOptions& asked) {
   ClassifyOptions options{.discard = *asked.discard,
                           .revolutions = *asked.revolutions,
                           .exponents = *asked.revolutions,
                           .tolerance = *asked.tolerance,
-                          .rk4_steps = asked.by.rk4_steps()};
+                          .rk4_steps = asked.by.rk4_steps(),
+                          .path = call.wants_result() ? told_estimates : 0};
   options.watch = [progress = progress_of(call, "classifying"), is_stopped = call.stop_asked(),
                    total = options.discard + options.revolutions](long done) {
     progress(done, total);
@@ -47,7 +51,8 @@ Report run_classify(const Invocation& call, const ClassifyVerbOptions& asked) {
   report.add_notes(asked.by.notes());
   report.failure = c.failure;
   report.status = status_of(c.outcome);
-  note_tables(call, model, report);
+  note_model(call, model, report);
+  if (result.is_known()) report.add_notes(motion_notes(model, scene, c.end, noted_revolutions));
   report.record.merge(record_of(contact_shares(c.contacts, c.revolutions)))
       .set("reduction", record_of(reduction_facts(scene)));
   if (c.failure) report.record.set("failure", c.failure.text());

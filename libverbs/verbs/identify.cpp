@@ -11,12 +11,14 @@ struct IdentifyVerbOptions {
   Option<int> modes{"modes", "N", "how many modes to compare with", 8, mode_range};
   Flag rotations{"rotations", "let tilts count too, times the rotor's length"};
   Flag mass_weighted{"mass-weighted", "weight the MAC with the mass matrix"};
+  Flag reduced{"reduced", "modes of the reduced rotor that the motion was computed with"};
   Flag stiffened{"stiffened", "modes of the rotor with its contacts closed for good"};
   MeasuredVerbOptions measured{};
   RunningModesVerbOptions running{};
   IntegrationVerbOptions integration{};
   auto fields() {
-    return std::tie(modes, rotations, mass_weighted, stiffened, measured, running, integration);
+    return std::tie(modes, rotations, mass_weighted, reduced, stiffened, measured, running,
+                    integration);
   }
 };
 
@@ -52,8 +54,9 @@ void require_one_source(IdentifyVerbOptions asked) {
       if (option.is_given) throw option.wrong("is for simulations, and --measured is given");
     }
   });
-  for (const Flag& flag : {asked.rotations, asked.mass_weighted}) {
-    if (flag) throw flag.wrong("is for simulations: probes read displacements only");
+  for (const Flag& flag : {asked.rotations, asked.mass_weighted, asked.reduced}) {
+    if (flag)
+      throw flag.wrong("is for simulations: records are of probes, which read displacements only");
   }
 }
 
@@ -62,7 +65,12 @@ Report run_identify(const Invocation& call, const IdentifyVerbOptions& asked) {
   const IdentifyOptions options{.modes = *asked.modes,
                                 .rotations = asked.rotations,
                                 .mass_weighted = asked.mass_weighted,
+                                .reduced = asked.reduced,
                                 .stiffened = asked.stiffened};
+  if (asked.reduced && asked.stiffened) {
+    throw asked.reduced.wrong(
+        "does not go with --stiffened: contacts are no part of the reduced rotor");
+  }
   if (asked.measured.record.measured) {
     return identify_measured(call, asked.measured, asked.running, options);
   }

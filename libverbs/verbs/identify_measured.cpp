@@ -17,7 +17,10 @@ std::string mac_heading(const Model& model, const IdentifyOptions& options) {
   return fmt::format(
       "MAC of deflection shapes (rows) against complex modes at {:.6g} rpm{} (columns: number, "
       "whirl, rpm)\n\n",
-      model.speed / rpm, options.stiffened ? " with contacts closed" : "");
+      model.speed / rpm,
+      options.stiffened ? " with contacts closed"
+      : options.reduced ? " of the reduced rotor"
+                        : "");
 }
 
 Report identify_measured(const Invocation& call, const MeasuredVerbOptions& asked,
@@ -47,7 +50,7 @@ Report identify_measured(const Invocation& call, const MeasuredVerbOptions& aske
     report.text += "\n" + text_of(*running);
   }
   report.add_notes(measured.notes);
-  note_tables(call, model, report);
+  note_model(call, model, report);
   report.add_notes(film_notes(model));
   write_file(call, model, report, [&](ResultWriter& file) {
     file.attribute("/", "speed", model.speed);

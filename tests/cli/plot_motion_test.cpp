@@ -5,9 +5,11 @@
 #include <set>
 
 #include "libbase/constants.hpp"
+#include "libcontact/laws.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/studies/map.hpp"
 #include "libio/figures/map_planes.hpp"
+#include "libio/figures/result_of.hpp"
 #include "libio/figures/sweep_view.hpp"
 #include "libio/results/columns.hpp"
 #include "tests/cli/plots.hpp"
@@ -139,6 +141,97 @@ TEST_F(PlotMotion, AllExponentsOfASweepAreDrawn) {
     EXPECT_EQ(all.curves[k].name, std::to_string(k + 1));
     EXPECT_EQ(all.curves[k].y.at(0), sweep.point(0)->motion.exponents.at(k));
   }
+}
+
+// Exponents over the revolutions that they are averaged over end where the result has them; an orbit that
+// is proven has no such path.
+TEST_F(PlotMotion, ExponentsSettleOverTime) {
+  make({"classify", WHIRL_SOURCE_DIR "/models/jeffcott_stator.toml", "--speed", "151rad/s", "--set",
+        "contact.ring.stiffness=150e6", "--set", "contact.ring.friction=0.2", "--discard", "200",
+        "--revolutions", "200"},
+       "c.h5");
+  const ResultView view(folder / "c.h5");
+  const auto figures = figures_in("exponents", view);
+  ASSERT_EQ(figures.size(), 2u);
+  EXPECT_EQ(figures[1].variant, "over time");
+  const Panel& p = figures[1].panels.at(0);
+  const Vec last = view.file.vector("/classify/exponent");
+  ASSERT_EQ(std::ssize(p.curves), last.size());
+  for (Eigen::Index i = 0; i < last.size(); ++i) {
+    const Curve& c = p.curves[static_cast<std::size_t>(i)];
+    EXPECT_NEAR(c.y.back(), last(i), 1e-9 * std::abs(last(i)));
+    EXPECT_GE(c.x.back(), 200.0);
+  }
+  make({"classify", "rub.toml"}, "o.h5");
+  EXPECT_EQ(figures_in("exponents", ResultView(folder / "o.h5")).size(), 1u);
+}
+
+// The force of the unbalance of rub.toml, 2 kg at 1 mm, is 20 N at 100 rad/s.
+TEST_F(PlotMotion, ForcesOverThatOfTheUnbalance) {
+  make({"sweep", "rub.toml"}, "w.h5");
+  const ResultView view(folder / "w.h5");
+  const auto figures = figures_in("bifurcation", view);
+  const Figure& f = figures.back();
+  EXPECT_EQ(f.variant, "force over unbalance");
+  const figures::SweepView sweep(view);
+  ASSERT_TRUE(sweep.point(0));
+  const double Omega = sweep.axis.path == "operation.speed"
+                           ? sweep.axis.factor * sweep.axis.values[0]
+                           : view.model->speed;
+  const double force = sweep.point(0)->motion.contacts.at(0).max_normal;
+  EXPECT_NEAR(f.panels.at(0).curves.at(0).y.at(0), force / (2e-3 * Omega * Omega), 1e-9);
+}
+
+// The rotor of rub.toml touches where its clearance is below 1 mm: over three clearances of which two are
+// wider a point has two kinds of motion if rubbing is another kind, and no more than values.
+TEST_F(PlotMotion, KindsOfAPointAreCounted) {
+  const Outcome outcome =
+      whirl({"map", "rub.toml", "--over", "contact.ring.stiffness=1e4,2e4", "--over",
+             "contact.ring.friction=0,0.1", "--over", "contact.ring.clearance=0.6:1.8:0.6mm",
+             "--discard", "50", "--revolutions", "20", "--out", "m.h5"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const ResultView view(folder / "m.h5");
+  const auto figures = figures_in("shares", view);
+  ASSERT_EQ(figures.size(), 4u);
+  const Figure& f = figures.back();
+  EXPECT_EQ(f.variant, "kinds over contact.ring.clearance");
+  const auto& study = figures::study_of<MapResult>(view);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t j = 0; j < 2; ++j) {
+      std::set<double> kinds;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto point = study.points[(i * 2 + j) * 3 + k];
+        if (point->kind == MotionKind::not_settled) continue;
+        kinds.insert(figures::motion_number(point->kind, point->period));
+      }
+      EXPECT_EQ(f.panels.at(0).cells.values.at(j * 2 + i), static_cast<double>(kinds.size()));
+    }
+  }
+}
+
+// A blade that rubs is bent by its friction: l^3 / (3 E I) per force, less by the tension of its spin.
+TEST_F(PlotMotion, BladesThatTouchAreBent) {
+  make({"simulate", WHIRL_SOURCE_DIR "/models/blade_seal.toml", "--revolutions", "10", "--discard",
+        "20"},
+       "b.h5");
+  const ResultView view(folder / "b.h5");
+  const Figure f = figures_in("contact_forces", view).at(0);
+  const auto bent = std::find_if(f.panels.begin(), f.panels.end(), [](const Panel& p) {
+    return p.y.title.starts_with("deflection of its tip");
+  });
+  ASSERT_NE(bent, f.panels.end());
+  const auto record = read_result<MotionRecord>(view.file);
+  std::size_t blades = 0;
+  while (!std::holds_alternative<BladeTip<>>(view.model->contacts.at(blades).law)) ++blades;
+  const auto& blade = std::get<BladeTip<>>(view.model->contacts[blades].law);
+  const double free = std::pow(blade.blade_length, 3) / (3.0 * blade.bending_stiffness);
+  const Vec friction = record.friction.row(static_cast<Eigen::Index>(blades));
+  const double most = largest(bent->curves.at(0).y);
+  const double unit = bent->y.title.ends_with("[mm]")   ? 1e3
+                      : bent->y.title.ends_with("[nm]") ? 1e9
+                                                        : 1e6;
+  EXPECT_LE(most, unit * free * friction.cwiseAbs().maxCoeff() * (1.0 + 1e-12));
+  EXPECT_GT(friction.cwiseAbs().maxCoeff(), 0.0);
 }
 
 // Shares are of all points with a value, and add up to all of them; periods up to eight have names

@@ -60,7 +60,14 @@ TEST(Blade, IsShortenedAsACantileverIs) {
   EXPECT_EQ(blade_shortening(blade, 0.0, 500.0), 0.0);
 }
 
-// The value that "Blade rotor with labyrinth-seal and blade-tip rub" computes with, at 5100 rpm.
+// Without rotation l^3 / (3 E I).
+TEST(Blade, IsBentAsACantileverIs) {
+  const double exact = std::pow(0.045, 3) / (3.0 * 21.0);
+  EXPECT_NEAR(blade_deflection(blade, 0.0), exact, 1e-12 * exact);
+  EXPECT_LT(blade_deflection(blade, 534.0), exact);  // the tension stiffens it
+}
+
+// The value of an independent program of ours, at 5100 rpm: tension stiffens the blade.
 TEST(Blade, IsStiffenedByRotation) {
   const double at_speed = blade_shortening(blade, 0.1, 5100.0 * std::numbers::pi / 30.0);
   EXPECT_NEAR(at_speed, 2.755e-13, 0.0005e-13);

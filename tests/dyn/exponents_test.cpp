@@ -26,6 +26,20 @@ TEST(Exponents, LeaveOutWhatTangentsAlignBy) {
   EXPECT_NEAR(e.resolution, 2.0 * e.zero, 1e-12);  // nothing is left to chance
 }
 
+// The path ends in the estimate of all revolutions, and each of its points is that of the first ones.
+TEST(Exponents, PathIsOfTheFirstRevolutions) {
+  constexpr int T = 100;
+  Mat growths(2, T);
+  for (int k = 0; k < T; ++k) growths.col(k) << 0.1 * (k + 1) + std::sin(k), -0.3 * (k + 1);
+  const ExponentPath path = exponent_path(growths, 20);
+  ASSERT_EQ(path.revolutions.size(), 20u);
+  EXPECT_EQ(path.revolutions.front(), 5.0);
+  EXPECT_EQ(path.revolutions.back(), 100.0);
+  EXPECT_EQ(Vec(path.exponents.col(19)), estimate_exponents(growths).exponents);
+  EXPECT_EQ(Vec(path.exponents.col(9)), estimate_exponents(growths.leftCols(50)).exponents);
+  EXPECT_EQ(exponent_path(growths, 1000).revolutions.size(), 100u);
+}
+
 // Growth by chance, independent from revolution to revolution: the mean of n has the error
 // s / sqrt(n), which the batches show within their own, a sixth. Of 1000 means 99 % lie within.
 TEST(Exponents, KnowWhatChanceLeavesOfThem) {

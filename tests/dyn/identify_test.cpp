@@ -54,6 +54,30 @@ TEST(Identify, FindsAPureModeAsItself) {
   }
 }
 
+// With every dof the reduced rotor is the whole one; with few modes its own modes are what it moves in.
+TEST(Identify, ComparesWithTheModesOfTheReducedRotor) {
+  const Model whole = two_disks();
+  const Scene scene = make_scene(whole);
+  const std::vector<Mode> exact = complex_modes(scene.system, 6).oscillatory;
+  const auto compared = [](const Model& model, const Scene& at, const Mode& mode) {
+    const CVec coordinates = NearestCoordinates(at).matrix() * mode.shape;
+    Mode moved = mode;
+    moved.shape = coordinates;
+    return identify(model, at, pure_mode(at, moved, 1e-3, 60), {.modes = 6, .reduced = true}).modes;
+  };
+  const std::vector<Mode> same = compared(whole, scene, exact[0]);
+  ASSERT_EQ(same.size(), exact.size());
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    EXPECT_NEAR(same[i].frequency(), exact[i].frequency(), 1e-8 * exact[i].frequency());
+  }
+  const Model few = TwoDiskRub{.speed = 4430.0 * rpm, .modes = 4}.model();
+  const std::vector<Mode> own = compared(few, make_scene(few), exact[0]);
+  ASSERT_FALSE(own.empty());
+  const double off = std::abs(own[0].frequency() / exact[0].frequency() - 1.0);
+  EXPECT_GT(off, 1e-9);
+  EXPECT_LT(off, 0.05);
+}
+
 // Two forward circles, 6 bins above and 18 below the spin: seen from the rotor they turn with 1 : 3
 // of a slow frequency, and both of them do turn.
 TEST(Identify, SeesResonancesOfSlowMotionsInTheRotatingFrame) {
