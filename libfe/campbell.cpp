@@ -1,11 +1,14 @@
 #include "libfe/campbell.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/memory.hpp"
 #include "libbase/roots.hpp"
 #include "libfe/followed_modes.hpp"
 
@@ -303,6 +306,13 @@ Campbell campbell(const Assembler& assembler, const std::vector<double>& speeds,
   if (!std::is_sorted(speeds.begin(), speeds.end()) || speeds.front() < 0.0) {
     throw OptionError("speeds of a Campbell diagram must ascend from zero or above");
   }
+  constexpr double kept =
+      4.0 * sizeof(Complex);  // displacements and velocities, with their frequencies
+  const double of_speed = kept * (branches + spare_modes) * assembler.dofs().size();
+  require_memory(
+      "speeds", of_speed * static_cast<double>(speeds.size()),
+      fmt::format("the shapes of {} modes at {} speeds", branches + spare_modes, speeds.size()),
+      "give fewer speeds, or fewer modes");
   const ModeFinder finder(assembler);
   FollowedModes modes(assembler, finder, speeds, branches + spare_modes);
   const Tracker tracker(modes, branches, assembler.depends_on_speed());

@@ -8,6 +8,7 @@
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/memory.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/modes.hpp"
@@ -162,6 +163,12 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
                                      const std::vector<ResponseEnd>& to) {
   FrequencyResponse result{.speed = Omega, .frequencies = frequencies};
   const auto count = static_cast<Eigen::Index>(frequencies.size());
+  constexpr double of_value =
+      450.0;  // bytes that three complex numbers take, with their JSON; measured
+  const auto pairs = static_cast<double>(from.size() * to.size());
+  require_memory("frequencies", of_value * pairs * static_cast<double>(count),
+                 fmt::format("{} frequency responses at {} frequencies", pairs, count),
+                 "give fewer frequencies, or fewer stations");
   const System system = assembler.uncondensed(Omega);
   const DofMap& dofs = system.dofs;
   CMat loads(dofs.size(), static_cast<Eigen::Index>(from.size()));

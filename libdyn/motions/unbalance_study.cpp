@@ -1,10 +1,13 @@
 #include "libdyn/motions/unbalance_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "libbase/error.hpp"
+#include "libbase/memory.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {
@@ -195,6 +198,12 @@ UnbalanceStudy unbalance_study(const Model& model, const Assembler& assembler,
                                const UnbalanceOptions& options) {
   std::vector<Point> points;
   for (const NamedPoint& p : options.stations) points.push_back(p.point);
+  constexpr double of_value = 1200.0;  // bytes of a station at a speed, with their JSON; measured
+  require_memory(
+      "speeds",
+      of_value * static_cast<double>(points.size()) * static_cast<double>(options.speeds.size()),
+      fmt::format("the motion of {} stations at {} speeds", points.size(), options.speeds.size()),
+      "give fewer speeds, or fewer stations");
   UnbalanceResponse rows;
   if (options.has_given_speeds) rows = unbalance_response(assembler, options.speeds, points);
   std::vector<double> speeds = options.speeds;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -137,25 +138,40 @@ ColumnSizes BasinsResult::sizes() const {
           {"states", system.states}};
 }
 
+namespace {
+
+std::vector<Regime> regimes_of(const ClassifiedMotion& motion) {
+  std::vector<Regime> regimes;
+  for (const ContactDoing& c : motion.contacts) regimes.push_back(c.regime);
+  return regimes;
+}
+
+}  // namespace
+
 BasinShares basin_shares(const BasinsResult& result) {
   BasinShares shares{.starts = std::ssize(result.points)};
   double ended = 0.0;
   for (const auto& p : result.points) ended += p && !p->motion.has_failed() ? 1.0 : 0.0;
-  std::size_t settled = 0;
   for (const Basin& basin : result.basins) {
     const BasinsPoint first = result.points[basin.first].value();
     Attractor a{summary_of(first.motion)};
     a.number = std::ssize(shares.attractors);
     a.share = static_cast<double>(basin.count) / ended;
     a.impacts_per_rev = first.motion.impacts_per_rev();
-    for (const ContactDoing& c : first.motion.contacts) a.regimes.push_back(c.regime);
+    a.regimes = regimes_of(first.motion);
     a.start = {static_cast<long>(basin.first) + 1, first.start};
     shares.attractors.push_back(std::move(a));
-    settled += basin.count;
   }
   std::stable_sort(shares.attractors.begin(), shares.attractors.end(),
                    [](const Attractor& a, const Attractor& b) { return a.share > b.share; });
-  if (ended > 0.0) shares.unsettled = 1.0 - static_cast<double>(settled) / ended;
+  std::map<std::vector<Regime>, double> open;
+  for (std::size_t i = 0; i < result.attractor.size(); ++i) {
+    if (result.attractor[i] != unsettled_start) continue;
+    open[regimes_of(result.points[i].value().motion)] += 1.0 / ended;
+  }
+  for (const auto& [regimes, share] : open) shares.unsettled.push_back({regimes, share});
+  std::stable_sort(shares.unsettled.begin(), shares.unsettled.end(),
+                   [](const auto& a, const auto& b) { return a.share > b.share; });
   return shares;
 }
 

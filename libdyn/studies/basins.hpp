@@ -159,15 +159,28 @@ struct Attractor : MotionSummary {
   }
 };
 
+/// Starts whose motions have not settled, by what their contacts do: that is known of them.
+struct UnsettledStarts {
+  std::vector<Regime> regimes{};  ///< of the contacts
+  double share = 0.0;             ///< of the starts that did not fail
+
+  static constexpr auto columns() {
+    using U = UnsettledStarts;
+    return ColumnList{column("regimes", &U::regimes, "", "of the contacts, in their order"),
+                      column("share", &U::share, "", "of the starts that did not fail")};
+  }
+};
+
 /// What the starts of a study ended in.
 struct BasinShares {
   long starts = 0;
-  std::vector<Attractor> attractors;  ///< the largest share first
-  double unsettled = 0.0;             ///< share of motions that did not settle
+  std::vector<Attractor> attractors;       ///< the largest share first
+  std::vector<UnsettledStarts> unsettled;  ///< likewise
 
   static constexpr auto columns() {
     return ColumnList{column("starts", &BasinShares::starts, "", "starts"),
-                      rows(&BasinShares::attractors, "attractors")};
+                      rows(&BasinShares::attractors, "attractors"),
+                      rows(&BasinShares::unsettled, "unsettled")};
   }
 };
 BasinShares basin_shares(const BasinsResult& result);

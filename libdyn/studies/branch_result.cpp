@@ -82,6 +82,17 @@ std::optional<std::string> BranchBifurcation::grazing_contact() const {
   return kind == BifurcationKind::grazing ? std::optional(contact) : std::nullopt;
 }
 
+HardestTouches hardest_touches(const BranchResult& branches) {
+  HardestTouches hardest;
+  for (std::size_t k = 0; k < branches.points.size(); ++k) {
+    const BranchOrbit& orbit = branches.points[k];
+    for (std::size_t i = 0; i < orbit.duty.size(); ++i) {
+      hardest.add(k, i, orbit.max_normal[i], orbit.max_tangential[i], orbit.duty[i]);
+    }
+  }
+  return hardest;
+}
+
 BranchResult branch_result(const BranchTree& tree, const ParameterName& parameter,
                            const std::vector<std::string>& stations) {
   BranchResult result{.parameter = parameter,

@@ -8,6 +8,7 @@
 #include "libbase/parameter_name.hpp"
 #include "libdyn/studies/branch_tree.hpp"
 #include "libdyn/studies/end_texts.hpp"
+#include "libdyn/system/hardest_touch.hpp"
 
 namespace whirl::inline dyn {
 
@@ -200,6 +201,9 @@ struct BranchResult {
                        .only(in_file)});
   }
 };
+
+/// The hardest touches of all orbits, by their numbers from 0.
+HardestTouches hardest_touches(const BranchResult& branches);
 
 /// @param stations  names of those that the tree measures
 BranchResult branch_result(const BranchTree& tree, const ParameterName& parameter,

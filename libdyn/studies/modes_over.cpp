@@ -1,11 +1,14 @@
 #include "libdyn/studies/modes_over.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/memory.hpp"
 #include "libbase/roots.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 
@@ -146,6 +149,12 @@ ModesOver modes_over(const ModelAt& model_at, ParameterName parameter,
   result.parameter = std::move(parameter);
   result.values = values;
   ModesAtValues modes(model_at, count, values.front());
+  constexpr double kept = 8.0 * sizeof(Complex);  // of modes that are twice as many as told
+  require_memory("over",
+                 kept * count * static_cast<double>(modes.weight().rows()) *
+                     static_cast<double>(values.size()),
+                 fmt::format("the shapes of {} modes at {} values", count, values.size()),
+                 "give fewer values, or fewer modes");
   const SolveShapes solve = [&](double value) { return modes.lowest(value); };
   const Sparse W = modes.weight();
   const ShapeBranches followed = follow_shapes(values, solve, W, shape_limit(values, solve, count));

@@ -9,6 +9,7 @@ void OutcomeCount::add(std::size_t point, const ClassifiedMotion& motion) {
   sum_.failed += motion.has_failed() ? 1 : 0;
   if (example_.empty() && motion.failure)
     example_ = describe_(point) + ": " + motion.failure.text();
+  sum_.hardest.add(point, motion.contacts);
   if (motion.kind != MotionKind::not_settled) return;
   UnsettledMotions& unsettled = sum_.unsettled;
   ++unsettled.motions;

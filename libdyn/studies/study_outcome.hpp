@@ -10,6 +10,7 @@
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/point_rows.hpp"
 #include "libdyn/studies/stripe.hpp"
+#include "libdyn/system/hardest_touch.hpp"
 
 namespace whirl::inline dyn {
 
@@ -33,6 +34,7 @@ struct StudyOutcome {
   std::size_t done = 0, points = 0, failed = 0;
   Failure failure;  ///< how many points failed, and one of them
   UnsettledMotions unsettled;
+  HardestTouches hardest{};  ///< of all motions, by the numbers of their points
 
   bool is_whole() const { return done == points; }
   bool has_failed() const { return is_whole() && failed == points; }

@@ -195,6 +195,43 @@ std::vector<SweepEntry> SweepWay::entries() const {
   return entries;
 }
 
+std::vector<TouchRange> touch_ranges(const SweepWay& way) {
+  // points stand in rows of columns: each is put together once
+  std::vector<std::vector<std::optional<Regime>>> regimes(
+      way.sweep.system.contacts.size(), std::vector<std::optional<Regime>>(way.size()));
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    const auto point = way.point(k);
+    if (!point || point->motion.has_failed()) continue;
+    for (std::size_t i = 0; i < regimes.size(); ++i) {
+      regimes[i][k] = point->motion.contacts[i].regime;
+    }
+  }
+  std::vector<TouchRange> ranges;
+  for (std::size_t i = 0; i < regimes.size(); ++i) {
+    const auto touches = [&](std::size_t k) {
+      return k < way.size() && regimes[i][k].value_or(Regime::none) != Regime::none;
+    };
+    const auto is_free = [&](std::size_t k) {
+      return k < way.size() && regimes[i][k] == Regime::none;
+    };
+    for (std::size_t k = 0; k < way.size(); ++k) {
+      if (!touches(k)) continue;
+      TouchRange range{.contact = i,
+                       .from = k,
+                       .to = k,
+                       .begins = k > 0 && is_free(k - 1),
+                       .is_permanent = true};
+      for (; touches(k); ++k) {
+        range.to = k;
+        range.is_permanent = range.is_permanent && regimes[i][k] == Regime::permanent;
+      }
+      range.ends = is_free(k);
+      ranges.push_back(range);
+    }
+  }
+  return ranges;
+}
+
 SweepResult sweep(const StudyModels& models, const SweepOptions& wanted,
                   const Monitor<SweepResult>& monitor, SweepResult earlier) {
   SweepOptions options = wanted;

@@ -186,6 +186,17 @@ struct SweepWay {
   std::vector<SweepEntry> entries() const;
 };
 
+/// Values of a way, next to each other, at which a contact touches; both ends belong to them.
+struct TouchRange {
+  std::size_t contact = 0;       ///< its number
+  std::size_t from = 0, to = 0;  ///< as SweepWay counts values
+  bool begins = false;           ///< at the value before it does not touch
+  bool ends = false;             ///< at the value behind it does not touch
+  bool is_permanent = false;     ///< it touches all the time at all of them
+};
+/// Contact after contact, along the way. Motions that failed, or are not computed, end a range.
+std::vector<TouchRange> touch_ranges(const SweepWay& way);
+
 /// Classifies and portrays the motions along the values of one parameter.
 ///
 /// Carried, a motion that is not proven goes on for the measured revolutions before the next value

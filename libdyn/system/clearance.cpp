@@ -57,13 +57,17 @@ struct Gap {
     return arm_of(geometry) * farthest(x, y, offset);
   }
 
-  /// The distance of a rotor at rest.
-  double distance_at_rest(const Vec& full, const DofMap& dofs) const {
-    const Vec2 u = Vec2(relative(full, dofs, at, against, first()),
-                        relative(full, dofs, at, against, first() + 1)) -
-                   offset;
+  /// The distance at one instant, of the motion that closes the clearance.
+  double distance_of(const Vec2& motion) const {
+    const Vec2 u = motion - offset;
     if (const auto n = direction_of(geometry)) return n->dot(u);
     return arm_of(geometry) * u.norm();
+  }
+
+  /// The distance of a rotor at rest.
+  double distance_at_rest(const Vec& full, const DofMap& dofs) const {
+    return distance_of({relative(full, dofs, at, against, first()),
+                        relative(full, dofs, at, against, first() + 1)});
   }
 };
 
@@ -99,6 +103,28 @@ std::vector<RunningClearance> running_clearances(const Model& model, const Assem
   }
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.left() < b.left(); });
+  return all;
+}
+
+std::vector<RunningClearance> largest_distances(const Model& model, const Assembler& assembler,
+                                                const Mat& basis, const Mat& coordinates) {
+  const DofMap& dofs = assembler.dofs();
+  std::vector<RunningClearance> all;
+  for (const Gap& gap : gaps_of(model, assembler)) {
+    Mat rows = Mat::Zero(2, basis.cols());
+    for (const int side : {0, 1}) {
+      for (int axis = 0; axis < 2; ++axis) {
+        const int i = dofs.full_index(side == 0 ? gap.at : gap.against, gap.first() + axis);
+        if (i >= 0) rows.row(axis) += (side == 0 ? 1.0 : -1.0) * basis.row(i);
+      }
+    }
+    const Mat motion = rows * coordinates;
+    double largest = -INFINITY;
+    for (Eigen::Index k = 0; k < motion.cols(); ++k) {
+      largest = std::max(largest, gap.distance_of(motion.col(k)));
+    }
+    all.push_back({gap.name, gap.clearance, largest});
+  }
   return all;
 }
 

@@ -37,7 +37,7 @@ struct ClearanceUse {
   }
 };
 
-/// What is left of one clearance where the rotor rests.
+/// What is left of one clearance where the rotor rests, or in a motion.
 struct RunningClearance {
   std::string name;        ///< "contact ring", "oil film left", "seal eye"
   double clearance = 0.0;  ///< [m]
@@ -59,6 +59,12 @@ struct RunningClearance {
 /// @param displacement  full vector, see DofMap [m, rad]
 std::vector<RunningClearance> running_clearances(const Model& model, const Assembler& assembler,
                                                  const Vec& displacement);
+
+/// The same clearances where a motion takes most of each, in the order of the model.
+/// @param basis, coordinates  displacements of all points (full vectors) are basis * coordinates, a column
+///                            an instant
+std::vector<RunningClearance> largest_distances(const Model& model, const Assembler& assembler,
+                                                const Mat& basis, const Mat& coordinates);
 
 /// The same clearances beside the linear response to unbalance.
 ///

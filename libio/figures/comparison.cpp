@@ -182,6 +182,7 @@ std::optional<Figure> overlay(const std::vector<const Figure*>& figures,
 FigureTable differences(const std::vector<std::string>& texts,
                         const std::vector<std::string>& names) {
   std::vector<std::string> paths;
+  std::set<std::string> known;
   std::vector<std::map<std::string, std::string>> values;
   for (const std::string& text : texts) {
     std::vector<std::pair<std::string, std::string>> all;
@@ -191,7 +192,7 @@ FigureTable differences(const std::vector<std::string>& texts,
       return {};  // a result of a version that wrote models otherwise
     }
     for (const auto& [path, value] : all) {
-      if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
+      if (known.insert(path).second) paths.push_back(path);
     }
     values.emplace_back(all.begin(), all.end());
   }

@@ -53,6 +53,10 @@ StudyMember StudyPoints::first() const {
   }
 }
 
+Model StudyPoints::model_at(std::size_t point) const {
+  return axes_.empty() ? model_ : family_.model(grid_.values_at(point % grid_.points()));
+}
+
 std::string StudyPoints::describe(std::size_t point) const {
   const std::vector<std::size_t> indices = grid_.indices_of(point);
   std::string text;

@@ -30,6 +30,8 @@ class StudyPoints {
   /// The model at the first point.
   /// @throws NumericalError  that names the point, if it cannot be computed with
   StudyMember first() const;
+  /// The model at a point; points beyond the last one begin again, as those of a sweep's way back.
+  Model model_at(std::size_t point) const;
   /// "operation.speed = 136 rad/s, contact.ring.friction = 0.1" of a point.
   std::string describe(std::size_t point) const;
 

@@ -1,5 +1,7 @@
 #include "libio/text/lateral_values.hpp"
 
+#include <fmt/format.h>
+
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl::inline io {
@@ -44,6 +46,24 @@ Parsed<std::vector<Stage>> parse_stages(std::string_view text) {
     stages.push_back({*power, *diameter, *width, *ratio});
   }
   return stages;
+}
+
+std::vector<std::string> bare_value_notes(const std::string& coupling,
+                                          const std::string& gas_density) {
+  constexpr double foot = 0.3048, inch = foot / 12.0, pound = 0.45359237;
+  constexpr double pound_force = 9.80665 * pound;
+  std::vector<std::string> notes;
+  const auto read = [&](const char* option, const std::string& text, const char* si,
+                        const char* other, double factor) {
+    const auto quantity = parse_quantity(text);
+    if (!quantity || !quantity->unit.empty()) return;
+    notes.push_back(
+        fmt::format("--{0} {1} has no unit and means {2:g} {3} = {4:.4g} {5}; for {5} write {1}{5}",
+                    option, text, quantity->value, si, quantity->value / factor, other));
+  };
+  read("cross-coupling", coupling, "N/m", "lbf/in", pound_force / inch);
+  read("gas-density", gas_density, "kg/m^3", "lb/ft^3", pound / (foot * foot * foot));
+  return notes;
 }
 
 }  // namespace whirl::inline io

@@ -1,6 +1,7 @@
 #pragma once
 /// What a machine is run at and what its impellers do, as options of a lateral analysis give it.
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,5 +23,10 @@ Parsed<double> parse_gas_density(std::string_view text);
 /// Impellers, with commas between: power, diameter, least width and density ratio of each,
 /// "1200kW:450mm:18mm:1.3".
 Parsed<std::vector<Stage>> parse_stages(std::string_view text);
+
+/// What --cross-coupling and --gas-density mean that are bare numbers, beside the unit of other countries
+/// that they may be meant in; empty texts: not given.
+std::vector<std::string> bare_value_notes(const std::string& coupling,
+                                          const std::string& gas_density);
 
 }  // namespace whirl::inline io

@@ -21,9 +21,10 @@ std::string regimes_text(const Attractor& a) {
 
 std::string text_of(const BasinShares& shares) {
   std::vector<Attractor> rows = shares.attractors;
-  if (shares.unsettled > 0.0) {
+  for (const UnsettledStarts& unsettled : shares.unsettled) {
     Attractor open{{.motion = MotionKind::not_settled}};
-    open.share = shares.unsettled;
+    open.share = unsettled.share;
+    open.regimes = unsettled.regimes;
     open.impacts_per_rev = nan;
     rows.push_back(std::move(open));
   }

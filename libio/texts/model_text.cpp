@@ -8,6 +8,7 @@
 #include "libbase/constants.hpp"
 #include "libbase/names.hpp"
 #include "libfe/exceeded_tables.hpp"
+#include "libio/model/model_doubts.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/terminal.hpp"
@@ -173,9 +174,15 @@ std::vector<std::string> film_notes(const Model& model) {
   return {"linearized about the static equilibrium at each speed: " + films};
 }
 
+std::vector<std::string> speed_notes(const Model& model) {
+  const std::string doubt = speed_doubt(model);
+  return doubt.empty() ? std::vector<std::string>{} : std::vector{doubt};
+}
+
 std::vector<std::string> linear_notes(const Model& model, const std::vector<double>& speeds) {
   std::vector<std::string> notes = film_notes(model);
   for (std::string& note : left_out_notes(model, speeds)) notes.push_back(std::move(note));
+  for (std::string& note : speed_notes(model)) notes.push_back(std::move(note));
   return notes;
 }
 

@@ -28,6 +28,9 @@ std::vector<std::string> left_out_notes(const Model& model, const std::vector<do
 /// Which oil films linear modes have about their equilibrium; none: no note.
 std::vector<std::string> film_notes(const Model& model);
 
+/// That the speed is far outside of the range that the model gives its machine; none: it is not.
+std::vector<std::string> speed_notes(const Model& model);
+
 /// The same of a linear analysis, and which oil films it linearizes.
 std::vector<std::string> linear_notes(const Model& model, const std::vector<double>& speeds);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
+#include "libbase/names.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -62,6 +63,28 @@ std::string exponent_text(const Stretch& s) {
   return s.motion ? fmt::format("{:+.4f}", s.largest_exponent) : "-";
 }
 
+/// Where contacts begin and end to touch, a line each: "contact ring touches from 131.5 rad/s (not yet at
+/// 131) to 139, all the time".
+std::string touch_text(const SweepWay& way, const ParameterAxis& axis) {
+  constexpr std::size_t most = 12;
+  const std::vector<TouchRange> ranges = touch_ranges(way);
+  const auto value = [&](std::size_t k) { return fmt::format("{:.7g}", axis.shown(way.index(k))); };
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, ranges.size()); ++i) {
+    const TouchRange& r = ranges[i];
+    const std::string contact = named("contact", way.sweep.system.contacts[r.contact]);
+    const bool is_one = r.from == r.to;
+    text += fmt::format("  {} touches {} {}", contact, is_one ? "at" : "from", value(r.from));
+    if (r.begins) text += fmt::format(" (not at {})", value(r.from - 1));
+    if (!is_one) text += " to " + value(r.to);
+    if (r.ends) text += fmt::format(" (no more at {})", value(r.to + 1));
+    text += r.is_permanent ? ", all the time\n" : "\n";
+  }
+  if (ranges.size() > most) text += fmt::format("  and {} ranges more\n", ranges.size() - most);
+  if (ranges.empty() && !way.sweep.system.contacts.empty()) text = "  no contact touches\n";
+  return text.empty() ? "" : "\n" + text;
+}
+
 std::string way_text(const SweepWay& way, const ParameterAxis& axis) {
   std::vector<Stretch> stretches;
   for (std::size_t k = 0; k < way.size(); k = stretches.back().to + 1) {
@@ -77,7 +100,8 @@ std::string way_text(const SweepWay& way, const ParameterAxis& axis) {
                    {"motion", [](const Stretch& s) { return s.kind; }},
                    {"period", period_text},
                    {"impacts per revolution", impacts_text},
-                   {"largest exponent per revolution", exponent_text}});
+                   {"largest exponent per revolution", exponent_text}}) +
+         touch_text(way, axis);
 }
 
 /// Where along a sweep a probe reads most, peak to peak; of one way or both.

@@ -1,10 +1,14 @@
 #include "libverbs/command/reporting.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 #include <optional>
 
+#include "libio/figures/comparison.hpp"
+#include "libio/results/call.hpp"
+#include "libio/results/result_schema.hpp"
 #include "libio/text/progress_line.hpp"
 #include "libverbs/command/version.hpp"
 
@@ -34,9 +38,34 @@ std::function<void(long, long)> progress_of(const Invocation& call, std::string 
   };
 }
 
-void note_tables(const Invocation& call, const Model& model, Report& report) {
+namespace {
+
+/// Says that the motion whose end is the start is of a model with other values, and which.
+std::vector<std::string> notes_on_start(const std::string& file, const Model& model) {
+  constexpr std::size_t most = 3;
+  const auto result = open_result(file);
+  const auto rows = differences({stored_model(*result), model.source}, {"there", "here"}).rows;
+  if (rows.empty()) return {};
+  std::vector<std::string> values;
+  for (const auto& row : rows) {
+    if (values.size() == most) break;
+    values.push_back(fmt::format("{} {} there, {} here", row[0], row[1], row[2]));
+  }
+  return {fmt::format("the start is a motion of a model with {} other value{}: {}{}", rows.size(),
+                      rows.size() == 1 ? "" : "s", fmt::join(values, "; "),
+                      rows.size() > most ? "; ..." : "")};
+}
+
+}  // namespace
+
+void note_model(const Invocation& call, const Model& model, Report& report) {
+  const bool leads = !call.ranks || call.ranks->leads();  // others may not have the file
+  if (const std::string from = call.text("from"); leads && !from.empty()) {
+    report.add_notes(notes_on_start(from, model));
+  }
   report.add_notes(table_notes(model.structure, speeds_over(call.values("over"), model.speed)));
   report.add_notes(frequency_notes(model.structure));
+  report.add_notes(speed_notes(model));
 }
 
 void write_notes(ResultWriter& file, const Report& report) {

@@ -44,7 +44,7 @@ Trajectory after_transient(const Invocation& call, const SettledVerbOptions& opt
 Report orbit_report(const Invocation& call, const Model& model, const std::string& what) {
   Report report = begin_report(call, model);
   report.text = headline(what, model);
-  note_tables(call, model, report);
+  note_model(call, model, report);
   return report;
 }
 

@@ -1,6 +1,7 @@
 #include "libverbs/options/simulation.hpp"
 
 #include "libdyn/studies/travel.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libverbs/command/reporting.hpp"
 
 namespace whirl::inline cli {
@@ -64,7 +65,8 @@ Report motion_report(const Invocation& call, const Model& model, const Run& run,
   report.text = headline(what, model) + "\n" + text_of(run, model, summary, stations);
   report.failure = integration.failure;
   report.status = status_of(integration.outcome);
-  note_tables(call, model, report);
+  note_model(call, model, report);
+  report.add_notes(motion_notes(model, run));
   return report;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "libbase/processors.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libio/texts/study_text.hpp"
 #include "libverbs/command/version.hpp"
 
@@ -57,8 +58,9 @@ StudyKeeping study_keeping(const Invocation& call, const Model& model,
           .stripe = stripe};
 }
 
-Report study_report(const Invocation& call, const Model& model, const StudyOutcome& outcome,
+Report study_report(const Invocation& call, const StudyPoints& points, const StudyOutcome& outcome,
                     const Record& record, const std::string& text) {
+  const Model& model = points.model();
   Report report = begin_report(call, model, record);
   report.record.merge(record_of(outcome));
   report.text = text + text_of(outcome, call.output.out.is_given);
@@ -67,7 +69,10 @@ Report study_report(const Invocation& call, const Model& model, const StudyOutco
                                          : exit_status::done;
   if (report.status == exit_status::failed) report.failure = outcome.failure;
   tell_result(call, report);
-  note_tables(call, model, report);
+  note_model(call, model, report);
+  report.add_notes(touch_notes(
+      outcome.hardest, [&](std::size_t i) { return points.model_at(i); },
+      [&](std::size_t i) { return points.describe(i % points.grid().points()); }));
   return report;
 }
 

@@ -69,7 +69,7 @@ StudyKeeping study_keeping(const Invocation& call, const Model& model,
 
 /// Report on a study under a headline.
 /// @param record, text  what is found at its points
-Report study_report(const Invocation& call, const Model& model, const StudyOutcome& outcome,
+Report study_report(const Invocation& call, const StudyPoints& points, const StudyOutcome& outcome,
                     const Record& record, const std::string& text);
 
 }  // namespace whirl::inline cli

@@ -62,7 +62,7 @@ Report run_basins(const Invocation& call, const BasinsVerbOptions& asked) {
   const Model& model = points.model();
   const std::string title =
       "Coexisting motions" + (model.title.empty() ? "" : ": " + shown_line(model.title));
-  return study_report(call, model, outcome, record,
+  return study_report(call, points, outcome, record,
                       fmt::format("{}; {} starts\n\n{}", title, shares.starts, text_of(shares)));
 }
 

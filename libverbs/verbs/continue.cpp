@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include "libbase/error.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/kept_branches.hpp"
 #include "libio/texts/branches_text.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libverbs/options/orbits.hpp"
 
 namespace whirl::inline cli {
@@ -15,7 +18,8 @@ struct ContinueVerbOptions {
                "hundredth; a second one: bifurcation curves in the plane of both"},
       .at = {"at", "VALUE[,VALUE]",
              "where the first orbit is looked for, between first and last; left out: first"}};
-  Option<int> period{"period", "N", "revolutions after which the first orbit repeats", 1, period_range};
+  Option<int> period{"period", "N", "revolutions after which the first orbit repeats", 1,
+                     period_range};
   Option<OrbitFrame> frame = frame_option();
   OrbitMethodVerbOptions how{};
   Option<int> generations{"switch", "N",
@@ -79,6 +83,13 @@ Report run_continue(const Invocation& call, const ContinueVerbOptions& asked) {
   const BranchResult branches = setup.result(found.tree);
   report.record.merge(record_of(branches)).set("resumed", resumed);
   report.text += text_of(branches);
+  const auto value_at = [&](std::size_t k) { return branches.points[k].value; };
+  report.add_notes(touch_notes(
+      hardest_touches(branches), [&](std::size_t k) { return setup.parameters.model(value_at(k)); },
+      [&](std::size_t k) {
+        const ParameterName& name = branches.parameter;
+        return fmt::format("{} = {:.10g} {}", name.path, value_at(k), name.unit);
+      }));
   if (setup.has_curves()) {
     const CurveResult curves = setup.result(found.curves);
     report.record.merge(record_of(curves));

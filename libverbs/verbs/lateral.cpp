@@ -85,6 +85,7 @@ Report run_lateral(const Invocation& call, const LateralVerbOptions& options) {
          "cross-coupled stiffness; the same stiffness as a [[link]] or [[seal]] of the "
          "model moves the journals, too"});
   }
+  report.add_notes(bare_value_notes(call.text("cross-coupling"), call.text("gas-density")));
   write_file(call, model, report, [&](ResultWriter& file) {
     write_points(file, model, assembler);
     write_result(file, study.report);

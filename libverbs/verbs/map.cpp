@@ -45,7 +45,7 @@ Report run_map(const Invocation& call, const MapVerbOptions& asked) {
   }
   const Model& model = points.model();
   const std::string title = "Map" + (model.title.empty() ? "" : ": " + shown_line(model.title));
-  Report report = study_report(call, model, outcome, record,
+  Report report = study_report(call, points, outcome, record,
                                fmt::format("{}; {} points\n\n{}", title, result.points.size(),
                                            text_of(result, points.axes())));
   report.add_notes(asked.by.notes());

@@ -4,6 +4,7 @@
 #include "libio/results/branch_point.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/orbit_results.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libio/texts/orbit_text.hpp"
 
 namespace whirl::inline cli {
@@ -18,6 +19,13 @@ OrbitOptions orbit_options(const OrbitVerbOptions& asked, const std::optional<Br
           .is_verified = asked.verify};
 }
 
+const Vec& state_of(const FoundOrbit& orbit) {
+  return orbit.state();
+}
+const Vec& state_of(const RotatingOrbit& orbit) {
+  return orbit.state;
+}
+
 /// Report on an orbit, found or not, and its file.
 /// @param asked  for its record
 template <class Orbit>
@@ -29,6 +37,9 @@ Report orbit_found(const Invocation& call, const Model& model, const Scene& scen
   report.record.merge(asked).merge(record_of(orbit));
   report.record.set("reduction", record_of(reduction_facts(scene)));
   report.text += "\n" + reduction_text(scene, model) + text_of(orbit);
+  if (orbit.is_good()) {
+    report.add_notes(motion_notes(model, scene, {.y = state_of(orbit)}, noted_revolutions));
+  }
   write_file(call, model, report, [&](ResultWriter& to) { write_orbit(to, model, scene, orbit); });
   return report;
 }

@@ -8,6 +8,7 @@
 #include "libdyn/motions/start.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/orbit_results.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libio/texts/orbit_text.hpp"
 #include "libverbs/verbs/orbit.hpp"
 
@@ -53,6 +54,12 @@ Report search_orbits(const Invocation& call, const OrbitVerbOptions& asked) {
   report.record.merge(record_of(search));
   report.record.set("reduction", record_of(reduction_facts(scene)));
   report.text += "\n" + text_of(search);
+  HardestTouches hardest;
+  for (std::size_t i = 0; i < search.orbits.size(); ++i)
+    hardest.add(i, search.orbits[i].orbit.contacts);
+  report.add_notes(touch_notes(
+      hardest, [&](std::size_t) { return model; },
+      [](std::size_t i) { return fmt::format("orbit {}", i + 1); }));
   if (search.orbits.empty()) return report;
   write_file(call, model, report,
              [&](ResultWriter& to) { write_orbit(to, model, scene, search.orbits[0]); });

@@ -63,7 +63,7 @@ Report run_sweep(const Invocation& call, const SweepVerbOptions& asked) {
     }
     record.set("up", entries(0)).set("down", asked.fresh ? Record::array() : entries(1));
   }
-  return study_report(call, points.model(), outcome, record,
+  return study_report(call, points, outcome, record,
                       headline("Sweep", points.model()) + text_of(result, axis));
 }
 

@@ -1,5 +1,6 @@
 #include "libio/results/columns.hpp"
 #include "libio/results/kept_branches.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libio/texts/torus_text.hpp"
 #include "libverbs/options/orbits.hpp"
 
@@ -57,6 +58,8 @@ Report run_torus(const Invocation& call, const TorusVerbOptions& asked) {
   report.record.merge(record_of(result));
   if (!torus.walks.empty()) report.record.set("resumed", resumed);
   report.text += "\n" + text_of(result);
+  report.add_notes(motion_notes(setup.at_first, *setup.scene, {.y = torus.circle.points.col(0)},
+                                noted_revolutions));
   if (result.is_good) add_kept(call, "circles", resumed, report);
   return report;
 }

@@ -74,6 +74,69 @@ TEST(ModelDoubts, DegreesWithoutTheirUnitAreRadians) {
             0u);
 }
 
+std::string material(const std::string& density, const std::string& modulus) {
+  return "format = 1\n[material.steel]\ndensity = " + density + "\nyoungs_modulus = " + modulus +
+         "\npoisson_ratio = 0.3\n[[shaft]]\nmaterial = \"steel\"\nlength = 1\nouter_diameter = "
+         "0.1\n";
+}
+
+// Numbers that are another thing in the unit that was meant: those of machines are far from them in SI.
+TEST(ValueDoubts, NumbersWithoutTheirUnitAreSi) {
+  EXPECT_EQ(doubts(material("7850", "2.1e11")), "");
+  EXPECT_EQ(doubts(material("0", "2.1e11") + "[[disk]]\nat = 0\nmass = 1\n"), "");  // massless
+  EXPECT_EQ(doubts(material("0.283", "2.1e11")),
+            "m:3:11: material.steel.density: 0.283 without a unit is 0.283 kg/m^3: steel has 7850 "
+            "kg/m^3; did you mean \"0.283 lb/in^3\"?\n");
+  EXPECT_EQ(doubts(material("7.85", "2.1e11")),
+            "m:3:11: material.steel.density: 7.85 without a unit is 7.85 kg/m^3: steel has 7850 "
+            "kg/m^3; did you mean \"7.85 g/cm^3\"?\n");
+  EXPECT_EQ(doubts(material("\"0.283 kg/m^3\"", "2.1e11")), "");  // who writes the unit means it
+  EXPECT_EQ(doubts(material("7850", "210")),
+            "m:4:18: material.steel.youngs_modulus: 210 without a unit is 210 Pa: steel has 2.1e11 "
+            "Pa; did you mean \"210 GPa\"?\n");
+  EXPECT_EQ(doubts(material("7850", "30e6")),
+            "m:4:18: material.steel.youngs_modulus: 3e+07 without a unit is 3e+07 Pa: steel has "
+            "2.1e11 Pa; did you mean \"3e+07 psi\"?\n");
+  const auto contact = [](const std::string& clearance, const std::string& friction) {
+    return doubts(rotor("1", "0.1",
+                        "[[contact]]\nat = 0\nclearance = " + clearance +
+                            "\nstiffness = 1e6\nfriction = " + friction + "\n"));
+  };
+  EXPECT_EQ(contact("1e-4", "0.3"), "");
+  EXPECT_EQ(contact("1e-4", "15"),
+            "m:20:12: contact.1.friction: 15: dry steel has some 0.3, and 15 % are 0.15\n");
+  EXPECT_EQ(
+      contact("0.1", "0.3"),
+      "m:18:13: contact.1.clearance: 0.1 without a unit is 0.1 m: those of machines are below "
+      "20 mm; did you mean \"0.1 mm\" or \"0.1 mil\"?\n");
+  EXPECT_EQ(
+      doubts(rotor("1", "0.1", "[[unbalance]]\nat = 0\nmoment = 72\n")),
+      "m:18:10: unbalance.1.moment: 72 without a unit is 72 kg.m: a blade lost at 1 m makes some "
+      "5 kg.m; did you mean \"72 g.mm\" or \"72 g.cm\" or \"72 oz.in\"?\n");
+  EXPECT_EQ(
+      doubts(rotor("1", "0.1", "[operation]\nspeed = 7200\n")),
+      "m:17:9: operation.speed: 7200 without a unit is 7200 rad/s = 68 755 rpm: 10 000 rpm are "
+      "1047 rad/s; did you mean \"7200 rpm\"?\n");
+}
+
+// The range of a machine says which speeds it has, with a unit or without.
+TEST(ValueDoubts, SpeedsFarOutsideOfTheMachinesOwnRange) {
+  const auto at = [](const std::string& speed) {
+    return doubts(rotor("1", "0.1",
+                        "[operation]\nspeed = " + speed +
+                            "\nminimum_speed = \"6000 rpm\"\nmaximum_speed = \"7560 rpm\"\n"));
+  };
+  EXPECT_EQ(at("\"7200 rpm\""), "");
+  EXPECT_EQ(at("\"9000 rpm\""), "");  // tried beyond it
+  EXPECT_EQ(at("\"72000 rpm\""),
+            "m:17:9: operation.speed: the speed is 72 000 rpm, 9.52 times the largest of "
+            "[operation], 7560 rpm; speeds without a unit are rad/s\n");
+  EXPECT_EQ(at("\"120 rpm\""),
+            "m:17:9: operation.speed: the speed is 120 rpm, 0.02 times the least of [operation], "
+            "6000 rpm\n");
+  EXPECT_NE(at("7200").find("did you mean \"7200 rpm\""), std::string::npos);
+}
+
 // A layer that begins below the surface of the shaft has its metal twice.
 TEST(ModelDoubts, LayersInTheShaftOrInOneAnotherCountTwice) {
   const auto layer = [](const char* name, const char* from, const char* to, const char* outer,

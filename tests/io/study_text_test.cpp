@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "libio/texts/basins_text.hpp"
+#include "libio/texts/sweep_text.hpp"
 
 namespace whirl::study_text_test {
 
@@ -39,22 +40,54 @@ TEST(BasinsText, SharesAddUpToAllStarts) {
   settled.motion.period = 2;
   settled.motion.exponents = {-0.5};
   open.motion.kind = MotionKind::not_settled;
+  open.motion.contacts = {{.regime = Regime::intermittent, .duty = 0.4}};
   result.points.resize(4);
   for (const std::size_t i : {0ul, 1ul, 3ul}) result.points.set(i, settled);
   result.points.set(2, open);
   result.basins = {{.first = 0, .count = 3}};
+  result.attractor = {0, 0, unsettled_start, 0};
   const BasinShares shares = basin_shares(result);
   EXPECT_DOUBLE_EQ(shares.attractors.at(0).share, 0.75);
-  EXPECT_DOUBLE_EQ(shares.unsettled, 0.25);
+  ASSERT_EQ(shares.unsettled.size(), 1u);
+  EXPECT_DOUBLE_EQ(shares.unsettled[0].share, 0.25);
+  EXPECT_EQ(shares.unsettled[0].regimes, std::vector{Regime::intermittent});
   EXPECT_EQ(text_of(shares),
-            "  motion       share of starts  period  contacts  impacts per revolution  largest "
+            "  motion       share of starts  period  contacts      impacts per revolution  largest "
             "exponent per revolution  first start\n"
-            "  ───────────  ───────────────  ──────  ────────  ──────────────────────  "
+            "  ───────────  ───────────────  ──────  ────────────  ──────────────────────  "
             "───────────────────────────────  ───────────\n"
-            "  periodic             75.00 %       2         -                       0              "
-            "            -0.5000            1\n"
-            "  not settled          25.00 %       -         -                       -              "
-            "                  -            -\n");
+            "  periodic             75.00 %       2  -                                  0          "
+            "                -0.5000            1\n"
+            "  not settled          25.00 %       -  intermittent                       -          "
+            "                      -            -\n");
+}
+
+// A contact that is apart, touches now and then at two values, always at the third, and is apart again.
+TEST(SweepText, SaysWhereContactsBeginAndEnd) {
+  const std::vector<double> values{1.0, 2.0, 3.0, 4.0, 5.0};
+  SweepResult result{.system = {.contacts = {"ring"}}, .start = SweepStart::fresh};
+  result.points.resize(values.size());
+  const std::vector<Regime> regimes{Regime::none, Regime::intermittent, Regime::permanent,
+                                    Regime::permanent, Regime::none};
+  for (std::size_t i = 0; i < regimes.size(); ++i) {
+    SweepPoint point;
+    point.motion.kind = MotionKind::periodic;
+    point.motion.period = 1;
+    point.motion.exponents = {-0.5};
+    point.motion.contacts = {{.regime = regimes[i]}};
+    result.points.set(i, point);
+  }
+  const std::vector<TouchRange> ranges = touch_ranges({result, values});
+  ASSERT_EQ(ranges.size(), 1u);
+  EXPECT_EQ(ranges[0].from, 1u);
+  EXPECT_EQ(ranges[0].to, 3u);
+  EXPECT_TRUE(ranges[0].begins && ranges[0].ends);
+  EXPECT_FALSE(ranges[0].is_permanent);
+  const ParameterAxis axis{.path = "operation.speed", .unit = "rad/s", .values = values};
+  EXPECT_NE(
+      text_of(result, axis).find("  contact ring touches from 2 (not at 1) to 4 (no more at 5)\n"),
+      std::string::npos)
+      << text_of(result, axis);
 }
 
 }  // namespace whirl::study_text_test

@@ -1,0 +1,34 @@
+#pragma once
+/// Notes on motions that no machine makes: what its model leaves out would stop it before.
+///
+/// Told are: a rotor that lies deeper in a contact than the clearance is wide, one that passes the
+/// clearance of a bearing or seal, friction that would take the energy of the spin within a hundred
+/// revolutions or takes megawatts, and displacements that are no longer small beside the shaft.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "libdyn/motions/run_result.hpp"
+#include "libdyn/system/hardest_touch.hpp"
+
+namespace whirl::inline io {
+
+/// Of a recorded motion.
+std::vector<std::string> motion_notes(const Model& model, const Run& run);
+
+/// Revolutions of a motion that notes are taken from where it is not recorded.
+inline constexpr long noted_revolutions = 32;
+/// Of the motion that goes on from a state, over so many revolutions. States of the contacts that are left
+/// out are those of a motion of whose past nothing is known.
+std::vector<std::string> motion_notes(const Model& model, const Scene& scene, MotionState start,
+                                      long revolutions);
+
+/// Of many motions of which the forces at the contacts alone are known: depths are those of the law.
+/// @param model_of  the model of a motion
+/// @param place_of  where a motion is among them, such as "operation.speed = 32 rad/s"; may be empty
+std::vector<std::string> touch_notes(const HardestTouches& hardest,
+                                     const std::function<Model(std::size_t)>& model_of,
+                                     const std::function<std::string(std::size_t)>& place_of);
+
+}  // namespace whirl::inline io
