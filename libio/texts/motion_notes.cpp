@@ -54,17 +54,18 @@ void note_friction(Notes& notes, const std::string& place, const Model& model,
             : ""));
 }
 
-/// The largest distance of any point from where it is without motion [m].
-double farthest(const Scene& scene, const Mat& coordinates) {
+/// The largest distance of any point from where it is without motion, if it is above a limit [m]; else
+/// something below that.
+double farthest_beyond(double limit, const Scene& scene, const Mat& coordinates) {
   const Mat map = scene.displacement_map();
   const DofMap& dofs = scene.reduced.dofs;
+  const Vec most = coordinates.cwiseAbs().rowwise().maxCoeff();
   double largest = 0.0;
   for (const Point& point : dofs.points()) {
-    const Mat xy = (Mat(2, map.cols()) << map.row(dofs.full_index(point, X)),
-                    map.row(dofs.full_index(point, Y)))
-                       .finished() *
-                   coordinates;
-    largest = std::max(largest, xy.colwise().norm().maxCoeff());
+    Mat rows(2, map.cols());
+    rows << map.row(dofs.full_index(point, X)), map.row(dofs.full_index(point, Y));
+    if ((rows.cwiseAbs() * most).norm() <= limit) continue;  // it cannot get there
+    largest = std::max(largest, (rows * coordinates).colwise().norm().maxCoeff());
   }
   return largest;
 }
@@ -90,8 +91,9 @@ Notes notes_of(const Model& model, const Scene& scene, const Recording& recordin
     note_friction(notes, "", model, model.contacts[i], touches.contacts()[i].rubbing);
   }
   const double length = model.structure.length();
-  const double far = farthest(scene, recording.eta);
-  if (!(far <= (length > 0.0 ? long_way * length : far_away * scene.contacts.length_scale()))) {
+  const double limit = length > 0.0 ? long_way * length : far_away * scene.contacts.length_scale();
+  const double far = farthest_beyond(limit, scene, recording.eta);
+  if (!(far <= limit)) {
     notes.push_back(fmt::format(
         "the rotor moves {:.3g} m aside{}: the equations hold for displacements that are small "
         "beside the shaft",

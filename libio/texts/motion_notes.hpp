@@ -18,7 +18,7 @@ namespace whirl::inline io {
 std::vector<std::string> motion_notes(const Model& model, const Run& run);
 
 /// Revolutions of a motion that notes are taken from where it is not recorded.
-inline constexpr long noted_revolutions = 32;
+inline constexpr long noted_revolutions = 8;
 /// Of the motion that goes on from a state, over so many revolutions. States of the contacts that are left
 /// out are those of a motion of whose past nothing is known.
 std::vector<std::string> motion_notes(const Model& model, const Scene& scene, MotionState start,

@@ -9,6 +9,9 @@ import sys
 import tempfile
 
 build, root = sys.argv[1:]
+# its count is the same to a thousandth
+COMMAND = ("whirl continue models/jeffcott_stator.toml --over operation.speed=134:137:0.5rad/s --at '136 rad/s' "
+           "--isa baseline --threads 1")
 
 
 def guard(table, *words):
@@ -21,19 +24,19 @@ def guard(table, *words):
 
 with tempfile.TemporaryDirectory() as folder:
     table = pathlib.Path(folder) / "table.tsv"
-    table.write_text("# a comment\nversion\t1.0\twhirl --version\n")
+    table.write_text("# a comment\nbranch\t1.0\t" + COMMAND + "\n")
     grown = guard(table)
-    assert grown.returncode == 1 and "failed: version" in grown.stderr, grown
+    assert grown.returncode == 1 and "failed: branch" in grown.stderr, grown
 
     accepted = guard(table, "--accept")
-    assert accepted.returncode == 0 and table.read_text().startswith("# a comment\nversion\t"), accepted
+    assert accepted.returncode == 0 and table.read_text().startswith("# a comment\nbranch\t"), accepted
     counted = float(table.read_text().splitlines()[1].split("\t")[1])
     assert counted > 1.0
     assert guard(table).returncode == 0
 
-    table.write_text(f"version\t{counted / 1.04:.1f}\twhirl --version\n")
+    table.write_text(f"branch\t{counted / 1.04:.1f}\t{COMMAND}\n")
     assert guard(table).returncode == 1
-    table.write_text(f"version\t{counted / 1.02:.1f}\twhirl --version\n")
+    table.write_text(f"branch\t{counted / 1.02:.1f}\t{COMMAND}\n")
     assert guard(table).returncode == 0
 
     table.write_text("wrong\t1.0\twhirl nothing-of-this-name\n")
