@@ -9,6 +9,7 @@
 
 #include "libbase/error.hpp"
 #include "libio/figures/probes.hpp"
+#include "libio/results/call.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/option_values.hpp"
 #include "libio/text/table.hpp"
@@ -120,7 +121,7 @@ std::string text_of(const DrawableKinds& all, const std::string& file) {
   }
   std::string text = fmt::format("{} can be drawn as\n\n{}", file, table.text());
   for (const std::string& problem : all.problems) text += fmt::format("  {}\n", problem);
-  return text + fmt::format("\n  whirl plot {} KIND --out FILE.svg\n", file);
+  return text + fmt::format("\n  whirl plot {} KIND --out FILE.svg\n", shell_word(file));
 }
 
 Figure chosen_figure(const ResultView& result, const FigureChoice& choice) {

@@ -145,7 +145,8 @@ StudyFile::StudyFile(StudyPlace place, Begin begin, std::function<void(ResultWri
     resume(place_, part, place_.call, "it is no part of this study", take);
     if (rows_in_journal(journal_of(part)).empty()) continue;
     throw FileError(fmt::format(
-        "{0} has rows beside it that are not in it yet: `whirl merge {0}` puts them there", part));
+        "{} has rows beside it that are not in it yet: `whirl merge {}` puts them there", part,
+        shell_word(part)));
   }
 }
 

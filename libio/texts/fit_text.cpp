@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "libbase/constants.hpp"
+#include "libio/results/call.hpp"
 #include "libio/text/format.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
@@ -130,9 +131,9 @@ std::string text_of(const MeasuredFit& found, const std::string& model) {
   }
   text += "\n" + parameter_table(found) + correlation_table(found) + probe_table(found) +
           candidate_table(found);
-  text += fmt::format("\n  to go on: whirl simulate {}", model);
+  text += "\n  to go on: whirl simulate " + shell_word(model);
   for (const FittedParameter& p : found.parameters) {
-    text += fmt::format(" \\\n    --set {}={:.10g}{}", p.path, p.value, p.unit);
+    text += " \\\n    --set " + shell_word(fmt::format("{}={:.10g}{}", p.path, p.value, p.unit));
   }
   return text + "\n";
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "libbase/constants.hpp"
 #include "libio/texts/row_table.hpp"
 
@@ -13,8 +15,11 @@ namespace {
 std::string sizes_text(const ResonancePlace& place) {
   std::string fast, slow;
   for (const ContactOrbits& c : place.contacts) {
-    fast += fmt::format("{}{:.2f}", fast.empty() ? "" : " ", c.fast);
-    slow += fmt::format("{}{:.2f}", slow.empty() ? "" : " ", c.slow);
+    const auto add = [](std::string& all, double size) {
+      all += (all.empty() ? "" : " ") + (std::isfinite(size) ? fmt::format("{:.2f}", size) : "-");
+    };
+    add(fast, c.fast);
+    add(slow, c.slow);
   }
   return fast + " | " + slow;
 }

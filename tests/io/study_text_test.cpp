@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "libio/texts/basins_text.hpp"
+#include "libio/texts/fit_text.hpp"
 #include "libio/texts/sweep_text.hpp"
 
 namespace whirl::study_text_test {
@@ -60,6 +61,21 @@ TEST(BasinsText, SharesAddUpToAllStarts) {
             "                -0.5000            1\n"
             "  not settled          25.00 %       -  intermittent                       -          "
             "                      -            -\n");
+}
+
+// A line that a shell takes, whatever names there are.
+TEST(FitText, GoesOnWithALineForAShell) {
+  MeasuredFit found;
+  FittedParameter p;
+  p.path = "contact.seal 1.friction";
+  p.value = 0.25;
+  p.standard_deviation = 0.01;
+  found.parameters = {p};
+  const std::string text = text_of(found, "my rotor.toml");
+  EXPECT_NE(
+      text.find("whirl simulate 'my rotor.toml' \\\n    --set 'contact.seal 1.friction=0.25'"),
+      std::string::npos)
+      << text;
 }
 
 // A contact that is apart, touches now and then at two values, always at the third, and is apart again.
