@@ -7,7 +7,6 @@ target_compile_options(whirl_options INTERFACE
 target_link_options(whirl_options INTERFACE -fsanitize=address,undefined -fno-sanitize=vptr)
 
 find_package(SUNDIALS 6.4 REQUIRED)
-find_package(Ceres 2.1 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(highway REQUIRED IMPORTED_TARGET GLOBAL libhwy)
