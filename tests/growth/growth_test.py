@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """No input costs much more than its size: readers of texts and linear verbs get inputs of
-size n, 2n and 4n, and the instructions that these take (callgrind: the same in every run, whatever else the machine
-does) grow as n log n does. Each runs within one limit of memory, too.
+size n, 2n and 4n, and the instructions that these take (callgrind: within 0.4 % the same in every run, whatever else
+the machine does) grow as n log n does. Each runs within one limit of memory, too.
 
 usage: growth_test.py WHIRL SOURCE [CASE...]; status 77 without valgrind
 """
@@ -18,6 +18,7 @@ import tempfile
 
 whirl, source, wanted = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), sys.argv[3:]
 MOST = 1.25  # times the growth of n log n: what is there at any size is taken off, rounding of sizes is left
+SCATTER = 0.004  # of a count: threads wait for one another and children are waited for, not always as long
 MEMORY = 1 << 30  # bytes of addresses, of the largest size
 
 HEAD = """format = 1
@@ -83,9 +84,9 @@ MODELS = {
 CASES = {name: (300, "m.toml", text, ["check", "m.toml"]) for name, text in MODELS.items()}
 CASES["disks of one tag"] = (400, "r.json", ross, ["import", "r.json", "--out", "r.toml", "--force"])
 CASES["columns"] = (1000, "c.csv", lambda n: record(n, 20), [*IDENTIFY, "c.csv"])
-CASES["samples"] = (1000, "s.csv", lambda n: record(2, n), [*IDENTIFY, "s.csv"])
-for kind in ("h5", "mat", "wav", "uff"):
-    CASES[f"samples, .{kind}"] = (100, f"r.{kind}", recorded(f"r.{kind}"),
+CASES["samples"] = (4000, "s.csv", lambda n: record(2, n), [*IDENTIFY, "s.csv"])
+for n, kind in ((800, "h5"), (800, "mat"), (800, "wav"), (200, "uff")):
+    CASES[f"samples, .{kind}"] = (n, f"r.{kind}", recorded(f"r.{kind}"),
                                   ["identify", "rotor.toml", "--probes", "probe.toml", "--measured", f"r.{kind}"])
 for verb in (["static"], ["modes"], ["campbell", "--speeds", "0:6000:3000rpm"], ["frf", "--frequencies", "0:100:50Hz"],
              ["unbalance", "--speeds", "0:3000:1000rpm"]):
@@ -116,12 +117,14 @@ def wrong_with(name):
                 made.write(written)
         counts.append(instructions(line))
     within = subprocess.run([whirl, *line], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, preexec_fn=limited)
+    scatter = SCATTER * counts[2]
     grown = (counts[2] - counts[1]) / max(1, counts[1] - counts[0])
+    least = (counts[2] - counts[1] - scatter) / max(1, counts[1] - counts[0] + scatter)  # that the scatter allows
     log = math.log2
     right = (4 * log(4 * n) - 2 * log(2 * n)) / (2 * log(2 * n) - log(n))
     print(f"{name}: {' '.join(f'{c:.4g}' for c in counts)} instructions, growth {grown:.3f}, of n log n {right:.3f}",
           flush=True)
-    if grown > MOST * right:
+    if least > MOST * right:
         return f"{name}: grows by {grown:.3f}, n log n by {right:.3f}"
     if within.returncode not in (0, 2) or b"not enough memory" in within.stderr:
         return f"{name}: status {within.returncode} within {MEMORY >> 20} MB: {within.stderr[-200:]!r}"
