@@ -17,10 +17,11 @@ namespace whirl::inline fe {
 namespace {
 
 constexpr double speed_tol = 1e-12;
-constexpr double damped_tol = 1e-10;  ///< of a speed, |Im lambda - order * Omega|
-constexpr double least_alike = 0.3;   ///< MAC of a mode that goes on from speed to speed
-constexpr double range = 5.0;         ///< damped speeds beyond so many times are not looked for
-constexpr double rounding = 1e-13;    ///< of the largest nu: smaller ones have no finite speed
+constexpr double damped_tol = 1e-10;   ///< of a speed, |Im lambda - order * Omega|
+constexpr double least_alike = 0.3;    ///< MAC of a mode that goes on from speed to speed
+constexpr double surely_alike = 0.95;  ///< likewise, that need not be compared with others
+constexpr double range = 5.0;          ///< damped speeds beyond so many times are not looked for
+constexpr double rounding = 1e-13;     ///< of the largest nu: smaller ones have no finite speed
 
 }  // namespace
 
@@ -79,29 +80,36 @@ class DampedMode {
   /// Im lambda - order * Omega; NaN: no mode is like the one before.
   double gap(double Omega) {
     const Sparse M = finder_.system(Omega).M;
-    const Modes modes = finder_.near(Omega, options_.order * Omega, options_.count + 6);
-    double best = least_alike;
-    double result = nan;
-    CVec best_shape = shape_;
-    for (const Mode& mode : modes.oscillatory) {
-      const double agreement = mac(mode.shape, shape_, M);
-      if (agreement <= best) continue;
-      best = agreement;
-      best_shape = mode.shape;
-      damping_ratio_ = mode.damping_ratio();
-      result = mode.frequency() - options_.order * Omega;
-    }
-    shape_ = best_shape;
-    return result;
+    std::optional<Mode> found;
+    if (mode_) found = finder_.followed(*mode_, Omega, options_.order * Omega);
+    if (!found || mac(found->shape, shape_, M) < surely_alike) found = most_alike(Omega, M);
+    if (!found) return nan;
+    mode_ = std::move(found);
+    shape_ = mode_->shape;
+    return mode_->frequency() - options_.order * Omega;
   }
 
   /// Of the mode that was found last.
-  double damping_ratio() const { return damping_ratio_; }
+  double damping_ratio() const { return mode_ ? mode_->damping_ratio() : nan; }
 
  private:
+  /// Of all modes near the line of the excitation; nothing: none is like the one before.
+  std::optional<Mode> most_alike(double Omega, const Sparse& M) const {
+    double best = least_alike;
+    std::optional<Mode> result;
+    Modes modes = finder_.near(Omega, options_.order * Omega, options_.count + 6);
+    for (Mode& mode : modes.oscillatory) {
+      const double agreement = mac(mode.shape, shape_, M);
+      if (agreement <= best) continue;
+      best = agreement;
+      result = std::move(mode);
+    }
+    return result;
+  }
+
   const ModeFinder& finder_;
-  CVec shape_;
-  double damping_ratio_ = nan;
+  CVec shape_;                ///< of the mode so far
+  std::optional<Mode> mode_;  ///< nothing: only its undamped shape is known
   const CriticalOptions& options_;
 };
 

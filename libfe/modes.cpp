@@ -12,6 +12,7 @@
 #include "libfe/eigen/disc.hpp"
 #include "libfe/eigen/energy_bounds.hpp"
 #include "libfe/eigen/lowest_frequencies.hpp"
+#include "libfe/eigen/newton.hpp"
 #include "libfe/eigen/quadratic.hpp"
 #include "libfe/eigen/refine.hpp"
 #include "libfe/eigen/symmetric.hpp"
@@ -33,6 +34,7 @@ constexpr double off_axis = 0.05;        ///< Re over Im of a center for modes n
 constexpr double rough = 1e-3;           ///< relative error of an eigenvalue that can be refined
 constexpr double fine = 1e-5;            ///< the same among others that are as near
 constexpr double apart_from_next = 0.1;  ///< of the distance to the next one: it stays the same
+constexpr double settled_step = 1e-13;   ///< of an eigenvalue, relative
 constexpr double same_frequency = 1e-9;  ///< relative distance of equal eigenvalues
 
 /// What the modes of a free system are compared with.
@@ -390,6 +392,15 @@ Modes ModeFinder::at(double Omega, int count) const {
   const FreeBody& body = state_->known.body;
   return sorted(dense_quadratic_modes(at_speed.M, at_speed.D(), at_speed.K, shift_for(body)),
                 at_speed, body, count);
+}
+
+std::optional<Mode> ModeFinder::followed(const Mode& mode, double Omega, double frequency) const {
+  const System beside =
+      state_->assembler.depends_on_whirl() ? state_->assembler.at(Omega, frequency) : system(Omega);
+  EigenPair pair{mode.lambda, mode.shape};
+  if (!PairNewton(beside.M, beside.D(), beside.K).converge(pair, settled_step)) return {};
+  if (!oscillates(pair.lambda)) return {};
+  return mode_of(pair.lambda, pair.q, beside.dofs);
 }
 
 Modes ModeFinder::near(double Omega, double frequency, int count) const {

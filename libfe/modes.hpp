@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "libbase/column.hpp"
@@ -142,6 +143,9 @@ class ModeFinder {
   /// Modes around i * frequency [rad/s]: all of a small system's lowest `count`, or about so many
   /// that are nearest in the complex plane. Coefficients are those of this frequency.
   Modes near(double Omega, double frequency, int count) const;
+  /// The mode that Newton's iteration finds from one of a speed beside this; coefficients as of near(). It may be
+  /// another one, of another shape. Nothing: it does not converge, or not to a mode that oscillates.
+  std::optional<Mode> followed(const Mode& mode, double Omega, double frequency) const;
   System system(double Omega) const;
 
  private:
