@@ -65,12 +65,14 @@ void add_residuals(Fit& fit, const FitSearch& search) {
     const FitRecord& record = shooting.source->record;
     FitResidual left{.record = record.name,
                      .of_probe = Vec(record.readings.rows()),
+                     .start = {},
                      .predicted = Mat(record.readings.rows(), record.readings.cols()),
                      .offset = shooting.offset * shooting.length,
                      .offset_deviation = {}};
     for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
       const ShootingWindow& window = shooting.windows[w];
       const Vec start = shooting.starts[w].cwiseProduct(shooting.scale);
+      if (w == 0) left.start = window.state(shooting.system->system, start);
       const Mat read = window.predict(*shooting.system, start);
       left.predicted.middleCols(window.first_sample(), read.cols()) = read.colwise() + left.offset;
     }

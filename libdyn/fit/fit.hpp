@@ -14,6 +14,8 @@ struct FitOptions {
   double window = 0.0;         ///< of multiple shooting [s]; 0: a revolution
   int most_iterations = 300;   ///< once motions are to be one
   bool is_noise_known = true;  ///< else its size is taken from what is left
+  /// Asked before every window of a record; true: the fit ends as it is, without the errors of what it found.
+  /// May be empty.
   std::function<bool()> is_stopped{};
   std::function<void(long done, long total)> progress{};
 };
@@ -49,6 +51,7 @@ struct FittedParameter {
 struct FitResidual {
   std::string record;
   Vec of_probe;          ///< root mean square of reading less measurement, per probe [m]
+  MotionState start;     ///< of the motion that was found, at the first time
   Mat predicted;         ///< probes x times, offsets included [m]
   Vec offset;            ///< that was found, per probe; zero where it was known [m]
   Vec offset_deviation;  ///< its standard deviation, likewise [m]

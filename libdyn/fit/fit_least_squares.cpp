@@ -123,6 +123,7 @@ bool FitLeastSquares::residuals(Vec& r, std::vector<Triplet>* entries) {
   for (std::size_t s = 0; s < columns.size(); ++s) {
     const RecordShooting& shooting = search_.shootings[s];
     for (std::size_t w = 0; w < shooting.windows.size(); ++w) {
+      if (search_.options.is_stopped && search_.options.is_stopped()) return false;
       if (!WindowResiduals{search_, shooting, columns[s], w}.add(r, row, entries)) return false;
       row += shooting.windows[w].residuals();
     }
@@ -161,10 +162,11 @@ DoglegResult FitLeastSquares::solve(double between, int most_iterations, double 
                                  },
                              .lower = bounds(&FreeParameter::lower, -HUGE_VAL).tail(moved),
                              .upper = bounds(&FreeParameter::upper, HUGE_VAL).tail(moved)};
-  const DoglegResult found = dogleg(problem, start.tail(moved),
-                                    {.most_iterations = most_iterations,
-                                     .cost_tolerance = tolerance,
-                                     .is_stopped = search_.options.is_stopped});
+  const auto& is_stopped = search_.options.is_stopped;
+  DoglegResult found = dogleg(
+      problem, start.tail(moved),
+      {.most_iterations = most_iterations, .cost_tolerance = tolerance, .is_stopped = is_stopped});
+  if (is_stopped && is_stopped()) found.end = DoglegEnd::stopped;  // within an evaluation, maybe
   go_to(all_of(found.x));
   iterations_ += found.iterations;
   return found;

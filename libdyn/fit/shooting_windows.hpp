@@ -57,13 +57,13 @@ class ShootingWindow {
   Mat predict(const FitSystem& system, const Vec& start) const;
 
   Eigen::Index first_sample() const { return first_; }
+  /// Where the motion from a state begins, the rotor at its angle there.
+  MotionState state(const ContactSystem& system, const Vec& start) const;
 
  private:
   struct Reading {
     Eigen::Index probe, sample;  ///< sample within the window
   };
-  MotionState state(const ContactSystem& system, const Vec& start) const;
-
   const FitSource* source_;
   Eigen::Index first_, samples_;
   bool has_next_;

@@ -98,16 +98,35 @@ std::vector<FitMeasurement> fit_measurements(const Model& model, const FreeParam
   return all;
 }
 
+/// As their records begin, in the shapes of the fit.
+std::vector<FittedMotion> motions_of(const MeasuredFit& found,
+                                     const std::vector<FitMeasurement>& measurements) {
+  Vec values(std::ssize(found.parameters));
+  for (Eigen::Index p = 0; p < values.size(); ++p) {
+    values(p) = found.parameters[static_cast<std::size_t>(p)].value;
+  }
+  std::vector<FittedMotion> motions;
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const FitMeasurement& m = measurements[i];
+    Model model = m.model_at(values);
+    Scene scene = *m.scene;
+    scene.contacts = in_shapes_of(*m.scene, model);
+    motions.push_back({m.name, std::move(model), std::move(scene), found.records[i].start});
+  }
+  return motions;
+}
+
 }  // namespace
 
-MeasuredFit fit_model(const Model& model, const FreeParameters& free,
-                      const std::vector<SourcedRecord>& records, const FitWindow& window,
-                      const MeasuredFitOptions& options) {
+ModelFit fit_model(const Model& model, const FreeParameters& free,
+                   const std::vector<SourcedRecord>& records, const FitWindow& window,
+                   const MeasuredFitOptions& options) {
   std::vector<std::string> notes;
-  MeasuredFit found =
-      fit(fit_measurements(model, free, records, window, notes), free.parameters, options);
+  const auto measurements = fit_measurements(model, free, records, window, notes);
+  MeasuredFit found = fit(measurements, free.parameters, options);
   found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
-  return found;
+  std::vector<FittedMotion> motions = motions_of(found, measurements);
+  return {std::move(found), std::move(motions)};
 }
 
 }  // namespace whirl::inline io

@@ -15,12 +15,25 @@ struct FitWindow {
   double revolutions = 20.0;  ///< at most; 0: all that there are
 };
 
+/// A motion that was found.
+struct FittedMotion {
+  std::string record;  ///< name of the file of its record
+  Model model;         ///< with the values that were found
+  Scene scene;         ///< of it
+  MotionState start;   ///< at the first time that counts
+};
+
+struct ModelFit {
+  MeasuredFit found;
+  std::vector<FittedMotion> motions;  ///< a record each
+};
+
 /// Finds the free values of a model in records.
 ///
-/// @return  with notes on the records before its own
+/// @return  with notes on the records before those of the fit
 /// @throws ModelError, FileError  for what is wrong with the records, their probes or values of the model
-MeasuredFit fit_model(const Model& model, const FreeParameters& free,
-                      const std::vector<SourcedRecord>& records, const FitWindow& window,
-                      const MeasuredFitOptions& options);
+ModelFit fit_model(const Model& model, const FreeParameters& free,
+                   const std::vector<SourcedRecord>& records, const FitWindow& window,
+                   const MeasuredFitOptions& options);
 
 }  // namespace whirl::inline io

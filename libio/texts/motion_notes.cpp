@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "libbase/constants.hpp"
 #include "libbase/names.hpp"
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/system/clearance.hpp"
@@ -121,6 +122,33 @@ Notes motion_notes(const Model& model, const Scene& scene, MotionState start, lo
       {.revolutions = revolutions, .discard = 0, .method = suitable_method(scene.contacts)});
   if (motion.recording.revolutions == 0) return {};
   return notes_of(model, scene, motion.recording);
+}
+
+Notes motion_notes(const std::vector<FittedMotion>& found) {
+  Notes all;
+  for (const FittedMotion& motion : found) {
+    for (const std::string& note :
+         motion_notes(motion.model, motion.scene, motion.start, noted_revolutions)) {
+      all.push_back(found.size() > 1 ? motion.record + ": " + note : note);
+    }
+  }
+  return all;
+}
+
+Notes motion_notes(const Model& model, const ResonanceStudy& study) {
+  Notes all;
+  for (const ResonancePlace& place : study.places) {
+    if (!place.bouncing) continue;
+    const Bouncing& bouncing = *place.bouncing;
+    Model there = model;
+    there.speed = bouncing.speed;
+    const auto scene = scene_at_speed(model, bouncing.speed);
+    for (const std::string& note : motion_notes(there, *scene, {.y = bouncing.cycle.state},
+                                                std::lround(std::ceil(bouncing.turns)))) {
+      all.push_back(fmt::format("bouncing at {:.6g} rpm: {}", bouncing.speed / rpm, note));
+    }
+  }
+  return all;
 }
 
 Notes touch_notes(const HardestTouches& hardest, const std::function<Model(std::size_t)>& model_of,

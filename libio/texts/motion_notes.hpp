@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "libdyn/motions/run_result.hpp"
+#include "libdyn/studies/resonance_study.hpp"
 #include "libdyn/system/hardest_touch.hpp"
+#include "libio/measured/model_fit.hpp"
 
 namespace whirl::inline io {
 
@@ -23,6 +25,12 @@ inline constexpr long noted_revolutions = 8;
 /// out are those of a motion of whose past nothing is known.
 std::vector<std::string> motion_notes(const Model& model, const Scene& scene, MotionState start,
                                       long revolutions);
+
+/// Of the motions that a fit found, over so many revolutions; of several records each names its own.
+std::vector<std::string> motion_notes(const std::vector<FittedMotion>& found);
+
+/// Of the bouncing motions that were found, each over its period.
+std::vector<std::string> motion_notes(const Model& model, const ResonanceStudy& study);
 
 /// Of many motions of which the forces at the contacts alone are known: depths are those of the law.
 /// @param model_of  the model of a motion

@@ -6,6 +6,7 @@
 #include "libio/results/columns.hpp"
 #include "libio/text/parameter_axis.hpp"
 #include "libio/texts/fit_text.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
 #include "libverbs/options/common.hpp"
@@ -79,7 +80,9 @@ Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
   std::vector<std::string> names;
   std::vector<MeasuredFit> fits;
   for (std::size_t i = 0; i < models.size(); ++i) {
-    fits.push_back(fit_model(models[i], free[i], records, window, fit_options(call, asked)));
+    ModelFit fit = fit_model(models[i], free[i], records, window, fit_options(call, asked));
+    for (std::string& note : motion_notes(fit.motions)) fit.found.notes.push_back(std::move(note));
+    fits.push_back(std::move(fit.found));
     names.push_back(models[i].path);
   }
   MeasuredFit& found = fits.front();

@@ -3,6 +3,7 @@
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"
+#include "libio/texts/motion_notes.hpp"
 #include "libio/texts/resonance_text.hpp"
 #include "libverbs/command/reporting.hpp"
 #include "libverbs/command/verb.hpp"
@@ -54,6 +55,7 @@ Report run_resonances(const Invocation& call, const ResonancesVerbOptions& asked
   if (options.confirms) {
     report.add_notes(film_notes(model));
     report.add_notes(table_notes(model.structure, options.speeds));
+    report.add_notes(motion_notes(model, study));
   } else {
     report.add_notes(linear_notes(model, options.speeds));
   }

@@ -58,6 +58,21 @@ TEST_F(MotionNotes, TellDepthsInEveryVerb) {
   }
 }
 
+// A record of the whip, in which the stiffness of its stator is looked for.
+TEST_F(MotionNotes, TellDepthsOfWhatAFitFinds) {
+  write("probes.toml",
+        "[[probe]]\nname = \"x\"\nbody = \"disk\"\nangle = \"0 deg\"\n"
+        "[[probe]]\nname = \"y\"\nbody = \"disk\"\nangle = \"90 deg\"\n");
+  ASSERT_EQ(whirl({"simulate", "whip.toml", "--revolutions", "6", "--discard", "50", "--measure",
+                   "probes.toml", "--measured-out", "whip.csv", "--quiet"})
+                .status,
+            0);
+  const test::json found = whirl({"fit", "whip.toml", "--probes", "probes.toml", "--measured",
+                                  "whip.csv", "--free", "contact.stator.stiffness", "--json", "-"})
+                               .tree();
+  EXPECT_TRUE(test::has(found["notes"].dump(), "deep in contact stator")) << found["notes"];
+}
+
 // The depth is what the recording says: distance less clearance, over the clearance.
 TEST_F(MotionNotes, TellTheNumbersOfTheMotion) {
   const test::json r = result({"simulate", "whip.toml", "--revolutions", "50"});

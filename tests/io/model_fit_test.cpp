@@ -57,7 +57,8 @@ TEST_F(ModelFit, TakesRecordsThatWereReadOnce) {
     EXPECT_TRUE(free.parameters[0].is_lower_general);
     const MeasuredFit found =
         fit_model(model, free, records, {.revolutions = 4.0},
-                  {.noise = ProbeNoise{1e-3, true}, .search = {.most_iterations = 30}});
+                  {.noise = ProbeNoise{1e-3, true}, .search = {.most_iterations = 30}})
+            .found;
     left.push_back(found.residual);
     if (damping == c) {
       EXPECT_NEAR(found.parameters.at(0).value, k, 1e-3 * k);
