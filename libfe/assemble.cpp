@@ -176,6 +176,18 @@ DofMap freedoms_of_points(const Structure& structure, const Mesh& mesh) {
   return dofs;
 }
 
+/// @throws ModelError  for an axial probe at a body that does not tilt
+void check_probes(const Structure& structure) {
+  for (const Probe& probe : structure.probes) {
+    if (!probe.is_axial() || probe.at.kind != Station::Kind::body) continue;
+    for (const Body& body : structure.bodies) {
+      if (body.name != probe.at.body || body.tilts) continue;
+      throw ModelError(probe.at.where, probe.at.key,
+                       "this body does not tilt; give it tilts = true");
+    }
+  }
+}
+
 /// Adds shaft, disks and bodies; internal functions of the shaft get the next numbers.
 void add_rotor(const Structure& structure, const Mesh& mesh, DofMap& dofs, Collector& to) {
   for (const MeshElement& element : mesh.elements) {
@@ -204,6 +216,7 @@ void add_rotor(const Structure& structure, const Mesh& mesh, DofMap& dofs, Colle
 
 Assembler::Assembler(Structure structure)
     : structure_(std::move(structure)), mesh_(make_mesh(structure_)) {
+  check_probes(structure_);
   dofs_ = freedoms_of_points(structure_, mesh_);
   Collector collector;
   add_rotor(structure_, mesh_, dofs_, collector);

@@ -100,7 +100,7 @@ class CurveBuilder {
 
   UnbalanceResponse response() const {
     const auto n = static_cast<Eigen::Index>(samples_.size());
-    UnbalanceResponse response{{}, points_, CMat(count(), n), CMat(count(), n)};
+    UnbalanceResponse response{{}, points_, CMat(count(), n), CMat(count(), n), {}, {}};
     Eigen::Index s = 0;
     for (const auto& [Omega, u] : samples_) {
       response.speeds.push_back(Omega);

@@ -8,6 +8,26 @@
 
 namespace whirl::inline fe {
 
+namespace {
+
+UnbalanceResponse response_at(const std::vector<double>& speeds, const std::vector<Point>& points) {
+  const CMat none = CMat::Zero(std::ssize(points), std::ssize(speeds));
+  return {speeds, points, none, none, none, none};
+}
+
+/// Takes the displacements at the points of a full vector as those at a speed.
+void put(const CVec& full, const DofMap& dofs, Eigen::Index speed, UnbalanceResponse& response) {
+  for (std::size_t p = 0; p < response.points.size(); ++p) {
+    int component = 0;
+    for (CMat* of : {&response.x, &response.y, &response.theta_x, &response.theta_y}) {
+      const int k = dofs.full_index(response.points[p], component++);
+      if (k >= 0) (*of)(static_cast<Eigen::Index>(p), speed) = full(k);
+    }
+  }
+}
+
+}  // namespace
+
 struct UnbalanceSolver::State {
   const Assembler& assembler;
   CVec force;   ///< of unbalance over Omega^2, in the coordinates of the system
@@ -63,9 +83,8 @@ std::optional<CVec> UnbalanceSolver::at(double Omega, const std::vector<Point>& 
 UnbalanceResponse oscillating_response(const Assembler& assembler, const OscillatingLoad& load,
                                        const std::vector<double>& speeds,
                                        const std::vector<Point>& points) {
-  const auto np = static_cast<Eigen::Index>(points.size());
   const auto ns = static_cast<Eigen::Index>(speeds.size());
-  UnbalanceResponse response{speeds, points, CMat(np, ns), CMat(np, ns)};
+  UnbalanceResponse response = response_at(speeds, points);
   const DofMap& dofs = assembler.dofs();
   const CVec force = dofs.T.transpose() * load.amplitude;
   const bool changes = assembler.depends_on_speed() || assembler.depends_on_whirl();
@@ -78,31 +97,25 @@ UnbalanceResponse oscillating_response(const Assembler& assembler, const Oscilla
     }
     const auto q = stiffness->solve(w, Omega, force);
     const CVec full = q ? CVec(dofs.T * *q) : CVec::Constant(dofs.full_size, Complex(nan, nan));
-    for (Eigen::Index p = 0; p < np; ++p) {
-      const Point& point = points[static_cast<std::size_t>(p)];
-      response.x(p, s) = full(dofs.full_index(point, X));
-      response.y(p, s) = full(dofs.full_index(point, Y));
-    }
+    put(full, dofs, s, response);
   }
   return response;
 }
 
 UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vector<double>& speeds,
                                      const std::vector<Point>& points) {
-  const auto np = static_cast<Eigen::Index>(points.size());
   const auto ns = static_cast<Eigen::Index>(speeds.size());
-  UnbalanceResponse response{speeds, points, CMat(np, ns), CMat(np, ns)};
+  UnbalanceResponse response = response_at(speeds, points);
   UnbalanceSolver solver(assembler);
   for (Eigen::Index s = 0; s < ns; ++s) {
     const double Omega = speeds[static_cast<std::size_t>(s)];
-    const auto u = solver.at(Omega, points);
-    if (!u) {
+    const auto full = solver.at(Omega);
+    if (!full) {
       throw NumericalError(fmt::format(
           "the rotor has an undamped resonance at {:g} rad/s: the unbalance response is unbounded",
           Omega));
     }
-    response.x.col(s) = u->head(np);
-    response.y.col(s) = u->tail(np);
+    put(*full, assembler.dofs(), s, response);
   }
   return response;
 }

@@ -14,7 +14,13 @@ namespace whirl::inline fe {
 struct UnbalanceResponse {
   std::vector<double> speeds;  ///< [rad/s]
   std::vector<Point> points;
-  CMat x, y;  ///< points x speeds [m]
+  CMat x, y;              ///< points x speeds [m]
+  CMat theta_x, theta_y;  ///< likewise [rad]; empty: not kept; 0 of a body without tilts
+
+  /// Those of a component, 0 to 3: x, y, theta_x, theta_y.
+  const CMat& at(int component) const {
+    return component == 0 ? x : component == 1 ? y : component == 2 ? theta_x : theta_y;
+  }
 };
 
 /// Solves (K - Omega^2 M + i Omega (C + Omega G)) q = Omega^2 u + f at any speed, f that of forces of

@@ -27,7 +27,7 @@ CMat readings_of(const std::vector<Mode>& modes, const std::vector<Probe>& probe
     for (std::size_t i = 0; i < probes.size(); ++i) {
       const Point point = scene.assembler.point(probes[i].at);
       readings(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(m)) =
-          probes[i].along(full(dofs.full_index(point, X)), full(dofs.full_index(point, Y)));
+          probes[i].reading([&](int c) { return full(dofs.full_index(point, c)); });
     }
   }
   return readings;

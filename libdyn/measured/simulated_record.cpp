@@ -101,8 +101,7 @@ MeasuredRecord simulated_record(const Run& run, const MeasurementSetup& setup,
   std::vector<Vec> signals;
   std::vector<std::string> names;
   for (const MeasuredProbe& p : setup.probes) {
-    const Mat xy = motion_of(run, run.scene.assembler.point(p.probe.at));
-    signals.push_back(p.gain.value * p.probe.along(Vec(xy.col(0)), Vec(xy.col(1))));
+    signals.push_back(p.gain.value * reading_of(run, p.probe));
     add_noise(signals.back(), noise, signals.size());
     channels.push_back(channel_of(p));
     names.push_back(p.channel);

@@ -26,9 +26,13 @@ std::vector<ProbedStation> probed_stations(const std::vector<Probe>& probes,
   std::vector<ProbedStation> stations;
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const Point point = assembler.point(probes[i].at);
-    auto found = std::find_if(stations.begin(), stations.end(),
-                              [&](const ProbedStation& s) { return s.point == point; });
-    if (found == stations.end()) found = stations.insert(stations.end(), ProbedStation{point});
+    const double radius = probes[i].face_radius;
+    auto found = std::find_if(stations.begin(), stations.end(), [&](const ProbedStation& s) {
+      return s.point == point && s.face_radius == radius;
+    });
+    if (found == stations.end()) {
+      found = stations.insert(stations.end(), ProbedStation{point, radius});
+    }
     found->name += (found->name.empty() ? "" : " + ") + probes[i].name;
     found->probes.push_back(static_cast<int>(i));
   }

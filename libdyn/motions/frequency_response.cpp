@@ -43,7 +43,12 @@ std::array<Complex, 4> force_parts(Direction direction) {
 
 std::array<Complex, 4> force_parts(const ResponseEnd& end) {
   if (!end.probe) return force_parts(end.direction);
-  return {end.probe->along(1.0, 0.0), end.probe->along(0.0, 1.0), 0.0, 0.0};
+  std::array<Complex, 4> parts;
+  for (int c = 0; c < 4; ++c) {
+    parts[static_cast<std::size_t>(c)] =
+        end.probe->reading([&](int k) { return k == c ? 1.0 : 0.0; });
+  }
+  return parts;
 }
 
 /// Of a motion they are told by half the conjugates where it whirls.
@@ -82,6 +87,11 @@ bool is_tilt(Direction direction) {
 /// Largest responses of any point to a force, over all frequencies.
 struct LargestResponse {
   double displacement = 0.0, tilt = 0.0;  ///< [m, rad]
+
+  double seen_by(const ResponseEnd& end) const {
+    if (end.probe) return end.probe->is_axial() ? end.probe->face_radius * tilt : displacement;
+    return is_tilt(end.direction) ? tilt : displacement;
+  }
 
   void take(const CVec& full, const DofMap& dofs) {
     for (const Point& point : dofs.points()) {
@@ -210,7 +220,7 @@ FrequencyResponse frequency_response(const Assembler& assembler, double Omega,
   }
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     const LargestResponse& all = largest[i / to.size()];
-    silence(result.pairs[i], is_tilt(to[i % to.size()].direction) ? all.tilt : all.displacement);
+    silence(result.pairs[i], all.seen_by(to[i % to.size()]));
   }
   return result;
 }

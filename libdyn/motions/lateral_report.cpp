@@ -71,12 +71,13 @@ struct Lateral {
     return s;
   }
 
-  /// Stations with a probe of the model, each once; vibration is told along the major axis there.
+  /// Stations with a probe of the model across the shaft, each once; vibration is told along the major axis there.
   std::vector<NamedPoint> at_probes() const {
     std::vector<NamedPoint> all;
     for (const NamedPoint& p : named_points(model, assembler)) {
-      if (std::any_of(structure.probes.begin(), structure.probes.end(),
-                      [&](const Probe& probe) { return assembler.point(probe.at) == p.point; })) {
+      if (std::any_of(structure.probes.begin(), structure.probes.end(), [&](const Probe& probe) {
+            return !probe.is_axial() && assembler.point(probe.at) == p.point;
+          })) {
         all.push_back(p);
       }
     }

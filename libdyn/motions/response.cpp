@@ -33,6 +33,10 @@ Spectrum ResponseSpectra::at(const Point& point) const {
   return {bin_, (row(point) * eta_).transpose()};
 }
 
+Spectrum ResponseSpectra::of(const Eigen::RowVectorXd& row) const {
+  return {bin_, (row.cast<Complex>() * eta_).transpose()};
+}
+
 Complex ResponseSpectra::line(const Point& point, Eigen::Index bin) const {
   return (row(point) * eta_.col((bin % size() + size()) % size()))(0);
 }

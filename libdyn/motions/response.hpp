@@ -18,6 +18,9 @@ class ResponseSpectra {
 
   /// Signed spectrum of x + i y at a point; the mean is left out (see mean()).
   Spectrum at(const Point& point) const;
+  /// Signed spectrum of a reading; the mean is left out.
+  /// @param row  of the reading in the reduced coordinates, see probe_rows()
+  Spectrum of(const Eigen::RowVectorXd& row) const;
   /// Mean of x + i y at a point [m].
   Complex mean(const Point& point) const;
 

@@ -29,12 +29,15 @@ Mat motion_of(const Run& run, const Point& point) {
   return xy;
 }
 
+Vec reading_of(const Run& run, const Probe& probe) {
+  const Mat row = probe_rows({probe}, run.scene, run.scene.displacement_map());
+  return (row * run.simulation.recording.eta).transpose();
+}
+
 std::vector<ProbeSignal> probe_signals(const Run& run) {
   std::vector<ProbeSignal> signals;
-  const Assembler& assembler = run.scene.assembler;
-  for (const Probe& probe : assembler.structure().probes) {
-    const Mat xy = motion_of(run, assembler.point(probe.at));
-    signals.push_back({probe, probe.along(Vec(xy.col(0)), Vec(xy.col(1)))});
+  for (const Probe& probe : probes_of(run.scene)) {
+    signals.push_back({probe, reading_of(run, probe)});
   }
   return signals;
 }

@@ -30,6 +30,10 @@ struct Run {
 /// Motion of a point in a recording, samples x (x, y) [m].
 Mat motion_of(const Run& run, const Point& point);
 
+/// What a probe reads at the samples of a recording [m].
+/// @throws ModelError  for a station that there is not
+Vec reading_of(const Run& run, const Probe& probe);
+
 /// What a contact of a name did.
 struct ContactShare : ContactDoing {
   std::string name;

@@ -30,8 +30,8 @@ StaticStudy static_study(const Model& model, const Assembler& assembler) {
   }
   for (const Probe& probe : assembler.structure().probes) {
     const Point point = assembler.point(probe.at);
-    study.probes.push_back({probe, probe.along(displacement(dofs.full_index(point, X)),
-                                               displacement(dofs.full_index(point, Y)))});
+    const auto of = [&](int c) { return displacement(dofs.full_index(point, c)); };
+    study.probes.push_back({probe, probe.reading(of)});
   }
   return study;
 }

@@ -92,19 +92,21 @@ std::vector<CVec> readings_of(const UnbalanceResponse& response, const Assembler
     const auto i =
         std::find(response.points.begin(), response.points.end(), assembler.point(probe.at)) -
         response.points.begin();
-    all.push_back(
-        probe.along(CVec(response.x.row(i).transpose()), CVec(response.y.row(i).transpose())));
+    all.push_back(probe.reading([&](int c) -> CVec { return response.at(c).row(i).transpose(); }));
   }
   return all;
 }
 
-/// The same of any response that is bounded: it is solved again if it lacks one of the points.
+/// The same of any response that is bounded: it is solved again if it lacks one of the points or the tilts.
 std::vector<CVec> readings(const Assembler& assembler, const UnbalanceResponse& known) {
   const std::vector<Point> points = points_of(assembler);
+  const std::vector<Probe>& probes = assembler.structure().probes;
+  const bool needs_tilts = std::any_of(probes.begin(), probes.end(), std::mem_fn(&Probe::is_axial));
   const bool has_all = std::all_of(points.begin(), points.end(), [&](const Point& p) {
     return std::find(known.points.begin(), known.points.end(), p) != known.points.end();
   });
-  return readings_of(has_all ? known : unbalance_response(assembler, known.speeds, points),
+  const bool is_enough = has_all && (!needs_tilts || known.theta_x.size() > 0);
+  return readings_of(is_enough ? known : unbalance_response(assembler, known.speeds, points),
                      assembler);
 }
 
@@ -164,10 +166,11 @@ void add_probes(const Assembler& assembler, const ResponseCurve& curve,
   const std::vector<CVec> rows = has_curve ? readings(assembler, asked) : curves;
   UnbalanceSolver solver(assembler);
   for (std::size_t i = 0; i < probes.size(); ++i) {
-    const std::vector<Point> point{assembler.point(probes[i].at)};
+    const Point point = assembler.point(probes[i].at);
     const SizeAt size_at = [&](double Omega) {
-      const auto u = solver.at(Omega, point);
-      return u ? std::abs(probes[i].along((*u)(0), (*u)(1))) : INFINITY;
+      const auto u = solver.at(Omega);
+      const auto of = [&](int c) { return (*u)(assembler.dofs().full_index(point, c)); };
+      return u ? std::abs(probes[i].reading(of)) : INFINITY;
     };
     const Vec sizes = curves[i].cwiseAbs();
     ProbeResponse of{probes[i], rows[i], {}, {}, {}};

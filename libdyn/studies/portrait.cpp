@@ -60,17 +60,16 @@ void add_probe_sections(const Scene& scene, const Classification& found, long se
 /// Adds what they read of a recording.
 void add_probe_readings(const Scene& scene, const Mat& eta, const ResponseSpectra& spectra,
                         long lines, Portrait& to) {
-  const std::vector<Probe>& probes = probes_of(scene);
-  if (probes.empty()) return;
-  const Mat readings = probe_rows(scene, scene.displacement_map()) * eta;
+  if (probes_of(scene).empty()) return;
+  const Mat rows = probe_rows(scene, scene.displacement_map());
+  const Mat readings = rows * eta;
   to.probe_mean = readings.rowwise().mean();
   to.probe_peak_to_peak = readings.rowwise().maxCoeff() - readings.rowwise().minCoeff();
   to.probe_spectrum.resize(readings.rows(), lines + 1);
-  for (std::size_t i = 0; i < probes.size(); ++i) {
-    const Spectrum s = spectra.at(scene.assembler.point(probes[i].at));
-    for (long k = 0; k <= lines; ++k) {  // what stands still is one line, not two
-      to.probe_spectrum(static_cast<Eigen::Index>(i), k) =
-          (k == 0 ? 0.5 : 1.0) * peak_to_peak(probes[i].angle, s.at(k), s.at(-k));
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Spectrum s = spectra.of(rows.row(i));
+    for (long k = 0; k <= lines; ++k) {  // a cosine is two circles of half its amplitude
+      to.probe_spectrum(i, k) = (k == 0 ? 2.0 : 4.0) * std::abs(s.at(k));
     }
   }
 }

@@ -40,7 +40,8 @@ void add_value(const Model& model, const Assembler& assembler,
     of.largest(k) = study.probes[i].largest.peak_to_peak();
     of.largest_speed(k) = study.probes[i].largest.speed;
     if (is_told) {
-      of.at_operation(k) = 2.0 * std::abs(probes[i].along(there.x(row, 0), there.y(row, 0)));
+      of.at_operation(k) =
+          2.0 * std::abs(probes[i].reading([&](int c) { return there.at(c)(row, 0); }));
     }
   }
   for (const StationPeak& peak : study.peaks) {

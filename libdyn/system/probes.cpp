@@ -9,6 +9,7 @@ ProbeLabels::ProbeLabels(const std::vector<Probe>& probes) {
     names.push_back(probe.name);
     units.push_back(probe.unit);
     angles.push_back(probe.angle);
+    face_radii.push_back(probe.face_radius);
   }
 }
 
@@ -17,6 +18,7 @@ ProbeLabel ProbeLabels::operator[](std::size_t i) const {
   label.name = names.at(i);
   label.unit = i < units.size() ? units[i] : "um";
   label.angle = i < angles.size() ? angles[i] : 0.0;
+  label.face_radius = i < face_radii.size() ? face_radii[i] : 0.0;
   return label;
 }
 
@@ -38,17 +40,12 @@ Mat probe_rows(const std::vector<Probe>& probes, const Scene& scene, const Mat& 
   Mat rows(std::ssize(probes), map.cols());
   for (std::size_t i = 0; i < probes.size(); ++i) {
     const Point point = scene.assembler.point(probes[i].at);
-    const auto row = [&](Component c) -> Vec {
+    const auto row = [&](int c) -> Vec {
       return map.row(scene.reduced.dofs.full_index(point, c)).transpose();
     };
-    rows.row(static_cast<Eigen::Index>(i)) = probes[i].along(row(X), row(Y)).transpose();
+    rows.row(static_cast<Eigen::Index>(i)) = probes[i].reading(row).transpose();
   }
   return rows;
-}
-
-double peak_to_peak(double angle, const Complex& forward, const Complex& backward) {
-  const Complex turn = std::polar(1.0, angle);
-  return 2.0 * std::abs(forward * std::conj(turn) + std::conj(backward) * turn);
 }
 
 }  // namespace whirl::inline dyn

@@ -2,6 +2,7 @@
 /// What displacement probes read, as rows of results.
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,19 @@ struct Scene;
 /// A probe as results name it; rows of results begin with its columns.
 struct ProbeLabel {
   std::string name;
-  double angle = 0.0;  ///< of its direction, from +x towards +y [rad]
-  std::string unit;    ///< a length, in which people are told what it reads
+  double angle = 0.0;        ///< of its direction, from +x towards +y [rad]
+  double face_radius = 0.0;  ///< of an axial one [m]; 0: it looks across the shaft
+  std::string unit;          ///< a length, in which people are told what it reads
 
   ProbeLabel() = default;
-  ProbeLabel(const Probe& probe) : name(probe.name), angle(probe.angle), unit(probe.unit) {}
+  ProbeLabel(const Probe& probe)
+      : name(probe.name), angle(probe.angle), face_radius(probe.face_radius), unit(probe.unit) {}
 
   double angle_deg() const { return angle / degree; }
+  bool is_axial() const { return face_radius > 0.0; }
+  std::optional<double> radius_if_axial() const {
+    return is_axial() ? std::optional(face_radius) : std::nullopt;
+  }
 
   static constexpr auto columns() {
     using enum Written;
@@ -32,6 +39,11 @@ struct ProbeLabel {
         column("angle", &ProbeLabel::angle, "rad", "direction of a probe, from +x towards +y")
             .only(in_file),
         column("angle_deg", &ProbeLabel::angle_deg, "", "the same in degrees").only(in_json),
+        column("face_radius", &ProbeLabel::face_radius, "m",
+               "where a probe looks along the shaft at a face; 0: across the shaft")
+            .only(in_file)
+            .maybe(),
+        column("face_radius", &ProbeLabel::radius_if_axial, "m", "the same").only(in_json).maybe(),
         column("unit", &ProbeLabel::unit, "", "in which people are told what it reads")};
   }
 };
@@ -39,7 +51,8 @@ struct ProbeLabel {
 /// Labels of probes as columns of their own, for results whose rows are something else.
 struct ProbeLabels {
   std::vector<std::string> names, units;
-  std::vector<double> angles;  ///< [rad]
+  std::vector<double> angles;      ///< [rad]
+  std::vector<double> face_radii;  ///< [m]
 
   ProbeLabels() = default;
   explicit ProbeLabels(const std::vector<Probe>& probes);
@@ -64,6 +77,12 @@ constexpr auto probe_label_columns() {
                         .only(in_file)
                         .maybe(),
                     column(
+                        "probe_face_radius", [](auto& r) -> auto& { return r.probes.face_radii; },
+                        "m", "where a probe looks along the shaft at a face; 0: across the shaft")
+                        .along("probes")
+                        .only(in_file)
+                        .maybe(),
+                    column(
                         "probe_unit", [](auto& r) -> auto& { return r.probes.units; }, "",
                         "in which people are told what it reads")
                         .along("probes")
@@ -80,14 +99,5 @@ const std::vector<Probe>& probes_of(const Scene& scene);
 Mat probe_rows(const std::vector<Probe>& probes, const Scene& scene, const Mat& map);
 /// The same of those of its model.
 Mat probe_rows(const Scene& scene, const Mat& map);
-
-/// Peak to peak of what a probe reads of a motion x + i y = f e^(i w t) + b e^(-i w t) [m]:
-///
-///   x cos a + y sin a = Re((f e^(-i a) + conj(b) e^(i a)) e^(i w t))
-///
-/// @param angle     a of the probe [rad]
-/// @param forward   f [m]
-/// @param backward  b [m]
-double peak_to_peak(double angle, const Complex& forward, const Complex& backward);
 
 }  // namespace whirl::inline dyn

@@ -52,11 +52,14 @@ void add_branches(Figure& f, const BranchPoints& b, std::size_t station, const P
     const auto add = [&](std::vector<double> values, double factor) {
       add_branch_lines(p, b, scaled(std::move(values), factor), style);
     };
-    if (is_of(probe ? "reading once a revolution" : "x once a revolution") && has_sections) {
+    const bool is_section = is_of(probe ? "reading once a revolution" : "x once a revolution");
+    if (is_section && probe && probe->is_axial()) continue;  // branches keep no tilts
+    if (is_section && has_sections) {
       const double factor = shown_in_one(p.y.title);
       const auto seen = [&](const BranchOrbit& point, Eigen::Index k) {
         const double x = point.sections_x(row, k);
-        return probe ? probe->along(x, point.sections_y(row, k)) : x;
+        const auto of = [&](int c) { return c == 0 ? x : point.sections_y(row, k); };
+        return probe ? probe->reading(of) : x;
       };
       for (Eigen::Index k = 0; k < sections; ++k) {
         const std::vector<double> x =

@@ -293,7 +293,7 @@ void add_contacts(SideView& v) {
   }
 }
 
-/// Probes as bars that look at the shaft, from above or from below.
+/// Probes as bars that look at the shaft, from above or from below, or along it at a face.
 void add_probe_bars(SideView& v) {
   const double symbol = v.symbol(), gap = 0.004 * v.length;
   for (const Probe& probe : v.model.structure.probes) {
@@ -306,9 +306,14 @@ void add_probe_bars(SideView& v) {
     bar.width = 3.0;
     bar.x = {at, at};
     bar.y = {side * near, side * far};
+    if (probe.is_axial()) {
+      bar.x = {at + gap, at + gap + 1.4 * symbol};
+      bar.y.assign(2, side * mm * probe.face_radius);
+    }
+    const double top = std::abs(bar.y.back());
     bar.hover.assign(2, "probe " + probe_name(probe));
     v.panel.curves.push_back(std::move(bar));
-    v.add_name(at, far, probe.name, Paint::stator, is_below);
+    v.add_name(at, top, probe.name, Paint::stator, is_below);
   }
 }
 

@@ -26,7 +26,7 @@ ProbesByAngle probes_along_shaft(const ResultView& result, const MeasuredIdentif
   ProbesByAngle all;
   for (std::size_t i = 0; i < measured.probes.size(); ++i) {
     const ProbeLabel& probe = measured.probes[i];
-    if (!is_drawn(result, probe)) continue;
+    if (!is_drawn(result, probe) || probe.is_axial()) continue;
     if (!std::isfinite(measured.probe_z(static_cast<Eigen::Index>(i)))) continue;  // at a body
     all[std::lround(probe.angle_deg())].push_back(i);
   }

@@ -60,7 +60,8 @@ DisplayUnit unit_of(const ProbeLabel& probe) {
 }
 
 std::string probe_name(const ProbeLabel& probe) {
-  return fmt::format("{}, {:g}°", probe.name, probe.angle_deg());
+  return fmt::format("{}, {:g}°{}", probe.name, probe.angle_deg(),
+                     probe.is_axial() ? " along z" : "");
 }
 
 bool is_drawn(const ResultView& result, const ProbeLabel& probe) {
@@ -224,7 +225,7 @@ std::vector<Probe> probes_at(const ResultView& result, const std::string& statio
   std::vector<Probe> there;
   if (!result.model || !result.assembler) return there;
   for (const Probe& probe : result.model->structure.probes) {
-    if (is_at(result, probe.at, station)) there.push_back(probe);
+    if (!probe.is_axial() && is_at(result, probe.at, station)) there.push_back(probe);
   }
   return there;
 }

@@ -91,6 +91,8 @@ class ModelBuilder {
   std::vector<std::string> material_names() const;
   std::optional<Unbalance> unbalance(TableReader& table, const Station& at,
                                      std::optional<double> mass);
+  /// Tells of a key that needs the tilts of its station where a body has none.
+  void need_tilts(TableReader& table, const char* key, const Station& at) const;
   // model_contacts.cpp
   void read_contacts();
   // model_films.cpp

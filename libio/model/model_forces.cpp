@@ -85,12 +85,7 @@ void ModelBuilder::read_forces() {
         }
       }
     }
-    if (at && at->kind == Station::Kind::body && force.kind == ForceKind::moment) {
-      for (const Body& body : model_.structure.bodies) {
-        if (body.name != at->body || body.tilts) continue;
-        table.problem("moment", "this body does not tilt; give it tilts = true");
-      }
-    }
+    if (at && force.kind == ForceKind::moment) need_tilts(table, "moment", *at);
     if (at) force.at = *at;
     if (has_size && (at || is_of_base)) model_.structure.forces.push_back(std::move(force));
   });

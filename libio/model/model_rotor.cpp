@@ -194,6 +194,14 @@ void ModelBuilder::read_unbalances() {
   });
 }
 
+void ModelBuilder::need_tilts(TableReader& table, const char* key, const Station& at) const {
+  if (at.kind != Station::Kind::body) return;
+  for (const Body& body : model_.structure.bodies) {
+    if (body.name != at.body || body.tilts) continue;
+    table.problem(key, "this body does not tilt; give it tilts = true");
+  }
+}
+
 void ModelBuilder::read_probes() {
   for_each("probe", [&](TableReader& table, std::size_t i) {
     Probe probe{.name = table.string("name").value_or(fmt::format("probe {}", i + 1))};
@@ -208,6 +216,7 @@ void ModelBuilder::read_probes() {
                                         "\"mil\" or \"mm\"",
                                         in_quotes(probe.unit)));
     }
+    if (probe.is_axial()) need_tilts(table, "face_radius", probe.at);
     model_.structure.probes.push_back(probe);
   });
 }

@@ -94,7 +94,7 @@ std::string probes_text(const BranchResult& result) {
          table_of(
              all,
              {{"probe", [](const L& l) { return l.probe.name; }},
-              {"angle [deg]", [](const L& l) { return fmt::format("{:g}", l.probe.angle_deg()); }},
+              {"angle [deg]", [](const L& l) { return angle_text(l.probe); }},
               {"largest",
                [](const L& l) { return l.orbit ? reading_text(l.peak_to_peak, l.probe) : "-"; }},
               {"at " + label_of(result.parameter),

@@ -77,7 +77,8 @@ const ProbeLabel* probe_told_like(const MeasuredIdentification& measured) {
 std::string text_of(const MeasuredIdentification& measured) {
   std::string probes;
   for (const ProbeLabel& p : measured.probes) {
-    probes += fmt::format("{}{} ({:g} deg)", probes.empty() ? "" : ", ", p.name, p.angle_deg());
+    probes += fmt::format("{}{} ({:g} deg{})", probes.empty() ? "" : ", ", p.name, p.angle_deg(),
+                          p.is_axial() ? " along z" : "");
   }
   return fmt::format(
       "  probes: {}\n  speed: {:.6g} rpm\n  transformed: {:.4g} s, lines {:.3g} rpm "

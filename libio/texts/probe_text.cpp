@@ -23,11 +23,11 @@ std::string amplification_text(const PeakLine& line) {
   return std::isfinite(factor) ? fmt::format("{:.4g}", factor) : "-";
 }
 
-std::string angle_text(const ProbeLabel& probe) {
-  return fmt::format("{:g}", probe.angle_deg());
-}
-
 }  // namespace
+
+std::string angle_text(const ProbeLabel& probe) {
+  return fmt::format("{:g}{}", probe.angle_deg(), probe.is_axial() ? " along z" : "");
+}
 
 std::string reading_text(double reading, const ProbeLabel& probe) {
   return fmt::format("{:.4g} {}", reading / *parse_as("1 " + probe.unit, "m"), probe.unit);

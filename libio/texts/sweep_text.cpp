@@ -137,20 +137,18 @@ std::string probes_text(const SweepResult& sweep, const ParameterAxis& axis) {
   if (sweep.probes.size() == 0 || sweep.spectrum_revolutions == 0) return "";
   const auto is_known = [](const LargestReading& r) { return std::isfinite(r.peak_to_peak); };
   return "\n  Along the probes, peak to peak\n" +
-         table_of(
-             largest_readings(sweep),
-             {{"probe", [](const LargestReading& r) { return r.probe.name; }},
-              {"angle [deg]",
-               [](const LargestReading& r) { return fmt::format("{:g}", r.probe.angle_deg()); }},
-              {"largest",
-               [=](const LargestReading& r) {
-                 return is_known(r) ? reading_text(r.peak_to_peak, r.probe) : "-";
-               }},
-              {"at " + axis.title(),
-               [=, &axis](const LargestReading& r) {
-                 return is_known(r) ? fmt::format("{:.7g}", axis.shown(r.index)) : "-";
-               }},
-              {"on the way", [](const LargestReading& r) { return r.way; }}});
+         table_of(largest_readings(sweep),
+                  {{"probe", [](const LargestReading& r) { return r.probe.name; }},
+                   {"angle [deg]", [](const LargestReading& r) { return angle_text(r.probe); }},
+                   {"largest",
+                    [=](const LargestReading& r) {
+                      return is_known(r) ? reading_text(r.peak_to_peak, r.probe) : "-";
+                    }},
+                   {"at " + axis.title(),
+                    [=, &axis](const LargestReading& r) {
+                      return is_known(r) ? fmt::format("{:.7g}", axis.shown(r.index)) : "-";
+                    }},
+                   {"on the way", [](const LargestReading& r) { return r.way; }}});
 }
 
 }  // namespace

@@ -73,13 +73,18 @@ def _ends(model: Any, option: str, ends: Any, speed: Any) -> tuple[list[str], se
     return labels[:math.isqrt(len(labels))], {str(name) for name in bodies}
 
 
-def _probes(model: Any, speed: Any) -> dict[str, float]:
-    """Their angles [rad]."""
+def _probes(model: Any, speed: Any) -> dict[str, dict[str, float]]:
+    """How much of each direction they read, as in docs/model-file.md."""
     try:
         model["probe"]
     except ModelError:
         return {}
-    return {p["name"]: math.radians(p["angle_deg"]) for p in model.static(speed=speed, progress=False).probes}
+    parts = {}
+    for p in model.static(speed=speed, progress=False).probes:
+        angle, radius = math.radians(p["angle_deg"]), p.get("face_radius_m")
+        c, s = math.cos(angle), math.sin(angle)
+        parts[p["name"]] = {"theta_x": radius * s, "theta_y": -radius * c} if radius else {"x": c, "y": s}
+    return parts
 
 
 class _Rows:
@@ -93,8 +98,7 @@ class _Rows:
     def of(self, option: str, label: str) -> np.ndarray:
         if label in self._probes:
             at = _ends(self._model, option, f"{label}:x", self._speed)[0][0].rpartition(" ")[0]
-            angle = self._probes[label]
-            return self._along(at, {"x": math.cos(angle), "y": math.sin(angle)})
+            return self._along(at, self._probes[label])
         place, _, direction = label.rpartition(" ")
         if direction not in DIRECTIONS:
             raise ModelError([Problem(option, 0, 0, label, f"expected {', '.join(DIRECTIONS)} or a probe: a sense of "

@@ -8,6 +8,7 @@
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libio/figures/figures.hpp"
+#include "libio/model/file_text.hpp"
 #include "libio/results/columns.hpp"
 #include "tests/cli/program.hpp"
 
@@ -433,6 +434,47 @@ TEST_F(Probes, SagIsLeftOutOfWhatTurnsWithTheRotor) {
       EXPECT_NEAR(c.y[i], place.imag(), of_rest * std::abs(place));
     }
   }
+}
+
+// A forward whirl tilts faces forward: two axial probes a quarter turn apart see it as two radial ones do.
+TEST_F(Probes, AlongTheShaftAreReadRecordedAndIdentified) {
+  const std::string rotor = WHIRL_SOURCE_DIR "/models/two_disk_mac.toml";
+  const std::string faces = R"([[probe]]
+name = "face x"
+node = 10
+angle = "0 deg"
+face_radius = "120 mm"
+[[probe]]
+name = "face y"
+node = 10
+angle = "90 deg"
+face_radius = "120 mm"
+)";
+  write("faces.toml", faces);
+  write("wobbling.toml", file_text(rotor) + faces);
+  const json r =
+      result({"simulate", "wobbling.toml", "--speed", "3000rpm", "--revolutions", "32", "--out",
+              "run.h5", "--measure", "faces.toml", "--measured-out", "run.csv"});
+  ASSERT_EQ(r["probes"].size(), 2u);
+  EXPECT_EQ(r["probes"][0]["face_radius_m"], 0.12);
+  const double size = r["probes"][0]["peak_to_peak_m"];
+  EXPECT_GT(size, 1e-3);
+  const auto record = read_result<MotionRecord>(ResultReader(folder / "run.h5"));
+  EXPECT_EQ(record.probes.at(1).face_radius, 0.12);
+  EXPECT_EQ(variants("time_history", "run.h5").front(), "probes");
+
+  const std::vector<std::string> call{"identify", rotor,        "--speed",    "3000rpm",
+                                      "--probes", "faces.toml", "--measured", "run.csv"};
+  const json found = result(call);
+  EXPECT_NEAR(found["peaks"][0]["frequency_rpm"], 3000.0, 1.0);  // forward: above 0
+  EXPECT_NEAR(2.0 * found["peaks"][0]["amplitude_m"].get<double>(), size, 0.01 * size);
+  EXPECT_TRUE(has(whirl(call).out, "face x (0 deg along z)"));
+
+  write("flat.toml",
+        std::string(jeffcott) + "[[probe]]\nbody = \"rotor\"\nangle = 0\nface_radius = 0.1\n");
+  const Outcome flat = whirl({"check", "flat.toml"});
+  EXPECT_EQ(flat.status, 2);
+  EXPECT_TRUE(has(flat.err, "probe.1.face_radius: this body does not tilt")) << flat.err;
 }
 
 }  // namespace probes_test

@@ -174,8 +174,8 @@ struct SeenEllipse {
       const double angle = 2.0 * pi * static_cast<double>(j) / samples;
       const Complex z = forward * std::polar(1.0, angle) + backward * std::polar(1.0, 0.4 - angle);
       for (Eigen::Index i = 0; i < 2; ++i) {
-        r.displacement(j, is_swapped ? 1 - i : i) =
-            r.probes[static_cast<std::size_t>(i)].along(z.real(), z.imag());
+        r.displacement(j, is_swapped ? 1 - i : i) = r.probes[static_cast<std::size_t>(i)].reading(
+            [&](int c) { return c == 0 ? z.real() : z.imag(); });
       }
     }
     return r;

@@ -6,6 +6,7 @@
 
 #include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/run_model.hpp"
+#include "libdyn/motions/static_study.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
@@ -145,6 +146,86 @@ TEST(Probes, AreEndsOfFrequencyResponses) {
     const FrequencyResponse found = frequency_response(assembler, 0.0, {w}, from, to);
     EXPECT_LT(std::abs(found.pairs.at(0).receptance(0) - H), solves * std::abs(H));
   }
+}
+
+// A face on springs against tilts, under an overturning moment about x: theta_x = M / kt at rest, and
+// M / (kt - Id w^2 + i ct w) where the moment oscillates. The probe reads r (theta_x sin a - theta_y cos a).
+TEST(Probes, AxialOnesReadTheTiltsOfAFace) {
+  constexpr double kt = 5e3, ct = 3.0, Id = 0.02, M = 7.0, r = 0.15, Omega = 80.0;
+  const Station rotor = test::body("rotor");
+  Model model;
+  Structure& s = model.structure;
+  s.bodies = {{.name = "rotor", .m = m, .tilts = true, .Id = Id}};
+  BearingCoefficients springs = test::orthotropic(kx, ky, c, c);
+  springs.Kt.diagonal().setConstant(kt);
+  springs.Ct.diagonal().setConstant(ct);
+  s.bearings = {test::bearing(rotor, springs)};
+  s.probes = {{.name = "top", .at = rotor, .angle = 0.5 * pi, .face_radius = r},
+              {.name = "side", .at = rotor, .angle = 0.0, .face_radius = r},
+              {.name = "oblique", .at = rotor, .angle = pi / 6.0, .face_radius = 2.0 * r}};
+  model.speed = Omega;
+  model.has_speed = true;
+  const std::vector<double> seen{r, 0.0, r};  // r sin a
+
+  Force steady{.name = "M", .kind = ForceKind::moment, .at = rotor, .size = M};
+  s.forces = {steady};
+  const StaticStudy rest = static_study(model, Assembler(s));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(rest.probes[i].mean, seen[i] * M / kt, 1e-15);
+
+  steady.order = 2.0;
+  s.forces = {steady};
+  const Complex theta = M / Complex(kt - 4.0 * Id * Omega * Omega, 2.0 * ct * Omega);
+  const Assembler assembler(s);
+  const UnbalanceStudy study = unbalance_study(model, assembler, {.speeds = {Omega}});
+  ASSERT_EQ(study.forced_probes.size(), 3u);
+  const whirl::Run run =
+      run_model(model, {.simulation = {.revolutions = 1, .discard = 200, .samples = 64}});
+  const std::vector<ProbeSignal> signals = recorded_motion(run).probes;
+  const std::vector<ProbeSummary> told = run_summary(run).probes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(std::abs(study.forced_probes[i].amplitude(0) - seen[i] * theta),
+              1e-12 * std::abs(theta));
+    EXPECT_NEAR(signals[i].displacement(0), seen[i] * theta.real(), 1e-7 * r * std::abs(theta));
+    EXPECT_NEAR(told[i].peak_to_peak, 2.0 * seen[i] * std::abs(theta), 0.01 * r * std::abs(theta));
+  }
+
+  // a force along z on the face at the probe is a moment, so a response from it to itself is r^2 / (...)
+  const std::vector<ResponseEnd> top = select_ends(model, assembler, "top");
+  const Complex own =
+      frequency_response(assembler, Omega, {100.0}, top, top).pairs.at(0).receptance(0);
+  const Complex right = r * r / Complex(kt - Id * 1e4, ct * 100.0);
+  EXPECT_LT(std::abs(own - right), 1e-11 * std::abs(right));
+}
+
+// Of unbalance's tilts at every speed of a curve: theta of the node that the probe is at.
+TEST(Probes, AxialOnesFollowTheUnbalanceResponse) {
+  Model model;
+  model.structure = test::Overhung{}.structure();
+  Structure& s = model.structure;
+  const Station disk = s.disks.at(0).at;
+  s.unbalances = {{.at = disk, .moment = U}};
+  s.probes = {{.name = "face", .at = disk, .angle = 0.0, .face_radius = 0.1}};
+  const Assembler assembler(s);
+  const UnbalanceStudy study =
+      unbalance_study(model, assembler, {.speeds = {50.0, 150.0}, .has_given_speeds = true});
+  UnbalanceSolver solver(assembler);
+  const auto expect = [&](const CVec& told, const std::vector<double>& speeds) {
+    ASSERT_EQ(told.size(), std::ssize(speeds));
+    for (Eigen::Index i = 0; i < told.size(); ++i) {
+      const CVec u = *solver.at(speeds[static_cast<std::size_t>(i)]);
+      const Complex theta_y = u(assembler.dofs().full_index(assembler.point(disk), THETA_Y));
+      EXPECT_LT(std::abs(told(i) + 0.1 * theta_y), 1e-12 * std::abs(theta_y));
+    }
+  };
+  expect(study.probes[0].amplitude, study.speeds);
+  EXPECT_GT(study.curve_speeds.size(), 2u);
+  expect(study.probes[0].curve_amplitude, study.curve_speeds);
+}
+
+TEST(Probes, AxialOnesNeedTilts) {
+  Model model = orthotropic();
+  model.structure.probes[0].face_radius = 0.1;
+  EXPECT_THROW(Assembler{model.structure}, ModelError);
 }
 
 }  // namespace whirl::probes_test
