@@ -136,7 +136,8 @@ TEST_F(Probes, SpectraAreOfWholeRevolutions) {
   const ResultView view(folder / "run.h5");
   for (const FigureKind& kind : figure_kinds()) {
     if (kind.name != "spectrum") continue;
-    const Curve& c = figures_of(kind, view).at(1).panels.at(0).curves.at(0);
+    const Figure f = figures_of(kind, view).at(1);
+    const Curve& c = f.panels.at(0).curves.at(0);
     const auto top = std::max_element(c.y.begin(), c.y.end());
     EXPECT_NEAR(*top, size, of_rest * size);
     EXPECT_NEAR(c.x[static_cast<std::size_t>(top - c.y.begin())], ratio * omega / hertz, 1e-9);

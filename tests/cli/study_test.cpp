@@ -420,10 +420,15 @@ TEST_F(Study, StopsOnTheSignalsOfSchedulersAndGoesOn) {
 // Searches that would take hours: a single start, or the motions at a single speed.
 TEST_F(Study, SearchesStopOnTheSignalsOfSchedulers) {
   constexpr double patience = 10.0;  // [s], on a busy machine; 5 are promised
+#ifdef __SANITIZE_ADDRESS__
+  constexpr auto searches_by_then = std::chrono::seconds(4);
+#else
+  constexpr auto searches_by_then = std::chrono::milliseconds(300);
+#endif
   const auto stopped = [&](const std::vector<std::string>& words) {
     const pid_t child = start(WHIRL_PROGRAM, words);
     wait_for_handler(child, SIGTERM);
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    std::this_thread::sleep_for(searches_by_then);
     const auto begin = std::chrono::steady_clock::now();
     ::kill(child, SIGTERM);
     const Outcome outcome = wait(child);
