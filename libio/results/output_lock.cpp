@@ -33,6 +33,7 @@ OutputLock::OutputLock(const fs::path& output) {
   const auto fail = [&](std::string_view why) {
     throw FileError(fmt::format("cannot write {}: {}", output.string(), why));
   };
+  const SignalsWait waiting;
   while (true) {
     file_ = ::open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (file_ < 0) fail(fmt::format("its lock {}: {}", name.string(), std::strerror(errno)));

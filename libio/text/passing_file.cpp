@@ -32,22 +32,6 @@ std::atomic<int> status_of_end = 0;
 constexpr std::array ends{SIGINT,  SIGTERM, SIGHUP,  SIGQUIT, SIGUSR1, SIGUSR2, SIGPIPE,
                           SIGALRM, SIGXCPU, SIGABRT, SIGSEGV, SIGBUS,  SIGFPE,  SIGILL};
 
-/// Holds signals up as long as it lives, so that what is made is also in the list.
-class SignalsWait {
- public:
-  SignalsWait() {
-    sigset_t all;
-    sigfillset(&all);
-    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsWait() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsWait(const SignalsWait&) = delete;
-  SignalsWait& operator=(const SignalsWait&) = delete;
-
- private:
-  sigset_t before_{};
-};
-
 /// Puts a name into the list.
 /// @return where; -1: nowhere, as the list is full or the name long
 int listed(const fs::path& path, Slot::State what) {
@@ -86,6 +70,16 @@ void remove_all_listed() {
 }
 
 }  // namespace
+
+SignalsWait::SignalsWait() {
+  sigset_t all;
+  sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+}
+
+SignalsWait::~SignalsWait() {
+  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+}
 
 PassingFile::~PassingFile() {
   remove();

@@ -2,10 +2,25 @@
 /// Files and folders that are there for a while only. They go whatever ends the process: an
 /// exception, or a signal, but for SIGKILL.
 
+#include <signal.h>
+
 #include <filesystem>
 #include <string>
 
 namespace whirl::inline io {
+
+/// Holds signals up as long as it lives, so that a file that is made is also in the list of what signals
+/// remove.
+class SignalsWait {
+ public:
+  SignalsWait();
+  ~SignalsWait();
+  SignalsWait(const SignalsWait&) = delete;
+  SignalsWait& operator=(const SignalsWait&) = delete;
+
+ private:
+  sigset_t before_{};
+};
 
 /// One of them, removed at the end.
 class PassingFile {
@@ -23,7 +38,7 @@ class PassingFile {
   /// @param name  its last six letters are "XXXXXX", for which others are put
   /// @return 0 or the number of the error
   int make_folder(const std::string& name);
-  /// Takes over a file that this process alone has.
+  /// Takes over a file that this process alone has. Signals have to wait from before the file is made.
   void adopt(const std::filesystem::path& name);
   /// Removes it.
   void remove();
