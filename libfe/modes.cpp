@@ -363,6 +363,17 @@ struct ModeFinder::State {
   const Assembler& assembler;
   System base;
   Knowledge known;
+
+  System at(double Omega) const {
+    if (assembler.depends_on_speed()) return assembler.at(Omega);
+    System system = base;
+    system.Omega = Omega;
+    return system;
+  }
+  /// With the coefficients of a whirl frequency [rad/s].
+  System at(double Omega, double frequency) const {
+    return assembler.depends_on_whirl() ? assembler.at(Omega, frequency) : at(Omega);
+  }
 };
 
 ModeFinder::ModeFinder(const Assembler& assembler)
@@ -379,10 +390,7 @@ ModeFinder::ModeFinder(const Assembler& assembler)
 ModeFinder::~ModeFinder() = default;
 
 System ModeFinder::system(double Omega) const {
-  if (state_->assembler.depends_on_speed()) return state_->assembler.at(Omega);
-  System system = state_->base;
-  system.Omega = Omega;
-  return system;
+  return state_->at(Omega);
 }
 
 Modes ModeFinder::at(double Omega, int count) const {
@@ -395,8 +403,7 @@ Modes ModeFinder::at(double Omega, int count) const {
 }
 
 std::optional<Mode> ModeFinder::followed(const Mode& mode, double Omega, double frequency) const {
-  const System beside =
-      state_->assembler.depends_on_whirl() ? state_->assembler.at(Omega, frequency) : system(Omega);
+  const System beside = state_->at(Omega, frequency);
   EigenPair pair{mode.lambda, mode.shape};
   if (!PairNewton(beside.M, beside.D(), beside.K).converge(pair, settled_step)) return {};
   if (!oscillates(pair.lambda)) return {};
@@ -405,7 +412,7 @@ std::optional<Mode> ModeFinder::followed(const Mode& mode, double Omega, double 
 
 Modes ModeFinder::near(double Omega, double frequency, int count) const {
   const bool is_own = state_->assembler.depends_on_whirl();
-  const System at_speed = is_own ? state_->assembler.at(Omega, frequency) : system(Omega);
+  const System at_speed = state_->at(Omega, frequency);
   const auto all = [&] { return is_own ? complex_modes(at_speed, count) : at(Omega, count); };
   if (at_speed.size() < dense_below) return all();
   const FreeBody body = state_->assembler.depends_on_speed() ? FreeBody{} : state_->known.body;

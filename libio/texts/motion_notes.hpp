@@ -26,7 +26,8 @@ inline constexpr long noted_revolutions = 8;
 std::vector<std::string> motion_notes(const Model& model, const Scene& scene, MotionState start,
                                       long revolutions);
 
-/// Of the motions that a fit found, over so many revolutions; of several records each names its own.
+/// Of the motions that a fit found, over noted_revolutions. Where there are several records, a note
+/// begins with the name of its record.
 std::vector<std::string> motion_notes(const std::vector<FittedMotion>& found);
 
 /// Of the bouncing motions that were found, each over its period.

@@ -77,11 +77,11 @@ Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
   const std::vector<SourcedRecord> records = read_records(source_of(call, asked.record));
   const bool is_all = asked.steady && !asked.revolutions.is_given;
   const FitWindow window{.from = *asked.from, .revolutions = is_all ? 0.0 : *asked.revolutions};
-  std::vector<std::string> names;
+  std::vector<std::string> names, notes;
   std::vector<MeasuredFit> fits;
   for (std::size_t i = 0; i < models.size(); ++i) {
     ModelFit fit = fit_model(models[i], free[i], records, window, fit_options(call, asked));
-    for (std::string& note : motion_notes(fit.motions)) fit.found.notes.push_back(std::move(note));
+    if (i == 0) notes = motion_notes(fit.motions);
     fits.push_back(std::move(fit.found));
     names.push_back(models[i].path);
   }
@@ -90,6 +90,7 @@ Report run_fit(const Invocation& call, const FitVerbOptions& asked) {
   Report report = begin_report(call, model, record_of(found));
   report.text = headline("Fit to measured motions", model) + "\n" + text_of(found, model.path);
   report.add_notes(found.notes);
+  report.add_notes(notes);
   if (!found.has_converged) {
     const bool is_stopped = call.stop_asked()();
     report.failure = is_stopped ? "stopped" : "the fit did not converge: " + found.why_not;

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "libbase/error.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace whirl::memory_test {
 
@@ -67,9 +68,9 @@ TEST_F(Memory, LeastOfAllCounts) {
 
 // `ulimit -v` counts, and the refusal names the option and both numbers.
 TEST_F(Memory, MoreThanTheLimitOfAddressesIsRefusedInWords) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer takes more addresses than the limit leaves";
-#endif
+  if (test::is_sanitized) {
+    GTEST_SKIP() << "a sanitizer takes more addresses than the limit leaves";
+  }
   const auto refused = [] {
     rlimit most{};
     ::getrlimit(RLIMIT_AS, &most);

@@ -10,6 +10,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "tests/support/sanitizers.hpp"
+
 namespace whirl::work_queue_test {
 
 using namespace std::chrono_literals;
@@ -63,9 +65,9 @@ TEST(WorkQueue, DropsWhatHasNotBegun) {
 
 // A system that gives no more threads is no end: those that there are do the work.
 TEST(WorkQueue, DoesWithTheThreadsThatItGets) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "a sanitizer takes more addresses than the limit leaves";
-#endif
+  if (test::is_sanitized) {
+    GTEST_SKIP() << "a sanitizer takes more addresses than the limit leaves";
+  }
   const auto with_few = [] {
     std::size_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tests/cli/studies.hpp"
+#include "tests/support/sanitizers.hpp"
 
 namespace whirl::test {
 namespace study_test {
@@ -420,11 +421,7 @@ TEST_F(Study, StopsOnTheSignalsOfSchedulersAndGoesOn) {
 // Searches that would take hours: a single start, or the motions at a single speed.
 TEST_F(Study, SearchesStopOnTheSignalsOfSchedulers) {
   constexpr double patience = 10.0;  // [s], on a busy machine; 5 are promised
-#ifdef __SANITIZE_ADDRESS__
-  constexpr auto searches_by_then = std::chrono::seconds(4);
-#else
-  constexpr auto searches_by_then = std::chrono::milliseconds(300);
-#endif
+  constexpr std::chrono::milliseconds searches_by_then(is_sanitized ? 4000 : 300);
   const auto stopped = [&](const std::vector<std::string>& words) {
     const pid_t child = start(WHIRL_PROGRAM, words);
     wait_for_handler(child, SIGTERM);
