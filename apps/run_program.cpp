@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cstdio>
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libio/text/nearest.hpp"
 #include "libio/text/terminal.hpp"
 #include "libverbs/command/command.hpp"

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/constants.hpp"
-#include "libbase/random.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/random.hpp"
 #include "libdyn/fit/fit.hpp"
 #include "libdyn/fit/model_source.hpp"
 #include "libdyn/fit/steady_record.hpp"

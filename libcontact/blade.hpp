@@ -1,7 +1,7 @@
 #pragma once
 /// How far friction bends a blade, and how much it gets shorter.
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libcontact/laws/blade_tip.hpp"
 
 namespace whirl::inline contact {

@@ -1,7 +1,7 @@
 #pragma once
 /// Functions of laws that are no sums, products or roots, for numbers that carry their derivatives.
 
-#include "libbase/dual.hpp"
+#include "libbase/numerics/dual.hpp"
 #include "libcontact/film.hpp"
 #include "libcontact/laws/blade_tip.hpp"
 

@@ -23,7 +23,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libcontact/law.hpp"
 
 namespace whirl::inline contact {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 
 namespace whirl::inline contact {
 

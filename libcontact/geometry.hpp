@@ -9,7 +9,7 @@
 ///   static constexpr bool may_stick;          friction may switch its sign at once and stick
 ///   static constexpr bool takes_offset;       the clearance may lie off the rotor's axis
 ///   static constexpr bool turns;              the place turns with the rotor: the phase matters
-///   static constexpr auto fields();           keys of one that laws share (libbase/field.hpp)
+///   static constexpr auto fields();           keys of one that laws share (libbase/structs/field.hpp)
 ///   int places() const;                       of one contact of the model
 ///   Self place(i, Omega) const;               number i of them at a spin [rad/s]
 ///   double arm() const;                       of the closing motion, u = arm times it [m, or 1]
@@ -27,8 +27,8 @@
 #include <optional>
 #include <string_view>
 
-#include "libbase/linalg.hpp"
-#include "libbase/polynomial.hpp"
+#include "libbase/numerics/linalg.hpp"
+#include "libbase/numerics/polynomial.hpp"
 
 namespace whirl::inline contact {
 

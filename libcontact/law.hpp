@@ -4,7 +4,7 @@
 /// A law is a struct template over its number type with
 ///
 ///   static constexpr std::string_view name;      the word in the model file
-///   static constexpr auto fields();              its keys (libbase/field.hpp)
+///   static constexpr auto fields();              its keys (libbase/structs/field.hpp)
 ///   auto normal(d, d_rate) const;                normal force [N] at depth d [m], its rate [m/s]
 ///   bool is_continuous() const;                  normal(0, d_rate) = 0 for every rate
 ///   static constexpr bool is_analytic;           `normal` has a Taylor series at d = 0

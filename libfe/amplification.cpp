@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::inline fe {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline fe {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "libbase/interruption.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
+#include "libbase/system/interruption.hpp"
 #include "libfe/bow.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/elements/body.hpp"

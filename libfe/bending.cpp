@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "libbase/quadrature.hpp"
+#include "libbase/numerics/quadrature.hpp"
 #include "libfe/forces.hpp"
 #include "libfe/shaft_elements.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Bending of the shaft under its static loads: deflection, moment and shear force along it.
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl::inline fe {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libfe/structure.hpp"
 
 namespace whirl::inline fe {

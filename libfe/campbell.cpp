@@ -6,10 +6,10 @@
 #include <cmath>
 #include <optional>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/memory.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/roots.hpp"
+#include "libbase/system/memory.hpp"
 #include "libfe/followed_modes.hpp"
 
 namespace whirl::inline fe {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline fe {

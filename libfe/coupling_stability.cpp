@@ -7,8 +7,8 @@
 #include <numbers>
 #include <utility>
 
-#include "libbase/constants.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/properties.hpp"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline fe {

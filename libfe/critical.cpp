@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/eigen/hermitian.hpp"
 #include "libfe/eigen/symmetric.hpp"

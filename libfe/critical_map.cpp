@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "libfe/campbell.hpp"
 #include "libfe/shape_branches.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libfe/critical.hpp"
 
 namespace whirl::inline fe {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "libbase/names.hpp"
+#include "libbase/structs/names.hpp"
 
 namespace whirl::inline fe {
 

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libfe/amplification.hpp"
 
 namespace whirl::inline fe {

@@ -3,7 +3,7 @@
 #include <string>
 #include <tuple>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 
 namespace whirl::inline fe {
 

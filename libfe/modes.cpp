@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/eigen/disc.hpp"
 #include "libfe/eigen/energy_bounds.hpp"
 #include "libfe/eigen/lowest_frequencies.hpp"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/field.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl::inline fe {

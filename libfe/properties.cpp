@@ -1,6 +1,6 @@
 #include "libfe/properties.hpp"
 
-#include "libbase/quadrature.hpp"
+#include "libbase/numerics/quadrature.hpp"
 
 namespace whirl::inline fe {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/quadratic.hpp"
 #include "libfe/eigen/symmetric.hpp"

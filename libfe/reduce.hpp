@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl::inline fe {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "libbase/roots.hpp"
+#include "libbase/numerics/roots.hpp"
 
 namespace whirl::inline fe {
 

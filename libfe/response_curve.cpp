@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "libfe/campbell.hpp"
 
 namespace whirl::inline fe {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/critical.hpp"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <numbers>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 
 namespace whirl::inline fe {
 

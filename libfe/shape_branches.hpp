@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline fe {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "libbase/error.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/forces.hpp"
 

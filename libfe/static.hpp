@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libfe/assemble.hpp"
 
 namespace whirl::inline fe {

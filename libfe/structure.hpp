@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libfe/bearings.hpp"
 #include "libfe/material.hpp"
 #include "libfe/section.hpp"

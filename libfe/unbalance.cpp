@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 
 namespace whirl::inline fe {

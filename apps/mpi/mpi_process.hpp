@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/ranks.hpp"
+#include "libbase/processes/ranks.hpp"
 
 namespace whirl::inline cli {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <tuple>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libcontact/geometry.hpp"
 
 namespace whirl::inline contact::geometry {

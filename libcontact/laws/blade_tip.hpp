@@ -5,7 +5,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libcontact/geometry/blade_row.hpp"
 #include "libcontact/law.hpp"
 

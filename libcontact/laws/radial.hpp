@@ -3,7 +3,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libcontact/law.hpp"
 
 namespace whirl::inline contact {

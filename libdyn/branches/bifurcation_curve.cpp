@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/floquet.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/floquet.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/taylor/batch.hpp"
 

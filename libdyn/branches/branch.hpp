@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libbase/failure.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libdyn/orbits/shooting.hpp"
 
 namespace whirl::inline dyn {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "libbase/error.hpp"
-#include "libbase/floquet.hpp"
+#include "libbase/numerics/floquet.hpp"
 
 namespace whirl::inline dyn {
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "libbase/error.hpp"
-#include "libbase/newton.hpp"
+#include "libbase/numerics/newton.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 
 namespace whirl::inline dyn {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "libbase/constants.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "libdyn/branches/bifurcation.hpp"
 #include "libdyn/branches/continuation.hpp"
 

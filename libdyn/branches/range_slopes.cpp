@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
-#include "libbase/quadrature.hpp"
+#include "libbase/numerics/quadrature.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"
 #include "libdyn/system/system_numbers.hpp"

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/newton.hpp"
-#include "libbase/roots.hpp"
-#include "libbase/smooth_average.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/newton.hpp"
+#include "libbase/numerics/roots.hpp"
+#include "libbase/numerics/smooth_average.hpp"
 
 namespace whirl::inline dyn {
 

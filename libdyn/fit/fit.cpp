@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/fit/fit_covariance.hpp"
 #include "libdyn/fit/fit_least_squares.hpp"
 #include "libdyn/fit/fit_search.hpp"

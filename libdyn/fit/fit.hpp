@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/fit/fit_problem.hpp"
 
 namespace whirl::inline dyn {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/dense.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 
 namespace whirl::inline dyn {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libbase/dogleg.hpp"
+#include "libbase/numerics/dogleg.hpp"
 #include "libdyn/fit/fit_search.hpp"
 
 namespace whirl::inline dyn {

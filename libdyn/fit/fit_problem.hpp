@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/system_slope.hpp"
 

@@ -9,12 +9,12 @@
 #include <random>
 #include <utility>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/random.hpp"
-#include "libbase/spectrum.hpp"
-#include "libbase/statistics.hpp"
-#include "libbase/work_queue.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/random.hpp"
+#include "libbase/numerics/spectrum.hpp"
+#include "libbase/numerics/statistics.hpp"
+#include "libbase/processes/work_queue.hpp"
 #include "libdyn/fit/model_source.hpp"
 #include "libdyn/fit/steady_record.hpp"
 #include "libdyn/measured/station_motion.hpp"

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
 
 namespace whirl::inline dyn {

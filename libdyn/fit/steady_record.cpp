@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "libbase/constants.hpp"
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/fourier.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/fourier.hpp"
 
 namespace whirl::inline dyn {
 

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <optional>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 
 namespace whirl::inline dyn {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "libbase/legendre.hpp"
+#include "libbase/numerics/legendre.hpp"
 #include "libdyn/system/contact_system.hpp"
 
 namespace whirl::inline dyn {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "libbase/constants.hpp"
-#include "libbase/dense.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/dense.hpp"
 
 namespace whirl::inline dyn {
 

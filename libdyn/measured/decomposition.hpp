@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/cross_spectra.hpp"
+#include "libbase/numerics/cross_spectra.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/measured/pole.hpp"
 
 namespace whirl::inline dyn {

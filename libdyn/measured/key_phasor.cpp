@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/statistics.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/statistics.hpp"
 
 namespace whirl::inline dyn {
 

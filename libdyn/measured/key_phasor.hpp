@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libdyn/measured/measured_record.hpp"
 
 namespace whirl::inline dyn {

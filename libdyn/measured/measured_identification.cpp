@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/measured/record_doubts.hpp"
 #include "libdyn/motions/motion_lines.hpp"
 #include "libfe/campbell.hpp"

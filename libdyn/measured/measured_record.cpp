@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "libbase/error.hpp"
-#include "libbase/statistics.hpp"
+#include "libbase/numerics/statistics.hpp"
 
 namespace whirl::inline dyn {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/spectrum.hpp"
 
 namespace whirl::inline dyn {
 

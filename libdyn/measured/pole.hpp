@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline dyn {
 

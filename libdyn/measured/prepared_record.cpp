@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/measured/decimation.hpp"
 #include "libdyn/measured/speed_harmonics.hpp"
 

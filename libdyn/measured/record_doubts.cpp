@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/statistics.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/statistics.hpp"
 
 namespace whirl::inline dyn {
 

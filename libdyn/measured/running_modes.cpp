@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libbase/statistics.hpp"
+#include "libbase/numerics/statistics.hpp"
 #include "libdyn/measured/prepared_record.hpp"
 #include "libdyn/measured/speed_harmonics.hpp"
 #include "libdyn/measured/subspace.hpp"

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <random>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/random.hpp"
-#include "libbase/statistics.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/random.hpp"
+#include "libbase/numerics/statistics.hpp"
 
 namespace whirl::inline dyn {
 

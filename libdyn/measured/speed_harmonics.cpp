@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "libbase/dense.hpp"
-#include "libbase/fourier.hpp"
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/fourier.hpp"
+#include "libbase/numerics/spectrum.hpp"
 
 namespace whirl::inline dyn {
 

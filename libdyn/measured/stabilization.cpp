@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "libbase/statistics.hpp"
+#include "libbase/numerics/statistics.hpp"
 
 namespace whirl::inline dyn {
 

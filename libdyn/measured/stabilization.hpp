@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/measured/pole.hpp"
 
 namespace whirl::inline dyn {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "libbase/dense.hpp"
-#include "libbase/singular_values.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/singular_values.hpp"
 
 namespace whirl::inline dyn {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "libbase/dense.hpp"
-#include "libbase/legendre.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/legendre.hpp"
 
 namespace whirl::inline dyn {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/legendre.hpp"
+#include "libbase/numerics/legendre.hpp"
 #include "libdyn/methods/contact_step.hpp"
 
 namespace whirl::inline dyn {

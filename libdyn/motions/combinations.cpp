@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::inline dyn {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 
 namespace whirl::inline dyn {
 

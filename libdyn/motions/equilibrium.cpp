@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/system/port_balance.hpp"
 
 namespace whirl::inline dyn {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/memory.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/system/memory.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/modes.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/field.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/assemble.hpp"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/constants.hpp"
-#include "libbase/field.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/field.hpp"
 #include "libdyn/motions/lateral_unbalance.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/campbell.hpp"

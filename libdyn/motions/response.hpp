@@ -1,7 +1,7 @@
 #pragma once
 /// Steady motion in frequencies: signed spectra at points, and peaks in both frames.
 
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/spectrum.hpp"
 #include "libdyn/motions/simulate.hpp"
 
 namespace whirl::inline dyn {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "libbase/error.hpp"
-#include "libbase/memory.hpp"
+#include "libbase/system/memory.hpp"
 
 namespace whirl::inline dyn {
 

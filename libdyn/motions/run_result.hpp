@@ -1,5 +1,5 @@
 #pragma once
-/// A run and its parts as results (libbase/column.hpp): where it ended, how it moved, what its
+/// A run and its parts as results (libbase/structs/column.hpp): where it ended, how it moved, what its
 /// contacts did, its spectra.
 
 #include <memory>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
 #include "libbase/failure.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/motions/response.hpp"
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/system/contact_measures.hpp"

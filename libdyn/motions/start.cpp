@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/motions/equilibrium.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/forces.hpp"

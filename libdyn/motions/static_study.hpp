@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/running_film.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
-#include "libbase/memory.hpp"
+#include "libbase/system/memory.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
 #include "libbase/failure.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/stations.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "libbase/error.hpp"
-#include "libbase/statistics.hpp"
+#include "libbase/numerics/statistics.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/pattern.hpp"
 

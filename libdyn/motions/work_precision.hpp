@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "libbase/column.hpp"
 #include "libbase/failure.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/methods/methods.hpp"
 
 namespace whirl::inline dyn {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/constants.hpp"
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/floquet.hpp"
-#include "libbase/newton.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/floquet.hpp"
+#include "libbase/numerics/newton.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/batch.hpp"
 

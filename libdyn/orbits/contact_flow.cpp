@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/system/require_coordinates.hpp"
 #include "libdyn/taylor/mixed.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/system/scene.hpp"
 

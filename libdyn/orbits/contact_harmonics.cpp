@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/methods/methods.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/system/contact_ports.hpp"

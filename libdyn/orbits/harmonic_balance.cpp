@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libbase/newton.hpp"
+#include "libbase/numerics/newton.hpp"
 
 namespace whirl::inline dyn {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "libbase/column.hpp"
 #include "libbase/failure.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/orbits/harmonic_equations.hpp"
 
 namespace whirl::inline dyn {

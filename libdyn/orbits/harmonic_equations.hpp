@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/port_forces.hpp"
 

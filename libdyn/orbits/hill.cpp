@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "libbase/floquet.hpp"
+#include "libbase/numerics/floquet.hpp"
 
 namespace whirl::inline dyn {
 

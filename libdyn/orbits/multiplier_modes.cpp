@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 
 namespace whirl::inline dyn {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/quadrature.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/quadrature.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {

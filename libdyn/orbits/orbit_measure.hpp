@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/fourier.hpp"
+#include "libbase/numerics/fourier.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/orbits/orbit_frame.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/scene.hpp"

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "libbase/error.hpp"
-#include "libbase/floquet.hpp"
-#include "libbase/newton.hpp"
+#include "libbase/numerics/floquet.hpp"
+#include "libbase/numerics/newton.hpp"
 
 namespace whirl::inline dyn {
 

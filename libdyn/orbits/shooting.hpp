@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libbase/failure.hpp"
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libdyn/system/contact_measures.hpp"
 
 namespace whirl::inline dyn {

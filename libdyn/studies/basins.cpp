@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-#include "libbase/random.hpp"
+#include "libbase/numerics/random.hpp"
 #include "libdyn/studies/point_runner.hpp"
 
 namespace whirl::inline dyn {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/random.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/random.hpp"
 #include "libdyn/taylor/batch.hpp"
 
 namespace whirl::inline dyn {

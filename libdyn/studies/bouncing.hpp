@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libfe/resonance.hpp"
 

@@ -1,11 +1,11 @@
 #pragma once
-/// Branches of periodic orbits as a result (libbase/column.hpp); group /branch.
+/// Branches of periodic orbits as a result (libbase/structs/column.hpp); group /branch.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "libbase/parameter_name.hpp"
+#include "libbase/structs/parameter_name.hpp"
 #include "libdyn/studies/branch_tree.hpp"
 #include "libdyn/studies/end_texts.hpp"
 #include "libdyn/system/hardest_touch.hpp"

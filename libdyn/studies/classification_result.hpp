@@ -1,11 +1,11 @@
 #pragma once
-/// The kind of a motion as a result (libbase/column.hpp).
+/// The kind of a motion as a result (libbase/structs/column.hpp).
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/studies/classify.hpp"
 
 namespace whirl::inline dyn {

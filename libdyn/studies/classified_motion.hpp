@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
 #include "libbase/failure.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/system/scene.hpp"

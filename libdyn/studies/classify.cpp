@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/fractal_dimension.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/fractal_dimension.hpp"
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/proven_orbit.hpp"
 #include "libdyn/studies/stepped.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libbase/failure.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libdyn/flow/free_flight.hpp"
 #include "libdyn/studies/exponents.hpp"
 #include "libdyn/studies/settling.hpp"

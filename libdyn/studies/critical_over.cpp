@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 
 namespace whirl::inline dyn {

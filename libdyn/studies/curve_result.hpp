@@ -1,11 +1,11 @@
 #pragma once
-/// Curves of bifurcations as a result (libbase/column.hpp); group /border.
+/// Curves of bifurcations as a result (libbase/structs/column.hpp); group /border.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "libbase/parameter_name.hpp"
+#include "libbase/structs/parameter_name.hpp"
 #include "libdyn/studies/bifurcation_curves.hpp"
 #include "libdyn/studies/end_texts.hpp"
 

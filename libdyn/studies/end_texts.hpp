@@ -1,10 +1,10 @@
 #pragma once
-/// Why branches end, as results say it (libbase/column.hpp).
+/// Why branches end, as results say it (libbase/structs/column.hpp).
 
 #include <optional>
 #include <string>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/branches/branch.hpp"
 
 namespace whirl::inline dyn {

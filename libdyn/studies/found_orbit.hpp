@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
 #include "libbase/failure.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/field.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/harmonic_balance.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/parameter_name.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/parameter_name.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 #include "libfe/shape_branches.hpp"

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
-#include "libbase/memory.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/roots.hpp"
+#include "libbase/system/memory.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 
 namespace whirl::inline dyn {

@@ -7,7 +7,7 @@
 #include <functional>
 #include <span>
 
-#include "libbase/ranks.hpp"
+#include "libbase/processes/ranks.hpp"
 
 namespace whirl::inline dyn {
 

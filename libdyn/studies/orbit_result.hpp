@@ -1,7 +1,7 @@
 #pragma once
-/// Periodic orbits as results (libbase/column.hpp); group /orbit.
+/// Periodic orbits as results (libbase/structs/column.hpp); group /orbit.
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/studies/found_orbit.hpp"
 
 namespace whirl::inline dyn {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/orbits/shooting.hpp"

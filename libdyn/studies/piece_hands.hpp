@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/ranks.hpp"
-#include "libbase/travel.hpp"
-#include "libbase/work_queue.hpp"
+#include "libbase/processes/ranks.hpp"
+#include "libbase/processes/work_queue.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/studies/point_work.hpp"
 
 namespace whirl::inline dyn {

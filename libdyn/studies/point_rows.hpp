@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "libbase/row_store.hpp"
-#include "libbase/travel.hpp"
+#include "libbase/processes/row_store.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/studies/stripe.hpp"
 
 namespace whirl::inline dyn {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/piece_sizes.hpp"
+#include "libbase/processes/piece_sizes.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/studies/piece_runner.hpp"
 #include "libdyn/studies/point_rows.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/studies/stripe.hpp"
 
 namespace whirl::inline dyn {

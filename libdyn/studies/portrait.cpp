@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/response.hpp"
 #include "libdyn/motions/simulate.hpp"
 

@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/scene.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/dense.hpp"
-#include "libbase/newton.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/newton.hpp"
 #include "libdyn/orbits/shooting.hpp"
 #include "libdyn/taylor/mixed.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/studies/orbit_travel.hpp"
 #include "libdyn/studies/point_runner.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/studies/bouncing.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/system/model.hpp"

@@ -1,7 +1,7 @@
 #pragma once
-/// What rows of studies are made of, as bytes: see libbase/travel.hpp.
+/// What rows of studies are made of, as bytes: see libbase/structs/travel.hpp.
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/portrait.hpp"

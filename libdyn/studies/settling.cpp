@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/smooth_average.hpp"
+#include "libbase/numerics/smooth_average.hpp"
 
 namespace whirl::inline dyn {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Whether a motion has settled: what its sections say.
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline dyn {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "libbase/column.hpp"
 #include "libbase/failure.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/point_rows.hpp"
 #include "libdyn/studies/stripe.hpp"

@@ -1,12 +1,12 @@
 #pragma once
-/// Invariant circles as a result (libbase/column.hpp); group /torus.
+/// Invariant circles as a result (libbase/structs/column.hpp); group /torus.
 
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "libbase/failure.hpp"
-#include "libbase/parameter_name.hpp"
+#include "libbase/structs/parameter_name.hpp"
 #include "libdyn/studies/end_texts.hpp"
 #include "libdyn/studies/torus_branch.hpp"
 #include "libdyn/system/scene.hpp"

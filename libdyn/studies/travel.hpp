@@ -1,7 +1,7 @@
 #pragma once
-/// What of studies goes from one process to another, and back, beside their rows: see libbase/travel.hpp.
+/// What of studies goes from one process to another, and back, beside their rows: see libbase/structs/travel.hpp.
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/studies/basins.hpp"
 #include "libdyn/studies/row_travel.hpp"

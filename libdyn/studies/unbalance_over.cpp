@@ -2,8 +2,8 @@
 
 #include <exception>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 
 namespace whirl::inline dyn {

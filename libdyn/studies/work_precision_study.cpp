@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::inline dyn {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/motions/work_precision.hpp"
 #include "libdyn/studies/monitor.hpp"
 

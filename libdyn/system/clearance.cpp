@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "libbase/names.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/roots.hpp"
+#include "libbase/structs/names.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/unbalance.hpp"
 

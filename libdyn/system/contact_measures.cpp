@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::inline dyn {
 

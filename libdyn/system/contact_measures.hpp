@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/field.hpp"
 #include "libdyn/system/trajectory.hpp"
 
 namespace whirl::inline dyn {

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/legendre.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/legendre.hpp"
 #include "libcontact/dual_functions.hpp"
 #include "libdyn/system/sloped_contact.hpp"
 #include "libdyn/system/touch_spans.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 
 namespace whirl::inline dyn {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libcontact/blade.hpp"
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/oscillations.hpp"

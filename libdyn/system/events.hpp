@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "libbase/polynomial.hpp"
+#include "libbase/numerics/polynomial.hpp"
 #include "libdyn/system/trajectory.hpp"
 
 namespace whirl::inline dyn {

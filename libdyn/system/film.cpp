@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libbase/roots.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "libcontact/dual_functions.hpp"
 
 namespace whirl::inline dyn {

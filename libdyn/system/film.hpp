@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libcontact/oil_film.hpp"
 
 namespace whirl::inline dyn {

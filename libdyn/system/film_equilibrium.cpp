@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "libbase/error.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 #include "libdyn/system/port_balance.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/forces.hpp"

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "libfe/mesh.hpp"
 #include "libfe/properties.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/static.hpp"

@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "libbase/constants.hpp"
-#include "libbase/dense.hpp"
-#include "libbase/dual.hpp"
-#include "libbase/newton.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/dual.hpp"
+#include "libbase/numerics/newton.hpp"
 #include "libcontact/dual_functions.hpp"
 
 namespace whirl::inline dyn {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/fourier.hpp"
+#include "libbase/numerics/fourier.hpp"
 
 namespace whirl::inline dyn {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/constants.hpp"
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/linalg.hpp"
+#include "libbase/structs/column.hpp"
 #include "libfe/structure.hpp"
 
 namespace whirl::inline dyn {

@@ -3,7 +3,7 @@
 #include <cassert>
 #include <numbers>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::inline dyn {
 

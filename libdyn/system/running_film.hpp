@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libdyn/system/film.hpp"
 
 namespace whirl::inline dyn {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "libbase/dual.hpp"
+#include "libbase/numerics/dual.hpp"
 
 namespace whirl::inline dyn {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// A model made ready for computing at one speed: assembled, reduced, with its contacts.
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/trajectory.hpp"

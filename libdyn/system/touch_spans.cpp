@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/roots.hpp"
 
 namespace whirl::inline dyn {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "libbase/fourier.hpp"
+#include "libbase/numerics/fourier.hpp"
 #include "libdyn/system/contact_system.hpp"
 
 namespace whirl::inline dyn {

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <thread>
 
-#include "libbase/processors.hpp"
+#include "libbase/system/processors.hpp"
 #include "libdyn/taylor/instruction_sets.hpp"
 #include "libdyn/taylor/lanes.hpp"
 #include "libdyn/taylor/pack_engines.hpp"

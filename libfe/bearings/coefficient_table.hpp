@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "libbase/interpolation.hpp"
+#include "libbase/numerics/interpolation.hpp"
 #include "libfe/bearings/coefficients.hpp"
 
 namespace whirl::inline fe {

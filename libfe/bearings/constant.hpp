@@ -4,7 +4,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libfe/bearings/coefficients.hpp"
 
 namespace whirl::inline fe {

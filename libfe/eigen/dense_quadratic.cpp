@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/eigen/quadratic.hpp"
 
 namespace whirl::inline fe {

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "libbase/dense_complex.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/dense_complex.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/eigen/pencil.hpp"
 
 namespace whirl::inline fe {

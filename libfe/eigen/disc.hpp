@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline fe {
 

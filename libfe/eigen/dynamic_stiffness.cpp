@@ -1,6 +1,6 @@
 #include "libfe/eigen/dynamic_stiffness.hpp"
 
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 
 namespace whirl::inline fe {
 

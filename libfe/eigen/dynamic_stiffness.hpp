@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline fe {
 

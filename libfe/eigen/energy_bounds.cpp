@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/eigen/symmetric.hpp"
 
 namespace whirl::inline fe {

@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 
 namespace whirl::inline fe {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline fe {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "libbase/linalg.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/linalg.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/eigen/pencil.hpp"
 
 namespace whirl::inline fe {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libfe/eigen/newton.hpp"
 
 namespace whirl::inline fe {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "libbase/error.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/eigen/quadratic.hpp"
 #include "libfe/eigen/symmetric.hpp"
 

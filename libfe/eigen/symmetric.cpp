@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 
 namespace whirl::inline fe {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "libbase/error.hpp"
-#include "libbase/quadrature.hpp"
+#include "libbase/numerics/quadrature.hpp"
 
 namespace whirl::inline fe {
 

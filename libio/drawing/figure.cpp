@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::inline io {
 

@@ -8,7 +8,7 @@
 #include <regex>
 #include <vector>
 
-#include "libbase/program.hpp"
+#include "libbase/system/program.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/temporary_folder.hpp"
 

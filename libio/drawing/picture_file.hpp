@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/text/units.hpp"
 

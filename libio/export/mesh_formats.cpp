@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "libbase/program.hpp"
+#include "libbase/system/program.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/results/temporary_folder.hpp"
 

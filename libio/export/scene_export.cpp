@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/export/matrices.hpp"
 #include "libio/export/rotor_mesh.hpp"
 #include "libio/export/universal_file.hpp"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"

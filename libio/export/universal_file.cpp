@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/system/stations.hpp"
 
 namespace whirl::inline io {

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "libbase/error.hpp"
-#include "libbase/program.hpp"
+#include "libbase/system/program.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/results/temporary_folder.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {

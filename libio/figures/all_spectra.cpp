@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "libbase/error.hpp"
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/spectrum.hpp"
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libio/figures/mac_panel.hpp"

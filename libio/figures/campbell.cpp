@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/interpolation.hpp"
+#include "libbase/numerics/interpolation.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"

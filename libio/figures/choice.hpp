@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libio/drawing/figure_svg.hpp"
 #include "libio/figures/figures.hpp"
 

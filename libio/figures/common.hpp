@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libfe/modes.hpp"
 #include "libio/figures/figures.hpp"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/assemble.hpp"
 #include "libio/drawing/figure.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/fit/measured_fit.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libio/figures/bode_curves.hpp"
 #include "libio/figures/probes.hpp"

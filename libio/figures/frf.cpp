@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/frequency_response.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"

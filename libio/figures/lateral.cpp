@@ -4,7 +4,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/lateral_report.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"

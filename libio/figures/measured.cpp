@@ -6,8 +6,8 @@
 #include <cmath>
 #include <span>
 
-#include "libbase/constants.hpp"
-#include "libbase/interpolation.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/interpolation.hpp"
 #include "libdyn/measured/measured_identification.hpp"
 #include "libdyn/measured/order_tracking.hpp"
 #include "libdyn/measured/station_motion.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/spectrum.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/text/units.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "libbase/error.hpp"
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/spectrum.hpp"
 
 namespace whirl::inline io::figures {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/spectrum.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libio/figures/full_spectrum.hpp"
 #include "libio/figures/result_of.hpp"

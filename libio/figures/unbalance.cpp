@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libfe/amplification.hpp"
 #include "libio/figures/bode_curves.hpp"

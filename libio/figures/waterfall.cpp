@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "libbase/constants.hpp"
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/spectrum.hpp"
 #include "libdyn/measured/station_motion.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/measured/csv_header.hpp"
 #include "libio/measured/record_formats.hpp"
 #include "libio/results/csv_tables.hpp"

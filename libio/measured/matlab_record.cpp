@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libio/measured/matlab_elements.hpp"
 #include "libio/measured/record_formats.hpp"
 #include "libio/results/confined_child.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/measured/probe_file.hpp"
 #include "libio/measured/record_file.hpp"
 #include "libio/model/config.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/measured/channel_unit.hpp"
 #include "libio/text/delimited.hpp"
 #include "libio/text/vendor_units.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/measured/measured_record.hpp"
 
 namespace whirl::inline io {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <sstream>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::inline io {
 

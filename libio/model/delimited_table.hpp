@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 
 namespace whirl::inline io {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "libbase/family.hpp"
+#include "libbase/structs/family.hpp"
 #include "libio/model/bearing_table.hpp"
 #include "libio/model/model_builder.hpp"
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <string_view>
 
-#include "libbase/constants.hpp"
-#include "libbase/names.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/structs/names.hpp"
 #include "libfe/mesh.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"

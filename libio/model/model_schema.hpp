@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libio/text/record.hpp"
 
 namespace whirl::inline io {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libbase/field.hpp"
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
+#include "libbase/structs/field.hpp"
 #include "libio/model/asked_key.hpp"
 #include "libio/model/config.hpp"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libbase/family.hpp"
+#include "libbase/structs/family.hpp"
 #include "libio/model/read_fields.hpp"
 
 namespace whirl::inline io {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libfe/unbalance.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Columns of results (libbase/column.hpp) whatever their types: lists that the compiler makes, so that
+/// Columns of results (libbase/structs/column.hpp) whatever their types: lists that the compiler makes, so that
 /// what reads, writes and tells results is compiled once and not for every one of them.
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libio/results/cells.hpp"
 #include "libio/text/record.hpp"
 

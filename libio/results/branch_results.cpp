@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/packed_branch.hpp"
 

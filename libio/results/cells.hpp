@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/field.hpp"
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/field.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl::inline io::columns {

@@ -1,5 +1,5 @@
 #pragma once
-/// Results by their columns (libbase/column.hpp): into a result file and back, as JSON, and as what a
+/// Results by their columns (libbase/structs/column.hpp): into a result file and back, as JSON, and as what a
 /// file is checked against.
 
 #include <functional>
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/constants.hpp"
-#include "libbase/parameter_name.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/parameter_name.hpp"
 #include "libio/results/any_column.hpp"
 #include "libio/results/cells.hpp"
 #include "libio/results/result_schema.hpp"

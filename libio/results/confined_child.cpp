@@ -16,7 +16,7 @@
 #include <fstream>
 #include <new>
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/text/files_in_use.hpp"
 

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/critical_map.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/result_schema.hpp"

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {

@@ -1,5 +1,5 @@
 #pragma once
-/// Points of a study by their columns (libbase/column.hpp): a row as numbers of datasets, and back.
+/// Points of a study by their columns (libbase/structs/column.hpp): a row as numbers of datasets, and back.
 
 #include <algorithm>
 #include <functional>
@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/field.hpp"
 #include "libdyn/studies/classified_motion.hpp"
 #include "libdyn/studies/study_outcome.hpp"
 #include "libio/results/columns.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 #include "libio/results/hdf5.hpp"
 
 namespace whirl::inline io {

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <optional>
 
-#include "libbase/digest.hpp"
+#include "libbase/structs/digest.hpp"
 #include "libio/results/hdf5/checksum.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libio/text/files_in_use.hpp"

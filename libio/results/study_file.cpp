@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "libbase/arithmetic.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/arithmetic.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/call.hpp"

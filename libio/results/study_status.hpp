@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "libbase/column.hpp"
+#include "libbase/structs/column.hpp"
 
 namespace whirl::inline io {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/units.hpp"
 

@@ -9,7 +9,7 @@
 ///   };
 ///
 /// A field may be such a struct, too. Help, manual, completion and reader all work from these
-/// structs, as those of model files do from fields (libbase/field.hpp).
+/// structs, as those of model files do from fields (libbase/structs/field.hpp).
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/text/parameter_axis.hpp"
 #include "libio/text/value_range.hpp"
 

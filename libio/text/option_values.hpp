@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {

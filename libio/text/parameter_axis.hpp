@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/parameter_name.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/parameter_name.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {

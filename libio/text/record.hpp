@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 namespace whirl::inline io {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/results/call.hpp"
 #include "libio/text/format.hpp"
 #include "libio/texts/probe_text.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/text/format.hpp"
 #include "libio/text/table.hpp"
 #include "libio/text/units.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/names.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/structs/names.hpp"
 #include "libfe/exceeded_tables.hpp"
 #include "libio/model/model_doubts.hpp"
 #include "libio/text/format.hpp"

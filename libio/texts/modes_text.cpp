@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/texts/row_table.hpp"
 #include "libio/texts/some_rows.hpp"
 

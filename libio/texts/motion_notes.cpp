@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/names.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/structs/names.hpp"
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/film_equilibrium.hpp"

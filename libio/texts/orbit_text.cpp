@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/text/table.hpp"
 #include "libio/texts/motion_text.hpp"
 #include "libio/texts/probe_text.hpp"

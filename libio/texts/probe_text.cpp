@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/text/units.hpp"
 #include "libio/texts/row_table.hpp"
 

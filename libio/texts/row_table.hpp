@@ -1,6 +1,6 @@
 #pragma once
 /// Tables for people of lists of rows: what a column is called, its unit and its numbers come from
-/// the columns() of the row (libbase/column.hpp).
+/// the columns() of the row (libbase/structs/column.hpp).
 ///
 ///   table_of(found.criticals, {row_number("number"), shown("speed", "rpm", ".2f"), shown("whirl"),
 ///                              {"excitation", [](const Critical& c) { return c.excitation(); }}})
@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/column.hpp"
-#include "libbase/field.hpp"
+#include "libbase/structs/column.hpp"
+#include "libbase/structs/field.hpp"
 #include "libio/results/cells.hpp"
 #include "libio/text/table.hpp"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::inline io {
 

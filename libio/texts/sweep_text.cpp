@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/constants.hpp"
-#include "libbase/names.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/structs/names.hpp"
 #include "libio/texts/probe_text.hpp"
 #include "libio/texts/row_table.hpp"
 

@@ -6,7 +6,7 @@
 #include <new>
 #include <stdexcept>
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/bare_speed.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "libbase/failure.hpp"
-#include "libbase/ranks.hpp"
+#include "libbase/processes/ranks.hpp"
 #include "libdyn/system/model.hpp"
 #include "libio/results/call.hpp"
 #include "libio/results/replace_file.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/texts/model_text.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "libbase/ranks.hpp"
+#include "libbase/processes/ranks.hpp"
 #include "libio/text/option.hpp"
 
 namespace whirl::inline cli {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "libbase/field.hpp"
+#include "libbase/structs/field.hpp"
 #include "libio/results/motion_window.hpp"
 #include "libio/text/option.hpp"
 
@@ -20,7 +20,7 @@ inline Option<std::vector<double>> speeds_option() {
 
 // of motions
 /// Ranges of what several verbs count. Each bounds what a number alone can cost; memory is checked
-/// besides, where it grows with several of them (libbase/memory.hpp).
+/// besides, where it grows with several of them (libbase/system/memory.hpp).
 inline constexpr Whole mode_range{1, 10'000};
 inline constexpr Whole revolution_range{1, 10'000'000};
 inline constexpr Whole discard_range{0, 10'000'000};

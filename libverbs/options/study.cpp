@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "libbase/processors.hpp"
+#include "libbase/system/processors.hpp"
 #include "libio/texts/motion_notes.hpp"
 #include "libio/texts/study_text.hpp"
 #include "libverbs/command/version.hpp"

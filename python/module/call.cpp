@@ -8,7 +8,7 @@
 #include <optional>
 #include <thread>
 
-#include "libbase/interruption.hpp"
+#include "libbase/system/interruption.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/text/files_in_use.hpp"
 #include "libverbs/command/command.hpp"

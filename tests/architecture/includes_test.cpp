@@ -51,20 +51,25 @@ std::vector<Include> includes() {
 
 /// Rooms from the ground up; each knows only of those before it.
 const std::vector<std::string> floors{
-    "libbase/",          "libfe/",          "libcontact/",     "libdyn/system/",
-    "libdyn/flow/",      "libdyn/taylor/",  "libdyn/methods/", "libdyn/motions/",
-    "libdyn/measured/",  "libdyn/fit/",     "libdyn/orbits/",  "libdyn/branches/",
-    "libdyn/studies/",   "libio/text/",     "libio/model/",    "libio/results/",
-    "libio/import/",     "libio/measured/", "libio/texts/",    "libio/drawing/",
-    "libio/export/",     "libio/figures/",  "libio/page/",     "libverbs/command/",
-    "libverbs/options/", "libverbs/verbs/", "apps/",           "python/"};
+    "libbase/",           "libbase/structs/", "libbase/system/", "libbase/numerics/",
+    "libbase/processes/", "libfe/",           "libcontact/",     "libdyn/system/",
+    "libdyn/flow/",       "libdyn/taylor/",   "libdyn/methods/", "libdyn/motions/",
+    "libdyn/measured/",   "libdyn/fit/",      "libdyn/orbits/",  "libdyn/branches/",
+    "libdyn/studies/",    "libio/text/",      "libio/model/",    "libio/results/",
+    "libio/import/",      "libio/measured/",  "libio/texts/",    "libio/drawing/",
+    "libio/export/",      "libio/figures/",   "libio/page/",     "libverbs/command/",
+    "libverbs/options/",  "libverbs/verbs/",  "apps/",           "python/"};
 
-/// The floor of a file, from 0; -1 of what is in no room.
+/// The floor of a file, from 0: of the innermost room that it is in; -1 of what is in none.
 int floor_of(const std::string& path) {
+  int found = -1;
   for (std::size_t i = 0; i < floors.size(); ++i) {
-    if (path.rfind(floors[i], 0) == 0) return static_cast<int>(i);
+    if (path.rfind(floors[i], 0) != 0) continue;
+    const bool is_inside =
+        found >= 0 && floors[i].size() < floors[static_cast<std::size_t>(found)].size();
+    if (!is_inside) found = static_cast<int>(i);
   }
-  return -1;
+  return found;
 }
 
 TEST(Architecture, IncludesPointDown) {

@@ -1,6 +1,6 @@
 // The mathematical library by its values.
 
-#include "libbase/arithmetic.hpp"
+#include "libbase/numerics/arithmetic.hpp"
 
 #include <gtest/gtest.h>
 

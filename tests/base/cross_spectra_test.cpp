@@ -1,6 +1,6 @@
 // Cross spectra of what is known in closed form: tones, delays, and energy.
 
-#include "libbase/cross_spectra.hpp"
+#include "libbase/numerics/cross_spectra.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Least squares whose solutions are known.
 
-#include "libbase/dogleg.hpp"
+#include "libbase/numerics/dogleg.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Derivatives that numbers carry, against those of calculus.
 
-#include "libbase/dual.hpp"
+#include "libbase/numerics/dual.hpp"
 
 #include <gtest/gtest.h>
 

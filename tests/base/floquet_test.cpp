@@ -1,6 +1,6 @@
 // Multipliers of products of matrices, against known ones.
 
-#include "libbase/floquet.hpp"
+#include "libbase/numerics/floquet.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Fourier series of periodic motions: what is put in comes out, and slopes are slopes.
 
-#include "libbase/fourier.hpp"
+#include "libbase/numerics/fourier.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 
 namespace whirl::fourier_test {
 

@@ -1,6 +1,6 @@
 // The dimension of sections, on sets whose dimension is known.
 
-#include "libbase/fractal_dimension.hpp"
+#include "libbase/numerics/fractal_dimension.hpp"
 
 #include <gtest/gtest.h>
 

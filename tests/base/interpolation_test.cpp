@@ -1,6 +1,6 @@
 // Values between places: lines, and the monotone cubics that SciPy calls PchipInterpolator.
 
-#include "libbase/interpolation.hpp"
+#include "libbase/numerics/interpolation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "libbase/interruption.hpp"
+#include "libbase/system/interruption.hpp"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 
 namespace whirl {
 namespace interruption_test {

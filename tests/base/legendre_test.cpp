@@ -1,6 +1,6 @@
 // Legendre's polynomials on [0, 1] against their closed forms.
 
-#include "libbase/legendre.hpp"
+#include "libbase/numerics/legendre.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Memory that a process can have: what the machine, its cgroups and its limit of addresses leave.
 
-#include "libbase/memory.hpp"
+#include "libbase/system/memory.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

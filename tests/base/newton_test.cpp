@@ -1,6 +1,6 @@
 // Newton's method on equations of one unknown, whose steps are known.
 
-#include "libbase/newton.hpp"
+#include "libbase/numerics/newton.hpp"
 
 #include <gtest/gtest.h>
 

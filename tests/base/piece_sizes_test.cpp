@@ -1,6 +1,6 @@
 // How points of a study are cut into pieces: threads busy, results soon, lanes full.
 
-#include "libbase/piece_sizes.hpp"
+#include "libbase/processes/piece_sizes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The first fall of a polynomial below zero: no root is missed, none is invented.
 
-#include "libbase/polynomial.hpp"
+#include "libbase/numerics/polynomial.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Threads that a process may use: what its affinity mask, its cgroups and its environment leave.
 
-#include "libbase/processors.hpp"
+#include "libbase/system/processors.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>

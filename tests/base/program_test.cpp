@@ -1,6 +1,6 @@
 // Other programs: how they end and what they say.
 
-#include "libbase/program.hpp"
+#include "libbase/system/program.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // Gauss-Legendre points on [0, 1] and the matrix of running integrals.
 
-#include "libbase/quadrature.hpp"
+#include "libbase/numerics/quadrature.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Ranks that work together: what all must know, errors of others, and how long one waits.
 
-#include "libbase/ranks.hpp"
+#include "libbase/processes/ranks.hpp"
 
 #include <new>
 

@@ -1,6 +1,6 @@
 // Roots and maxima between bounds, against known ones.
 
-#include "libbase/roots.hpp"
+#include "libbase/numerics/roots.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Rows that are too many for the memory: on the disk they are as they were.
 
-#include "libbase/row_store.hpp"
+#include "libbase/processes/row_store.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
 // What many numbers are like.
 
-#include "libbase/statistics.hpp"
+#include "libbase/numerics/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // Values as bytes and back: every bit, and nothing that is not there.
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "tests/support/travel.hpp"
 
 namespace whirl::travel_test {

@@ -1,6 +1,6 @@
 // The queue of a study: every piece is done once, whatever the threads.
 
-#include "libbase/work_queue.hpp"
+#include "libbase/processes/work_queue.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

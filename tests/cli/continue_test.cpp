@@ -3,7 +3,7 @@
 #include <cmath>
 #include <complex>
 
-#include "libbase/roots.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "tests/cli/studies.hpp"
 
 namespace whirl::test {

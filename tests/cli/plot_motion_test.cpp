@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libcontact/laws.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/studies/map.hpp"

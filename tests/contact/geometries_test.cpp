@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "libbase/dual.hpp"
+#include "libbase/numerics/dual.hpp"
 
 namespace whirl::geometries_test {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libfe/bow.hpp"
 #include "libfe/unbalance.hpp"

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::corrected_scene_test {

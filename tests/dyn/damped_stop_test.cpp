@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "libbase/quadrature.hpp"
+#include "libbase/numerics/quadrature.hpp"
 #include "libdyn/system/contact_measures.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
-#include "libbase/random.hpp"
+#include "libbase/numerics/random.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libfe/static.hpp"
 #include "tests/support/oil_films.hpp"

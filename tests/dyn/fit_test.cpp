@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/random.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/random.hpp"
 #include "libdyn/fit/model_source.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
 #include "tests/support/scenes.hpp"

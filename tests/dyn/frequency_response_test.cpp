@@ -7,8 +7,8 @@
 #include <Eigen/Dense>
 #include <numbers>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::frequency_response_test {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/quadrature.hpp"
-#include "libbase/roots.hpp"
+#include "libbase/numerics/quadrature.hpp"
+#include "libbase/numerics/roots.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/law_proofs.hpp"
 #include "tests/support/scenes.hpp"

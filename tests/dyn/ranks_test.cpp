@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "libbase/error.hpp"
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libdyn/studies/point_runner.hpp"
 #include "tests/support/branch_trees.hpp"
 #include "tests/support/post.hpp"

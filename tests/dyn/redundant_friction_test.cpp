@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "libbase/quadrature.hpp"
+#include "libbase/numerics/quadrature.hpp"
 #include "libdyn/motions/simulate.hpp"
 #include "tests/support/trajectories.hpp"
 

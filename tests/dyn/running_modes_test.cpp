@@ -9,8 +9,8 @@
 #include <Eigen/LU>
 #include <numbers>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/measured/speed_harmonics.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/random_response.hpp"

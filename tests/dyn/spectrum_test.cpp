@@ -1,6 +1,6 @@
 // Signed spectra, their peaks between the bins, and both frames.
 
-#include "libbase/spectrum.hpp"
+#include "libbase/numerics/spectrum.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/constants.hpp"
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/random.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/random.hpp"
 #include "libdyn/fit/fit.hpp"
 #include "libdyn/fit/model_source.hpp"
 #include "libdyn/fit/steady_record.hpp"

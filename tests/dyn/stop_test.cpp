@@ -9,7 +9,7 @@
 #include <complex>
 #include <string>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/branches/bifurcation_curve.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "tests/support/scenes.hpp"
 

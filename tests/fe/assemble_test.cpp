@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
-#include "libbase/sparse_lu.hpp"
+#include "libbase/numerics/dense.hpp"
+#include "libbase/numerics/sparse_lu.hpp"
 #include "libfe/modes.hpp"
 #include "libfe/properties.hpp"
 #include "libfe/static.hpp"

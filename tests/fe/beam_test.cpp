@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::beam_test {

@@ -6,7 +6,7 @@
 #include <complex>
 #include <limits>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/modes.hpp"
 #include "tests/support/rotors.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libbase/dense.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/elements/body.hpp"
 
 namespace whirl::disk_test {

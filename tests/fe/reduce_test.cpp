@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/eigen/quadratic.hpp"
 #include "libfe/elements/disk.hpp"
 #include "libfe/modes.hpp"

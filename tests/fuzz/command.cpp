@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libbase/ranks.hpp"
+#include "libbase/processes/ranks.hpp"
 #include "libio/results/replace_file.hpp"
 #include "libverbs/command/command_line.hpp"
 #include "libverbs/command/verb.hpp"

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "libbase/program.hpp"
+#include "libbase/system/program.hpp"
 #include "tests/io/result_folder.hpp"
 
 namespace whirl::test {

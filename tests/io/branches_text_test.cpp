@@ -6,7 +6,7 @@
 
 #include <regex>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libio/texts/torus_text.hpp"
 
 namespace whirl::branches_text_test {

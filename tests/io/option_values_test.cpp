@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libdyn/studies/found_orbit.hpp"
 
 namespace whirl::option_values_test {

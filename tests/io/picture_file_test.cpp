@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libbase/program.hpp"
+#include "libbase/system/program.hpp"
 #include "libio/results/own_file.hpp"
 #include "libio/text/option_values.hpp"
 #include "tests/io/result_folder.hpp"

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "libfe/modes.hpp"
 
 namespace whirl::row_table_test {

@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "libbase/constants.hpp"
+#include "libbase/numerics/constants.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::universal_file_test {

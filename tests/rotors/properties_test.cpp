@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libbase/dense.hpp"
 #include "libbase/error.hpp"
+#include "libbase/numerics/dense.hpp"
 #include "libfe/critical.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/ranks.hpp"
+#include "libbase/processes/ranks.hpp"
 
 namespace whirl::test {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 
 extern "C" void dggev_(const char* left, const char* right, const int* n, double* A, const int* lda,
                        double* B, const int* ldb, double* re, double* im, double* beta, double* vl,

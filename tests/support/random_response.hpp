@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "libbase/linalg.hpp"
-#include "libbase/random.hpp"
+#include "libbase/numerics/linalg.hpp"
+#include "libbase/numerics/random.hpp"
 
 namespace whirl::test {
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 
 namespace whirl::test {
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "libbase/linalg.hpp"
+#include "libbase/numerics/linalg.hpp"
 #include "libio/results/confined_child.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/replace_file.hpp"

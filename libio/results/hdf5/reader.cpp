@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "libbase/travel.hpp"
+#include "libbase/structs/travel.hpp"
 #include "libio/results/confined_child.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/hdf5/open_file.hpp"

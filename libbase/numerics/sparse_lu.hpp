@@ -1,0 +1,48 @@
+#pragma once
+/// Sparse LU factors by Eigen, compiled once.
+
+#include <memory>
+
+#include "libbase/numerics/linalg.hpp"
+
+namespace whirl::inline base {
+
+/// P A Q = L U of a square sparse matrix.
+class SparseLu {
+ public:
+  SparseLu();
+  explicit SparseLu(const Sparse& A);
+  ~SparseLu();
+  SparseLu(SparseLu&&) noexcept;
+  SparseLu& operator=(SparseLu&&) noexcept;
+
+  /// Whether A has an inverse; only then solve() has an answer.
+  bool is_regular() const;
+  /// A^-1 b, for one or several columns b.
+  Mat solve(const Eigen::Ref<const Mat>& b) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+/// The same of complex matrices, one after the other, whose entries stand at the same places.
+class ComplexSparseLu {
+ public:
+  /// Finds the order of elimination for matrices with entries at these places.
+  explicit ComplexSparseLu(const CSparse& pattern);
+  ~ComplexSparseLu();
+  ComplexSparseLu(ComplexSparseLu&&) noexcept;
+  ComplexSparseLu& operator=(ComplexSparseLu&&) noexcept;
+
+  /// Whether A, on the pattern, has an inverse; only then solve() has an answer.
+  bool factorize(const CSparse& A);
+  /// A^-1 b
+  CVec solve(const CVec& b) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+};
+
+}  // namespace whirl::inline base
