@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "libdyn/system/film_equilibrium.hpp"
-#include "libfe/campbell.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/unbalance.hpp"
 #include "libio/model/model_file.hpp"
 
 namespace whirl {

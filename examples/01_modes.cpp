@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 int main() {
   using namespace whirl;

@@ -5,7 +5,7 @@
 
 #include "libcontact/friction.hpp"
 #include "libcontact/laws.hpp"
-#include "libfe/structure.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline contact {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "libcontact/films.hpp"
-#include "libfe/structure.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline contact {
 

@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline dyn {
 

@@ -9,7 +9,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/measured/record_doubts.hpp"
 #include "libdyn/motions/motion_lines.hpp"
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 
 namespace whirl::inline dyn {
 

@@ -7,7 +7,7 @@
 
 #include "libdyn/measured/key_phasor.hpp"
 #include "libdyn/measured/measured_record.hpp"
-#include "libfe/structure.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline dyn {
 

@@ -9,9 +9,9 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/constants.hpp"
 #include "libbase/system/memory.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
-#include "libfe/modes.hpp"
 
 namespace whirl::inline dyn {
 

@@ -10,7 +10,7 @@
 #include "libbase/structs/column.hpp"
 #include "libbase/structs/field.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
 

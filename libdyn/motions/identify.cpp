@@ -7,10 +7,10 @@
 
 #include "libdyn/motions/motion_lines.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
-#include "libfe/campbell.hpp"
-#include "libfe/forces.hpp"
-#include "libfe/own_frequency_modes.hpp"
-#include "libfe/reduced_modes.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/own_frequency_modes.hpp"
+#include "libfe/analyses/reduced_modes.hpp"
+#include "libfe/assembly/forces.hpp"
 
 namespace whirl::inline dyn {
 

@@ -8,7 +8,7 @@
 #include "libbase/structs/column.hpp"
 #include "libdyn/motions/combinations.hpp"
 #include "libdyn/motions/response.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline dyn {
 

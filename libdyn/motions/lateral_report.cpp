@@ -8,7 +8,7 @@
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libdyn/system/resting_rotor.hpp"
-#include "libfe/rigid_supports.hpp"
+#include "libfe/lateral/rigid_supports.hpp"
 
 namespace whirl::inline dyn {
 

@@ -13,9 +13,9 @@
 #include "libbase/structs/field.hpp"
 #include "libdyn/motions/lateral_unbalance.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/campbell.hpp"
-#include "libfe/coupling_stability.hpp"
-#include "libfe/response_curve.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/response_curve.hpp"
+#include "libfe/lateral/coupling_stability.hpp"
 
 namespace whirl::inline dyn {
 

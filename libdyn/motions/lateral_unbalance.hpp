@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "libdyn/system/model.hpp"
-#include "libfe/antinodes.hpp"
-#include "libfe/critical.hpp"
-#include "libfe/lateral_rules.hpp"
+#include "libfe/analyses/critical.hpp"
+#include "libfe/lateral/antinodes.hpp"
+#include "libfe/lateral/lateral_rules.hpp"
 
 namespace whirl::inline dyn {
 

@@ -9,9 +9,9 @@
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/motions/equilibrium.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
-#include "libfe/forces.hpp"
-#include "libfe/modes.hpp"
-#include "libfe/static.hpp"
+#include "libfe/analyses/modes.hpp"
+#include "libfe/analyses/static.hpp"
+#include "libfe/assembly/forces.hpp"
 
 namespace whirl::inline dyn {
 

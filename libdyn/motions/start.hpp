@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "libdyn/system/scene.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline dyn {
 

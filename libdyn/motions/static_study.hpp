@@ -10,9 +10,9 @@
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/running_film.hpp"
-#include "libfe/assemble.hpp"
-#include "libfe/bending.hpp"
-#include "libfe/static.hpp"
+#include "libfe/analyses/bending.hpp"
+#include "libfe/analyses/static.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
 

@@ -8,7 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/system/memory.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline dyn {
 

@@ -11,7 +11,7 @@
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/response_curve.hpp"
+#include "libfe/analyses/response_curve.hpp"
 
 namespace whirl::inline dyn {
 

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "libbase/numerics/dense.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline dyn {
 

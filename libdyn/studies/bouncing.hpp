@@ -9,7 +9,7 @@
 
 #include "libbase/structs/column.hpp"
 #include "libdyn/orbits/autonomous_orbit.hpp"
-#include "libfe/resonance.hpp"
+#include "libfe/analyses/resonance.hpp"
 
 namespace whirl::inline dyn {
 

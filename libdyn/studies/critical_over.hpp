@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "libdyn/studies/model_at.hpp"
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 
 namespace whirl::inline dyn {
 

@@ -8,8 +8,8 @@
 #include "libbase/structs/column.hpp"
 #include "libbase/structs/parameter_name.hpp"
 #include "libdyn/system/model.hpp"
-#include "libfe/assemble.hpp"
-#include "libfe/shape_branches.hpp"
+#include "libfe/analyses/shape_branches.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libdyn/studies/model_at.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline dyn {
 

@@ -10,7 +10,7 @@
 #include "libdyn/studies/bouncing.hpp"
 #include "libdyn/studies/monitor.hpp"
 #include "libdyn/system/model.hpp"
-#include "libfe/resonance.hpp"
+#include "libfe/analyses/resonance.hpp"
 
 namespace whirl::inline dyn {
 

@@ -6,8 +6,8 @@
 
 #include "libbase/numerics/roots.hpp"
 #include "libbase/structs/names.hpp"
-#include "libfe/modes.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/modes.hpp"
+#include "libfe/analyses/unbalance.hpp"
 
 namespace whirl::inline dyn {
 

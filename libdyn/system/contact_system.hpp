@@ -8,7 +8,7 @@
 
 #include "libdyn/system/film.hpp"
 #include "libdyn/system/model.hpp"
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
 

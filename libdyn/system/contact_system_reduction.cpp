@@ -9,7 +9,7 @@
 #include "libcontact/blade.hpp"
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/oscillations.hpp"
-#include "libfe/forces.hpp"
+#include "libfe/assembly/forces.hpp"
 
 namespace whirl::inline dyn {
 

@@ -1,7 +1,7 @@
 #include "libdyn/system/corrected_scene.hpp"
 
 #include "libdyn/system/system_slope.hpp"
-#include "libfe/static_shapes.hpp"
+#include "libfe/analyses/static_shapes.hpp"
 
 namespace whirl::inline dyn {
 

@@ -8,8 +8,8 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/sparse_lu.hpp"
 #include "libdyn/system/port_balance.hpp"
+#include "libfe/assembly/forces.hpp"
 #include "libfe/eigen/symmetric.hpp"
-#include "libfe/forces.hpp"
 
 namespace whirl::inline dyn {
 

@@ -7,8 +7,8 @@
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/running_film.hpp"
 #include "libdyn/system/scene.hpp"
-#include "libfe/assemble.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
 

@@ -4,8 +4,8 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/roots.hpp"
-#include "libfe/mesh.hpp"
-#include "libfe/properties.hpp"
+#include "libfe/assembly/properties.hpp"
+#include "libfe/mesh/mesh.hpp"
 
 namespace whirl::inline dyn {
 

@@ -6,8 +6,8 @@
 
 #include "libcontact/contact.hpp"
 #include "libcontact/oil_film.hpp"
-#include "libfe/reduce.hpp"
-#include "libfe/structure.hpp"
+#include "libfe/analyses/reduce.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline dyn {
 

@@ -2,8 +2,8 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/system/resting_rotor.hpp"
-#include "libfe/assemble.hpp"
-#include "libfe/properties.hpp"
+#include "libfe/assembly/assemble.hpp"
+#include "libfe/assembly/properties.hpp"
 
 namespace whirl::inline dyn {
 

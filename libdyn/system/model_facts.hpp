@@ -7,7 +7,7 @@
 #include "libbase/structs/column.hpp"
 #include "libdyn/system/clearance.hpp"
 #include "libdyn/system/model.hpp"
-#include "libfe/static.hpp"
+#include "libfe/analyses/static.hpp"
 
 namespace whirl::inline dyn {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "libdyn/system/contact_system.hpp"
-#include "libfe/forces.hpp"
+#include "libfe/assembly/forces.hpp"
 
 namespace whirl::inline dyn {
 

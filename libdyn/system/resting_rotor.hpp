@@ -5,7 +5,7 @@
 
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/running_film.hpp"
-#include "libfe/static.hpp"
+#include "libfe/analyses/static.hpp"
 
 namespace whirl::inline dyn {
 

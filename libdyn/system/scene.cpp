@@ -8,7 +8,7 @@
 #include <span>
 
 #include "libbase/error.hpp"
-#include "libfe/forces.hpp"
+#include "libfe/assembly/forces.hpp"
 
 namespace whirl::inline dyn {
 

@@ -5,7 +5,7 @@
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/model.hpp"
 #include "libdyn/system/trajectory.hpp"
-#include "libfe/reduce.hpp"
+#include "libfe/analyses/reduce.hpp"
 
 namespace whirl::inline dyn {
 

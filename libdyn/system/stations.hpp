@@ -6,7 +6,7 @@
 
 #include "libbase/structs/column.hpp"
 #include "libdyn/system/model.hpp"
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline dyn {
 

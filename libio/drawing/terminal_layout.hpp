@@ -3,7 +3,7 @@
 #include <string>
 
 #include "libdyn/system/model.hpp"
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::inline io {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libdyn/system/model.hpp"
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {

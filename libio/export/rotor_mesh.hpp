@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libdyn/system/model.hpp"
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "libio/export/vtk.hpp"
 
 namespace whirl::inline io {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "libfe/assemble.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"

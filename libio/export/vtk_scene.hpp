@@ -2,8 +2,8 @@
 /// From models and results to what ParaView shows.
 
 #include "libdyn/system/model.hpp"
-#include "libfe/assemble.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "libio/export/vtk.hpp"
 
 namespace whirl::inline io {

@@ -1,4 +1,4 @@
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 
 #include <fmt/format.h>
 

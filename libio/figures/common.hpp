@@ -5,7 +5,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/run_result.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "libio/figures/figures.hpp"
 
 namespace whirl::inline io {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "libfe/critical_map.hpp"
+#include "libfe/analyses/critical_map.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 

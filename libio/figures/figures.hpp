@@ -13,7 +13,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/system/model.hpp"
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "libio/drawing/figure.hpp"
 #include "libio/results/hdf5.hpp"
 #include "libio/results/motion_window.hpp"

@@ -1,4 +1,4 @@
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 #include <fmt/format.h>
 

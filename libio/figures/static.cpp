@@ -1,4 +1,4 @@
-#include "libfe/static.hpp"
+#include "libfe/analyses/static.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "libdyn/system/running_film.hpp"
-#include "libfe/bending.hpp"
-#include "libfe/forces.hpp"
+#include "libfe/analyses/bending.hpp"
+#include "libfe/assembly/forces.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"

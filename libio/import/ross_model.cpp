@@ -9,7 +9,7 @@
 #include <set>
 
 #include "libbase/error.hpp"
-#include "libfe/structure.hpp"
+#include "libfe/parts/structure.hpp"
 #include "libio/import/ross_differences.hpp"
 
 namespace whirl::inline io {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libfe/bearings/coefficient_table.hpp"
+#include "libfe/parts/bearings/coefficient_table.hpp"
 
 namespace whirl::inline io {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libfe/structure.hpp"
+#include "libfe/parts/structure.hpp"
 
 namespace whirl::inline io {
 

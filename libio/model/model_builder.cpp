@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "libio/text/encoding.hpp"
 #include "libio/text/file_bytes.hpp"
 #include "libio/text/nearest.hpp"

@@ -14,7 +14,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/structs/names.hpp"
-#include "libfe/mesh.hpp"
+#include "libfe/mesh/mesh.hpp"
 #include "libio/model/config.hpp"
 #include "libio/model/model_builder.hpp"
 #include "libio/text/delimited.hpp"

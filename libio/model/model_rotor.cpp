@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "libfe/elements/disk.hpp"
+#include "libfe/mesh/elements/disk.hpp"
 #include "libio/model/model_builder.hpp"
 #include "libio/text/units.hpp"
 

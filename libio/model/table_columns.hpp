@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/bearings/coefficients.hpp"
+#include "libfe/parts/bearings/coefficients.hpp"
 #include "libio/text/delimited.hpp"
 
 namespace whirl::inline io {

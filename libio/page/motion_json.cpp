@@ -7,7 +7,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/unbalance.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"

@@ -9,7 +9,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/studies/classification_result.hpp"
-#include "libfe/properties.hpp"
+#include "libfe/assembly/properties.hpp"
 #include "libio/drawing/figure_json.hpp"
 #include "libio/figures/comparison.hpp"
 #include "libio/figures/result_of.hpp"

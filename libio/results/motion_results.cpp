@@ -5,7 +5,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
-#include "libfe/critical_map.hpp"
+#include "libfe/analyses/critical_map.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/result_schema.hpp"
 

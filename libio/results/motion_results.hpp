@@ -8,7 +8,7 @@
 #include "libdyn/motions/start.hpp"
 #include "libdyn/motions/static_study.hpp"
 #include "libdyn/studies/resonance_study.hpp"
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 
 namespace whirl::inline io {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libfe/lateral_rules.hpp"
+#include "libfe/lateral/lateral_rules.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "libfe/campbell.hpp"
-#include "libfe/critical.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/critical.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline io {
 

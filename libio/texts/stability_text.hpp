@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "libfe/campbell.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline io {
 

@@ -1,4 +1,4 @@
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"

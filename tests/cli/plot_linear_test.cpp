@@ -4,7 +4,7 @@
 
 #include <regex>
 
-#include "libfe/critical_map.hpp"
+#include "libfe/analyses/critical_map.hpp"
 #include "libio/results/columns.hpp"
 #include "tests/cli/plots.hpp"
 
@@ -109,8 +109,8 @@ table = "k.csv"
   }
   // what is drawn is in the file
   const auto stored = read_result<CriticalMap>(view.file);
-  const CriticalMap solved = critical_map_of(view.assembler->structure(),
-                                             read_result<CriticalSpeeds>(view.file));
+  const CriticalMap solved =
+      critical_map_of(view.assembler->structure(), read_result<CriticalSpeeds>(view.file));
   EXPECT_EQ(stored.x, solved.x);
   EXPECT_EQ(stored.top, solved.top);
   ASSERT_EQ(stored.branches.size(), solved.branches.size());

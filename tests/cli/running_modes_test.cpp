@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "libio/model/model_file.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/random_response.hpp"

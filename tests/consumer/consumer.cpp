@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "libdyn/motions/simulate.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 int main() {
   const double length = 0.8, diameter = 0.02, mass = 5.0;

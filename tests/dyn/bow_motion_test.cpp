@@ -6,8 +6,8 @@
 
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/system/scene.hpp"
-#include "libfe/bow.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/unbalance.hpp"
+#include "libfe/parts/bow.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::bow_motion_test {

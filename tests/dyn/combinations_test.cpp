@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libdyn/motions/identify.hpp"
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::combinations_test {

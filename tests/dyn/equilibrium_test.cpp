@@ -10,7 +10,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/random.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
-#include "libfe/static.hpp"
+#include "libfe/analyses/static.hpp"
 #include "tests/support/oil_films.hpp"
 #include "tests/support/scenes.hpp"
 

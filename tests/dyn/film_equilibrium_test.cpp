@@ -13,9 +13,9 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/motions/static_study.hpp"
-#include "libfe/campbell.hpp"
-#include "libfe/critical.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/critical.hpp"
+#include "libfe/analyses/unbalance.hpp"
 #include "tests/support/oil_films.hpp"
 
 namespace whirl::film_equilibrium_test {

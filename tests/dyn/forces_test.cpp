@@ -1,7 +1,7 @@
 // Forces that do not follow from the motion in the equations of motion: every method has the same
 // motions, and simulations settle on the steady responses.
 
-#include "libfe/forces.hpp"
+#include "libfe/assembly/forces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include "libdyn/motions/start.hpp"
 #include "libdyn/studies/map.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/unbalance.hpp"
 #include "tests/dyn/forces.hpp"
 
 namespace whirl::motion_forces_test {

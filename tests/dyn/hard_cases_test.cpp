@@ -9,7 +9,7 @@
 #include <string>
 
 #include "libdyn/motions/simulate.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::hard_cases_test {

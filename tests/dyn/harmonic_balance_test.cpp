@@ -15,7 +15,7 @@
 #include "libdyn/orbits/hill.hpp"
 #include "libdyn/system/contact_ports.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/unbalance.hpp"
 #include "tests/support/bladed_disk.hpp"
 #include "tests/support/flows.hpp"
 #include "tests/support/oil_films.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::identify_test {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libdyn/orbits/contact_flow.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::multiplier_modes_test {

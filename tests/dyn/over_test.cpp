@@ -7,7 +7,7 @@
 #include "libdyn/studies/critical_over.hpp"
 #include "libdyn/studies/modes_over.hpp"
 #include "libdyn/studies/unbalance_over.hpp"
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::over_test {

@@ -12,7 +12,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/measured/speed_harmonics.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/random_response.hpp"
 
 namespace whirl::running_modes_test {

@@ -8,7 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::scene_test {

@@ -10,7 +10,7 @@
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libdyn/taylor/batch.hpp"
 #include "libdyn/taylor/mixed.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::squeeze_film_test {

@@ -11,7 +11,7 @@
 
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/motions/simulate.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::two_disk_mac_test {

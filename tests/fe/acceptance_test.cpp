@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/reference_cases.hpp"
 
 namespace whirl::acceptance_test {

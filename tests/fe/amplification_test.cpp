@@ -1,6 +1,6 @@
 // Peaks of a response: amplification factors in closed form, and the margins they ask for.
 
-#include "libfe/amplification.hpp"
+#include "libfe/lateral/amplification.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Antinodes of modes, where unbalance is placed.
 
-#include "libfe/antinodes.hpp"
+#include "libfe/lateral/antinodes.hpp"
 
 #include <gtest/gtest.h>
 
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::antinodes_test {

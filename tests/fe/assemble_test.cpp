@@ -1,6 +1,6 @@
 // From structures to global matrices: supports, links, massless parts, loads.
 
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/sparse_lu.hpp"
-#include "libfe/modes.hpp"
-#include "libfe/properties.hpp"
-#include "libfe/static.hpp"
+#include "libfe/analyses/modes.hpp"
+#include "libfe/analyses/static.hpp"
+#include "libfe/assembly/properties.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::assemble_test {

@@ -1,6 +1,6 @@
 // One shaft element against closed forms.
 
-#include "libfe/elements/beam.hpp"
+#include "libfe/mesh/elements/beam.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // What every kind of bearing must obey, run over the list of kinds.
 
-#include "libfe/bearings.hpp"
+#include "libfe/parts/bearings.hpp"
 
 #include <gtest/gtest.h>
 

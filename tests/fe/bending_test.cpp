@@ -1,12 +1,12 @@
 // Deflection, moment and shear force along a shaft under its weight.
 
-#include "libfe/bending.hpp"
+#include "libfe/analyses/bending.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "libfe/static.hpp"
+#include "libfe/analyses/static.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::bending_test {

@@ -1,10 +1,10 @@
 // Shafts that are bent without any force on them.
 
-#include "libfe/bow.hpp"
+#include "libfe/parts/bow.hpp"
 
 #include <gtest/gtest.h>
 
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/unbalance.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::bow_test {

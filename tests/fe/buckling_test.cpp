@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "libbase/numerics/dense.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::buckling_test {

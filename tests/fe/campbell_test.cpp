@@ -1,6 +1,6 @@
 // Modes followed over speed, and where they meet an excitation line.
 
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::campbell_test {

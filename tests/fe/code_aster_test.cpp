@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::code_aster_test {

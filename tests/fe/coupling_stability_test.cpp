@@ -1,6 +1,6 @@
 // Cross-coupled stiffness that a rotor bears.
 
-#include "libfe/coupling_stability.hpp"
+#include "libfe/lateral/coupling_stability.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The critical speed map: branches that are whole, monotone and of one mode each.
 
-#include "libfe/critical_map.hpp"
+#include "libfe/analyses/critical_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "libbase/error.hpp"
-#include "libfe/shape_branches.hpp"
+#include "libfe/analyses/shape_branches.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::critical_map_test {

@@ -1,6 +1,6 @@
 // Critical speeds, undamped from the pencil and damped from the modes.
 
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 #include "libfe/eigen/hermitian.hpp"
 #include "libfe/eigen/quadratic.hpp"
 #include "tests/support/rotors.hpp"

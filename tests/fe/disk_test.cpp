@@ -1,6 +1,6 @@
 // Rigid disks and bodies.
 
-#include "libfe/elements/disk.hpp"
+#include "libfe/mesh/elements/disk.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "libbase/numerics/dense.hpp"
-#include "libfe/elements/body.hpp"
+#include "libfe/mesh/elements/body.hpp"
 
 namespace whirl::disk_test {
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::element_order_test {

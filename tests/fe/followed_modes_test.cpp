@@ -1,6 +1,6 @@
 // Modes followed from speed to speed are those that are found when all are computed at each.
 
-#include "libfe/followed_modes.hpp"
+#include "libfe/analyses/followed_modes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // Forces that do not follow from the motion: their loads and the steady responses to them, against
 // closed forms.
 
-#include "libfe/forces.hpp"
+#include "libfe/assembly/forces.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "libfe/bending.hpp"
-#include "libfe/static.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/bending.hpp"
+#include "libfe/analyses/static.hpp"
+#include "libfe/analyses/unbalance.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::forces_test {

@@ -1,6 +1,6 @@
 // Rules of the lateral analysis of compressors, beside numbers by hand.
 
-#include "libfe/lateral_rules.hpp"
+#include "libfe/lateral/lateral_rules.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "libfe/bending.hpp"
-#include "libfe/modes.hpp"
-#include "libfe/properties.hpp"
-#include "libfe/static.hpp"
+#include "libfe/analyses/bending.hpp"
+#include "libfe/analyses/modes.hpp"
+#include "libfe/analyses/static.hpp"
+#include "libfe/assembly/properties.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::layers_test {

@@ -1,6 +1,6 @@
 // Nodes, their numbers, and the places that stations name.
 
-#include "libfe/mesh.hpp"
+#include "libfe/mesh/mesh.hpp"
 
 #include <gtest/gtest.h>
 

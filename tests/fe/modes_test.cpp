@@ -1,6 +1,6 @@
 // Complex modes: whirl, damping, and what does not oscillate.
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 #include <gtest/gtest.h>
 

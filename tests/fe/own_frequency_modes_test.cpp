@@ -1,15 +1,15 @@
 // Modes whose coefficients depend on their own frequency.
 
-#include "libfe/own_frequency_modes.hpp"
+#include "libfe/analyses/own_frequency_modes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "libfe/bearings/table.hpp"
-#include "libfe/campbell.hpp"
-#include "libfe/critical.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/critical.hpp"
+#include "libfe/analyses/unbalance.hpp"
+#include "libfe/parts/bearings/table.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::own_frequency_modes_test {

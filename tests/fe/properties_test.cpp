@@ -1,6 +1,6 @@
 // What a rotor weighs.
 
-#include "libfe/properties.hpp"
+#include "libfe/assembly/properties.hpp"
 
 #include <gtest/gtest.h>
 

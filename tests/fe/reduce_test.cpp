@@ -1,6 +1,6 @@
 // Reduction to few shapes: what it keeps, how far it is off, and that it knows.
 
-#include "libfe/reduce.hpp"
+#include "libfe/analyses/reduce.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "libfe/eigen/quadratic.hpp"
-#include "libfe/elements/disk.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/mesh/elements/disk.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::reduce_test {

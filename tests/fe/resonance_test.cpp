@@ -1,6 +1,6 @@
 // Speeds at which two modes are in a ratio of small integers, seen from the rotor.
 
-#include "libfe/resonance.hpp"
+#include "libfe/analyses/resonance.hpp"
 
 #include <gtest/gtest.h>
 

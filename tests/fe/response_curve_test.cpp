@@ -1,6 +1,6 @@
 // The unbalance response as a curve: true peaks, whatever the speeds that were asked for.
 
-#include "libfe/response_curve.hpp"
+#include "libfe/analyses/response_curve.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::response_curve_test {

@@ -1,6 +1,6 @@
 // The first critical speed on rigid supports, beside closed forms.
 
-#include "libfe/rigid_supports.hpp"
+#include "libfe/lateral/rigid_supports.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Area, second moment and shear coefficient of circular sections.
 
-#include "libfe/section.hpp"
+#include "libfe/parts/section.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::shaft_damping_test {

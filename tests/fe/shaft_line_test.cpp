@@ -1,6 +1,6 @@
 // The shaft between its nodes: shape functions, and shapes drawn with them.
 
-#include "libfe/shaft_line.hpp"
+#include "libfe/mesh/shaft_line.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "libfe/elements/beam.hpp"
-#include "libfe/modes.hpp"
-#include "libfe/static.hpp"
+#include "libfe/analyses/modes.hpp"
+#include "libfe/analyses/static.hpp"
+#include "libfe/mesh/elements/beam.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::shaft_line_test {

@@ -1,6 +1,6 @@
 // Sag under gravity and what the bearings carry.
 
-#include "libfe/static.hpp"
+#include "libfe/analyses/static.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libfe/properties.hpp"
+#include "libfe/assembly/properties.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::static_test {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "libfe/bearings.hpp"
-#include "libfe/bearings/table.hpp"
-#include "libfe/elements/connection.hpp"
+#include "libfe/mesh/elements/connection.hpp"
+#include "libfe/parts/bearings.hpp"
+#include "libfe/parts/bearings/table.hpp"
 #include "tests/support/rotors.hpp"
 
 namespace whirl::table_bearing_test {

@@ -1,6 +1,6 @@
 // Steady response to unbalance against the reference cases and closed forms.
 
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/unbalance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "libbase/error.hpp"
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 #include "tests/support/reference_cases.hpp"
 
 namespace whirl::unbalance_test {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "tests/support/reference_cases.hpp"
 
 namespace whirl::validation_table_test {

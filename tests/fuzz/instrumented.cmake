@@ -21,7 +21,7 @@ target_link_libraries(whirl_solvers INTERFACE
 # Meshing, errors and readings of records, which see what was read, are compiled for the fuzzer too. The solvers' library may hold
 # them in one object with others (a unity build), so that it cannot leave them out: the first ones count.
 target_link_options(whirl_solvers INTERFACE LINKER:--allow-multiple-definition)
-add_library(whirl_fe STATIC libbase/error.cpp libfe/mesh.cpp libfe/assemble.cpp libfe/properties.cpp
+add_library(whirl_fe STATIC libbase/error.cpp libfe/mesh/mesh.cpp libfe/assembly/assemble.cpp libfe/assembly/properties.cpp
             libdyn/measured/measured_record.cpp libdyn/measured/key_phasor.cpp
             libdyn/measured/probe_readings.cpp)
 target_link_libraries(whirl_fe PUBLIC whirl_options Eigen3::Eigen fmt::fmt whirl_solvers)

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "libfe/bow.hpp"
+#include "libfe/parts/bow.hpp"
 #include "libio/model/bow_table.hpp"
 
 namespace {

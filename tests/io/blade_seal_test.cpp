@@ -14,7 +14,7 @@
 #include "libdyn/studies/classify.hpp"
 #include "libdyn/system/scene.hpp"
 #include "libdyn/taylor/batch.hpp"
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
 #include "libio/model/model_file.hpp"
 
 namespace whirl::blade_seal_test {

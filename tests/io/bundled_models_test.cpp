@@ -10,8 +10,8 @@
 
 #include "libdyn/motions/simulate.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libfe/critical.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/critical.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "libio/model/model_file.hpp"
 
 namespace whirl::bundled_models_test {

@@ -7,7 +7,7 @@
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/studies/classification_result.hpp"
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 
 namespace whirl::dataset_path_test {
 

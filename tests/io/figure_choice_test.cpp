@@ -4,7 +4,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/system/stations.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "libio/figures/choice.hpp"
 #include "libio/results/columns.hpp"
 #include "tests/io/result_folder.hpp"

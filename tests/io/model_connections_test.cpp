@@ -9,7 +9,7 @@
 #include <numbers>
 #include <regex>
 
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "tests/io/shaft_model.hpp"
 
 namespace whirl::model_connections_test {

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "tests/io/shaft_model.hpp"
 
 namespace whirl::model_file_test {

@@ -27,8 +27,8 @@
 #include "libdyn/studies/classification_result.hpp"
 #include "libdyn/studies/critical_over.hpp"
 #include "libdyn/studies/curve_result.hpp"
-#include "libdyn/studies/modes_over.hpp"
 #include "libdyn/studies/found_orbit.hpp"
+#include "libdyn/studies/modes_over.hpp"
 #include "libdyn/studies/orbit_search.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libdyn/studies/study_outcome.hpp"
@@ -37,8 +37,8 @@
 #include "libdyn/studies/unbalance_over.hpp"
 #include "libdyn/studies/work_precision_study.hpp"
 #include "libdyn/system/model_facts.hpp"
-#include "libfe/campbell.hpp"
-#include "libfe/critical_map.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/critical_map.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/result_schema.hpp"
 
@@ -153,9 +153,9 @@ TEST(ResultManual, NamesTheKeysOfJsonAsTheyArePrinted) {
                    UnbalanceStudy, FrequencyResponse, ResponsePair, LateralReport, RunSummary,
                    Identification, IdentifiedPeak, MeasuredIdentification, OrderTracking,
                    RunningModes, MeasuredFit, FittedParameter, ClassificationResult, ContactShares,
-                   ReductionFacts, RotatingOrbit, OrbitSearch, BranchResult, CurveResult, TorusResult,
-                   SweepEntry, BasinShares, StudyOutcome, UnsettledMotions, WorkPrecisionStudy,
-                   TimedRun>();
+                   ReductionFacts, RotatingOrbit, OrbitSearch, BranchResult, CurveResult,
+                   TorusResult, SweepEntry, BasinShares, StudyOutcome, UnsettledMotions,
+                   WorkPrecisionStudy, TimedRun>();
   for (const std::string& key : keys) EXPECT_TRUE(told.contains(key)) << key;
   EXPECT_GT(keys.size(), 150u);
 }

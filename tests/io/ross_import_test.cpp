@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 #include "libio/import/import_file.hpp"
 #include "libio/import/parse_json.hpp"
 #include "libio/import/ross_model.hpp"

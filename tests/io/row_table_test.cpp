@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "libbase/numerics/constants.hpp"
-#include "libfe/modes.hpp"
+#include "libfe/analyses/modes.hpp"
 
 namespace whirl::row_table_test {
 

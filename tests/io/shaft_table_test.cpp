@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 #include "tests/io/problems.hpp"
 #include "tests/io/result_folder.hpp"
 

@@ -11,8 +11,8 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/motions/lateral_report.hpp"
-#include "libfe/coupling_stability.hpp"
 #include "libfe/eigen/symmetric.hpp"
+#include "libfe/lateral/coupling_stability.hpp"
 #include "libio/model/model_file.hpp"
 #include "tests/support/qz.hpp"
 #include "tests/support/random_rotors.hpp"

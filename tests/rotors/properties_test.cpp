@@ -8,10 +8,10 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
-#include "libfe/critical.hpp"
+#include "libfe/analyses/critical.hpp"
+#include "libfe/analyses/static.hpp"
 #include "libfe/eigen/dynamic_stiffness.hpp"
 #include "libfe/eigen/symmetric.hpp"
-#include "libfe/static.hpp"
 #include "libio/model/model_file.hpp"
 #include "tests/support/random_rotors.hpp"
 

@@ -15,12 +15,12 @@
 #include <string>
 
 #include "libbase/error.hpp"
-#include "libfe/campbell.hpp"
-#include "libfe/critical.hpp"
-#include "libfe/critical_map.hpp"
-#include "libfe/resonance.hpp"
-#include "libfe/static.hpp"
-#include "libfe/unbalance.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/critical.hpp"
+#include "libfe/analyses/critical_map.hpp"
+#include "libfe/analyses/resonance.hpp"
+#include "libfe/analyses/static.hpp"
+#include "libfe/analyses/unbalance.hpp"
 #include "libio/model/model_file.hpp"
 #include "tests/support/qz.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "libbase/error.hpp"
 #include "libdyn/motions/lateral_report.hpp"
-#include "libfe/campbell.hpp"
+#include "libfe/analyses/campbell.hpp"
 #include "libio/model/model_file.hpp"
 #include "tests/support/random_rotors.hpp"
 

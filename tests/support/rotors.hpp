@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "libfe/assemble.hpp"
+#include "libfe/assembly/assemble.hpp"
 
 namespace whirl::test {
 

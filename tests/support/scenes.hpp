@@ -9,7 +9,7 @@
 #include "libdyn/methods/methods.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/system/scene.hpp"
-#include "libfe/elements/disk.hpp"
+#include "libfe/mesh/elements/disk.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/rotors.hpp"
 

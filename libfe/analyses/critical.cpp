@@ -1,0 +1,182 @@
+#include "libfe/analyses/critical.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libfe/analyses/campbell.hpp"
+#include "libfe/analyses/static.hpp"
+#include "libfe/eigen/hermitian.hpp"
+#include "libfe/eigen/symmetric.hpp"
+
+namespace whirl::inline fe {
+
+namespace {
+
+constexpr double speed_tol = 1e-12;
+constexpr double damped_tol = 1e-10;   ///< of a speed, |Im lambda - order * Omega|
+constexpr double least_alike = 0.3;    ///< MAC of a mode that goes on from speed to speed
+constexpr double surely_alike = 0.95;  ///< likewise, that need not be compared with others
+constexpr double range = 5.0;          ///< damped speeds beyond so many times are not looked for
+constexpr double rounding = 1e-13;     ///< of the largest nu: smaller ones have no finite speed
+
+}  // namespace
+
+std::vector<Critical> undamped_criticals(const System& system, const CriticalOptions& options) {
+  const Sparse K = symmetric_part(system.K);
+  const HermitianModes modes = largest_hermitian(symmetric_inertia(system.M), system.G,
+                                                 1.0 / options.order, K, options.count);
+  std::vector<Critical> criticals;
+  for (Eigen::Index i = 0; i < modes.nu.size(); ++i) {
+    // no real speed: a disk that stiffens faster than it spins, or dofs without inertia
+    if (modes.nu(i) <= rounding * modes.nu(0)) break;
+    const CVec q = modes.q.col(i);
+    Critical critical{.speed = 1.0 / (options.order * std::sqrt(modes.nu(i))),
+                      .damped_speed = nan,
+                      .whirl = whirl_of(orbits(system.dofs, q)),
+                      .shape = q};
+    critical.order = options.order;
+    criticals.push_back(std::move(critical));
+  }
+  return criticals;
+}
+
+namespace {
+
+/// Iterates the i-th critical speed of the stiffness at Omega until it is Omega itself.
+Critical self_consistent(const Assembler& assembler, const CriticalOptions& options, std::size_t i,
+                         Critical start) {
+  const auto at = [&](double Omega) {
+    std::vector<Critical> all =
+        undamped_criticals(assembler.at(Omega, options.order * Omega), options);
+    return i < all.size() ? all[i] : Critical{.speed = nan};
+  };
+  double a = start.speed;
+  Critical at_a = at(a);
+  double b = at_a.speed;
+  for (int it = 0; it < 100 && std::isfinite(b); ++it) {
+    const Critical at_b = at(b);
+    if (std::abs(at_b.speed - b) <= speed_tol * b) return at_b;
+    const double slope = (at_b.speed - at_a.speed) / (b - a);  // of the map Omega -> critical
+    double next = at_b.speed;
+    if (std::abs(slope) < 0.9) next = b + (at_b.speed - b) / (1.0 - slope);
+    a = b;
+    at_a = at_b;
+    b = next;
+  }
+  start.speed = nan;
+  return start;
+}
+
+/// Follows the mode of an undamped critical speed through spin speeds by its shape.
+class DampedMode {
+ public:
+  DampedMode(const ModeFinder& finder, const Critical& undamped, const CriticalOptions& options)
+      : finder_(finder), shape_(undamped.shape), options_(options) {}
+
+  /// Im lambda - order * Omega; NaN: no mode is like the one before.
+  double gap(double Omega) {
+    const Sparse M = finder_.system(Omega).M;
+    std::optional<Mode> found;
+    if (mode_) found = finder_.followed(*mode_, Omega, options_.order * Omega);
+    if (!found || mac(found->shape, shape_, M) < surely_alike) found = most_alike(Omega, M);
+    if (!found) return nan;
+    mode_ = std::move(found);
+    shape_ = mode_->shape;
+    return mode_->frequency() - options_.order * Omega;
+  }
+
+  /// Of the mode that was found last.
+  double damping_ratio() const { return mode_ ? mode_->damping_ratio() : nan; }
+
+ private:
+  /// Of all modes near the line of the excitation; nothing: none is like the one before.
+  std::optional<Mode> most_alike(double Omega, const Sparse& M) const {
+    double best = least_alike;
+    std::optional<Mode> result;
+    Modes modes = finder_.near(Omega, options_.order * Omega, options_.count + 6);
+    for (Mode& mode : modes.oscillatory) {
+      const double agreement = mac(mode.shape, shape_, M);
+      if (agreement <= best) continue;
+      best = agreement;
+      result = std::move(mode);
+    }
+    return result;
+  }
+
+  const ModeFinder& finder_;
+  CVec shape_;                ///< of the mode so far
+  std::optional<Mode> mode_;  ///< nothing: only its undamped shape is known
+  const CriticalOptions& options_;
+};
+
+constexpr const char* lost_text = "its mode does not oscillate, or changes beyond recognition";
+
+/// Solves Im lambda(Omega) = order * Omega by secants from an undamped critical speed.
+void find_damped(const ModeFinder& finder, const CriticalOptions& options, Critical& critical) {
+  DampedMode mode(finder, critical, options);
+  const double start = critical.speed;
+  const auto is_in_range = [&](double Omega) {
+    return Omega > start / range && Omega < range * start;
+  };
+  const auto found = [&](double Omega) {
+    critical.damped_speed = Omega;
+    critical.damping_ratio = mode.damping_ratio();
+    critical.note.clear();
+  };
+  double a = start, ga = mode.gap(a);
+  critical.note = lost_text;
+  if (!std::isfinite(ga)) return;
+  if (std::abs(ga) <= damped_tol * a) return found(a);
+  double b = a + ga / options.order * 0.5;
+  for (int it = 0; it < 60; ++it) {
+    if (!is_in_range(b)) {
+      critical.note = "it would be far from the undamped one";
+      return;
+    }
+    const double gb = mode.gap(b);
+    if (!std::isfinite(gb)) return;
+    if (std::abs(gb) <= damped_tol * b) return found(b);
+    if (gb == ga) break;
+    const double next = b - gb * (b - a) / (gb - ga);
+    a = b, ga = gb;
+    b = next;
+  }
+  critical.note = "the iteration does not converge";
+}
+
+}  // namespace
+
+std::string Critical::excitation() const {
+  return fmt::format("{:g}x", order);
+}
+
+std::vector<Critical> critical_speeds(const Assembler& assembler, const CriticalOptions& options) {
+  require_supports(assembler, options.start, "critical speeds need");
+  std::vector<Critical> criticals = undamped_criticals(assembler.at(options.start), options);
+  if (assembler.depends_on_speed()) {
+    std::vector<Critical> iterated;
+    for (std::size_t i = 0; i < criticals.size(); ++i) {
+      const Critical c = self_consistent(assembler, options, i, criticals[i]);
+      if (std::isfinite(c.speed)) iterated.push_back(c);
+    }
+    criticals = std::move(iterated);
+    std::sort(criticals.begin(), criticals.end(),
+              [](const Critical& a, const Critical& b) { return a.speed < b.speed; });
+  }
+  if (!options.has_damped) return criticals;
+  const ModeFinder finder(assembler);
+  for (Critical& c : criticals) {
+    try {
+      find_damped(finder, options, c);
+    } catch (const NumericalError& error) {
+      c.note = error.what();
+    }
+  }
+  return criticals;
+}
+
+}  // namespace whirl::inline fe

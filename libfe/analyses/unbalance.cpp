@@ -1,0 +1,123 @@
+#include "libfe/analyses/unbalance.hpp"
+
+#include <fmt/format.h>
+
+#include "libbase/error.hpp"
+#include "libbase/numerics/constants.hpp"
+#include "libfe/eigen/dynamic_stiffness.hpp"
+
+namespace whirl::inline fe {
+
+namespace {
+
+UnbalanceResponse response_at(const std::vector<double>& speeds, const std::vector<Point>& points) {
+  const CMat none = CMat::Zero(std::ssize(points), std::ssize(speeds));
+  return {speeds, points, none, none, none, none};
+}
+
+/// Takes the displacements at the points of a full vector as those at a speed.
+void put(const CVec& full, const DofMap& dofs, Eigen::Index speed, UnbalanceResponse& response) {
+  for (std::size_t p = 0; p < response.points.size(); ++p) {
+    int component = 0;
+    for (CMat* of : {&response.x, &response.y, &response.theta_x, &response.theta_y}) {
+      const int k = dofs.full_index(response.points[p], component++);
+      if (k >= 0) (*of)(static_cast<Eigen::Index>(p), speed) = full(k);
+    }
+  }
+}
+
+}  // namespace
+
+struct UnbalanceSolver::State {
+  const Assembler& assembler;
+  CVec force;   ///< of unbalance over Omega^2, in the coordinates of the system
+  CVec steady;  ///< of the bow and of forces of order 1, likewise; empty: none
+  std::optional<DynamicStiffness> stiffness{};  ///< of the last speed, if it depends on that
+};
+
+UnbalanceSolver::UnbalanceSolver(const Assembler& assembler) {
+  const Sparse& T = assembler.dofs().T;
+  CVec force = T.transpose() * assembler.unbalance();
+  CVec steady;
+  if (!assembler.structure().bow.z.empty()) steady = T.transpose() * assembler.bow();
+  if (const CVec forces = synchronous_forces(assembler); forces.size() > 0) {
+    const CVec own = T.transpose() * forces;
+    steady = steady.size() > 0 ? CVec(steady + own) : own;
+  }
+  state_ = std::make_unique<State>(State{assembler, std::move(force), std::move(steady)});
+}
+
+UnbalanceSolver::~UnbalanceSolver() = default;
+
+const DofMap& UnbalanceSolver::dofs() const {
+  return state_->assembler.dofs();
+}
+
+std::optional<CVec> UnbalanceSolver::at(double Omega) {
+  State& s = *state_;
+  if (Omega == 0.0 && s.steady.size() == 0) return CVec(CVec::Zero(dofs().full_size));
+  if (!s.stiffness || s.assembler.depends_on_speed()) {
+    const System system = s.assembler.uncondensed(Omega);
+    s.stiffness.emplace(system.M, system.C, system.G, system.K);
+  }
+  CVec force = Omega * Omega * s.force;
+  if (s.steady.size() > 0) force += s.steady;
+  const auto q = s.stiffness->solve(Omega, Omega, force);
+  if (!q) return {};
+  return CVec(dofs().T * *q);
+}
+
+std::optional<CVec> UnbalanceSolver::at(double Omega, const std::vector<Point>& points) {
+  const auto full = at(Omega);
+  if (!full) return {};
+  const auto count = static_cast<Eigen::Index>(points.size());
+  CVec u(2 * count);
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const Point& point = points[static_cast<std::size_t>(p)];
+    u(p) = (*full)(dofs().full_index(point, X));
+    u(p + count) = (*full)(dofs().full_index(point, Y));
+  }
+  return u;
+}
+
+UnbalanceResponse oscillating_response(const Assembler& assembler, const OscillatingLoad& load,
+                                       const std::vector<double>& speeds,
+                                       const std::vector<Point>& points) {
+  const auto ns = static_cast<Eigen::Index>(speeds.size());
+  UnbalanceResponse response = response_at(speeds, points);
+  const DofMap& dofs = assembler.dofs();
+  const CVec force = dofs.T.transpose() * load.amplitude;
+  const bool changes = assembler.depends_on_speed() || assembler.depends_on_whirl();
+  std::optional<DynamicStiffness> stiffness;
+  for (Eigen::Index s = 0; s < ns; ++s) {
+    const double Omega = speeds[static_cast<std::size_t>(s)], w = load.at(Omega);
+    if (!stiffness || changes) {
+      const System system = assembler.uncondensed(Omega, w);
+      stiffness.emplace(system.M, system.C, system.G, system.K);
+    }
+    const auto q = stiffness->solve(w, Omega, force);
+    const CVec full = q ? CVec(dofs.T * *q) : CVec::Constant(dofs.full_size, Complex(nan, nan));
+    put(full, dofs, s, response);
+  }
+  return response;
+}
+
+UnbalanceResponse unbalance_response(const Assembler& assembler, const std::vector<double>& speeds,
+                                     const std::vector<Point>& points) {
+  const auto ns = static_cast<Eigen::Index>(speeds.size());
+  UnbalanceResponse response = response_at(speeds, points);
+  UnbalanceSolver solver(assembler);
+  for (Eigen::Index s = 0; s < ns; ++s) {
+    const double Omega = speeds[static_cast<std::size_t>(s)];
+    const auto full = solver.at(Omega);
+    if (!full) {
+      throw NumericalError(fmt::format(
+          "the rotor has an undamped resonance at {:g} rad/s: the unbalance response is unbounded",
+          Omega));
+    }
+    put(*full, assembler.dofs(), s, response);
+  }
+  return response;
+}
+
+}  // namespace whirl::inline fe

@@ -1,0 +1,387 @@
+#include "libfe/assembly/assemble.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "libbase/numerics/sparse_lu.hpp"
+#include "libbase/system/interruption.hpp"
+#include "libfe/assembly/modal_damping.hpp"
+#include "libfe/eigen/symmetric.hpp"
+#include "libfe/mesh/elements/body.hpp"
+#include "libfe/mesh/elements/connection.hpp"
+#include "libfe/mesh/elements/disk.hpp"
+#include "libfe/mesh/rigid_ties.hpp"
+#include "libfe/mesh/shaft_elements.hpp"
+#include "libfe/parts/bow.hpp"
+
+namespace whirl::inline fe {
+
+namespace {
+
+/// Collects element matrices at given indices of the full vector; index -1 is the ground.
+class Collector {
+ public:
+  template <int N>
+  void add(const ElementMatrices<N>& e, const std::vector<int>& index) {
+    add(e.M, index, M_);
+    add(e.C, index, C_);
+    add(e.G, index, G_);
+    add(e.K, index, K_);
+    add(e.H, index, H_);
+  }
+  Sparse M(int n) const { return matrix(M_, n); }
+  Sparse C(int n) const { return matrix(C_, n); }
+  Sparse G(int n) const { return matrix(G_, n); }
+  Sparse K(int n) const { return matrix(K_, n); }
+  Sparse H(int n) const { return matrix(H_, n); }
+
+ private:
+  template <class Block>
+  static void add(const Block& block, const std::vector<int>& index, std::vector<Triplet>& to) {
+    for (std::size_t j = 0; j < index.size(); ++j) {
+      for (std::size_t i = 0; i < index.size(); ++i) {
+        const double value = block(static_cast<int>(i), static_cast<int>(j));
+        if (index[i] >= 0 && index[j] >= 0 && value != 0.0) {
+          to.emplace_back(index[i], index[j], value);
+        }
+      }
+    }
+  }
+  static Sparse matrix(const std::vector<Triplet>& triplets, int n) {
+    Sparse A(n, n);
+    A.setFromTriplets(triplets.begin(), triplets.end());
+    return A;
+  }
+  std::vector<Triplet> M_, C_, G_, K_, H_;
+};
+
+std::vector<int> indices(const DofMap& dofs, const Point& point) {
+  std::vector<int> index(4);
+  for (int c = 0; c < 4; ++c) index[c] = dofs.full_index(point, c);
+  return index;
+}
+
+std::vector<int> indices(const DofMap& dofs, const Point& from, const Point& to) {
+  std::vector<int> index = indices(dofs, from);
+  const std::vector<int> other = indices(dofs, to);
+  index.insert(index.end(), other.begin(), other.end());
+  return index;
+}
+
+bool is_identity(const Sparse& T) {
+  return T.rows() == T.cols();
+}
+
+Sparse project(const Sparse& T, const Sparse& A) {
+  if (is_identity(T)) return A;
+  return T.transpose() * Sparse(A * T);
+}
+
+/// Largest magnitude in each row.
+Vec row_sizes(const Sparse& A) {
+  Vec size = Vec::Zero(A.rows());
+  for (int j = 0; j < A.outerSize(); ++j) {
+    for (Sparse::InnerIterator it(A, j); it; ++it) {
+      size(it.row()) = std::max(size(it.row()), std::abs(it.value()));
+    }
+  }
+  return size;
+}
+
+/// Degrees of freedom without inertia whose damping is beta times their stiffness, with one common
+/// beta.
+/// @param stays  those that are not taken all the same; empty: none
+std::vector<int> condensable(const Sparse& M, const Sparse& C, const Sparse& G, const Sparse& K,
+                             const std::vector<bool>& stays) {
+  constexpr double tolerance = 1e-12;
+  const Vec mass = row_sizes(M), gyroscopic = row_sizes(G), stiffness = row_sizes(K);
+  std::vector<int> massless;
+  for (int i = 0; i < mass.size(); ++i) {
+    const bool is_kept = !stays.empty() && stays[static_cast<std::size_t>(i)];
+    if (mass(i) == 0.0 && gyroscopic(i) == 0.0 && !is_kept) massless.push_back(i);
+  }
+  if (massless.empty()) return massless;
+  const Vec damping = C.diagonal(), stiff = K.diagonal();
+  std::vector<double> ratios;
+  for (const int i : massless) ratios.push_back(stiff(i) != 0.0 ? damping(i) / stiff(i) : 0.0);
+  std::vector<double> sorted = ratios;
+  std::sort(sorted.begin(), sorted.end());
+  const double beta = sorted[sorted.size() / 2];
+  const Vec misfit = row_sizes(Sparse(C - beta * K));
+  const double scale = std::abs(beta);
+  std::vector<int> chosen;
+  for (const int i : massless) {
+    if (misfit(i) <= tolerance * scale * stiffness(i)) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+/// Transformation from the kept dofs to all, K_ss q_s + K_sk q_k = 0 for the others.
+Sparse condensation(const Sparse& K, const std::vector<int>& condensed) {
+  const int n = static_cast<int>(K.rows()), ns = static_cast<int>(condensed.size());
+  std::vector<int> place(static_cast<std::size_t>(n), -1);  // in s: -(index + 2), in kept: index
+  for (int i = 0; i < ns; ++i) place[condensed[i]] = -(i + 2);
+  int kept = 0;
+  for (int& p : place) {
+    if (p == -1) p = kept++;
+  }
+  if (kept == 0) throw NumericalError("nothing that can move has inertia or a damper of its own");
+  std::vector<Triplet> ss, sk, T;
+  for (int j = 0; j < n; ++j) {
+    if (place[j] >= 0) T.emplace_back(j, place[j], 1.0);
+    for (Sparse::InnerIterator it(K, j); it; ++it) {
+      const int row = place[it.row()];
+      if (row >= 0) continue;
+      if (place[j] >= 0) {
+        sk.emplace_back(-row - 2, place[j], it.value());
+      } else {
+        ss.emplace_back(-row - 2, -place[j] - 2, it.value());
+      }
+    }
+  }
+  Sparse Kss(ns, ns), Ksk(ns, kept);
+  Kss.setFromTriplets(ss.begin(), ss.end());
+  Ksk.setFromTriplets(sk.begin(), sk.end());
+  const SparseLu solver(Kss);
+  if (!solver.is_regular()) {
+    throw NumericalError(
+        "some degrees of freedom have neither inertia nor stiffness: give a massless part of the "
+        "shaft "
+        "a density, or a massless body a mass or a support");
+  }
+  const Mat recovered = -solver.solve(Mat(Ksk));
+  for (int j = 0; j < kept; ++j) {
+    for (int i = 0; i < ns; ++i) {
+      if (recovered(i, j) != 0.0) T.emplace_back(condensed[i], j, recovered(i, j));
+    }
+  }
+  Sparse result(n, kept);
+  result.setFromTriplets(T.begin(), T.end());
+  return result;
+}
+
+/// Numbers of the freedoms of nodes and bodies.
+DofMap freedoms_of_points(const Structure& structure, const Mesh& mesh) {
+  DofMap dofs;
+  dofs.nodes = mesh.nodes();
+  dofs.full_size = 4 * dofs.nodes;
+  for (const Body& body : structure.bodies) {
+    dofs.body_start.push_back(dofs.full_size);
+    dofs.body_tilts.push_back(body.tilts);
+    dofs.full_size += body.tilts ? 4 : 2;
+  }
+  return dofs;
+}
+
+/// @throws ModelError  for an axial probe at a body that does not tilt
+void check_probes(const Structure& structure) {
+  for (const Probe& probe : structure.probes) {
+    if (!probe.is_axial() || probe.at.kind != Station::Kind::body) continue;
+    for (const Body& body : structure.bodies) {
+      if (body.name != probe.at.body || body.tilts) continue;
+      throw ModelError(probe.at.where, probe.at.key,
+                       "this body does not tilt; give it tilts = true");
+    }
+  }
+}
+
+/// Adds shaft, disks and bodies; internal functions of the shaft get the next numbers.
+void add_rotor(const Structure& structure, const Mesh& mesh, DofMap& dofs, Collector& to) {
+  for (const MeshElement& element : mesh.elements) {
+    const auto e = matrices(beam_of(element, structure, mesh));
+    std::vector<int> index =
+        indices(dofs, {Point::Kind::node, element.left}, {Point::Kind::node, element.right});
+    while (static_cast<Eigen::Index>(index.size()) < e.M.rows()) {
+      index.push_back(dofs.full_size++);
+    }
+    to.add(e, index);
+  }
+  for (const MeshLayer& piece : mesh.layers) {
+    const MeshElement& beside = mesh.elements[static_cast<std::size_t>(piece.element)];
+    to.add(matrices(beam_of(piece, structure, mesh)),
+           indices(dofs, {Point::Kind::node, beside.left}, {Point::Kind::node, beside.right}));
+  }
+  for (const Disk& disk : structure.disks) {
+    to.add(matrices(disk), indices(dofs, resolve(disk.at, structure, mesh)));
+  }
+  for (std::size_t i = 0; i < structure.bodies.size(); ++i) {
+    to.add(matrices(structure.bodies[i]), indices(dofs, {Point::Kind::body, static_cast<int>(i)}));
+  }
+}
+
+}  // namespace
+
+Assembler::Assembler(Structure structure)
+    : structure_(std::move(structure)), mesh_(make_mesh(structure_)) {
+  check_probes(structure_);
+  dofs_ = freedoms_of_points(structure_, mesh_);
+  Collector collector;
+  add_rotor(structure_, mesh_, dofs_, collector);
+  const int n = dofs_.full_size;
+  weighing_ = collector.M(n);
+
+  dofs_.T = freedoms_left(structure_, mesh_, dofs_);
+  for (const auto& [kind, list] : structure_.connections()) {
+    for (const Connection& c : list) {
+      if (whirl::depends_on_speed(c.coefficients)) {
+        depends_on_speed_ = true;
+        if (whirl::depends_on_whirl(c.coefficients)) depends_on_whirl_ = true;
+      } else {
+        collector.add(matrices(coefficients(c.coefficients, 0.0)),
+                      indices(dofs_, point(c.from), point(c.to)));
+      }
+    }
+  }
+  fixed_ = {collector.M(n), collector.C(n), collector.G(n), collector.K(n), collector.H(n)};
+  if (fixed_.H.nonZeros() > 0 || !structure_.linearized.empty()) depends_on_speed_ = true;
+  if (!structure_.modal_damping.ratios.empty()) {
+    // modes at rest, where films carry nothing; with the added mass of tables
+    std::vector<LinearizedConnection> aside;
+    std::swap(aside, structure_.linearized);
+    const auto at_rest = [&] { return at(0.0); };
+    modal_ = modal_damping_matrix(structure_.modal_damping, at_rest, full(0.0, 0.0).M);
+    std::swap(aside, structure_.linearized);
+  }
+}
+
+Assembler::FullMatrices Assembler::full(double Omega, double omega) const {
+  interruption_point();
+  FullMatrices f = fixed_;
+  Collector collector;
+  bool any = false;
+  for (const auto& [kind, list] : structure_.connections()) {
+    for (const Connection& c : list) {
+      if (!whirl::depends_on_speed(c.coefficients)) continue;
+      any = true;
+      collector.add(matrices(coefficients(c.coefficients, Omega, omega)),
+                    indices(dofs_, point(c.from), point(c.to)));
+    }
+  }
+  if (any) {
+    f.M += collector.M(dofs_.full_size);
+    f.K += collector.K(dofs_.full_size);
+    f.C += collector.C(dofs_.full_size);
+  }
+  const Rayleigh& r = structure_.damping;
+  if (r.mass != 0.0) f.C += r.mass * f.M;
+  if (r.stiffness != 0.0) f.C += r.stiffness * symmetric_part(f.K);
+  if (modal_.nonZeros() > 0) f.C += modal_;
+  if (structure_.linearized.empty()) return f;
+  Collector linearized;  // damping of the rotor is not in proportion to their stiffness
+  for (const LinearizedConnection& c : structure_.linearized) {
+    linearized.add(matrices(c.at(Omega, omega)), indices(dofs_, point(c.from), point(c.to)));
+  }
+  f.K += linearized.K(dofs_.full_size);
+  f.C += linearized.C(dofs_.full_size);
+  return f;
+}
+
+System Assembler::system_of(const FullMatrices& f, const Sparse& T, double Omega) const {
+  System s{project(T, f.M), project(T, f.C), project(T, f.G), project(T, f.K), dofs_, Omega};
+  if (Omega != 0.0 && f.H.nonZeros() > 0) s.K += Omega * project(T, f.H);
+  s.dofs.T = T;
+  return s;
+}
+
+System Assembler::uncondensed(double Omega, double omega) const {
+  return system_of(full(Omega, omega), dofs_.T, Omega);
+}
+
+System Assembler::at(double Omega, double omega) const {
+  const FullMatrices f = full(Omega, omega);
+  const Sparse& T = dofs_.T;
+  // condensation follows the conservative part of K: rotating damping vanishes with it
+  const Sparse K = project(T, f.K);
+  const std::vector<int> condensed =
+      condensable(project(T, f.M), project(T, f.C), project(T, f.G), K, touched_by_whirl());
+  if (condensed.empty()) return system_of(f, T, Omega);
+  System s = system_of(f, Sparse(T * condensation(K, condensed)), Omega);
+  s.dofs.condensed = static_cast<int>(condensed.size());
+  return s;
+}
+
+/// Coordinates on which coefficients act that depend on the frequency; empty: none.
+std::vector<bool> Assembler::touched_by_whirl() const {
+  if (!depends_on_whirl_) return {};
+  std::vector<bool> is_end(static_cast<std::size_t>(dofs_.full_size), false);
+  for (const auto& [kind, list] : structure_.connections()) {
+    for (const Connection& c : list) {
+      if (!whirl::depends_on_whirl(c.coefficients)) continue;
+      for (const int i : indices(dofs_, point(c.from), point(c.to))) {
+        if (i >= 0) is_end[static_cast<std::size_t>(i)] = true;
+      }
+    }
+  }
+  std::vector<bool> touched(static_cast<std::size_t>(dofs_.T.cols()), false);
+  for (int j = 0; j < dofs_.T.outerSize(); ++j) {
+    for (Sparse::InnerIterator it(dofs_.T, j); it; ++it) {
+      if (is_end[static_cast<std::size_t>(it.row())]) touched[static_cast<std::size_t>(j)] = true;
+    }
+  }
+  return touched;
+}
+
+Vec Assembler::gravity_load() const {
+  return inertia_load({0.0, -structure_.gravity});
+}
+
+Vec Assembler::inertia_load(const Vec2& a) const {
+  Vec acceleration = Vec::Zero(dofs_.full_size);
+  for (const Point& p : dofs_.points()) {
+    for (const int component : {X, Y}) acceleration(dofs_.full_index(p, component)) = a(component);
+  }
+  return weighing_ * acceleration;
+}
+
+CVec Assembler::unbalance() const {
+  CVec u = CVec::Zero(dofs_.full_size);
+  for (const Unbalance& unbalance : structure_.unbalances) {
+    const Point p = point(unbalance.at);
+    const Complex amplitude = std::polar(unbalance.moment, unbalance.phase);
+    u(dofs_.full_index(p, X)) += amplitude;
+    u(dofs_.full_index(p, Y)) += Complex(0.0, -1.0) * amplitude;
+  }
+  return u;
+}
+
+CVec Assembler::bow() const {
+  CVec force = CVec::Zero(dofs_.full_size);
+  const std::vector<BowState> states = bow_states(structure_.bow, mesh_.z);
+  if (states.empty()) return force;
+  // x + i y = r turns with the shaft: u_x = r, u_y = -i r, and theta_y = x', theta_x = -y'
+  CVec displacement = CVec::Zero(dofs_.full_size);
+  for (int i = 0; i < mesh_.nodes(); ++i) {
+    const auto& [r, slope] = states[static_cast<std::size_t>(i)];
+    displacement.segment<4>(4 * i) << r, Complex(0.0, -1.0) * r, Complex(0.0, 1.0) * slope, slope;
+  }
+  for (std::size_t e = 0; e < mesh_.elements.size(); ++e) {
+    const std::vector<int> index = indices(dofs_, {Point::Kind::node, mesh_.elements[e].left},
+                                           {Point::Kind::node, mesh_.elements[e].right});
+    for (Beam beam : beams_along(e, structure_, mesh_)) {
+      beam.axial_force = beam.torque = 0.0;  // these act along the true line, not the unbent one
+      const Mat K = matrices(beam).K.topLeftCorner<8, 8>();
+      force(index) += K * displacement(index);
+    }
+  }
+  return force;
+}
+
+CVec Assembler::turning_load(double Omega) const {
+  const CVec u = Omega * Omega * unbalance();
+  return structure_.bow.z.empty() ? u : CVec(u + bow());
+}
+
+Vec Assembler::support_forces(double Omega, const Vec& q, const Vec& full_load) const {
+  const FullMatrices f = full(Omega, 0.0);
+  const Vec displacement = dofs_.T * q;
+  return f.K * displacement + Omega * (f.H * displacement) - full_load;
+}
+
+System assemble(const Structure& structure, double Omega) {
+  return Assembler(structure).at(Omega);
+}
+
+}  // namespace whirl::inline fe

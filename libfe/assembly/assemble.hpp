@@ -1,0 +1,107 @@
+#pragma once
+/// From a structure to its sparse global matrices.
+
+#include "libfe/mesh/dofs.hpp"
+#include "libfe/mesh/mesh.hpp"
+#include "libfe/parts/structure.hpp"
+
+namespace whirl::inline fe {
+
+/// Linear equations of motion at one speed: M q'' + (C + Omega G) q' + K q = f.
+///
+/// K contains the circulatory part of damping that rotates with the shaft; G is skew; M, C without
+/// Omega G, and K need not be symmetric where bearings are not.
+struct System {
+  Sparse M, C, G, K;
+  DofMap dofs;
+  double Omega = 0.0;  ///< [rad/s]
+
+  int size() const { return static_cast<int>(M.rows()); }
+  /// C + Omega G.
+  Sparse D() const { return C + Omega * G; }
+};
+
+/// Assembles one structure at any number of speeds.
+class Assembler {
+ public:
+  /// @throws ModelError  as make_mesh, and for connections that cannot be (clamping a body without
+  ///                     tilts, a rigid bearing whose ends are held already, ...) or hold everything,
+  ///                     and for modal damping where the modes at rest cannot be computed
+  explicit Assembler(Structure structure);
+
+  const Structure& structure() const { return structure_; }
+  const Mesh& mesh() const { return mesh_; }
+  /// Of the coordinates that supports leave, nothing condensed.
+  const DofMap& dofs() const { return dofs_; }
+  Point point(const Station& station) const { return resolve(station, structure_, mesh_); }
+
+  /// Whether M, K or C change with speed, beyond Omega G (tables, films, rotating damping).
+  bool depends_on_speed() const { return depends_on_speed_; }
+  /// Whether they change with the frequency of a motion, too.
+  bool depends_on_whirl() const { return depends_on_whirl_; }
+
+  /// Matrices at a speed [rad/s] for motions of a frequency omega >= 0 [rad/s], dofs without inertia
+  /// condensed.
+  ///
+  /// Condensed exactly are those without mass whose damping is none or proportional to stiffness;
+  /// a massless freedom with a damper of its own stays, and makes M singular. So do those on which
+  /// coefficients act that depend on omega: coordinates are the same at every frequency.
+  ///
+  /// @throws NumericalError  if a freedom has neither inertia nor stiffness, if none has inertia, or
+  ///                         if a linearized connection has no coefficients at this speed
+  System at(double Omega, double omega) const;
+  /// The same for motions whose frequency is the speed, as unbalance lets them be.
+  System at(double Omega) const { return at(Omega, Omega); }
+
+  /// The same with every freedom that supports leave; M is singular where there is no inertia.
+  System uncondensed(double Omega, double omega) const;
+  System uncondensed(double Omega) const { return uncondensed(Omega, Omega); }
+
+  /// Weight of everything, a full vector of forces and moments [N, N.m], internal ones included.
+  /// Added mass has none.
+  Vec gravity_load() const;
+  /// The same of an acceleration (x, y) of everything [m/s^2].
+  Vec inertia_load(const Vec2& acceleration) const;
+
+  /// Complex amplitude of the unbalance force over Omega^2, a full vector [kg.m]:
+  /// f(t) = Omega^2 Re(u exp(i Omega t)), u_x = U e^(i phase), u_y = -i u_x.
+  CVec unbalance() const;
+
+  /// Complex amplitude of the force that holds a straight shaft in its bow, a full vector
+  /// [N, N.m]: f(t) = Re(f exp(i Omega t)), f = K_shaft bow, with the elastic stiffness of segments
+  /// and layers. A bow in a shaft without forces is what it does under this force; rigid parts of
+  /// it need none. Between nodes the bow is the line that the shape functions make of its
+  /// deflections and slopes there.
+  ///
+  /// @source [Nicholas1976]
+  CVec bow() const;
+
+  /// Amplitude of all that turns with the shaft at a speed: Omega^2 unbalance() + bow() [N, N.m].
+  CVec turning_load(double Omega) const;
+
+  /// Forces that supports must exert on the full vector so that K T q = f holds there [N, N.m], for
+  /// displacements that last.
+  Vec support_forces(double Omega, const Vec& q, const Vec& full_load) const;
+
+ private:
+  struct FullMatrices {
+    Sparse M, C, G, K, H;
+  };
+  FullMatrices full(double Omega, double omega) const;
+  std::vector<bool> touched_by_whirl() const;
+  System system_of(const FullMatrices& f, const Sparse& T, double Omega) const;
+
+  Structure structure_;
+  Mesh mesh_;
+  DofMap dofs_;         // supports eliminated, nothing condensed
+  FullMatrices fixed_;  // all that does not depend on speed
+  Sparse modal_;        // damping of modes at rest; empty: none
+  Sparse weighing_;     // inertia that has weight, of the full vector
+  bool depends_on_speed_ = false;
+  bool depends_on_whirl_ = false;
+};
+
+/// Matrices of a structure at a speed [rad/s]; see Assembler::at.
+System assemble(const Structure& structure, double Omega);
+
+}  // namespace whirl::inline fe

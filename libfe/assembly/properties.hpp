@@ -1,0 +1,19 @@
+#pragma once
+
+#include "libfe/mesh/mesh.hpp"
+
+namespace whirl::inline fe {
+
+/// What a rotor weighs: shaft, disks and spinning bodies.
+struct RotorProperties {
+  double mass = 0.0;            ///< [kg]
+  double center_of_mass = 0.0;  ///< of shaft and disks, along the shaft [m]
+  double Ip = 0.0;              ///< polar moment of inertia [kg.m^2]
+  /// Transverse moment of inertia of shaft and disks about their center of mass [kg.m^2].
+  double Id = 0.0;
+};
+
+/// Integrates along the shaft; exact for cylinders and cones.
+RotorProperties rotor_properties(const Structure& structure, const Mesh& mesh);
+
+}  // namespace whirl::inline fe

@@ -1,0 +1,25 @@
+#pragma once
+/// Where a mode moves the shaft most: where unbalance excites it most.
+
+#include <vector>
+
+#include "libfe/assembly/assemble.hpp"
+
+namespace whirl::inline fe {
+
+/// A node at which the deflection of a shape is largest among its neighbors.
+struct Antinode {
+  int node = 0;             ///< from 0
+  double deflection = 0.0;  ///< over the largest one of the shape, with its sign
+};
+
+/// Antinodes of the part of a shape that whirls forward, left to right; ends of the shaft can be some.
+///
+/// Deflections are taken in phase with the largest one. Those below half of it count for none: an end
+/// that moves a little is not what the mode is excited at.
+///
+/// @param shape  complex, coordinates of the system
+/// @return       none where the shaft does not move, or only backward
+std::vector<Antinode> antinodes(const Mesh& mesh, const DofMap& dofs, const CVec& shape);
+
+}  // namespace whirl::inline fe

@@ -1,0 +1,71 @@
+#pragma once
+/// Nodes of the shaft: where they are, what lies between them, which station is which node.
+
+#include <vector>
+
+#include "libfe/parts/structure.hpp"
+
+namespace whirl::inline fe {
+
+/// A point that has displacements: a node of the shaft, a body, or the ground.
+struct Point {
+  enum class Kind { node, body, ground };
+  Kind kind = Kind::ground;
+  int index = 0;  ///< of the node or body, from 0
+
+  bool operator==(const Point&) const = default;
+};
+
+/// A piece of one segment between two neighboring nodes.
+struct MeshElement {
+  int left = 0, right = 0;  ///< nodes, from 0
+  int segment = 0;
+  double from = 0.0, to = 1.0;  ///< fractions of the segment's length
+};
+
+/// A piece of a layer beside one element of the shaft.
+struct MeshLayer {
+  int element = 0;              ///< that it lies beside, from 0
+  int layer = 0;                ///< from 0
+  double from = 0.0, to = 1.0;  ///< fractions of the layer's length
+};
+
+/// Nodes in the order of their numbers.
+///
+/// Segments with a given number of elements make equal ones; their nodes are numbered left to
+/// right. Segments without one are divided at the stations and finely enough for their shape. A
+/// station between the nodes of a given mesh adds a node with a number after all others, so that
+/// numbers that a model file uses keep their place.
+struct Mesh {
+  std::vector<double> z;              ///< position of each node [m]
+  std::vector<int> left_to_right;     ///< nodes ordered by position
+  std::vector<MeshElement> elements;  ///< left to right
+  std::vector<MeshLayer> layers{};    ///< element by element
+
+  int nodes() const { return static_cast<int>(z.size()); }
+};
+
+/// @throws ModelError  for stations off the shaft, unknown nodes or bodies, unfit segments, layers
+///                     that do not end right of where they begin, and two positions nearer than
+///                     1e-5 of the shaft's length without being the same
+Mesh make_mesh(const Structure& structure);
+
+/// The point that a station stands for; the mesh has a node there.
+/// @throws ModelError  if there is none
+Point resolve(const Station& station, const Structure& structure, const Mesh& mesh);
+
+/// Where a layer begins and ends along the shaft [m].
+struct LayerSpan {
+  double from = 0.0, to = 0.0;
+};
+/// @throws ModelError  as resolve
+LayerSpan span_of(const Layer& layer, const Structure& structure, const Mesh& mesh);
+
+/// Outer diameter of the shaft and its layers at a position [m]; the larger one at a step.
+double shaft_diameter(const Structure& structure, const Mesh& mesh, double z);
+
+/// All stations of a structure, in the order disks, bearings, links, unbalances, forces,
+/// probes, layers, others.
+std::vector<const Station*> all_stations(const Structure& structure);
+
+}  // namespace whirl::inline fe

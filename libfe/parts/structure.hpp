@@ -1,0 +1,313 @@
+#pragma once
+/// What a model file says about the rotor and its surroundings, checked and in SI, before any mesh.
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "libbase/error.hpp"
+#include "libbase/numerics/linalg.hpp"
+#include "libfe/parts/bearings.hpp"
+#include "libfe/parts/material.hpp"
+#include "libfe/parts/section.hpp"
+
+namespace whirl::inline fe {
+
+/// A place that something is attached to, as it was written.
+struct Station {
+  enum class Kind { position, node, body, ground };
+  Kind kind = Kind::ground;
+  double z = 0.0;    ///< position along the shaft [m]                     (Kind::position)
+  int node = 0;      ///< node number from 1                               (Kind::node)
+  std::string body;  ///< name of a body                                   (Kind::body)
+  Where where{};
+  std::string key{};  ///< path of the entry in the model file, for messages
+};
+
+/// Damping in proportion to mass and stiffness: C = mass M + stiffness K.
+struct Rayleigh {
+  double mass = 0.0;       ///< [1/s]
+  double stiffness = 0.0;  ///< [s]
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        optional("mass", &Rayleigh::mass, "1/s", nonnegative, "a in C = a M + b K"),
+        optional("stiffness", &Rayleigh::stiffness, "s", nonnegative, "b in C = a M + b K")};
+  }
+};
+
+/// Part of the shaft between two planes: a cylinder or a cone of one material.
+struct Segment {
+  Material material;
+  double length = 0.0;         ///< [m]
+  Section left, right;         ///< sections at both ends; diameters vary linearly between
+  int elements = 0;            ///< number of equal elements; 0: chosen by the mesh
+  int internal_functions = 0;  ///< pairs of internal shape functions per element and plane
+  Theory theory = Theory::timoshenko;
+  ShearCoefficient shear;
+  double axial_force = 0.0;  ///< tension > 0 [N]
+  double torque = 0.0;       ///< about +z on the face that looks to +z [N.m]
+  Rayleigh damping{};        ///< of this segment, at rest
+  Where where{};
+
+  /// Section at a fraction s of the length, 0 <= s <= 1.
+  Section at(double s) const { return between(left, right, s); }
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        alternative("length", &Segment::length, "m", positive, "length of the segment"),
+        alternative("elements", &Segment::elements, "", positive,
+                    "number of equal elements; left out: chosen from the shape and the stations"),
+        optional(
+            "internal_functions", &Segment::internal_functions, "", nonnegative,
+            "pairs of internal shape functions per element, 0 to 4; each raises the order by two"),
+        optional("theory", &Segment::theory, "", any, "beam theory"),
+        optional("axial_force", &Segment::axial_force, "N", any, "tension > 0"),
+        optional("torque", &Segment::torque, "N.m", any, "about +z on the face that looks to +z")};
+  }
+};
+
+/// What of a part of the shaft counts.
+enum class Carries {
+  both,
+  stiffness,  ///< no mass, no rotary inertia
+  mass        ///< neither stiffness nor damping
+};
+constexpr auto choices(Carries) {
+  return std::array{Choice<Carries>{"both", Carries::both},
+                    Choice<Carries>{"stiffness", Carries::stiffness},
+                    Choice<Carries>{"mass", Carries::mass}};
+}
+
+/// A sleeve, hub or tube that goes with the shaft: its beams lie beside those of the segments,
+/// between the same nodes.
+struct Layer {
+  std::string name;
+  Station from, to;  ///< on the shaft, from left of to; the mesh gets nodes there
+  Material material;
+  Section left, right;  ///< sections at both ends; diameters vary linearly between
+  Carries carries = Carries::both;
+  Theory theory = Theory::timoshenko;
+  ShearCoefficient shear{};
+  Rayleigh damping{};  ///< of this layer, at rest
+  Where where{};
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{optional("carries", &Layer::carries, "", any, "what of the layer counts"),
+                      optional("theory", &Layer::theory, "", any, "beam theory")};
+  }
+};
+
+/// A rigid disk on the shaft.
+struct Disk {
+  std::string name;
+  Station at;
+  double m = 0.0;   ///< mass [kg]
+  double Id = 0.0;  ///< diametral moment of inertia [kg.m^2]
+  double Ip = 0.0;  ///< polar moment of inertia [kg.m^2]
+  double outer_diameter = 0.0, inner_diameter = 0.0, width = 0.0;  ///< for pictures [m]; 0: unknown
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        alternative("mass", &Disk::m, "kg", nonnegative,
+                    "of a disk that is not given by its shape"),
+        optional("diametral_inertia", &Disk::Id, "kg.m^2", nonnegative, "about a diameter"),
+        optional("polar_inertia", &Disk::Ip, "kg.m^2", nonnegative, "about the axis"),
+        alternative("outer_diameter", &Disk::outer_diameter, "m", positive,
+                    "of a disk of some material"),
+        optional("inner_diameter", &Disk::inner_diameter, "m", nonnegative, "bore; left out: none"),
+        alternative("width", &Disk::width, "m", positive, "along the axis")};
+  }
+};
+
+/// A mass that moves along x and y, as a pedestal's share that differs [kg].
+struct PlanarMass {
+  double x = 0.0, y = 0.0;
+
+  constexpr PlanarMass(double both = 0.0) : x(both), y(both) {}
+  constexpr PlanarMass(double along_x, double along_y) : x(along_x), y(along_y) {}
+};
+
+/// A lumped mass: a stator, a pedestal, the mass of a Jeffcott rotor.
+struct Body {
+  std::string name;
+  PlanarMass m;               ///< [kg]; of a body that spins the same along x and y
+  bool spins = false;         ///< part of the rotor: unbalance and gyroscopics
+  bool tilts = false;         ///< has theta_x, theta_y
+  double Id = 0.0, Ip = 0.0;  ///< moments of inertia [kg.m^2], if it tilts
+  Where where{};
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        required("mass", &Body::m, "kg", nonnegative, "mass of the body, or [along x, along y]"),
+        optional("spins", &Body::spins, "", any, "it is part of the rotor"),
+        optional("tilts", &Body::tilts, "", any, "it has theta_x and theta_y"),
+        optional("diametral_inertia", &Body::Id, "kg.m^2", nonnegative, "if it tilts"),
+        optional("polar_inertia", &Body::Ip, "kg.m^2", nonnegative, "if it tilts and spins")};
+  }
+};
+
+/// A mass off the axis: force moment * Omega^2, turning with the rotor.
+struct Unbalance {
+  Station at;
+  double moment = 0.0;  ///< mass times eccentricity [kg.m]
+  double phase = 0.0;   ///< angle from +x at t = 0 [rad]
+};
+
+/// What a load is, and where it points.
+enum class ForceKind {
+  force,             ///< [N]
+  moment,            ///< [N.m]
+  base_acceleration  ///< of the ground, and so of all that has weight [m/s^2]
+};
+enum class Turning { no, forward, backward };
+/// Those that a model file names.
+constexpr auto choices(Turning) {
+  return std::array{Choice<Turning>{"forward", Turning::forward},
+                    Choice<Turning>{"backward", Turning::backward}};
+}
+
+/// A load that does not follow from the motion: constant, of an order of the speed, or of a frequency
+/// of its own. With w its frequency,
+///
+///   along a direction   F cos(w t + phase) (cos angle, sin angle)
+///   turning             F (cos(phase + w t), sin(phase + w t)), backward with -w
+///
+/// along x and y, of a moment about them.
+struct Force {
+  std::string name;
+  ForceKind kind = ForceKind::force;
+  Station at;          ///< not of a base
+  double size = 0.0;   ///< F [N, N.m, m/s^2]
+  double angle = 0.0;  ///< from +x [rad]
+  Turning turning = Turning::no;
+  double order = 0.0;      ///< of the speed; 0: it does not follow it
+  double frequency = 0.0;  ///< of its own [rad/s]; 0, and no order: constant
+  double phase = 0.0;      ///< [rad]
+
+  bool has_station() const { return kind != ForceKind::base_acceleration; }
+  bool is_constant() const { return order == 0.0 && frequency == 0.0; }
+  /// Whether it has the frequency of unbalance.
+  bool is_synchronous() const { return order == 1.0; }
+};
+
+/// A displacement probe: it reads the displacement of its station along a direction a across the shaft,
+/// x cos a + y sin a. With a radius r it looks along the shaft at a face that turns with it and reads how far
+/// the tilts move the face towards +z there: r (theta_x sin a - theta_y cos a).
+struct Probe {
+  std::string name;
+  Station at;
+  double angle = 0.0;  ///< of the direction or of the place on the face, from +x towards +y [rad]
+  double face_radius = 0.0;  ///< of the place on the face [m]; 0: it looks across the shaft
+  std::string unit = "um";   ///< a length, in which people are told what it reads
+
+  bool is_axial() const { return face_radius > 0.0; }
+
+  /// What it reads of a motion.
+  /// @param of  gives the motion's component 0 to 3, of x, y, theta_x and theta_y: numbers, which may be complex, or
+  ///            arrays of them; only those that the probe sees are asked for
+  template <class Of>
+  auto reading(const Of& of) const {
+    using Component = std::decay_t<decltype(of(0))>;
+    if (!is_axial()) return Component(of(0) * std::cos(angle) + of(1) * std::sin(angle));
+    return Component(of(2) * (face_radius * std::sin(angle)) -
+                     of(3) * (face_radius * std::cos(angle)));
+  }
+
+  static constexpr auto fields() {
+    using enum Range;
+    return std::tuple{
+        required("angle", &Probe::angle, "rad", any, "of its direction, from +x towards +y"),
+        alternative("face_radius", &Probe::face_radius, "m", positive,
+                    "where it looks along the shaft at a face that turns with it"),
+        optional("unit", &Probe::unit, "", any, "length that people are told its readings in")};
+  }
+};
+
+/// A bearing or a seal (station to ground or body), or a link (any two stations).
+struct Connection {
+  std::string name;
+  Station from, to;
+  AnyBearing coefficients;
+  bool is_rigid = false;    ///< x and y of both ends are the same
+  bool is_clamped = false;  ///< and the tilts too
+  Where where{};
+  double clearance = 0.0;  ///< of a bearing or seal, radial [m]; 0: not told
+
+  static constexpr auto fields() {
+    return std::tuple{alternative(
+        "clearance", &Connection::clearance, "m", Range::positive,
+        "radial, that the rotor has there; for checks of clearances, it changes no coefficient")};
+  }
+};
+
+/// A connection whose coefficients follow from the state of the rotor at a speed, as those of an oil
+/// film follow from where its journal runs.
+struct LinearizedConnection {
+  std::string name;
+  Station from, to;
+  /// Coefficients at a spin and a whirl frequency, as a kind of bearing has them (bearings.hpp)
+  /// [rad/s]; throws a NumericalError where the state is not found.
+  std::function<BearingCoefficients(double Omega, double omega)> at;
+};
+
+/// Deflections of the shaft without any force on it, at t = 0; they turn with the shaft.
+///
+/// Between its positions the bow is the natural cubic spline, beyond them straight.
+struct Bow {
+  std::vector<double> z;     ///< positions, ascending [m]; empty: the shaft is straight
+  std::vector<double> x, y;  ///< deflection there [m]
+};
+
+/// Damping ratios of modes at rest, beside all other damping.
+struct ModalDamping {
+  std::vector<double> ratios;  ///< of the lowest modes that deform; empty: none
+  bool is_common = false;      ///< one ratio stands for all modes, up to most_damped_modes
+};
+/// That one common ratio damps.
+inline constexpr int most_damped_modes = 100;
+
+struct Structure {
+  std::vector<Segment> shaft;  ///< left to right from z = 0
+  std::vector<Disk> disks;
+  std::vector<Body> bodies;
+  std::vector<Connection> bearings;
+  std::vector<Connection> links;
+  std::vector<Connection> seals;
+  std::vector<LinearizedConnection> linearized;  ///< in linear analyses only
+  std::vector<Unbalance> unbalances;
+  std::vector<Station> stations;  ///< further places that need a node (contacts)
+  Rayleigh damping;
+  double gravity = 0.0;  ///< acceleration along -y [m/s^2]
+  std::vector<Layer> layers{};
+  ModalDamping modal_damping{};
+  Bow bow{};
+  std::vector<Force> forces{};
+  std::vector<Probe> probes{};
+
+  /// Connections of one kind, with its word in model files.
+  struct Connections {
+    const char* kind;
+    const std::vector<Connection>& list;
+  };
+  /// All of them.
+  std::array<Connections, 3> connections() const {
+    return {{{"bearing", bearings}, {"link", links}, {"seal", seals}}};
+  }
+
+  double length() const {
+    double sum = 0.0;
+    for (const Segment& segment : shaft) sum += segment.length;
+    return sum;
+  }
+};
+
+}  // namespace whirl::inline fe
