@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "libdyn/motions/frequency_response.hpp"
+#include "libdyn/linear/frequency_response.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {

@@ -1,4 +1,4 @@
-#include "libdyn/studies/critical_over.hpp"
+#include "libdyn/linear/critical_over.hpp"
 
 #include <fmt/format.h>
 

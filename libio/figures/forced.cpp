@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
-#include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libio/figures/bode_curves.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"

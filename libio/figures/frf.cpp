@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
-#include "libdyn/motions/frequency_response.hpp"
+#include "libdyn/linear/frequency_response.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 

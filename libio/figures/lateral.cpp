@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
-#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/linear/lateral_report.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/texts/lateral_text.hpp"

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "libbase/numerics/constants.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libdyn/motions/run_result.hpp"
-#include "libdyn/motions/unbalance_study.hpp"
 #include "libfe/analyses/unbalance.hpp"
 #include "libio/export/vtk_scene.hpp"
 #include "libio/figures/common.hpp"

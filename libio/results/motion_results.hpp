@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "libdyn/linear/static_study.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/motions/start.hpp"
-#include "libdyn/motions/static_study.hpp"
 #include "libdyn/studies/resonance_study.hpp"
 #include "libfe/analyses/critical.hpp"
 

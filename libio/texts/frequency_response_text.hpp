@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "libdyn/motions/frequency_response.hpp"
+#include "libdyn/linear/frequency_response.hpp"
 
 namespace whirl::inline io {
 

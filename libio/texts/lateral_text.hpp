@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/linear/lateral_report.hpp"
 
 namespace whirl::inline io {
 

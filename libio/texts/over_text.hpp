@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/studies/critical_over.hpp"
-#include "libdyn/studies/modes_over.hpp"
-#include "libdyn/studies/unbalance_over.hpp"
+#include "libdyn/linear/critical_over.hpp"
+#include "libdyn/linear/modes_over.hpp"
+#include "libdyn/linear/unbalance_over.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl::inline io {

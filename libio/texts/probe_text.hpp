@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "libdyn/linear/static_study.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libdyn/motions/run_result.hpp"
-#include "libdyn/motions/static_study.hpp"
-#include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/studies/found_orbit.hpp"
 
 namespace whirl::inline io {

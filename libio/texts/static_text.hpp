@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "libdyn/motions/static_study.hpp"
+#include "libdyn/linear/static_study.hpp"
 
 namespace whirl::inline io {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 
 namespace whirl::inline io {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// What linear verbs share that run over a value of the model (modes, critical, unbalance).
 
-#include "libdyn/studies/model_at.hpp"
+#include "libdyn/linear/model_at.hpp"
 #include "libio/model/model_family.hpp"
 #include "libio/results/columns.hpp"
 #include "libverbs/command/reporting.hpp"

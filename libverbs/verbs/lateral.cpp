@@ -1,4 +1,4 @@
-#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/linear/lateral_report.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"

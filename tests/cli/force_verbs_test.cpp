@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libio/figures/figures.hpp"
 #include "libio/results/columns.hpp"
 #include "tests/cli/program.hpp"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "libdyn/studies/modes_over.hpp"
+#include "libdyn/linear/modes_over.hpp"
 #include "libio/figures/figures.hpp"
 #include "libio/results/columns.hpp"
 #include "tests/cli/program.hpp"

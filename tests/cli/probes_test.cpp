@@ -5,8 +5,8 @@
 #include <complex>
 #include <numbers>
 
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libdyn/motions/run_result.hpp"
-#include "libdyn/motions/unbalance_study.hpp"
 #include "libio/figures/figures.hpp"
 #include "libio/model/file_text.hpp"
 #include "libio/results/columns.hpp"

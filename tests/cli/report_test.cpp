@@ -3,7 +3,7 @@
 #include <cstring>
 #include <regex>
 
-#include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libio/figures/comparison.hpp"
 #include "libio/figures/figures.hpp"
 #include "libio/results/columns.hpp"
@@ -60,9 +60,9 @@ TEST_F(Report, AReportIsOneFile) {
   EXPECT_EQ(motion["figures"][0]["kind"], "orbit");
   std::vector<std::string> facts;
   for (const json& fact : motion["facts"]) facts.push_back(fact[0]);
-  EXPECT_EQ(facts, (std::vector<std::string>{"result", "model", "command", "made by", "made at",
-                                             "computed with", "speed", "recorded", "cost",
-                                             "rotor"}));
+  EXPECT_EQ(facts,
+            (std::vector<std::string>{"result", "model", "command", "made by", "made at",
+                                      "computed with", "speed", "recorded", "cost", "rotor"}));
   EXPECT_TRUE(has(motion["model"], "clearance = \"0.5 mm\""));
   EXPECT_TRUE(motion["motion"].contains("motions"));
   EXPECT_FALSE(linear["motion"].contains("motions"));

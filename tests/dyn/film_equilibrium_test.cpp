@@ -12,7 +12,7 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/motions/static_study.hpp"
+#include "libdyn/linear/static_study.hpp"
 #include "libfe/analyses/campbell.hpp"
 #include "libfe/analyses/critical.hpp"
 #include "libfe/analyses/unbalance.hpp"

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "libbase/error.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/motions/transient.hpp"
-#include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/orbits/autonomous_orbit.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/contact_harmonics.hpp"

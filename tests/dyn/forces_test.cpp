@@ -10,9 +10,9 @@
 #include <string>
 
 #include "libbase/error.hpp"
+#include "libdyn/linear/frequency_response.hpp"
 #include "libdyn/methods/collocation.hpp"
 #include "libdyn/motions/equilibrium.hpp"
-#include "libdyn/motions/frequency_response.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/studies/map.hpp"
 #include "libdyn/taylor/batch.hpp"

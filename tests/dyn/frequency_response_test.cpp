@@ -1,6 +1,6 @@
 // Frequency responses against closed forms and the sum over complex modes.
 
-#include "libdyn/motions/frequency_response.hpp"
+#include "libdyn/linear/frequency_response.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The lateral analysis of a rotor that is nearly a Jeffcott rotor, beside its closed forms.
 
-#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/linear/lateral_report.hpp"
 
 #include <gtest/gtest.h>
 

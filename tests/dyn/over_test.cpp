@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "libdyn/studies/critical_over.hpp"
-#include "libdyn/studies/modes_over.hpp"
-#include "libdyn/studies/unbalance_over.hpp"
+#include "libdyn/linear/critical_over.hpp"
+#include "libdyn/linear/modes_over.hpp"
+#include "libdyn/linear/unbalance_over.hpp"
 #include "libfe/analyses/campbell.hpp"
 #include "tests/support/rotors.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "libdyn/motions/frequency_response.hpp"
+#include "libdyn/linear/frequency_response.hpp"
+#include "libdyn/linear/static_study.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libdyn/motions/run_model.hpp"
-#include "libdyn/motions/static_study.hpp"
-#include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/orbits/contact_flow.hpp"
 #include "libdyn/orbits/orbit_measure.hpp"
 #include "libdyn/orbits/shooting.hpp"

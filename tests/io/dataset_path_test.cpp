@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "libdyn/linear/unbalance_study.hpp"
 #include "libdyn/motions/run_result.hpp"
-#include "libdyn/motions/unbalance_study.hpp"
 #include "libdyn/studies/classification_result.hpp"
 #include "libfe/analyses/campbell.hpp"
 

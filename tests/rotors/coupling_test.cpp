@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "libbase/error.hpp"
-#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/linear/lateral_report.hpp"
 #include "libfe/eigen/symmetric.hpp"
 #include "libfe/lateral/coupling_stability.hpp"
 #include "libio/model/model_file.hpp"

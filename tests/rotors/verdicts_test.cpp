@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "libbase/error.hpp"
-#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/linear/lateral_report.hpp"
 #include "libfe/analyses/campbell.hpp"
 #include "libio/model/model_file.hpp"
 #include "tests/support/random_rotors.hpp"

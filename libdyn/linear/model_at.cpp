@@ -1,4 +1,4 @@
-#include "libdyn/studies/model_at.hpp"
+#include "libdyn/linear/model_at.hpp"
 
 #include <algorithm>
 #include <exception>

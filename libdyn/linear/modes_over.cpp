@@ -1,4 +1,4 @@
-#include "libdyn/studies/modes_over.hpp"
+#include "libdyn/linear/modes_over.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "libdyn/motions/unbalance_study.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 
 #include <fmt/format.h>
 

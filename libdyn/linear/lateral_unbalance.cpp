@@ -1,4 +1,4 @@
-#include "libdyn/motions/lateral_unbalance.hpp"
+#include "libdyn/linear/lateral_unbalance.hpp"
 
 #include <algorithm>
 #include <cmath>

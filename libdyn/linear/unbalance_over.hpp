@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "libdyn/motions/unbalance_study.hpp"
-#include "libdyn/studies/model_at.hpp"
+#include "libdyn/linear/model_at.hpp"
+#include "libdyn/linear/unbalance_study.hpp"
 
 namespace whirl::inline dyn {
 

@@ -1,4 +1,4 @@
-#include "libdyn/motions/lateral_report.hpp"
+#include "libdyn/linear/lateral_report.hpp"
 
 #include <algorithm>
 #include <cmath>

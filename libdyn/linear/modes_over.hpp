@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "libdyn/studies/model_at.hpp"
+#include "libdyn/linear/model_at.hpp"
 #include "libfe/analyses/modes.hpp"
 
 namespace whirl::inline dyn {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libdyn/studies/model_at.hpp"
+#include "libdyn/linear/model_at.hpp"
 #include "libfe/analyses/critical.hpp"
 
 namespace whirl::inline dyn {

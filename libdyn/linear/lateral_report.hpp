@@ -11,7 +11,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/structs/column.hpp"
 #include "libbase/structs/field.hpp"
-#include "libdyn/motions/lateral_unbalance.hpp"
+#include "libdyn/linear/lateral_unbalance.hpp"
 #include "libdyn/system/stations.hpp"
 #include "libfe/analyses/campbell.hpp"
 #include "libfe/analyses/response_curve.hpp"

@@ -1,4 +1,4 @@
-#include "libdyn/motions/frequency_response.hpp"
+#include "libdyn/linear/frequency_response.hpp"
 
 #include <fmt/format.h>
 

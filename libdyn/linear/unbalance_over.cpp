@@ -1,4 +1,4 @@
-#include "libdyn/studies/unbalance_over.hpp"
+#include "libdyn/linear/unbalance_over.hpp"
 
 #include <exception>
 

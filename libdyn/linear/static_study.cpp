@@ -1,4 +1,4 @@
-#include "libdyn/motions/static_study.hpp"
+#include "libdyn/linear/static_study.hpp"
 
 #include <utility>
 
