@@ -14,9 +14,9 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/random.hpp"
-#include "libdyn/fit/fit.hpp"
-#include "libdyn/fit/model_source.hpp"
-#include "libdyn/fit/steady_record.hpp"
+#include "libdata/fit/fit.hpp"
+#include "libdata/fit/model_source.hpp"
+#include "libdata/fit/steady_record.hpp"
 #include "libdyn/motions/start.hpp"
 #include "libdyn/system/probes.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "libbase/numerics/constants.hpp"
-#include "libdyn/fit/measured_fit.hpp"
+#include "libdata/fit/measured_fit.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/text/format.hpp"

@@ -8,9 +8,9 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/interpolation.hpp"
-#include "libdyn/measured/measured_identification.hpp"
-#include "libdyn/measured/order_tracking.hpp"
-#include "libdyn/measured/station_motion.hpp"
+#include "libdata/measured/measured_identification.hpp"
+#include "libdata/measured/order_tracking.hpp"
+#include "libdata/measured/station_motion.hpp"
 #include "libio/figures/bode_curves.hpp"
 #include "libio/figures/full_spectrum.hpp"
 #include "libio/figures/probes.hpp"

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "libbase/error.hpp"
-#include "libdyn/measured/measured_identification.hpp"
+#include "libdata/measured/measured_identification.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 #include "libio/figures/rotor_backdrop.hpp"

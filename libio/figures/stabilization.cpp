@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "libdyn/measured/running_modes.hpp"
+#include "libdata/measured/running_modes.hpp"
 #include "libio/figures/common.hpp"
 #include "libio/figures/result_of.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/spectrum.hpp"
-#include "libdyn/measured/station_motion.hpp"
+#include "libdata/measured/station_motion.hpp"
 #include "libio/figures/probes.hpp"
 #include "libio/figures/result_of.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "libdyn/measured/probe_readings.hpp"
+#include "libdata/measured/probe_readings.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/measured/probe_readings.hpp"
+#include "libdata/measured/probe_readings.hpp"
 #include "libdyn/system/model.hpp"
 
 namespace whirl::inline io {

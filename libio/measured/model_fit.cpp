@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "libbase/error.hpp"
-#include "libdyn/measured/record_doubts.hpp"
+#include "libdata/measured/record_doubts.hpp"
 #include "libdyn/system/corrected_scene.hpp"
 #include "libdyn/system/system_slope.hpp"
 #include "libio/model/model_family.hpp"

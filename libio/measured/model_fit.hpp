@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "libdyn/fit/measured_fit.hpp"
+#include "libdata/fit/measured_fit.hpp"
 #include "libio/measured/measurement.hpp"
 #include "libio/model/free_parameters.hpp"
 

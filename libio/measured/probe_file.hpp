@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "libdyn/measured/probe_readings.hpp"
+#include "libdata/measured/probe_readings.hpp"
 #include "libdyn/system/model.hpp"
 
 namespace whirl::inline io {

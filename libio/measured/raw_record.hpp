@@ -8,7 +8,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/structs/travel.hpp"
-#include "libdyn/measured/measured_record.hpp"
+#include "libdata/measured/measured_record.hpp"
 
 namespace whirl::inline io {
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "libdyn/measured/measured_record.hpp"
+#include "libdata/measured/measured_record.hpp"
 #include "libio/results/replace_file.hpp"
 
 namespace whirl::inline io {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/fit/measured_fit.hpp"
+#include "libdata/fit/measured_fit.hpp"
 #include "libio/text/units.hpp"
 
 namespace whirl::inline io {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "libdyn/fit/fit_problem.hpp"
+#include "libdata/fit/fit_problem.hpp"
 #include "libio/text/parameter_axis.hpp"
 
 namespace whirl::inline io {

@@ -2,17 +2,17 @@
 
 #include <string>
 
-#include "libdyn/fit/measured_fit.hpp"
+#include "libdata/fit/measured_fit.hpp"
+#include "libdata/measured/measured_identification.hpp"
+#include "libdata/measured/order_tracking.hpp"
+#include "libdata/measured/running_modes.hpp"
+#include "libdata/measured/station_motion.hpp"
 #include "libdyn/linear/critical_over.hpp"
 #include "libdyn/linear/frequency_response.hpp"
 #include "libdyn/linear/lateral_report.hpp"
 #include "libdyn/linear/modes_over.hpp"
 #include "libdyn/linear/unbalance_over.hpp"
 #include "libdyn/linear/unbalance_study.hpp"
-#include "libdyn/measured/measured_identification.hpp"
-#include "libdyn/measured/order_tracking.hpp"
-#include "libdyn/measured/running_modes.hpp"
-#include "libdyn/measured/station_motion.hpp"
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/studies/basins.hpp"

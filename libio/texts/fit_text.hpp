@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "libdyn/fit/measured_fit.hpp"
+#include "libdata/fit/measured_fit.hpp"
 
 namespace whirl::inline io {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "libdyn/measured/measured_identification.hpp"
-#include "libdyn/measured/order_tracking.hpp"
+#include "libdata/measured/measured_identification.hpp"
+#include "libdata/measured/order_tracking.hpp"
 #include "libdyn/motions/identify.hpp"
 
 namespace whirl::inline io {

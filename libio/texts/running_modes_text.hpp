@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "libdyn/measured/running_modes.hpp"
+#include "libdata/measured/running_modes.hpp"
 
 namespace whirl::inline io {
 

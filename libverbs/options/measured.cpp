@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "libdyn/measured/simulated_record.hpp"
+#include "libdata/measured/simulated_record.hpp"
 #include "libio/measured/probe_file.hpp"
 #include "libio/measured/record_file.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "libdyn/measured/order_tracking.hpp"
+#include "libdata/measured/order_tracking.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libio/measured/measurement.hpp"
 #include "libio/measured/record_values.hpp"

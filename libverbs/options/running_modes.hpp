@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "libdyn/measured/running_comparison.hpp"
+#include "libdata/measured/running_comparison.hpp"
 #include "libverbs/command/verb.hpp"
 #include "libverbs/options/measured.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "libdyn/measured/measured_identification.hpp"
-#include "libdyn/measured/station_motion.hpp"
+#include "libdata/measured/measured_identification.hpp"
+#include "libdata/measured/station_motion.hpp"
 #include "libdyn/system/film_equilibrium.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/results/motion_results.hpp"

@@ -17,8 +17,8 @@ namespace documents_test {
 
 namespace fs = std::filesystem;
 const fs::path root = WHIRL_SOURCE_DIR;
-constexpr const char* libraries[] = {"libbase", "libfe", "libcontact",
-                                     "libdyn",  "libio", "libverbs"};
+constexpr const char* libraries[] = {"libbase", "libfe", "libcontact", "libdyn",
+                                     "libdata", "libio", "libverbs"};
 
 std::vector<fs::path> documents() {
   std::vector<fs::path> folders{root, root / "docs", root / "python"};
@@ -94,7 +94,8 @@ std::vector<std::string> targets(const fs::path& document) {
 
 TEST(Documents, NameFilesThatAreThere) {
   static const std::regex path_of(
-      "`((libbase|libfe|libcontact|libdyn|libio|libverbs|apps|bench|examples|tests|models|tools|"
+      "`((libbase|libfe|libcontact|libdyn|libdata|libio|libverbs|apps|bench|examples|tests|models|"
+      "tools|"
       "web|"
       "docs)/[A-Za-z0-9_./-]+)`");
   int found = 0;

@@ -100,7 +100,7 @@ TEST(ContactLaws, HertzIsAFileAndTwoLinesOfTheList) {
   std::map<std::string, int> outside = places;
   outside.erase("laws/hertz.hpp");
   EXPECT_EQ(outside, (std::map<std::string, int>{{"laws.hpp", 2}}));
-  for (const char* folder : {"libfe", "libdyn", "libio", "libverbs", "apps"}) {
+  for (const char* folder : {"libfe", "libdyn", "libdata", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(places_in(folder, "\\bHertz<|laws/hertz").empty()) << folder;
   }
 }
@@ -110,14 +110,15 @@ TEST(Bearings, TableBearingIsAFileAndTwoLinesOfTheList) {
   auto places = places_in("libfe", "\\bTableBearing\\b|bearings/table");
   places.erase("bearings/table.hpp");
   EXPECT_EQ(places, (std::map<std::string, int>{{"bearings.hpp", 2}}));
-  for (const char* folder : {"libcontact", "libdyn", "libio", "libverbs", "apps"}) {
+  for (const char* folder : {"libcontact", "libdyn", "libdata", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(places_in(folder, "\\bTableBearing\\b|bearings/table").empty()) << folder;
   }
 }
 
 // Nothing asks for the first kind, either: only the list knows what kinds there are.
 TEST(Bearings, NoCodeAsksForAKind) {
-  for (const char* folder : {"libfe", "libcontact", "libdyn", "libio", "libverbs", "apps"}) {
+  for (const char* folder :
+       {"libfe", "libcontact", "libdyn", "libdata", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(
         places_in(folder, "(get_if|get|holds_alternative)<(Constant|Table)Bearing>").empty())
         << folder;
@@ -131,7 +132,7 @@ TEST(Geometries, AStopIsAFileAndTwoLinesOfTheList) {
   std::map<std::string, int> outside = places_in("libcontact", named);
   outside.erase("geometry/stop.hpp");
   EXPECT_EQ(outside, (std::map<std::string, int>{{"geometries.hpp", 2}}));
-  for (const char* folder : {"libfe", "libdyn", "libio", "libverbs", "apps"}) {
+  for (const char* folder : {"libfe", "libdyn", "libdata", "libio", "libverbs", "apps"}) {
     EXPECT_TRUE(places_in(folder, named).empty()) << folder;
   }
 }

@@ -28,8 +28,8 @@ void for_each_line(const fs::path& path, F f) {
 std::map<std::string, std::string> citations() {
   static const std::regex key(R"(\[([A-Z][A-Za-z]*[0-9]{4}[a-z]?)\])");
   std::vector<fs::path> files{root / "README.md", root / "CONTRIBUTING.md"};
-  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn", "libio", "libverbs",
-                             "apps", "bench", "docs", "models", "tests", "tools"}) {
+  for (const char* folder : {"libbase", "libfe", "libcontact", "libdyn", "libdata", "libio",
+                             "libverbs", "apps", "bench", "docs", "models", "tests", "tools"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.is_regular_file() && entry.path() != list) files.push_back(entry.path());
     }

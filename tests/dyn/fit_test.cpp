@@ -1,6 +1,6 @@
 // Parameters that are found in motions with noise, and how sure they are.
 
-#include "libdyn/fit/fit.hpp"
+#include "libdata/fit/fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/random.hpp"
-#include "libdyn/fit/model_source.hpp"
+#include "libdata/fit/model_source.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
 #include "tests/support/scenes.hpp"
 

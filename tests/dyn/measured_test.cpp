@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "libbase/error.hpp"
-#include "libdyn/measured/measured_identification.hpp"
-#include "libdyn/measured/order_tracking.hpp"
-#include "libdyn/measured/station_motion.hpp"
+#include "libdata/measured/measured_identification.hpp"
+#include "libdata/measured/order_tracking.hpp"
+#include "libdata/measured/station_motion.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace whirl::measured_test {

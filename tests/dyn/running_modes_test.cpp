@@ -1,7 +1,7 @@
 // Modes from responses to random forces: chains and rotors whose modes are known, with noise of
 // sensors and harmonics of the speed.
 
-#include "libdyn/measured/running_modes.hpp"
+#include "libdata/measured/running_modes.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "libbase/error.hpp"
 #include "libbase/numerics/dense.hpp"
-#include "libdyn/measured/speed_harmonics.hpp"
+#include "libdata/measured/speed_harmonics.hpp"
 #include "libfe/analyses/modes.hpp"
 #include "tests/support/random_response.hpp"
 

@@ -1,12 +1,12 @@
 // Subspace identification where the answer is exact: covariances of a known system in closed form.
 
-#include "libdyn/measured/subspace.hpp"
+#include "libdata/measured/subspace.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "libdyn/measured/decimation.hpp"
+#include "libdata/measured/decimation.hpp"
 #include "tests/support/random_response.hpp"
 
 namespace whirl::subspace_test {

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "libbase/error.hpp"
-#include "libdyn/measured/probe_readings.hpp"
+#include "libdata/measured/probe_readings.hpp"
 #include "libio/measured/probe_file.hpp"
 #include "libio/measured/record_file.hpp"
 #include "libio/model/model_file.hpp"

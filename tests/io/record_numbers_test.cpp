@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-#include "libdyn/measured/probe_readings.hpp"
+#include "libdata/measured/probe_readings.hpp"
 #include "libio/measured/record_file.hpp"
 #include "tests/io/result_folder.hpp"
 

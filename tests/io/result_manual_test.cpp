@@ -13,7 +13,10 @@
 #include <set>
 #include <sstream>
 
-#include "libdyn/fit/measured_fit.hpp"
+#include "libdata/fit/measured_fit.hpp"
+#include "libdata/measured/measured_identification.hpp"
+#include "libdata/measured/order_tracking.hpp"
+#include "libdata/measured/running_modes.hpp"
 #include "libdyn/linear/critical_over.hpp"
 #include "libdyn/linear/frequency_response.hpp"
 #include "libdyn/linear/lateral_report.hpp"
@@ -21,9 +24,6 @@
 #include "libdyn/linear/static_study.hpp"
 #include "libdyn/linear/unbalance_over.hpp"
 #include "libdyn/linear/unbalance_study.hpp"
-#include "libdyn/measured/measured_identification.hpp"
-#include "libdyn/measured/order_tracking.hpp"
-#include "libdyn/measured/running_modes.hpp"
 #include "libdyn/motions/run_result.hpp"
 #include "libdyn/studies/basins.hpp"
 #include "libdyn/studies/branch_result.hpp"

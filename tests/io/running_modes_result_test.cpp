@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "libdyn/measured/running_modes.hpp"
+#include "libdata/measured/running_modes.hpp"
 #include "libio/figures/figures.hpp"
 #include "libio/results/columns.hpp"
 #include "libio/texts/running_modes_text.hpp"

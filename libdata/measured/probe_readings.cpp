@@ -1,0 +1,168 @@
+#include "libdata/measured/probe_readings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "libbase/error.hpp"
+
+namespace whirl::inline dyn {
+
+namespace {
+
+Eigen::Index channel_of(const MeasuredRecord& record, const std::string& channel,
+                        const std::string& who) {
+  const auto alike = std::count_if(record.channels.begin(), record.channels.end(),
+                                   [&](const MeasuredChannel& c) { return c.name == channel; });
+  if (alike > 1) {
+    throw OptionError(fmt::format(
+        "{}: {} channels of the record are called \"{}\": give its number from 1; it has {}", who,
+        alike, channel, record.channel_list()));
+  }
+  if (const auto found = record.channel(channel)) return *found;
+  throw OptionError(fmt::format("{}: the record has no channel \"{}\"; it has {}", who, channel,
+                                record.channel_list()));
+}
+
+/// How many metres a unit of a channel's samples stands for.
+double metres_per_unit(const MeasuredChannel& channel, const MeasuredProbe& p) {
+  using Of = ProbeGain::Of;
+  const std::string who = fmt::format("probe \"{}\"", p.probe.name);
+  const auto wrong = [&](const char* expected) {
+    return OptionError(fmt::format("{}: channel \"{}\" is in {}, expected {}", who, channel.name,
+                                   channel.unit, expected));
+  };
+  if (channel.unit == share_of_full_scale) {
+    const double full = p.full_scale ? p.full_scale->value : 1.0;
+    const std::string unit = p.full_scale && p.gain.of != Of::number ? p.full_scale->unit : "";
+    return (p.gain.of == Of::number ? 1.0 : full) * metres_per_unit({channel.name, unit}, p);
+  }
+  switch (p.gain.of) {
+    case Of::voltage:
+      if (!channel.unit.empty() && channel.unit != "V") {
+        throw wrong("a voltage, as its gain is one per displacement");
+      }
+      return 1.0 / p.gain.value;
+    case Of::number:
+      if (!channel.unit.empty()) throw wrong("numbers without unit, as its gain is per length");
+      return 1.0 / p.gain.value;
+    default:
+      if (channel.unit.empty()) return p.unit_length / p.gain.value;
+      if (channel.unit == "V") throw wrong("a length; give the probe a gain such as \"7.87 V/mm\"");
+      if (channel.unit != "m")
+        throw wrong("a length or, with a gain such as \"7.87 V/mm\", a voltage");
+      return 1.0 / p.gain.value;
+  }
+}
+
+/// Notes that a channel says nothing, or less or more than it should.
+void note_channel(const Vec& samples, const MeasuredRecord& record, const std::string& name,
+                  std::vector<std::string>& notes) {
+  if (samples.size() > 0 && samples.maxCoeff() == samples.minCoeff()) {
+    notes.push_back(fmt::format("channel \"{}\" is constant: is its probe connected?", name));
+  } else if (always_ascends(samples)) {
+    notes.push_back(fmt::format(
+        "channel \"{}\" ascends from every sample to the next, as times do and no vibration does: "
+        "is it that of the probe?",
+        name));
+  } else if (is_clipped(samples)) {
+    notes.push_back(fmt::format(
+        "channel \"{}\" is clipped: it rests at its largest or smallest value; amplitudes are too "
+        "small and harmonics are not the motion's",
+        name));
+  }
+  if (const Spikes spikes = spikes_in(samples); spikes.count > 0) {
+    notes.push_back(fmt::format(
+        "channel \"{}\" has {} of one sample, the first at {:.6g} s: spectra are too high "
+        "everywhere; leave such samples empty",
+        name, spikes.count == 1 ? "a spike" : fmt::format("{} spikes", spikes.count),
+        record.time(spikes.first)));
+  }
+}
+
+/// Notes displacements that no rotor makes: a unit or a gain is another one.
+void note_size(const Vec& displacement, const std::string& probe, std::vector<std::string>& notes) {
+  constexpr double most = 0.1;  // [m]
+  if (displacement.size() == 0) return;
+  const double range = displacement.maxCoeff() - displacement.minCoeff();
+  if (!(range > most)) return;
+  notes.push_back(
+      fmt::format("probe \"{}\" reads {:.3g} m from peak to peak: are the unit and the gain right?",
+                  probe, range));
+}
+
+/// Notes channels whose numbers are in a unit that nobody said, and what it is taken to be.
+void note_units(const MeasuredRecord& record, const MeasurementSetup& setup,
+                const std::vector<Eigen::Index>& channels, std::vector<std::string>& notes) {
+  using Of = ProbeGain::Of;
+  std::map<std::string, std::string> without_unit, without_full_scale;  // names by what they are
+  for (std::size_t i = 0; i < setup.probes.size(); ++i) {
+    const MeasuredProbe& p = setup.probes[i];
+    const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(channels[i])];
+    const bool is_share = channel.unit == share_of_full_scale && !p.full_scale;
+    if (p.gain.of == Of::number || !(is_share || channel.unit.empty())) continue;
+    const bool is_said = p.gain.of == Of::length && p.is_unit_given && !is_share;
+    if (is_said) continue;
+    std::string& names = (is_share ? without_full_scale
+                                   : without_unit)[p.gain.of == Of::voltage ? "V" : p.probe.unit];
+    names += (names.empty() ? "" : ", ") + channel.name;
+  }
+  for (const auto& [unit, names] : without_unit) {
+    notes.push_back(fmt::format("no unit in the record for {}: taken as {}", names, unit));
+  }
+  for (const auto& [unit, names] : without_full_scale) {
+    notes.push_back(
+        fmt::format("full scale of channel {} is taken as 1 {}, as the file of sound does not say "
+                    "it: full_scale = \"10 V\", or what the recorder was set to, beside the "
+                    "gain of its probe does",
+                    names, unit));
+  }
+}
+
+}  // namespace
+
+ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup) {
+  ProbeReadings readings{.rate = record.rate, .start = record.start, .notes = record.notes};
+  readings.displacement.resize(record.samples.rows(), std::ssize(setup.probes));
+  std::vector<Eigen::Index> channels;
+  std::vector<Gaps> gaps;
+  for (std::size_t i = 0; i < setup.probes.size(); ++i) {
+    const MeasuredProbe& p = setup.probes[i];
+    const auto c = channel_of(record, p.channel, fmt::format("probe \"{}\"", p.probe.name));
+    const MeasuredChannel& channel = record.channels[static_cast<std::size_t>(c)];
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vec other = record.samples.col(channels[j]);
+      if (channels[j] != c && other != record.samples.col(c)) continue;
+      readings.notes.push_back(fmt::format("probes \"{}\" and \"{}\" read the same samples",
+                                           setup.probes[j].probe.name, p.probe.name));
+    }
+    channels.push_back(c);
+    const Vec samples = without_gaps(record.samples.col(c), record, channel.name, gaps);
+    readings.missing.emplace_back();
+    for (Eigen::Index k = 0; k < samples.size(); ++k) {
+      if (!std::isfinite(record.samples(k, c))) readings.missing.back().push_back(k);
+    }
+    note_channel(samples, record, channel.name, readings.notes);
+    readings.displacement.col(static_cast<Eigen::Index>(i)) = metres_per_unit(channel, p) * samples;
+    note_size(readings.displacement.col(static_cast<Eigen::Index>(i)), p.probe.name,
+              readings.notes);
+    readings.probes.push_back(p.probe);
+  }
+  note_units(record, setup, channels, readings.notes);
+  Vec pulses;
+  if (const auto& key = setup.key_phasor) {
+    const auto c = channel_of(record, key->channel, "key-phasor");
+    pulses = without_gaps(record.samples.col(c), record, key->channel, gaps);
+  }
+  for (const Gaps& g : gaps) {
+    readings.notes.push_back(g.text(record) + "; straight lines are in their place");
+  }
+  if (const auto& key = setup.key_phasor) {
+    readings.clock.emplace(pulse_times(pulses, record, *key), *key, readings.notes);
+  }
+  return readings;
+}
+
+}  // namespace whirl::inline dyn

@@ -1,0 +1,67 @@
+#pragma once
+/// Displacements that probes measured: channels of a record, by their gains.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "libdata/measured/key_phasor.hpp"
+#include "libdata/measured/measured_record.hpp"
+#include "libfe/parts/structure.hpp"
+
+namespace whirl::inline dyn {
+
+/// What a channel gives per displacement.
+struct ProbeGain {
+  enum class Of { length, voltage, number };
+  Of of = Of::length;  ///< length: as another length, so that the value says scale and sign only
+  double value = 1.0;  ///< [1], [V/m], [1/m]; not zero
+};
+
+/// What a sample of 1 is in a channel of shares of full scale.
+struct FullScale {
+  double value = 1.0;  ///< above zero
+  std::string unit{};  ///< "V" or "m"
+};
+
+/// A probe with its channel.
+struct MeasuredProbe {
+  Probe probe;
+  std::string channel;  ///< name or number
+  ProbeGain gain{};
+  double unit_length = 1e-6;   ///< of the unit of the probe, for channels without one [m]
+  bool is_unit_given = false;  ///< whether somebody said that unit
+  std::optional<FullScale> full_scale{};
+};
+
+/// How a record was measured.
+struct MeasurementSetup {
+  std::vector<MeasuredProbe> probes;
+  std::optional<KeyPhasor> key_phasor{};
+};
+
+/// A record as displacements.
+struct ProbeReadings {
+  double rate = 0.0;   ///< [1/s]
+  double start = 0.0;  ///< [s]
+  std::vector<Probe> probes;
+  Mat displacement;  ///< samples x probes [m]
+  std::vector<std::vector<Eigen::Index>>
+      missing{};  ///< per probe: samples that a line is in place of
+  std::optional<TurnClock> clock{};
+  std::vector<std::string> notes{};  ///< what is wrong with the record and could be helped
+
+  double time(Eigen::Index sample) const { return start + static_cast<double>(sample) / rate; }
+};
+
+/// Reads the channels of probes, and the key-phasor if there is one.
+///
+/// Numbers of a channel without a unit are voltages for a gain of these, else in the unit of the
+/// probe; shares of full scale likewise of 1, where the probe does not say what full scale is. Both
+/// are noted. Gaps are filled, and clipped, constant and equal channels are noted.
+///
+/// @throws OptionError  for a channel that the record does not have or that is in no unit of its gain,
+///                      and as without_gaps and TurnClock
+ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup);
+
+}  // namespace whirl::inline dyn
