@@ -11,7 +11,7 @@
 #include "libdata/fit/fit_least_squares.hpp"
 #include "libdata/fit/fit_search.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -253,4 +253,4 @@ Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>&
   return best;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -8,7 +8,7 @@
 #include "libbase/structs/column.hpp"
 #include "libdata/fit/fit_problem.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 struct FitOptions {
   double window = 0.0;         ///< of multiple shooting [s]; 0: a revolution
@@ -88,4 +88,4 @@ struct Fit {
 Fit fit(const std::vector<FitSource>& sources, const std::vector<FreeParameter>& parameters,
         const FitOptions& options = {});
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

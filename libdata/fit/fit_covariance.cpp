@@ -7,7 +7,7 @@
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/sparse_lu.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -107,4 +107,4 @@ Mat fit_covariance(const FitJacobian& J, FitGaps gaps, const std::vector<bool>& 
   return found;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

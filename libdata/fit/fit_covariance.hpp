@@ -5,7 +5,7 @@
 
 #include "libdata/fit/fit_least_squares.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 enum class FitGaps {
   residuals,   ///< as likely as their weight says
@@ -28,4 +28,4 @@ enum class FitGaps {
 /// @source [Seber2003], sec. 2.1
 Mat fit_covariance(const FitJacobian& J, FitGaps gaps, const std::vector<bool>& is_held);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

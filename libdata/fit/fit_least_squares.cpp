@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -278,4 +278,4 @@ void FitLeastSquares::leap(double between) {
   go_to(third);
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -6,7 +6,7 @@
 #include "libbase/numerics/dogleg.hpp"
 #include "libdata/fit/fit_search.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Derivatives of the residuals by all unknowns: the parameters first, then unknown offsets, then the
 /// states at which windows begin.
@@ -75,4 +75,4 @@ class FitLeastSquares {
   int iterations_ = 0;
 };
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -10,7 +10,7 @@
 #include "libdyn/system/contact_system.hpp"
 #include "libdyn/system/system_slope.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Standard deviations that chance does not reach.
 inline constexpr double improbable = 6.0;
@@ -56,4 +56,4 @@ struct FitSource {
   std::function<FitSystem(const Vec& values)> system_at;
 };
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -3,7 +3,7 @@
 #include "libbase/error.hpp"
 #include "libdyn/motions/equilibrium.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -77,4 +77,4 @@ void FitSearch::make_systems() {
   }
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

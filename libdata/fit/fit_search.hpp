@@ -8,7 +8,7 @@
 #include "libdata/fit/fit.hpp"
 #include "libdata/fit/shooting_windows.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// A record during the search.
 struct RecordShooting {
@@ -47,4 +47,4 @@ struct FitSearch {
   double between = 1.0;  ///< what may be left between windows, over gap
 };
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -19,7 +19,7 @@
 #include "libdata/fit/steady_record.hpp"
 #include "libdata/measured/station_motion.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -447,4 +447,4 @@ std::vector<FitCandidate> compared(const std::vector<MeasuredFit>& fits,
   return all;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -12,7 +12,7 @@
 #include "libdata/measured/probe_readings.hpp"
 #include "libdyn/system/probes.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// The part of a record that a model is fitted to.
 struct FitSpan {
@@ -228,4 +228,4 @@ MeasuredFit fit(const std::vector<FitMeasurement>& measurements,
 std::vector<FitCandidate> compared(const std::vector<MeasuredFit>& fits,
                                    const std::vector<std::string>& names);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

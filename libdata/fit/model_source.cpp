@@ -7,7 +7,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -61,4 +61,4 @@ FitSource model_source(FitRecord record, std::shared_ptr<const Scene> scene, Mat
   return {std::move(record), std::move(rows), system_at};
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

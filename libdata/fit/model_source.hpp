@@ -8,7 +8,7 @@
 #include "libdata/fit/fit_problem.hpp"
 #include "libdyn/system/scene.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// A source whose systems are those of a model.
 ///
@@ -26,4 +26,4 @@ FitSource model_source(FitRecord record, std::shared_ptr<const Scene> scene, Mat
                        const std::vector<FreeParameter>& parameters,
                        std::function<Model(const Vec& values)> model_at);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

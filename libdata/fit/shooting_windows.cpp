@@ -10,7 +10,7 @@
 #include "libbase/numerics/dense.hpp"
 #include "libdyn/taylor/motion_slopes.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -183,4 +183,4 @@ std::vector<ShootingWindow> shooting_windows(const FitSource& source, double dur
   return windows;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

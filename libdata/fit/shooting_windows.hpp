@@ -8,7 +8,7 @@
 #include "libdata/fit/fit_problem.hpp"
 #include "libdyn/system/trajectory.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Some successive samples of a record, and how a motion through them is compared with these.
 ///
@@ -79,4 +79,4 @@ class ShootingWindow {
 std::vector<ShootingWindow> shooting_windows(const FitSource& source, double duration,
                                              const ContactSystem& system);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

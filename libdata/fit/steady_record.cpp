@@ -11,7 +11,7 @@
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/fourier.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -313,4 +313,4 @@ SteadyRecord steady_record(const FitRecord& record, double speed, const SteadyOp
                                revolutions_text(options.revolutions), one.why_not, instead));
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -3,7 +3,7 @@
 
 #include "libdata/fit/fit_problem.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 struct SteadyOptions {
   int revolutions = 1;  ///< of a period
@@ -48,4 +48,4 @@ struct SteadyRecord {
 SteadyRecord steady_record(const FitRecord& record, double speed,
                            const SteadyOptions& options = {});
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 Mat decimated(const Mat& samples, int factor) {
   constexpr double pi = std::numbers::pi;
@@ -25,4 +25,4 @@ Mat decimated(const Mat& samples, int factor) {
   return kept;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

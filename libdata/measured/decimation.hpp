@@ -2,7 +2,7 @@
 
 #include "libbase/numerics/linalg.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Every so many samples of a record whose higher frequencies were taken out before.
 ///
@@ -14,4 +14,4 @@ namespace whirl::inline dyn {
 /// @return         times x channels, the first at time 10 factor of the record
 Mat decimated(const Mat& samples, int factor);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -8,7 +8,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/dense.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -130,4 +130,4 @@ std::vector<DecomposedMode> decomposed_modes(const CrossSpectra& spectra, const 
   return modes;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -7,7 +7,7 @@
 #include "libbase/structs/column.hpp"
 #include "libdata/measured/pole.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// A peak of the largest singular value.
 struct DecomposedMode : Pole {
@@ -54,4 +54,4 @@ Decomposition decomposed(const CrossSpectra& spectra);
 /// @source enhanced decomposition [Brincker2001b]; along a singular vector [ZhangWangTamura2010]
 std::vector<DecomposedMode> decomposed_modes(const CrossSpectra& spectra, const Decomposition& d);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -10,7 +10,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/statistics.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -197,4 +197,4 @@ double TurnClock::variation() const {
   return (most - least) / mean_speed();
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

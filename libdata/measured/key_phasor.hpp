@@ -8,7 +8,7 @@
 #include "libbase/structs/field.hpp"
 #include "libdata/measured/measured_record.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// The edge of a pulse at which the mark is in front of the key-phasor.
 enum class PulseEdge { rising, falling };
@@ -80,4 +80,4 @@ class TurnClock {
   double angle_ = 0.0;
 };
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

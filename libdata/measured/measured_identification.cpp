@@ -11,7 +11,7 @@
 #include "libdyn/motions/motion_lines.hpp"
 #include "libfe/analyses/campbell.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -153,4 +153,4 @@ MeasuredIdentification identify(const Model& model, const Scene& scene,
   return result;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -8,7 +8,7 @@
 #include "libdyn/motions/identify.hpp"
 #include "libdyn/system/probes.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Two modes that look alike where the probes are.
 struct IndistinctModes {
@@ -111,4 +111,4 @@ constexpr double unseen_reading = 1e-3;
 MeasuredIdentification identify(const Model& model, const Scene& scene,
                                 const ProbeReadings& readings, const IdentifyOptions& options);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -11,7 +11,7 @@
 #include "libbase/error.hpp"
 #include "libbase/numerics/statistics.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -150,4 +150,4 @@ Spikes spikes_in(const Vec& samples) {
   return found;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

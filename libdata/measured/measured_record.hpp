@@ -7,7 +7,7 @@
 
 #include "libbase/numerics/linalg.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// The unit of samples that are shares of full scale, as sound files have them: what full scale is
 /// only the recorder knows.
@@ -75,4 +75,4 @@ struct Spikes {
 };
 Spikes spikes_in(const Vec& samples);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -5,7 +5,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/spectrum.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -49,4 +49,4 @@ MeasuredSpectra spectra_of(const ProbeReadings& readings,
   return spectra;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -6,7 +6,7 @@
 #include "libdata/measured/probe_readings.hpp"
 #include "libdata/measured/station_motion.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 struct MeasuredSpectra {
   double bin = 0.0;  ///< distance of lines [rad/s]
@@ -26,4 +26,4 @@ struct MeasuredSpectra {
 MeasuredSpectra spectra_of(const ProbeReadings& readings,
                            const std::vector<ProbedStation>& stations, double Omega);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -9,7 +9,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/dense.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -124,4 +124,4 @@ OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& op
   return tracking;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

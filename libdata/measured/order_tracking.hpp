@@ -6,7 +6,7 @@
 #include "libdata/measured/probe_readings.hpp"
 #include "libdyn/system/probes.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 constexpr double fewest_order_revolutions = 2.0;  ///< that a point can be made of
 
@@ -76,4 +76,4 @@ struct OrderTracking {
 ///                      show the orders
 OrderTracking track_orders(const ProbeReadings& readings, const OrderOptions& options);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

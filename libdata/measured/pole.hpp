@@ -6,7 +6,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/linalg.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// A free oscillation y = Re(shape e^(lambda t)) of the channels.
 struct Pole {
@@ -34,4 +34,4 @@ inline double pole_distance(const Pole& a, const Pole& b) {
          channel_mac(a.shape, b.shape);
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

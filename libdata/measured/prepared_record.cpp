@@ -10,7 +10,7 @@
 #include "libdata/measured/decimation.hpp"
 #include "libdata/measured/speed_harmonics.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -93,4 +93,4 @@ PreparedRecord prepared(const Mat& samples, double spacing, const RunningModesOp
   return {kept * deviation.cwiseInverse().asDiagonal(), spacing, deviation};
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -2,7 +2,7 @@
 
 #include "libdata/measured/running_modes.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Samples that modes are sought in.
 struct PreparedRecord {
@@ -18,4 +18,4 @@ struct PreparedRecord {
 PreparedRecord prepared(const Mat& samples, double spacing, const RunningModesOptions& options,
                         RunningModes& found);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -8,7 +8,7 @@
 
 #include "libbase/error.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -165,4 +165,4 @@ ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetu
   return readings;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

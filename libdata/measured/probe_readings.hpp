@@ -9,7 +9,7 @@
 #include "libdata/measured/measured_record.hpp"
 #include "libfe/parts/structure.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// What a channel gives per displacement.
 struct ProbeGain {
@@ -64,4 +64,4 @@ struct ProbeReadings {
 ///                      and as without_gaps and TurnClock
 ProbeReadings probe_readings(const MeasuredRecord& record, const MeasurementSetup& setup);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

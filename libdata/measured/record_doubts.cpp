@@ -8,7 +8,7 @@
 #include "libbase/numerics/constants.hpp"
 #include "libbase/numerics/statistics.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -133,4 +133,4 @@ void add_doubts(const ProbeReadings& readings, const Assembler& assembler, doubl
   add_doubts(readings, stations, spectra_of(readings, stations, Omega), Omega, notes);
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

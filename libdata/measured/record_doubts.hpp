@@ -6,7 +6,7 @@
 
 #include "libdata/measured/measured_spectra.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Adds to notes: probes of a station of very different size; samples too slow for what moves; without
 /// a key-phasor, a speed that nothing turns with; 1X that turns backward.
@@ -19,4 +19,4 @@ void add_doubts(const ProbeReadings& readings, const std::vector<ProbedStation>&
 void add_doubts(const ProbeReadings& readings, const Assembler& assembler, double Omega,
                 std::vector<std::string>& notes);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -5,7 +5,7 @@
 
 #include "libdata/measured/station_motion.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -75,4 +75,4 @@ void compare(RunningModes& found, const MeasuredIdentification& measured,
   }
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

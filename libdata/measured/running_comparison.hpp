@@ -4,7 +4,7 @@
 #include "libdata/measured/measured_identification.hpp"
 #include "libdata/measured/running_modes.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Running modes from the readings of probes; the phase of the rotor is that of the key-phasor, where
 /// there is one: of the record between its first and last pulse then.
@@ -19,4 +19,4 @@ RunningModes running_modes(const ProbeReadings& readings, RunningModesOptions op
 void compare(RunningModes& found, const MeasuredIdentification& measured,
              const ProbeReadings& readings, const Assembler& assembler);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -13,7 +13,7 @@
 #include "libdata/measured/speed_harmonics.hpp"
 #include "libdata/measured/subspace.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -324,4 +324,4 @@ RunningModes running_modes(const Mat& samples, double spacing, const RunningMode
   return found;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

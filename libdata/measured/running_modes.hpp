@@ -10,7 +10,7 @@
 #include "libdata/measured/decomposition.hpp"
 #include "libdata/measured/stabilization.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 struct RunningModesOptions {
   std::vector<std::string> channels{};  ///< names; empty: "channel 1", ...
@@ -143,4 +143,4 @@ RunningModes running_modes(const Mat& samples, double spacing, const RunningMode
 /// least, where covariances fall below half of the largest one before.
 int usual_block_rows(Eigen::Index channels);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -12,7 +12,7 @@
 #include "libbase/numerics/random.hpp"
 #include "libbase/numerics/statistics.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -128,4 +128,4 @@ MeasuredRecord simulated_record(const Run& run, const MeasurementSetup& setup,
   return record;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

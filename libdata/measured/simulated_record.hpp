@@ -6,7 +6,7 @@
 #include "libdata/measured/probe_readings.hpp"
 #include "libdyn/motions/run_result.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Noise of channels.
 struct ChannelNoise {
@@ -23,4 +23,4 @@ struct ChannelNoise {
 MeasuredRecord simulated_record(const Run& run, const MeasurementSetup& setup,
                                 const ChannelNoise& noise);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -8,7 +8,7 @@
 #include "libbase/numerics/fourier.hpp"
 #include "libbase/numerics/spectrum.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 Vec constant_speed_phase(double Omega, double spacing, Eigen::Index samples) {
   return Vec::LinSpaced(samples, 0.0, Omega * spacing * static_cast<double>(samples - 1));
@@ -89,4 +89,4 @@ int harmonic_at(double frequency, double damping_ratio, double speed, int harmon
   return std::abs(frequency - k * speed) <= tolerance * frequency ? k : 0;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

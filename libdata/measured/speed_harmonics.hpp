@@ -5,7 +5,7 @@
 
 #include "libbase/numerics/linalg.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Phase of a rotor of constant speed, Omega t, from 0 on [rad].
 Vec constant_speed_phase(double Omega, double spacing, Eigen::Index samples);
@@ -44,4 +44,4 @@ constexpr double line_damping = 0.002;
 int harmonic_at(double frequency, double damping_ratio, double speed, int harmonics,
                 double tolerance);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

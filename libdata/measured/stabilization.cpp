@@ -7,7 +7,7 @@
 
 #include "libbase/numerics/statistics.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::vector<std::vector<std::size_t>> clustered_modes(const std::vector<OrderPol
   return modes;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -6,7 +6,7 @@
 #include "libbase/structs/column.hpp"
 #include "libdata/measured/pole.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// How much a pole may differ from its like in the model of the order before.
 struct StabilityLimits {
@@ -65,4 +65,4 @@ std::vector<std::vector<std::size_t>> clustered_modes(const std::vector<OrderPol
                                                       const StabilityLimits& limits, int orders,
                                                       double share);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 namespace {
 
@@ -76,4 +76,4 @@ StationRecord station_record(const ProbeReadings& readings, const Assembler& ass
   return record;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -7,7 +7,7 @@
 #include "libdata/measured/probe_readings.hpp"
 #include "libdyn/motions/run_result.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// The probes of one station, and what takes their readings to its displacement.
 ///
@@ -49,4 +49,4 @@ struct StationRecord {
 };
 StationRecord station_record(const ProbeReadings& readings, const Assembler& assembler);
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

@@ -5,7 +5,7 @@
 #include "libbase/numerics/dense.hpp"
 #include "libbase/numerics/singular_values.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 OutputProducts& OutputProducts::operator+=(const OutputProducts& other) {
   if (sums.empty()) return *this = other;
@@ -71,4 +71,4 @@ std::vector<Pole> SubspaceModels::poles(int order, double spacing) const {
   return poles;
 }
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data

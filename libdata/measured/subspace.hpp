@@ -6,7 +6,7 @@
 
 #include "libdata/measured/pole.hpp"
 
-namespace whirl::inline dyn {
+namespace whirl::inline data {
 
 /// Sums of products of samples that are some samples apart, S_k = sum over t of y(t + k) y(t)^T.
 struct OutputProducts {
@@ -61,4 +61,4 @@ class SubspaceModels {
   Mat R_, shifted_;  ///< R A = shifted of the largest order: of others, their upper left corners
 };
 
-}  // namespace whirl::inline dyn
+}  // namespace whirl::inline data
