@@ -1,5 +1,5 @@
 # The program with its man page, completion and models (component runtime), and the libraries for others:
-# headers under include/whirl, targets whirl::base ... whirl::io, found by find_package(whirl COMPONENTS ...).
+# headers under include/whirl, targets whirl::base ... whirl::pictures, found by find_package(whirl COMPONENTS ...).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -29,15 +29,16 @@ include(cmake/notices.cmake)
 install(FILES ${whirl_notices} DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT runtime)
 
 install(TARGETS whirl_options whirl_base EXPORT whirl-base)
-foreach(library fe contact dyn data io)
+foreach(library fe contact dyn data model results pictures io)
   install(TARGETS whirl_${library} EXPORT whirl-${library})
 endforeach()
-foreach(library base fe contact dyn data io)
+foreach(library base fe contact dyn data model results pictures io)
   set_target_properties(whirl_${library} PROPERTIES EXPORT_NAME ${library})
   add_library(whirl::${library} ALIAS whirl_${library})
   install(EXPORT whirl-${library} NAMESPACE whirl:: DESTINATION ${package})
-  install(DIRECTORY lib${library} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/whirl FILES_MATCHING PATTERN "*.hpp")
 endforeach()
+install(DIRECTORY libbase libfe libcontact libdyn libdata libio DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/whirl
+        FILES_MATCHING PATTERN "*.hpp")
 set_target_properties(whirl_options PROPERTIES EXPORT_NAME options)
 
 configure_package_config_file(cmake/whirlConfig.cmake.in whirlConfig.cmake INSTALL_DESTINATION ${package})

@@ -10,4 +10,5 @@ run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BUILD}/consumer/build -G Ninja -DCMAKE_BU
     -DCMAKE_PREFIX_PATH=${prefix})
 run(${CMAKE_COMMAND} --build ${BUILD}/consumer/build)
 run(${BUILD}/consumer/build/consumer)
+run(${BUILD}/consumer/build/reader ${prefix}/share/whirl/models/two_disk_mac.toml)
 run(${prefix}/bin/whirl --version)
