@@ -39,7 +39,7 @@ FitSearch::FitSearch(const std::vector<FitSource>& sources, const std::vector<Fr
   for (const FitSource& source : sources) {
     RecordShooting shooting{.source = &source, .system = source.system_at(values())};
     const ContactSystem& system = shooting.system->system;
-    const Eigen::Index n = system.coordinates();
+    const StateLayout layout = system.layout();
     const int share = source.record.period > 0 ? steady_windows_per_revolution : 1;
     const double duration = options.window > 0.0 ? options.window : system.period() / share;
     shooting.windows = shooting_windows(source, duration, system);
@@ -49,7 +49,7 @@ FitSearch::FitSearch(const std::vector<FitSource>& sources, const std::vector<Fr
     shooting.scale = system.state_scale();
     // coordinates that move the probes by their noise, and the rates that do so within a radian
     shooting.gap = shooting.scale * (source.record.noise.mean() / shooting.length);
-    shooting.gap.tail(n) = shooting.gap.head(n) * system.phase_rate();
+    layout.rate(shooting.gap) = layout.eta(shooting.gap) * system.phase_rate();
     for (const ShootingWindow& window : shooting.windows) {
       const Vec guess = window.guess(shooting.offset * shooting.length);
       shooting.starts.push_back(guess.cwiseQuotient(shooting.scale));

@@ -101,7 +101,7 @@ ShootingWindow::Comparison ShootingWindow::compare(const FitSystem& system, cons
                                                    const Vec& offset, bool slopes) const {
   const FitRecord& record = source_->record;
   const Mat& rows = source_->rows;
-  const Eigen::Index n = rows.cols();
+  const StateLayout layout(rows.cols());
   const std::span<const SystemSlope> by =
       slopes ? std::span<const SystemSlope>(system.slopes) : std::span<const SystemSlope>();
   MotionSlopes motion;
@@ -117,7 +117,7 @@ ShootingWindow::Comparison ShootingWindow::compare(const FitSystem& system, cons
   found.grazes = std::ssize(motion.grazes);
   found.readings.resize(readings());
   if (slopes) {
-    found.readings_by_start.resize(readings(), 2 * n);
+    found.readings_by_start.resize(readings(), layout.size());
     found.readings_by_parameter.resize(readings(), std::ssize(by));
     found.end_by_start = motion.by_start.back();
     found.end_by_parameter = motion.by_parameter.back();
@@ -127,12 +127,12 @@ ShootingWindow::Comparison ShootingWindow::compare(const FitSystem& system, cons
     const auto [probe, sample] = read_[static_cast<std::size_t>(r)];
     const double noise = record.noise(probe);
     const auto row = rows.row(probe);
-    const double reading = row.dot(motion.states.col(sample).head(n)) + offset(probe);
+    const double reading = row.dot(layout.eta(motion.states).col(sample)) + offset(probe);
     found.readings(r) = (reading - record.readings(probe, first_ + sample)) / noise;
     if (!slopes) continue;
     const auto at = static_cast<std::size_t>(sample);
-    found.readings_by_start.row(r) = row * motion.by_start[at].topRows(n) / noise;
-    found.readings_by_parameter.row(r) = row * motion.by_parameter[at].topRows(n) / noise;
+    found.readings_by_start.row(r) = row * layout.eta(motion.by_start[at]) / noise;
+    found.readings_by_parameter.row(r) = row * layout.eta(motion.by_parameter[at]) / noise;
   }
   return found;
 }

@@ -20,10 +20,10 @@ Eigen::Index number_of_ports(const HarmonicProblem& problem) {
   return ports;
 }
 
-/// All 2 n of them, those left out zero; NaN if they cannot be found.
+/// As many as a state has numbers, those left out zero; NaN if they cannot be found.
 CVec multipliers_of(const HarmonicProblem& problem, const HarmonicOrbit& orbit) {
   const HillStability hill = hill_stability(problem, orbit);
-  CVec all = CVec::Zero(2 * problem.coordinates());
+  CVec all = CVec::Zero(StateLayout(problem.coordinates()).size());
   if (hill.failure) {
     all.setConstant(std::numeric_limits<double>::quiet_NaN());
   } else {

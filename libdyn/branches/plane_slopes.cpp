@@ -49,7 +49,7 @@ void add_depth(const ContactSystem& system, const SlopePanel& panel, double valu
   const ReducedContact& c = system.contacts()[i];
   const Vec y = m.states.col(0);
   const ContactForces f =
-      kinematics(c, graze.time * system.phase_rate(), y.data(), system.coordinates());
+      kinematics(c, graze.time * system.phase_rate(), y.data(), system.layout());
   const Vec by_state = c.U.transpose() * f.n / c.clearance;
   const Vec weights = panel.weights(value);
   const NumberSlopes slopes(panel.secants(), weights);
@@ -59,11 +59,11 @@ void add_depth(const ContactSystem& system, const SlopePanel& panel, double valu
   const double surface =
       number([&](const ReducedContact& of) { return f.n.dot(of.offset) + of.clearance; });
   const double clearance = number([](const ReducedContact& of) { return of.clearance; });
-  const auto n = system.coordinates();
-  to.depth_by_parameter = by_state.dot(m.by_parameter[0].col(0).head(n)) - surface / c.clearance -
-                          f.depth / (c.clearance * c.clearance) * clearance;
+  const StateLayout layout = system.layout();
+  to.depth_by_parameter = by_state.dot(layout.eta(m.by_parameter[0]).col(0)) -
+                          surface / c.clearance - f.depth / (c.clearance * c.clearance) * clearance;
   if (m.by_start.empty()) return;
-  to.depth_by_start = m.by_start[0].topRows(n).transpose() * by_state;
+  to.depth_by_start = layout.eta(m.by_start[0]).transpose() * by_state;
   if (!change.is_none()) to.depth_by_start = change.matrix().transpose() * to.depth_by_start;
 }
 

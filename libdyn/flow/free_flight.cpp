@@ -26,11 +26,13 @@ constexpr double equal = 1e-6;  ///< difference of equal eigenvalues over their 
 std::optional<Mat> periodic_motion(const ContactSystem& system) {
   const auto n = system.coordinates();
   const double w = system.phase_rate();
-  Mat y = Mat::Zero(2 * n, 3);
+  const StateLayout layout = system.layout();
+  Mat y = Mat::Zero(layout.size(), 3);
+  auto eta = layout.eta(y), rate = layout.rate(y);
   if (!system.constant_load().isZero(0.0)) {
     const DenseLu<Mat> K(system.K());
     if (!(K.rcond() > resonant)) return std::nullopt;
-    y.col(0).head(n) = K.solve(system.constant_load());
+    eta.col(0) = K.solve(system.constant_load());
   }
   if (!system.cosine_load().isZero(0.0) || !system.sine_load().isZero(0.0)) {
     // (K - w^2 + i w D) q = fc - i fs, eta = Re(q e^(i phase))
@@ -40,8 +42,10 @@ std::optional<Mat> periodic_motion(const ContactSystem& system) {
     if (!(lu.rcond() > resonant)) return std::nullopt;
     const CVec q = lu.solve(system.cosine_load().cast<Complex>() -
                             Complex(0.0, 1.0) * system.sine_load().cast<Complex>());
-    y.col(1) << q.real(), -w * q.imag();
-    y.col(2) << -q.imag(), -w * q.real();
+    eta.col(1) = q.real();
+    eta.col(2) = -q.imag();
+    rate.col(1) = -w * q.imag();
+    rate.col(2) = -w * q.real();
   }
   return y;
 }
@@ -99,17 +103,19 @@ FreeFlight::FreeFlight(const ContactSystem& system)
 void FreeFlight::prepare() {
   is_prepared_ = true;
   if (!flow_) return;  // whoever asks whether it decays wants to finish it
-  const auto n = system_.coordinates();
+  const StateLayout layout = system_.layout();
   const auto motion = periodic_motion(system_);
   if (!motion) return;
   periodic_ = *motion;
+  const auto eta = layout.eta(periodic_);
 
-  Mat Q = Mat::Zero(2 * n, 2 * n);  // weights what contacts see, and everything a little
+  Mat Q = Mat::Zero(layout.size(),
+                    layout.size());  // weights what contacts see, and everything a little
   Q.diagonal() = 1e-4 * system_.state_scale().cwiseAbs2().cwiseInverse();
   for (const ReducedContact& c : system_.contacts()) {
     if (c.place > 0) continue;
     const Mat U = projection_of(c.geometry) * c.U;
-    Q.topLeftCorner(n, n) += U.transpose() * U / (c.clearance * c.clearance);
+    layout.eta(Q).leftCols(layout.coordinates()) += U.transpose() * U / (c.clearance * c.clearance);
   }
   const auto P = lyapunov(first_order_matrix(system_), Q);
   if (!P) return;
@@ -119,15 +125,14 @@ void FreeFlight::prepare() {
   decays_ = true;
   for (const ReducedContact& c : system_.contacts()) {
     if (c.place > 0) continue;  // as for the first: none touches before u has the clearance
-    Mat rows = Mat::Zero(2 * n, 2);
+    Mat rows = Mat::Zero(layout.size(), 2);
     const Mat2 seen = projection_of(c.geometry);
     const Mat U = seen * c.U;
-    rows.topRows(n) = U.transpose();
+    layout.eta(rows) = U.transpose();
     const Mat spread = rows.transpose() * factors.solve(rows);
     const double reach = symmetric_modes(0.5 * (spread + spread.transpose())).values(1);
-    const double left = careful * c.clearance -
-                        largest_radius(U * periodic_.col(0).head(n) - seen * c.offset,
-                                       U * periodic_.col(1).head(n), U * periodic_.col(2).head(n));
+    const double left = careful * c.clearance - largest_radius(U * eta.col(0) - seen * c.offset,
+                                                               U * eta.col(1), U * eta.col(2));
     left_.push_back(left);
     room_.push_back(left > 0.0 ? careful * left * left / reach : -1.0);
   }
@@ -166,19 +171,19 @@ void FreeFlight::prepare_modes() {
   if (!(modes->values.real().maxCoeff() < -undamped * fastest)) return;
   const DenseLu<CMat> factors(modes->vectors);
   if (!(factors.rcond() > dependent)) return;
-  const auto n = system_.coordinates();
+  const StateLayout layout = system_.layout();
   const Mat to_scale = scale.cwiseInverse().asDiagonal();
   to_modes_ = factors.solve(to_scale.cast<Complex>());
-  seen_.resize(2 * std::ssize(left_), 2 * n);
+  seen_.resize(2 * std::ssize(left_), layout.size());
   Eigen::Index row = 0;
   for (const ReducedContact& c : system_.contacts()) {
     if (c.place > 0) continue;
-    seen_.middleRows(row, 2) =
-        projection_of(c.geometry) * c.U * scale.head(n).asDiagonal() * modes->vectors.topRows(n);
+    seen_.middleRows(row, 2) = projection_of(c.geometry) * c.U * layout.eta(scale).asDiagonal() *
+                               layout.eta(modes->vectors);
     row += 2;
   }
-  apart_ = Vec::Zero(2 * n);
-  for (Eigen::Index j = 0; j < 2 * n; ++j) {
+  apart_ = Vec::Zero(layout.size());
+  for (Eigen::Index j = 0; j < layout.size(); ++j) {
     groups_.push_back(j);
     for (Eigen::Index first = 0; first < j; ++first) {
       const double damping_times =

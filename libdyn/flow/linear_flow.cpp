@@ -37,12 +37,7 @@ double balanced_norm(Mat A) {
 }
 
 Mat first_order_matrix(const ContactSystem& system) {
-  const auto n = system.coordinates();
-  Mat A = Mat::Zero(2 * n, 2 * n);
-  A.topRightCorner(n, n).setIdentity();
-  A.bottomLeftCorner(n, n) = -system.K();
-  A.bottomRightCorner(n, n) = -system.D();
-  return A;
+  return system.layout().first_order(system.K(), system.D());
 }
 
 double contact_gain(const ReducedContact& contact) {
@@ -68,21 +63,21 @@ double fastest_mode(const ContactSystem& system) {
 }
 
 LinearFlow::LinearFlow(const ContactSystem& system, double longest, int terms)
-    : n_(system.coordinates()),
+    : layout_(system.layout()),
       terms_(terms),
       contacts_(static_cast<int>(system.contacts().size())),
       longest_(longest),
       rate_(system.phase_rate()),
       A_(first_order_matrix(system)),
-      F_(Mat::Zero(2 * n_, 3)),
-      B_(Mat::Zero(2 * n_, 2 * contacts_)),
+      F_(Mat::Zero(layout_.size(), 3)),
+      B_(Mat::Zero(layout_.size(), 2 * contacts_)),
       rule_(gauss_rule(terms)),
       first_half_(restriction(0.0, 0.5, rule_)),
       second_half_(restriction(0.5, 1.0, rule_)),
       to_powers_(legendre_to_powers(terms)),
       tables_(levels),
-      work_(2 * n_),
-      term_(2 * n_),
+      work_(layout_.size()),
+      term_(layout_.size()),
       a_(2 * contacts_ * terms),
       whole_(a_) {
   norm_ = std::max(balanced_norm(A_), rate_);
@@ -94,9 +89,9 @@ LinearFlow::LinearFlow(const ContactSystem& system, double longest, int terms)
         "high?",
         norm_, longest, levels));
   }
-  F_.bottomRows(n_) << system.constant_load(), system.cosine_load(), system.sine_load();
+  layout_.rate(F_) << system.constant_load(), system.cosine_load(), system.sine_load();
   for (int c = 0; c < contacts_; ++c) {
-    B_.block(n_, 2 * c, n_, 2) = system.contacts()[static_cast<std::size_t>(c)].B;
+    layout_.rate(B_).middleCols(2 * c, 2) = system.contacts()[static_cast<std::size_t>(c)].B;
   }
   W_ << 0.0, 0.0, 0.0, 0.0, 0.0, -rate_, 0.0, rate_, 0.0;
 }
@@ -123,12 +118,12 @@ const LinearFlow::Table& LinearFlow::table(int level) {
 
 void LinearFlow::build_by_series(Table& t) const {
   const double h = t.h;
-  t.X = Mat::Zero(2 * n_, 2 * n_);
-  t.L = Mat::Zero(2 * n_, 3);
+  t.X = Mat::Zero(layout_.size(), layout_.size());
+  t.L = Mat::Zero(layout_.size(), 3);
   // of powers (r / h)^k: integral of e^(A (h-r)) B (r/h)^k dr = sum A^m B h^(m+1) k! / (k+m+1)!
-  Mat G = Mat::Zero(2 * n_, 2 * contacts_ * terms_);
-  Mat power = Mat::Identity(2 * n_, 2 * n_);  // (A h)^m / m!
-  Mat load = Mat::Zero(2 * n_, 3);            // h^m / m! sum A^(m-1-j) F W^j
+  Mat G = Mat::Zero(layout_.size(), 2 * contacts_ * terms_);
+  Mat power = Mat::Identity(layout_.size(), layout_.size());  // (A h)^m / m!
+  Mat load = Mat::Zero(layout_.size(), 3);                    // h^m / m! sum A^(m-1-j) F W^j
   for (int m = 0; m <= series_terms; ++m) {
     const Mat pushed = power * B_;
     double factor = h;  // h m! k! / (k + m + 1)!
@@ -209,19 +204,19 @@ void LinearFlow::advance(int level, double fraction, const Eigen::Vector3d& load
 
   // the rest by its Taylor series in s = t / d
   const double d = f * size(k);
-  const auto n = n_;
+  auto rate = layout_.rate(work_);
   term_ = y;
   Eigen::Vector3d load_term = load;
   double scale = 1.0;
   for (int m = 0; m <= series_terms; ++m) {
-    work_.head(n) = term_.tail(n);
-    work_.tail(n).noalias() = A_.bottomRows(n) * term_;
-    work_.tail(n).noalias() += F_.bottomRows(n) * load_term;
+    layout_.eta(work_) = layout_.rate(term_);
+    rate.noalias() = layout_.rate(A_) * term_;
+    rate.noalias() += layout_.rate(F_) * load_term;
     if (m < terms_) {
       for (const int c : touching) {
         for (int b = 2 * c; b < 2 * c + 2; ++b) {
           const double power = to_powers_.row(m).dot(a_.segment(b * terms_, terms_)) * scale;
-          work_.tail(n) -= power * B_.col(b).tail(n);
+          rate -= power * layout_.rate(B_).col(b);
         }
       }
       scale *= f;

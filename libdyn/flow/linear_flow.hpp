@@ -73,7 +73,8 @@ class LinearFlow {
   Eigen::Matrix3d rotation(double t) const;
   bool is_small(int level) const { return norm_ * size(level) <= 0.25; }
 
-  int n_, terms_, contacts_;
+  StateLayout layout_;
+  int terms_, contacts_;
   double longest_, rate_, norm_;
   Mat A_, F_, B_;  ///< B: 2 n x 2 contacts
   Eigen::Matrix3d W_;

@@ -69,15 +69,14 @@ ContactStep::ContactStep(const ContactSystem& system, double longest, double tol
   }
 
   const double left_out = largest_integral(terms);
-  const auto n = system.coordinates();
+  const auto rate_scale = system.layout().rate(system.state_scale());
   for (const ReducedContact& c : system.contacts()) {
     const double depth = 0.01 * c.clearance, rate = c.clearance * system.phase_rate();
     const bool is_damped = normal_force(c.law, depth, rate) != normal_force(c.law, depth, 0.0);
     const bool is_smooth =
         c.friction.mu > 0.0 && !c.friction.is_exact() && c.friction.slip == Slip::actual;
     rate_matters_.push_back(is_damped || is_smooth ? 1 : 0);
-    const double largest =
-        (c.B.array().colwise() / system.state_scale().tail(n).array()).abs().maxCoeff();
+    const double largest = (c.B.array().colwise() / rate_scale.array()).abs().maxCoeff();
     weight_.push_back(left_out * largest / tolerance);
   }
 }
@@ -94,15 +93,15 @@ Rung ContactStep::rung_for(double h) const {
 void ContactStep::fill(Nodes& table, LinearFlow& flow, int level, const Vec& s,
                        bool has_force) const {
   const auto contacts = system_.contacts().size();
-  const auto n = system_.coordinates();
+  const StateLayout layout = system_.layout();
   const auto m = s.size();
-  Mat r = Mat::Zero(rows * static_cast<Eigen::Index>(contacts), 2 * n);
+  Mat r = Mat::Zero(rows * static_cast<Eigen::Index>(contacts), layout.size());
   for (std::size_t c = 0; c < contacts; ++c) {
     const auto row = rows * static_cast<Eigen::Index>(c);
-    r.block(row, 0, 2, n) = system_.contacts()[c].U;
-    r.block(row + 2, n, 2, n) = system_.contacts()[c].U;
+    layout.eta_columns(r).middleRows(row, 2) = system_.contacts()[c].U;
+    layout.rate_columns(r).middleRows(row + 2, 2) = system_.contacts()[c].U;
   }
-  table.free.assign(contacts, Mat(rows * m, 2 * n + 3));
+  table.free.assign(contacts, Mat(rows * m, layout.size() + 3));
   if (has_force) table.kernel.assign(contacts * contacts, Mat(rows * m, 2 * terms));
   for (Eigen::Index i = 0; i < m; ++i) {
     const LinearFlow::Rows at =

@@ -52,14 +52,14 @@ bool ContactStep::dense_piece(const MotionState& from, const Part& part, double 
   const Interpolation& table = interpolation();
   const double h = size(rung_), rate = system_.phase_rate();
   const Eigen::Vector3d load = load_at(from.phase + part.start * h * rate);
-  const auto n = system_.coordinates();
+  const StateLayout layout = system_.layout();
   bool is_short = flow.size(part.level) <= longest_piece_;
   if (is_short) {
     Vec all(y.size() + 3 + a.size());
     all << y, load, a;
-    Mat values(2 * n, points);
+    Mat values(layout.size(), points);
     values.col(0) = y;
-    Eigen::Map<Vec>(values.col(1).data(), 2 * n * (points - 1)).noalias() =
+    Eigen::Map<Vec>(values.col(1).data(), layout.size() * (points - 1)).noalias() =
         dense_table(part.level) * all;
     const Mat legendre = values * table.to_legendre.transpose();
     // a motion that has grown has no finer digits than its size allows
@@ -82,8 +82,8 @@ bool ContactStep::dense_piece(const MotionState& from, const Part& part, double 
       step.phase = from.phase + part.start * h * rate;
       step.h = share * part.width * h;
       step.turn = step.h * rate;
-      step.q = powers.topRows(n);
-      step.v = powers.bottomRows(n);
+      step.q = layout.eta(powers);
+      step.v = layout.rate(powers);
       step.contacts = from.contacts;
       return give(step, powers.rowwise().sum());
     }

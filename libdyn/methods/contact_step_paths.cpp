@@ -43,7 +43,7 @@ std::optional<double> first_fall_in_parts(const Polynomial& g, bool on_surface, 
 bool ContactStep::make_paths(const MotionState& from) {
   const bool is_touching = !touching_.empty();
   const Places& places = is_touching ? touch_places_ : flight_places_;
-  const auto n = system_.coordinates();
+  const StateLayout layout = system_.layout();
   const auto m = places.s.size();
   if (is_touching) advance(1.0, from, end_);
   path_error_ = 0.0;
@@ -51,8 +51,8 @@ bool ContactStep::make_paths(const MotionState& from) {
     const ReducedContact& contact = system_.contacts()[c];
     Mat& values = paths_[c].values;
     values.resize(m, rows);
-    values.row(0) << (contact.U * from.y.head(n)).transpose(),
-        (contact.U * from.y.tail(n)).transpose();
+    values.row(0) << (contact.U * layout.eta(from.y)).transpose(),
+        (contact.U * layout.rate(from.y)).transpose();
     const bool has_force = from.contacts[c].in_touch();
     if (!is_touching) {
       values.bottomRows(m - 1) = free_[c];
@@ -70,8 +70,8 @@ bool ContactStep::make_paths(const MotionState& from) {
         }
         values.middleRows(1, nodes_) = at;
       }
-      values.row(m - 1) << (contact.U * end_.head(n)).transpose(),
-          (contact.U * end_.tail(n)).transpose();
+      values.row(m - 1) << (contact.U * layout.eta(end_)).transpose(),
+          (contact.U * layout.rate(end_)).transpose();
     }
     values.col(0).array() -= contact.offset(0);
     values.col(1).array() -= contact.offset(1);

@@ -23,10 +23,10 @@ class Stepper {
       : system_(system),
         options_(options),
         cost_(cost),
-        n_(system.coordinates()),
-        k_(2 * n_, dop853::all_stages),
-        y1_(2 * n_),
-        argument_(2 * n_) {}
+        layout_(system.layout()),
+        k_(layout_.size(), dop853::all_stages),
+        y1_(layout_.size()),
+        argument_(layout_.size()) {}
 
   /// Derivative of the state at the start of the next steps.
   void start(const MotionState& state) { evaluate(0, state.instant(), state.y, state.contacts); }
@@ -73,7 +73,7 @@ class Stepper {
                argument_, from.contacts);
     }
     // y = y0 + s (F0 + (1-s) (F1 + s (F2 + (1-s) (F3 + s (F4 + (1-s) (F5 + s F6))))))
-    Eigen::Matrix<double, Eigen::Dynamic, 8> p(2 * n_, 8);
+    Eigen::Matrix<double, Eigen::Dynamic, 8> p(layout_.size(), 8);
     p.setZero();
     const auto times_s = [&] {
       for (int k = 7; k > 0; --k) p.col(k) = p.col(k - 1);
@@ -103,8 +103,8 @@ class Stepper {
     step.phase = from.phase;
     step.h = h_;
     step.turn = h_ * rate;
-    step.q = p.topRows(n_);
-    step.v = p.bottomRows(n_);
+    step.q = layout_.eta(p);
+    step.v = layout_.rate(p);
     step.contacts = from.contacts;
   }
 
@@ -121,15 +121,15 @@ class Stepper {
     }
   }
   void evaluate(int stage, const Instant& at, const Vec& y, const ContactStates& contacts) {
-    k_.col(stage).head(n_) = y.tail(n_);
-    system_.acceleration(at, y.data(), contacts, k_.col(stage).data() + n_);
+    layout_.eta(k_).col(stage) = layout_.rate(y);
+    system_.acceleration(at, y.data(), contacts, layout_.rates_at(k_.col(stage).data()));
     ++cost_.evaluations;
   }
 
   const ContactSystem& system_;
   const IntegrationOptions& options_;
   Cost& cost_;
-  Eigen::Index n_;
+  StateLayout layout_;
   Mat k_;
   Vec y1_, argument_;
   double h_ = 0.0;

@@ -12,16 +12,16 @@ namespace {
 /// The step as polynomials: the quintic through displacements, velocities and accelerations of both
 /// ends, and its derivative. They meet the ends exactly and keep the order within.
 void dense(const Vec& y0, const Vec& dy0, const Vec& y1, const Vec& dy1, Step& step) {
-  const auto n = y0.size() / 2;
+  const StateLayout layout = StateLayout::of(y0.size());
   const double h = step.h;
-  const Vec q0 = y0.head(n), v0 = h * y0.tail(n), a0 = 0.5 * h * h * dy0.tail(n);
+  const Vec q0 = layout.eta(y0), v0 = h * layout.rate(y0), a0 = 0.5 * h * h * layout.rate(dy0);
   // what the first three terms leave at the end, for value, slope and half the curvature
-  const Vec a = y1.head(n) - q0 - v0 - a0, b = h * y1.tail(n) - v0 - 2.0 * a0,
-            c = 0.5 * h * h * dy1.tail(n) - a0;
-  step.q.resize(n, 6);
+  const Vec a = layout.eta(y1) - q0 - v0 - a0, b = h * layout.rate(y1) - v0 - 2.0 * a0,
+            c = 0.5 * h * h * layout.rate(dy1) - a0;
+  step.q.resize(layout.coordinates(), 6);
   step.q << q0, v0, a0, 10.0 * a - 4.0 * b + c, -15.0 * a + 7.0 * b - 2.0 * c,
       6.0 * a - 3.0 * b + c;
-  step.v.resize(n, 5);
+  step.v.resize(layout.coordinates(), 5);
   for (int k = 1; k <= 5; ++k) step.v.col(k - 1) = (k / h) * step.q.col(k);
 }
 
@@ -50,19 +50,19 @@ Integration Rk4::integrate(const ContactSystem& system, MotionState& state, long
                            const IntegrationOptions& options, const Observer& observer) {
   Integration result;
   Cost& cost = result.cost;
-  const int n = system.coordinates();
+  const StateLayout layout = system.layout();
   const double rate = system.phase_rate(), period = system.period();
   const long last = state.revolution + revolutions;
   bool has_left = false;  // a stage has left a bearing
   const auto derivative = [&](double phase, const Vec& y, Vec& dy) {
-    dy.head(n) = y.tail(n);
-    system.acceleration({phase, state.revolution}, y.data(), dy.data() + n);
+    layout.eta(dy) = layout.rate(y);
+    system.acceleration({phase, state.revolution}, y.data(), layout.rates_at(dy.data()));
     ++cost.evaluations;
     has_left = has_left || system.left_bearing(y.data()) != nullptr;
   };
 
   Vec& y = state.y;
-  Slopes s(2 * n);
+  Slopes s(layout.size());
   Step step;
   derivative(state.phase, y, s.k1);
   while (state.revolution < last) {

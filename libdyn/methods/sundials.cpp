@@ -53,11 +53,11 @@ int Motion::rhs(realtype t, N_Vector y, N_Vector dy, void* motion) {
   auto& m = *static_cast<Motion*>(motion);
   const double* from = N_VGetArrayPointer(y);
   double* to = N_VGetArrayPointer(dy);
-  const int n = m.system_.coordinates();
-  std::copy(from + n, from + 2 * n, to);
-  m.system_.acceleration(m.instant(t), from, m.state_.contacts, to + n);
+  const StateLayout layout = m.system_.layout();
+  std::copy(layout.rates_at(from), layout.end(from), to);
+  m.system_.acceleration(m.instant(t), from, m.state_.contacts, layout.rates_at(to));
   ++m.result_.cost.evaluations;
-  return std::all_of(to, to + 2 * n, [](double x) { return std::isfinite(x); }) ? 0 : 1;
+  return std::all_of(to, layout.end(to), [](double x) { return std::isfinite(x); }) ? 0 : 1;
 }
 
 int Motion::root_functions(realtype t, N_Vector y, realtype* g, void* motion) {
@@ -84,10 +84,12 @@ void Motion::find_roots() {
 void Motion::apply_events_at_start() {
   constexpr double zero = 1e-15;             // of a function, which is dimensionless
   const double h = 1e-6 * system_.period();  // ahead, to see which way the functions go
-  const int n = system_.coordinates();
-  Vec a(n), ahead(2 * n);
+  const StateLayout layout = system_.layout();
+  const auto eta = layout.eta(state_.y), rate = layout.rate(state_.y);
+  Vec a(layout.coordinates()), ahead(layout.size());
   system_.acceleration(state_.instant(), state_.y.data(), state_.contacts, a.data());
-  ahead << state_.y.head(n) + h * state_.y.tail(n) + 0.5 * h * h * a, state_.y.tail(n) + h * a;
+  layout.eta(ahead) = eta + h * rate + 0.5 * h * h * a;
+  layout.rate(ahead) = rate + h * a;
   const ContactStates before = state_.contacts;
   find_roots();
   for (const auto& [contact, kind] : roots_) {
@@ -117,15 +119,17 @@ void Motion::restart(const Solver& solver, void* memory, double t) {
 
 /// The solver's interpolating polynomial over its last step, in s = (t - from) / h.
 void Motion::dense(const Solver& solver, void* memory, double from, double to, Step& step) {
-  const int n = system_.coordinates(), degree = solver.degree(memory);
-  step.q.resize(n, degree + 1);
-  step.v.resize(n, degree + 1);
+  const StateLayout layout = system_.layout();
+  const int degree = solver.degree(memory);
+  step.q.resize(layout.coordinates(), degree + 1);
+  step.v.resize(layout.coordinates(), degree + 1);
+  const Eigen::Map<Vec> found = values(work_.get());
   double factor = 1.0;
   for (int k = 0; k <= degree; ++k) {
     if (k > 0) factor *= (to - from) / k;
     solver.derivative(memory, from, k, work_.get());
-    step.q.col(k) = factor * values(work_.get()).head(n);
-    step.v.col(k) = factor * values(work_.get()).tail(n);
+    step.q.col(k) = factor * layout.eta(found);
+    step.v.col(k) = factor * layout.rate(found);
   }
 }
 

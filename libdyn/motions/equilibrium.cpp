@@ -64,9 +64,9 @@ std::optional<HeldRotor> held_rotor(const ContactSystem& system,
 /// Whether any contact is reached at a place.
 bool any_pushes(const ContactSystem& system, const Vec& eta) {
   Vec y = Vec::Zero(system.size());
-  y.head(system.coordinates()) = eta;
+  system.layout().eta(y) = eta;
   return std::any_of(system.contacts().begin(), system.contacts().end(), [&](const auto& c) {
-    return kinematics(c, 0.0, y.data(), system.coordinates()).depth > 0.0;
+    return kinematics(c, 0.0, y.data(), system.layout()).depth > 0.0;
   });
 }
 

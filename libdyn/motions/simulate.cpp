@@ -29,7 +29,7 @@ class Sampler {
       // a sample at the very start of a revolution belongs to the step that begins there
       const double s = std::clamp((phase - step.phase) / step.turn, 0.0, 1.0);
       step.at(s, y_.data());
-      recording_.eta.col(next_) = y_.head(system_.coordinates());
+      recording_.eta.col(next_) = system_.layout().eta(y_);
       if (!system_.contacts().empty()) {
         system_.forces({phase, revolution}, y_.data(), step.contacts, forces_);
         for (std::size_t i = 0; i < forces_.size(); ++i) {

@@ -45,8 +45,10 @@ Vec end_of(const FullState* end, const Scene& scene, const NearestCoordinates& n
   const auto coordinates = [&](const Vec& full) {
     return nearest.of(normal.solve(dense_T.transpose() * full));
   };
-  Vec y(2 * scene.contacts.coordinates());
-  y << coordinates(end->displacement), coordinates(end->velocity);
+  const StateLayout layout = scene.contacts.layout();
+  Vec y(layout.size());
+  layout.eta(y) = coordinates(end->displacement);
+  layout.rate(y) = coordinates(end->velocity);
   return y;
 }
 
@@ -62,13 +64,14 @@ void displace(const Displaced& d, const Scene& scene, const NearestCoordinates& 
   if (!(share.rcond() > rigid)) {
     throw ModelError(d.at.where, "start.displaced", "this place cannot move by itself");
   }
-  y.head(n) += pull * share.solve(Vec2(d.x, d.y));
-  y.tail(n) += pull * share.solve(Vec2(d.vx, d.vy));
+  const StateLayout layout = scene.contacts.layout();
+  layout.eta(y) += pull * share.solve(Vec2(d.x, d.y));
+  layout.rate(y) += pull * share.solve(Vec2(d.vx, d.vy));
 }
 
 void whirl_in(const std::vector<WhirlStart>& wanted, const Modes& modes,
               const NearestCoordinates& nearest, Vec& y) {
-  const auto n = y.size() / 2;
+  const StateLayout layout = StateLayout::of(y.size());
   for (const WhirlStart& w : wanted) {
     if (w.mode < 1 || w.mode > static_cast<int>(modes.oscillatory.size())) {
       throw ModelError(w.where, "start.whirl",
@@ -77,8 +80,8 @@ void whirl_in(const std::vector<WhirlStart>& wanted, const Modes& modes,
     }
     const Mode& mode = modes.oscillatory[static_cast<std::size_t>(w.mode - 1)];
     const CVec q = std::polar(w.amplitude, w.phase) * mode.shape;
-    y.head(n) += nearest.of(q.real());
-    y.tail(n) += nearest.of((mode.lambda * q).real());
+    layout.eta(y) += nearest.of(q.real());
+    layout.rate(y) += nearest.of((mode.lambda * q).real());
   }
 }
 
@@ -99,11 +102,11 @@ MotionState start_state(const Model& model, const Scene& scene, const FullState*
 MotionState start_state(const Model& model, const Scene& scene, const FullState* end,
                         const Modes& modes) {
   const NearestCoordinates nearest(scene);
-  const int n = scene.contacts.coordinates();
+  const StateLayout layout = scene.contacts.layout();
   MotionState state;
-  state.y = Vec::Zero(2 * n);
+  state.y = Vec::Zero(layout.size());
   if (model.start.from == StartFrom::equilibrium) {
-    state.y.head(n) = at_rest_under_gravity(model, scene);
+    layout.eta(state.y) = at_rest_under_gravity(model, scene);
   } else if (model.start.from == StartFrom::file) {
     state.y = end_of(end, scene, nearest);
   }

@@ -55,14 +55,14 @@ Mat quarter_turn(const Scene& scene) {
   return S;
 }
 
-/// (y, y') turned by an angle.
+/// Coordinates turned by an angle.
+Mat turn_of(const Mat& S, double angle) {
+  return std::cos(angle) * Mat::Identity(S.rows(), S.cols()) + std::sin(angle) * S;
+}
+
+/// A state turned by an angle.
 Mat rotation(const Mat& S, double angle) {
-  const Eigen::Index n = S.rows();
-  const Mat R = std::cos(angle) * Mat::Identity(n, n) + std::sin(angle) * S;
-  Mat both = Mat::Zero(2 * n, 2 * n);
-  both.topLeftCorner(n, n) = R;
-  both.bottomRightCorner(n, n) = R;
-  return both;
+  return StateLayout(S.rows()).to_both(turn_of(S, angle));
 }
 
 /// Where a motion begins that is z as seen from the rotor and ends at phase 0, where both frames are
@@ -76,17 +76,16 @@ MotionState start_before(const Mat& S, const Vec& z, double angle) {
 
 /// Whether accelerations turn with the state and the phase, in contact and out of it.
 void require_isotropy(const ContactSystem& system, const Mat& S) {
-  const Eigen::Index n = S.rows();
-  Vec a(n), b(n);
+  const StateLayout layout = system.layout();
+  Vec a(layout.coordinates()), b(layout.coordinates());
   for (const double size : {0.3, 3.0, 30.0}) {
     for (const double angle : {0.7, 2.9, 4.4}) {
       const Vec y = size * system.state_scale().cwiseProduct(
-                               Vec::LinSpaced(2 * n, -1.0, 1.0).array().sin().matrix());
-      const Mat R = rotation(S, angle);
-      const Vec turned = R * y;
+                               Vec::LinSpaced(layout.size(), -1.0, 1.0).array().sin().matrix());
+      const Vec turned = rotation(S, angle) * y;
       system.acceleration(0.0, y.data(), a.data());
       system.acceleration(angle, turned.data(), b.data());
-      if ((b - R.topLeftCorner(n, n) * a).norm() > isotropic * a.norm()) {
+      if ((b - turn_of(S, angle) * a).norm() > isotropic * a.norm()) {
         throw NumericalError(
             "the rotating frame: gravity, bearings or contacts, or a force, tell directions apart, "
             "so that nothing repeats there");
@@ -194,7 +193,6 @@ AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double toleranc
   const Mat S = quarter_turn(*scene);
   require_isotropy(system, S);
   const double Omega = system.Omega();
-  const Eigen::Index n = S.rows();
   return {system.state_scale(), system.period(),
           [scene, S, tolerance](const Vec& z, double time,
                                 WithTangent wanted) -> AutonomousFlow::Result {
@@ -211,10 +209,12 @@ AutonomousFlow rotating_flow(std::shared_ptr<const Scene> scene, double toleranc
             if (wanted == WithTangent::yes) at.tangent = t.tangent * R;
             return at;
           },
-          [scene, S, Omega, n](const Vec& z) -> Vec {
-            Vec rate(2 * n), a(n);
+          [scene, S, Omega](const Vec& z) -> Vec {
+            const StateLayout layout = scene->contacts.layout();
+            Vec rate(layout.size()), a(layout.coordinates());
             scene->contacts.acceleration(0.0, z.data(), a.data());
-            rate << z.tail(n) - Omega * (S * z.head(n)), a - Omega * (S * z.tail(n));
+            layout.eta(rate) = layout.rate(z) - Omega * (S * layout.eta(z));
+            layout.rate(rate) = a - Omega * (S * layout.rate(z));
             return rate;
           }};
 }

@@ -47,10 +47,7 @@ BasisChange::BasisChange(const Scene& scene, const Scene& first) {
   if (Phi == Phi_first) return;
   const Mat weighted = Phi.transpose() * Mat(scene.system.M);
   const Mat half = DenseLu<Mat>(weighted * Phi).solve(weighted * Phi_first);
-  const Eigen::Index n = half.rows();
-  P_ = Mat::Zero(2 * n, 2 * n);
-  P_.topLeftCorner(n, n) = half;
-  P_.bottomRightCorner(n, n) = half;
+  P_ = scene.contacts.layout().to_both(half);
   back_ = std::make_shared<const DenseLu<Mat>>(P_);
   if (!(back_->rcond() > 1e-10)) {
     throw NumericalError("the parameter changes the modes too much: keep more of them");

@@ -60,20 +60,20 @@ HarmonicProblem harmonic_slope(const ContactSystem& system, const NumberSlopes& 
 }
 
 Mat harmonic_start(const ContactSystem& system, const Vec& y, int revolutions) {
-  const auto n = system.coordinates();
+  const StateLayout layout = system.layout();
   const Eigen::Index N = static_cast<Eigen::Index>(first_samples) * revolutions;
-  Mat eta = y.head(n).replicate(1, N);
+  Mat eta = layout.eta(y).replicate(1, N);
   MotionState state;
   state.y = y;
   Eigen::Index next = 0;
-  Vec now(2 * n);
+  Vec now(layout.size());
   integrate(suitable_method(system), system, state, revolutions, {}, [&](const Step& step) {
     const double begin = turn * static_cast<double>(step.revolution) + step.phase;
     for (; next < N; ++next) {
       const double phase = turn * static_cast<double>(next) / first_samples;
       if (phase > begin + step.turn) break;
       step.at(std::clamp((phase - begin) / step.turn, 0.0, 1.0), now.data());
-      eta.col(next) = now.head(n);
+      eta.col(next) = layout.eta(now);
     }
     return true;
   });

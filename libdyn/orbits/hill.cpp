@@ -32,7 +32,7 @@ class InverseHill {
         n_(equations.problem().coordinates()),
         terms_(2 * equations.harmonics() + 1) {}
 
-  Eigen::Index size() const { return 2 * n_ * terms_; }
+  Eigen::Index size() const { return StateLayout(n_).size() * terms_; }
 
   /// Mean harmonic of displacements, by their energy.
   double mean_harmonic(const CVec& x) const {
@@ -50,7 +50,8 @@ class InverseHill {
   Vec operator()(const Vec& x) const {
     const HarmonicProblem& problem = equations_.problem();
     const double w = equations_.frequency();
-    const Vec displacement = problem.scale.head(n_), velocity = problem.scale.tail(n_);
+    const StateLayout layout(n_);
+    const Vec displacement = layout.eta(problem.scale), velocity = layout.rate(problem.scale);
     const Mat b1 = displacement.asDiagonal() * Eigen::Map<const Mat>(x.data(), n_, terms_);
     const Mat b2 =
         velocity.asDiagonal() * Eigen::Map<const Mat>(x.data() + n_ * terms_, n_, terms_);
@@ -194,15 +195,13 @@ std::vector<Complex> within_a_strip(const std::vector<Complex>& all, double w) {
 /// Eigenvalues of the mean of A(t).
 CVec mean_exponents(const HarmonicEquations& equations, const HarmonicEquations::Evaluation& at) {
   const HarmonicProblem& problem = equations.problem();
-  const auto n = problem.coordinates(), P = equations.ports();
-  Mat A = Mat::Zero(2 * n, 2 * n);
-  A.topRightCorner(n, n).setIdentity();
-  A.bottomLeftCorner(n, n) = -equations.stiffness();
-  A.bottomRightCorner(n, n) = -problem.D;
+  const auto P = equations.ports();
+  Mat K = equations.stiffness(), D = problem.D;
   if (P > 0) {
-    A.bottomLeftCorner(n, n) += equations.B() * at.by_u.topLeftCorner(P, P) * equations.U();
-    A.bottomRightCorner(n, n) += equations.B() * at.by_rate.topLeftCorner(P, P) * equations.U();
+    K -= equations.B() * at.by_u.topLeftCorner(P, P) * equations.U();
+    D -= equations.B() * at.by_rate.topLeftCorner(P, P) * equations.U();
   }
+  const Mat A = StateLayout(problem.coordinates()).first_order(K, D);
   return eigenvalues(problem.scale.cwiseInverse().asDiagonal() * A * problem.scale.asDiagonal());
 }
 

@@ -13,13 +13,14 @@ namespace {
 
 /// Reduced states of the modes, their displacements times Omega.
 std::vector<CVec> states_of_modes(const Scene& scene) {
-  const Eigen::Index n = scene.contacts.coordinates();
+  const StateLayout layout = scene.contacts.layout();
   const CMat coordinates = NearestCoordinates(scene).matrix().cast<Complex>();
   std::vector<CVec> states;
-  for (const Mode& m : complex_modes(scene.system, static_cast<int>(n)).oscillatory) {
+  for (const Mode& m : complex_modes(scene.system, layout.coordinates()).oscillatory) {
     const CVec eta = coordinates * m.shape;
-    CVec z(2 * n);
-    z << scene.contacts.Omega() * eta, m.lambda * eta;
+    CVec z(layout.size());
+    layout.eta(z) = scene.contacts.Omega() * eta;
+    layout.rate(z) = m.lambda * eta;
     states.push_back(std::move(z));
   }
   return states;
@@ -28,7 +29,8 @@ std::vector<CVec> states_of_modes(const Scene& scene) {
 }  // namespace
 
 std::vector<MultiplierMode> modes_of_multipliers(const Scene& scene, const PeriodicOrbit& orbit) {
-  const Eigen::Index size = orbit.multipliers.size(), n = size / 2;
+  const Eigen::Index size = orbit.multipliers.size();
+  const StateLayout layout = scene.contacts.layout();
   std::vector<MultiplierMode> found(static_cast<std::size_t>(size));
   if (orbit.tangents.empty()) return found;
   Mat A = Mat::Identity(size, size);
@@ -39,7 +41,7 @@ std::vector<MultiplierMode> modes_of_multipliers(const Scene& scene, const Perio
   const std::vector<CVec> states = states_of_modes(scene);
   const Mat& M = scene.reduced.M;
   const auto product = [&](const CVec& a, const CVec& b) {
-    return a.head(n).dot(M * b.head(n)) + a.tail(n).dot(M * b.tail(n));
+    return layout.eta(a).dot(M * layout.eta(b)) + layout.rate(a).dot(M * layout.rate(b));
   };
   std::vector<bool> is_taken(static_cast<std::size_t>(size), false);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -55,7 +57,7 @@ std::vector<MultiplierMode> modes_of_multipliers(const Scene& scene, const Perio
     if (best < 0) continue;
     is_taken[static_cast<std::size_t>(best)] = true;
     CVec v = scale.cast<Complex>().cwiseProduct(directions->vectors.col(best));
-    v.head(n) *= scene.contacts.Omega();
+    layout.eta(v) *= scene.contacts.Omega();
     MultiplierMode& mode = found[static_cast<std::size_t>(i)];
     for (std::size_t k = 0; k < states.size(); ++k) {
       for (const CVec& z : {states[k], CVec(states[k].conjugate())}) {

@@ -95,19 +95,19 @@ std::vector<OrbitProbe> with_labels(const Scene& scene, const std::vector<double
 OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, const Vec& y,
                            double revolutions, OrbitFrame frame) {
   Instants instants(scene, stations, frame);
-  const Eigen::Index n = scene.contacts.coordinates();
+  const StateLayout layout = scene.contacts.layout();
   const Quadrature gauss = Quadrature::gauss(quadrature_points);
   const double end = revolutions * turn;  // within the last revolution
   Trajectory t{.system = &scene.contacts, .revolutions = static_cast<long>(std::ceil(revolutions))};
   t.state.y = y;
-  Vec at(2 * n);
+  Vec at(layout.size());
   integrate_single(t, {.sections = true}, [&](const Step& step) {
     const double begin = static_cast<double>(step.revolution) * turn + step.phase;
     const double share = std::clamp((end - begin) / step.turn, 0.0, 1.0);
     for (int i = 0; i < quadrature_points && share > 0.0; ++i) {
       const double s = share * gauss.x(i);
       step.at(s, at.data());
-      instants.add(step.instant(s), at.head(n), at.tail(n), share * gauss.w(i) * step.h);
+      instants.add(step.instant(s), layout.eta(at), layout.rate(at), share * gauss.w(i) * step.h);
     }
     return true;
   });
@@ -116,7 +116,7 @@ OrbitMeasure measure_orbit(const Scene& scene, std::span<const Point> stations, 
     instants.found.sections.resize(instants.rows.rows(), whole);
     for (Eigen::Index k = 0; k < whole; ++k) {
       instants.found.sections.col(k) =
-          instants.rows * Eigen::Map<const Vec>(t.sections.data() + k * 2 * n, n);
+          instants.rows * layout.eta(t.sections.data() + k * layout.size());
     }
   }
   return instants.result(revolutions);

@@ -53,8 +53,10 @@ std::optional<Shape> shape_of(const Scene& scene, const Modes& modes, double fre
     reach = std::max(reach, Orbit((U.row(0) * q)(0), (U.row(1) * q)(0)).major() / c.clearance);
   }
   if (!(reach > 0.0)) return std::nullopt;
-  CVec y(2 * q.size());
-  y << q, nearest->lambda * q;
+  const StateLayout layout = scene.contacts.layout();
+  CVec y(layout.size());
+  layout.eta(y) = q;
+  layout.rate(y) = nearest->lambda * q;
   y /= reach;
   return Shape{y.real(), y.imag()};
 }
@@ -73,11 +75,11 @@ AutonomousFlow until(const std::function<bool()>& stops, AutonomousFlow flow) {
 std::array<int, 2> strongest_lines(const Scene& scene, const AutonomousFlow& flow,
                                    const AutonomousOrbit& cycle) {
   const ReducedContact& contact = scene.contacts.contacts().front();
-  const Eigen::Index n = scene.contacts.coordinates();
+  const StateLayout layout = scene.contacts.layout();
   std::vector<Complex> path;
   Vec y = cycle.state;
   for (int i = 0; i < line_samples; ++i) {
-    const Vec2 u = contact.U * y.head(n);
+    const Vec2 u = contact.U * layout.eta(y);
     path.emplace_back(u(0), u(1));
     AutonomousFlow::Result at = flow.go(y, cycle.period / line_samples, WithTangent::no);
     if (at.failure) return {};

@@ -180,7 +180,7 @@ class BatchClassifier {
     if (to.revolutions == 0) return;
     to.contacts = shares_of(t.contacts, t.system->period() * static_cast<double>(to.revolutions));
     if (options_.sections == 0) return;
-    const auto size = static_cast<std::ptrdiff_t>(2 * t.system->coordinates());
+    const std::ptrdiff_t size = t.system->size();
     const auto kept = std::min(std::ssize(t.sections), options_.sections * size);
     to.sections.assign(t.sections.end() - kept, t.sections.end());
   }

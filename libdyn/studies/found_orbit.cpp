@@ -56,7 +56,7 @@ FoundOrbit find_by_shooting(const Scene& scene, const Vec& start, int period) {
 
 ShootingGap gap_of(const Scene& scene, const FoundOrbit& orbit) {
   const ContactSystem& system = scene.contacts;
-  const auto n = system.coordinates();
+  const StateLayout layout = system.layout();
   const Flow flow = flow_of(system);
   const auto stride = static_cast<std::size_t>(flow.repeats);
   std::vector<Vec> starts;
@@ -66,8 +66,8 @@ ShootingGap gap_of(const Scene& scene, const FoundOrbit& orbit) {
   double displacement = 0.0, velocity = 0.0, multiplier = 0.0;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     const Vec gap = (starts[i] - shot.states[i]).cwiseQuotient(system.state_scale()).cwiseAbs();
-    displacement = std::max(displacement, gap.head(n).maxCoeff());
-    velocity = std::max(velocity, gap.tail(n).maxCoeff());
+    displacement = std::max(displacement, layout.eta(gap).maxCoeff());
+    velocity = std::max(velocity, layout.rate(gap).maxCoeff());
   }
   for (const Complex& m : orbit.multipliers) {
     const Vec gap = (shot.multipliers.array() - m).abs();

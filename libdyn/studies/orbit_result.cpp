@@ -3,7 +3,7 @@
 namespace whirl::inline dyn {
 
 OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit) {
-  const auto n = scene.contacts.coordinates();
+  const StateLayout layout = scene.contacts.layout();
   const Mat map = scene.displacement_map();
   OrbitResult result{.multipliers = orbit.multipliers,
                      .exponents = orbit.exponents,
@@ -14,8 +14,8 @@ OrbitResult orbit_result(const Scene& scene, const FoundOrbit& orbit) {
   result.velocity = result.displacement;
   for (std::size_t i = 0; i < orbit.states.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    result.displacement.col(at) = map * orbit.states[i].head(n);
-    result.velocity.col(at) = map * orbit.states[i].tail(n);
+    result.displacement.col(at) = map * layout.eta(orbit.states[i]);
+    result.velocity.col(at) = map * layout.rate(orbit.states[i]);
   }
   return result;
 }

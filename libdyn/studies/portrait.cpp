@@ -18,11 +18,11 @@ constexpr int sectors = 36;       ///< around a stator
 
 /// Last sections at a point along x or y, one per column.
 Vec sections_at(const Scene& scene, const Classification& found, const Point& point, Component c) {
-  const auto n = scene.contacts.coordinates();
-  const Eigen::Map<const Mat> states(found.sections.data(), 2 * n,
-                                     std::ssize(found.sections) / (2 * n));
+  const StateLayout layout = scene.contacts.layout();
+  const Eigen::Map<const Mat> states(found.sections.data(), layout.size(),
+                                     std::ssize(found.sections) / layout.size());
   const Mat map = scene.displacement_map();
-  return (map.row(scene.reduced.dofs.full_index(point, c)) * states.topRows(n)).transpose();
+  return (map.row(scene.reduced.dofs.full_index(point, c)) * layout.eta(states)).transpose();
 }
 
 /// Share of samples in touch, by the angle to which the rotor is displaced there.
@@ -48,10 +48,10 @@ Mat contact_angles(const ContactSystem& system, const Recording& recording) {
 void add_probe_sections(const Scene& scene, const Classification& found, long sections,
                         Portrait& to) {
   if (probes_of(scene).empty()) return;
-  const auto n = scene.contacts.coordinates();
-  const Eigen::Map<const Mat> states(found.sections.data(), 2 * n,
-                                     std::ssize(found.sections) / (2 * n));
-  const Mat readings = probe_rows(scene, scene.displacement_map()) * states.topRows(n);
+  const StateLayout layout = scene.contacts.layout();
+  const Eigen::Map<const Mat> states(found.sections.data(), layout.size(),
+                                     std::ssize(found.sections) / layout.size());
+  const Mat readings = probe_rows(scene, scene.displacement_map()) * layout.eta(states);
   to.probe_sections =
       Mat::Constant(readings.rows(), sections, std::numeric_limits<double>::quiet_NaN());
   to.probe_sections.leftCols(readings.cols()) = readings;

@@ -77,7 +77,7 @@ TorusResult torus_result(const Scene& scene, const TorusBranch& torus,
   for (Eigen::Index j = 0; j < count; ++j) {
     result.angles(j) = turn * static_cast<double>(j) / static_cast<double>(count);
   }
-  const Mat coordinates = circle.points.topRows(scene.contacts.coordinates());
+  const Mat coordinates = scene.contacts.layout().eta(circle.points);
   result.displacement = (scene.displacement_map() * coordinates).transpose();
   result.frequency = result.rotation * scene.contacts.Omega();
   if (!circle.is_good()) result.failure = failure_text(torus);

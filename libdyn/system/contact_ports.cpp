@@ -366,8 +366,10 @@ std::string sticks_on(const ContactSystem& system, const Periodic& motion) {
       if (span.begins) continue;  // it does not begin with a reversal
       if (span.is_whole()) continue;
       const auto [x, rate] = motion.at(span.from);
-      Vec y(2 * x.size());
-      y << x, rate;
+      const StateLayout layout = system.layout();
+      Vec y(layout.size());
+      layout.eta(y) = x;
+      layout.rate(y) = rate;
       const double phase = motion.phase(span.from);
       const ContactStates states = system.classify(phase, y.data());
       if (system.hold(phase, y.data(), states, static_cast<int>(i)).is_enough()) return c.name;

@@ -15,13 +15,14 @@ constexpr double rest_slip = 1e-12;  ///< of the rim speed: as good as no slip
 
 }  // namespace
 
-ContactForces kinematics(const ReducedContact& c, const double* y, int coordinates) {
+ContactForces kinematics(const ReducedContact& c, const double* y, StateLayout layout) {
   assert(!c.turns());
-  return kinematics(c, 0.0, y, coordinates);
+  return kinematics(c, 0.0, y, layout);
 }
 
-ContactForces kinematics(const ReducedContact& c, double phase, const double* y, int coordinates) {
-  const Eigen::Map<const Vec> eta(y, coordinates), rate(y + coordinates, coordinates);
+ContactForces kinematics(const ReducedContact& c, double phase, const double* y,
+                         StateLayout layout) {
+  const auto eta = layout.eta(y), rate = layout.rate(y);
   const Vec2 d = c.U * eta - c.offset, w = c.U * rate, v = c.rubs_apart() ? Vec2(c.V * rate) : w;
   return kinematics(c, phase, {{d(0), d(1)}, {w(0), w(1)}, {v(0), v(1)}});
 }
@@ -90,9 +91,8 @@ double ContactSystem::phase_rate() const {
 }
 
 void ContactSystem::smooth_acceleration(const Instant& at, const double* y, double* a) const {
-  const int n = coordinates();
-  Eigen::Map<Vec> result(a, n);
-  const Eigen::Map<const Vec> eta(y, n), rate(y + n, n);
+  Eigen::Map<Vec> result(a, coordinates());
+  const auto eta = layout().eta(y), rate = layout().rate(y);
   result = f0_ + std::cos(at.phase) * fc_ + std::sin(at.phase) * fs_;
   for (const Oscillation& o : oscillations_) {
     const double alpha = o.angle(at);
@@ -100,12 +100,12 @@ void ContactSystem::smooth_acceleration(const Instant& at, const double* y, doub
   }
   result.noalias() -= K_ * eta;
   result.noalias() -= D_ * rate;
-  for (const ReducedFilm& film : films_) result.noalias() += film.B * film_force(film, y, n);
+  for (const ReducedFilm& film : films_) result.noalias() += film.B * film_force(film, y, layout());
 }
 
 const ReducedFilm* ContactSystem::left_bearing(const double* y) const {
   for (const ReducedFilm& film : films_) {
-    if (!(eccentricity(film, y, coordinates()) < 1.0)) return &film;
+    if (!(eccentricity(film, y, layout()) < 1.0)) return &film;
   }
   return nullptr;
 }
@@ -118,7 +118,7 @@ void ContactSystem::forces(const Instant& at, const double* y, const ContactStat
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     out[i] = {};
     if (contacts_[i].turns() && states[i].touch == Touch::apart) continue;  // most of many
-    out[i] = kinematics(contacts_[i], at.phase, y, n);
+    out[i] = kinematics(contacts_[i], at.phase, y, layout());
     if (leads(states, i)) {
       sticking.push_back(static_cast<int>(i));
     } else if (states[i].touch == Touch::sliding) {
@@ -256,12 +256,11 @@ ContactStates ContactSystem::classify(const Instant& at, const double* y) const 
 }
 
 void ContactSystem::remove_slip(double* y, const ContactStates& states) const {
-  const int n = coordinates();
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (!leads(states, i)) continue;
-    const ContactForces f = kinematics(contacts_[i], y, n);
+    const ContactForces f = kinematics(contacts_[i], y, layout());
     const Vec impulse = contacts_[i].B * f.t();  // velocity from one along t: keeps the momentum
-    Eigen::Map<Vec>(y + n, n) -= impulse * (f.slip / f.t().dot(contacts_[i].U * impulse));
+    layout().rate(y) -= impulse * (f.slip / f.t().dot(contacts_[i].U * impulse));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "libdyn/system/film.hpp"
+#include "libdyn/system/layout.hpp"
 #include "libdyn/system/model.hpp"
 #include "libfe/assembly/assemble.hpp"
 
@@ -109,7 +110,7 @@ struct Oscillation {
 ///   eta'' = f0 + fc cos(phase) + fs sin(phase) - K eta - D eta' - sum_j B_j (N_j n_j + T_j t_j)
 ///           + sum_i B_i F_i + loads of other frequencies
 ///
-/// M is multiplied out. The state of an integration is (eta, eta'), size 2 n; phase = Omega t.
+/// M is multiplied out. The state of an integration is (eta, eta'), as its layout() has it; phase = Omega t.
 /// A value: copy it, one per thread.
 class ContactSystem {
  public:
@@ -118,7 +119,8 @@ class ContactSystem {
                 const std::vector<Contact>& contacts, const std::vector<OilFilm>& films = {});
 
   int coordinates() const { return static_cast<int>(K_.rows()); }
-  int size() const { return 2 * coordinates(); }
+  StateLayout layout() const { return StateLayout(K_.rows()); }
+  int size() const { return layout().size(); }
   double Omega() const { return Omega_; }
   /// Duration of a revolution [s]; one second if the rotor does not spin.
   double period() const;
@@ -149,7 +151,7 @@ class ContactSystem {
   const Vec& state_scale() const { return scale_; }
 
   /// eta'' for given states of the contacts.
-  /// @param y  state, size 2 n
+  /// @param y  state, as layout() has it
   /// @param a  receives n accelerations
   void acceleration(const Instant& at, const double* y, const ContactStates& states,
                     double* a) const;
@@ -215,10 +217,10 @@ double distance(const ContactSystem& system, const Vec& a, const Vec& b);
 
 /// Kinematics and normal force of one contact; friction is left zero.
 ContactForces kinematics(const ReducedContact& contact, double phase, const double* y,
-                         int coordinates);
+                         StateLayout layout);
 
 /// The same of a contact that does not turn and so does not ask for the phase.
-ContactForces kinematics(const ReducedContact& contact, const double* y, int coordinates);
+ContactForces kinematics(const ReducedContact& contact, const double* y, StateLayout layout);
 
 /// The same from the motion of the gap.
 ContactForces kinematics(const ReducedContact& contact, double phase,

@@ -175,9 +175,8 @@ void ContactSystem::find_scales(const Reduction& by) {
   length_scale_ = is_free ? size_of_motion(by) : std::numeric_limits<double>::infinity();
   for (const ReducedContact& c : contacts_) length_scale_ = std::min(length_scale_, c.clearance);
   for (const ReducedFilm& film : films_) length_scale_ = std::min(length_scale_, film.clearance);
-  const int n = coordinates();
-  scale_.resize(2 * n);
-  for (int i = 0; i < n; ++i) {
+  scale_.resize(size());
+  for (int i = 0; i < coordinates(); ++i) {
     double largest = 0.0;
     for (const Point& p : by.reduced.dofs.points()) {
       for (const int component : {X, Y}) {
@@ -190,7 +189,7 @@ void ContactSystem::find_scales(const Reduction& by) {
       largest = std::max(largest, c.U.col(i).cwiseAbs().maxCoeff());
     }
     scale_(i) = largest > 0.0 ? length_scale_ / largest : length_scale_;
-    scale_(n + i) = scale_(i) * phase_rate();
+    scale_(layout().place_of_rate(i)) = scale_(i) * phase_rate();
   }
 }
 

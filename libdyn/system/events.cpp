@@ -93,8 +93,7 @@ double EventWatcher::value(const Event& event, const Instant& at, const double* 
     return stick_margin(event.contact, system_.hold(at, y, states, event.contact));
   }
   const auto i = static_cast<std::size_t>(event.contact);
-  return value(event, kinematics(system_.contacts()[i], at.phase, y, system_.coordinates()),
-               states[i]);
+  return value(event, kinematics(system_.contacts()[i], at.phase, y, system_.layout()), states[i]);
 }
 
 double EventWatcher::stick_margin(int contact, const Hold& hold) const {
@@ -183,7 +182,7 @@ void EventWatcher::enter_touch(int contact, const Instant& at, const double* y,
     states[i] = states[j];
     return;
   }
-  const ContactForces f = kinematics(c, at.phase, y, system_.coordinates());
+  const ContactForces f = kinematics(c, at.phase, y, system_.layout());
   states[i] = {Touch::sliding, f.slip >= 0.0 ? 1.0 : -1.0};
   const bool is_at_rest = std::abs(f.slip) <= 1e-12 * speed_scale_[i];
   if (c.friction.is_exact() && is_at_rest) {
@@ -224,7 +223,7 @@ void EventWatcher::apply(const Event& event, const Instant& at, const double* y,
       states[i] = {Touch::apart, 1.0};
       break;
     case EventKind::release:
-      if (is_continuous(c.law) || kinematics(c, at.phase, y, system_.coordinates()).depth <= 0.0) {
+      if (is_continuous(c.law) || kinematics(c, at.phase, y, system_.layout()).depth <= 0.0) {
         surface = bit(EventKind::touch);
         states[i] = {Touch::apart, 1.0};
         break;

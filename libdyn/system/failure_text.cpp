@@ -15,7 +15,7 @@ int deepest_place(const ContactSystem& system, const MotionState& state, int own
   double depth = -std::numeric_limits<double>::infinity();
   for (const ReducedContact& c : system.contacts()) {
     if (c.owner != owner) continue;
-    const double d = kinematics(c, state.phase, state.y.data(), system.coordinates()).depth;
+    const double d = kinematics(c, state.phase, state.y.data(), system.layout()).depth;
     if (d <= depth) continue;
     depth = d;
     deepest = c.place;
@@ -32,14 +32,14 @@ std::string failure_text(const ContactSystem& system, const MotionState& state,
   for (std::size_t i = 0; i < state.contacts.size(); ++i) {
     const ReducedContact& c = system.contacts()[i];
     if (c.turns() && c.place != deepest_place(system, state, c.owner)) continue;
-    const ContactForces f = kinematics(c, state.phase, state.y.data(), system.coordinates());
+    const ContactForces f = kinematics(c, state.phase, state.y.data(), system.layout());
     contacts += fmt::format(
         "; contact \"{}\" {}, {:.4g} clearances from its center, slip {:.3g} m/s", c.name,
         words[static_cast<int>(state.contacts[i].touch)], 1.0 + f.depth / c.clearance, f.slip);
   }
   for (const ReducedFilm& film : system.films()) {
     contacts += fmt::format("; journal of oil film \"{}\" at {:.8g} of its clearance", film.name,
-                            eccentricity(film, state.y.data(), system.coordinates()));
+                            eccentricity(film, state.y.data(), system.layout()));
   }
   return fmt::format("{} in revolution {} at {:.3f} of it{}; largest coordinate {:.3g} scales",
                      what, state.revolution, state.phase / (2.0 * std::numbers::pi), contacts,
@@ -51,8 +51,8 @@ std::string left_bearing_text(const ReducedFilm& film) {
 }
 
 bool is_boundless(const ContactSystem& system, const Vec& y) {
-  const auto n = system.coordinates();
-  const auto sizes = y.head(n).array() / system.state_scale().head(n).array();
+  const StateLayout layout = system.layout();
+  const auto sizes = layout.eta(y).array() / layout.eta(system.state_scale()).array();
   return !(sizes.abs().maxCoeff() < boundless);
 }
 

@@ -12,9 +12,8 @@ namespace whirl::inline dyn {
 namespace {
 
 /// Displacement over the clearance.
-Vec2 place(const ReducedFilm& film, const double* y, int coordinates) {
-  const Eigen::Map<const Vec> eta(y, coordinates);
-  return (film.U * eta - film.offset) / film.clearance;
+Vec2 place(const ReducedFilm& film, const double* y, StateLayout layout) {
+  return (film.U * layout.eta(y) - film.offset) / film.clearance;
 }
 
 }  // namespace
@@ -33,14 +32,13 @@ FilmAtSpeed at_speed(const OilFilm& film, double Omega) {
       film.law);
 }
 
-double eccentricity(const ReducedFilm& film, const double* y, int coordinates) {
-  return place(film, y, coordinates).norm();
+double eccentricity(const ReducedFilm& film, const double* y, StateLayout layout) {
+  return place(film, y, layout).norm();
 }
 
-Vec2 film_force(const ReducedFilm& film, const double* y, int coordinates) {
-  const Vec2 d = place(film, y, coordinates);
-  const Eigen::Map<const Vec> rate(y + coordinates, coordinates);
-  const Vec2 v = film.U * rate / (film.clearance * film.rate);
+Vec2 film_force(const ReducedFilm& film, const double* y, StateLayout layout) {
+  const Vec2 d = place(film, y, layout);
+  const Vec2 v = film.U * layout.rate(y) / (film.clearance * film.rate);
   const auto [fx, fy] = std::visit(
       [&](const auto& law) {
         return law.force(d(0), d(1), film.spin * d(0) - 2.0 * v(1), film.spin * d(1) + 2.0 * v(0));

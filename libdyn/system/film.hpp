@@ -6,6 +6,7 @@
 
 #include "libbase/numerics/linalg.hpp"
 #include "libcontact/oil_film.hpp"
+#include "libdyn/system/layout.hpp"
 
 namespace whirl::inline dyn {
 
@@ -30,10 +31,10 @@ struct ReducedFilm : FilmAtSpeed {
 };
 
 /// Eccentricity of the journal over the clearance; the film is torn where it is 1 or more.
-double eccentricity(const ReducedFilm& film, const double* y, int coordinates);
+double eccentricity(const ReducedFilm& film, const double* y, StateLayout layout);
 
 /// Force on the journal [N]; no number outside the bearing.
-Vec2 film_force(const ReducedFilm& film, const double* y, int coordinates);
+Vec2 film_force(const ReducedFilm& film, const double* y, StateLayout layout);
 
 /// Force on a journal and its exact slopes.
 struct FilmSlopes {

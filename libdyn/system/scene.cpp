@@ -141,8 +141,8 @@ NearestCoordinates::NearestCoordinates(const Scene& scene)
 
 FullState full_state(const Scene& scene, const MotionState& state) {
   const Mat map = scene.displacement_map();
-  const auto n = scene.contacts.coordinates();
-  return {map * state.y.head(n), map * state.y.tail(n)};
+  const StateLayout layout = scene.contacts.layout();
+  return {map * layout.eta(state.y), map * layout.rate(state.y)};
 }
 
 }  // namespace whirl::inline dyn

@@ -31,10 +31,10 @@ struct Step {
 
   Instant instant(double s) const { return {phase + s * turn, revolution}; }
 
-  /// State at 0 <= s <= 1, 2 n numbers.
+  /// State at 0 <= s <= 1.
   void at(double s, double* y) const {
-    const auto n = q.rows();
-    Eigen::Map<Vec> displacement(y, n), rate(y + n, n);
+    const StateLayout layout(q.rows());
+    auto displacement = layout.eta(y), rate = layout.rate(y);
     displacement = q.col(q.cols() - 1);
     for (auto k = q.cols() - 2; k >= 0; --k) displacement = displacement * s + q.col(k);
     rate = v.col(v.cols() - 1);

@@ -50,6 +50,7 @@ template <int Bodies>
 HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
   constexpr int at_once = Bodies > 0 ? 2 * Bodies : 2;  // coordinates, whose chains overlap
   const int n = Bodies > 0 ? 2 * Bodies : n_;
+  P* const rates = StateLayout(n).rates_at(y);
   const Mask active = mask_of<P>(active_);
   const auto& t = as<PlainOf<P>>(h);
   for (int first = 0; first < n; first += at_once) {
@@ -68,7 +69,7 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
       });
     }
     each<at_once>(0, [&](int i) HWY_ATTR {
-      P &to_x = y[place(i)], &to_v = y[n + place(i)];
+      P &to_x = y[place(i)], &to_v = rates[place(i)];
       to_x = select(active, x[i], to_x);
       to_v = select(active, v[i], to_v);
     });
@@ -80,8 +81,8 @@ HWY_ATTR void Engine<P>::evaluate(const P* terms, const P& h, P* y) const {
       for (int k = N + 2; k >= 2; --k) {
         a = fma(a, t, PlainOf<P>(k * (k - 1.0)) * terms[k * n + i].x);
       }
-      y[i].s = fma(wide(y[n + i].x), h.s, y[i].s);
-      y[n + i].s = fma(wide(a), h.s, y[n + i].s);
+      y[i].s = fma(wide(rates[i].x), h.s, y[i].s);
+      rates[i].s = fma(wide(a), h.s, rates[i].s);
     }
   }
 }

@@ -19,7 +19,7 @@ namespace HWY_NAMESPACE {
 
 template <class P>
 HWY_ATTR void Engine<P>::prepare_tangents() {
-  const size_t size = 2 * static_cast<size_t>(n_);
+  const auto size = static_cast<size_t>(layout_.size());
   auto& t = *tangents_;
   t.columns.assign(size * size, P(0.0));
   t.log_sums.assign(size, P(0.0));
@@ -43,7 +43,7 @@ HWY_ATTR void Engine<P>::prepare_tangents() {
 template <class P>
 HWY_ATTR void Engine<P>::load_tangents(int l, const ContactSystem& s) {
   auto& t = *tangents_;
-  const int size = 2 * n_;
+  const int size = layout_.size();
   Vec scale(size);
   scale << s.state_scale();
   for (int c = 0; c < size; ++c) {
@@ -204,8 +204,10 @@ HWY_ATTR void Engine<P>::move_columns(P* columns, bool any_sticks, const P& h) {
   auto& [first, second] = t.tracks;
   const int n = Bodies > 0 ? 2 * Bodies : n_;
   const size_t contacts = Bodies > 0 ? 1 : contacts_.size();
-  std::copy(columns, columns + 2 * n, first.terms.data());
-  std::copy(columns + 2 * n, columns + 4 * n, second.terms.data());
+  const StateLayout layout(n);
+  P* const next = layout.end(columns);
+  std::copy(columns, next, first.terms.data());
+  std::copy(next, layout.end(next), second.terms.data());
   P local_forces[4], local_a[Bodies > 0 ? 2 * Bodies : 1], local_b[Bodies > 0 ? 2 * Bodies : 1];
   P* forces = Bodies > 0 ? local_forces : t.forces.data();
   for (int k = 0; k <= N; ++k) {
@@ -249,7 +251,7 @@ HWY_ATTR void Engine<P>::move_columns(P* columns, bool any_sticks, const P& h) {
     });
   }
   evaluate<Bodies>(first.terms.data(), h, columns);
-  evaluate<Bodies>(second.terms.data(), h, columns + 2 * n);
+  evaluate<Bodies>(second.terms.data(), h, next);
 }
 
 /// Change of the friction of sticking contacts, so that a column stays without slip:
@@ -334,7 +336,7 @@ HWY_ATTR void Engine<P>::orthonormalize(uint64_t due) {
   if (due == 0) return;
   auto& t = *tangents_;
   const Mask where = mask_of<P>(due);
-  const size_t size = 2 * static_cast<size_t>(n_);
+  const auto size = static_cast<size_t>(layout_.size());
   for (size_t c = 0; c < size; ++c) {
     P* a = t.columns.data() + c * size;
     P square(0.0);
@@ -370,12 +372,13 @@ HWY_ATTR void Engine<P>::keep_growths(uint64_t ends) {
 template <class P>
 HWY_ATTR void Engine<P>::jump_tangents(int l, const Saltation& s) {
   auto& t = *tangents_;
-  const int size = 2 * n_;
+  const int size = layout_.size();
   for (int c = 0; c < size; ++c) {
     P* column = t.columns.data() + static_cast<size_t>(c) * static_cast<size_t>(size);
     double along = 0.0;
     for (int i = 0; i < size; ++i) along += s.gradient(i) * lane(column[i], l);
-    for (int i = n_; i < size; ++i) set_lane(column[i], l, lane(column[i], l) + s.jump(i) * along);
+    for (int i = layout_.place_of_rate(0); i < size; ++i)
+      set_lane(column[i], l, lane(column[i], l) + s.jump(i) * along);
   }
   set_lane(t.divergence, l, lane(t.divergence, l) + s.log_determinant());
 }
@@ -383,7 +386,7 @@ HWY_ATTR void Engine<P>::jump_tangents(int l, const Saltation& s) {
 template <class P>
 HWY_ATTR void Engine<P>::unload_tangents(int l, double time, Trajectory& to) {
   auto& t = *tangents_;
-  const int size = 2 * n_;
+  const int size = layout_.size();
   if (options_.tangent) {
     to.tangent.resize(size, size);
     for (int c = 0; c < size; ++c) {

@@ -137,11 +137,11 @@ struct FilmLanes {
     fill(slopes_y, J.yx, J.yy, H.yx, H.yy);
   }
 
-  /// The force at a state, for one-step methods; `y` has displacements, then velocities.
-  HWY_ATTR void add_force(const P* y, int n, P* acceleration, P& thinnest) const {
+  /// The force at displacements and their rates, for one-step methods.
+  HWY_ATTR void add_force(const P* y, const P* rate, P* acceleration, P& thinnest) const {
     P dx, dy, vx, vy;
     displacement(y, dx, dy);
-    displacement(y + n, vx, vy);
+    displacement(rate, vx, vy);
     dx = (dx - offset_x) * inverse_clearance;
     dy = (dy - offset_y) * inverse_clearance;
     const P a = fnma(twice_inverse_speed, vy, spin * dx),

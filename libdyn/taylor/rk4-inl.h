@@ -31,9 +31,10 @@ class Rk4Lanes {
   using Mask = typename P::Mask;
 
   explicit Rk4Lanes(const Pattern& pattern)
-      : pattern_(pattern), n_(pattern.n), equations_(pattern) {
-    const auto n = static_cast<size_t>(n_);
-    for (std::vector<P>* v : {&y_, &stage_, &k_, &sum_, &start_}) v->assign(2 * n, P(0.0));
+      : pattern_(pattern), layout_(pattern.n), n_(pattern.n), equations_(pattern) {
+    for (std::vector<P>* v : {&y_, &stage_, &k_, &sum_, &start_}) {
+      v->assign(static_cast<size_t>(layout_.size()), P(0.0));
+    }
     contacts_.reserve(pattern.contacts.size());
     for (const Pattern::ContactRows& rows : pattern.contacts) contacts_.emplace_back(rows);
     for (const Pattern::FilmRows& rows : pattern.films) {
@@ -74,7 +75,7 @@ class Rk4Lanes {
         }
         if (is_good && revolution < t.revolutions) continue;
         const std::vector<P>& y = is_good ? y_ : start_;
-        for (int i = 0; i < 2 * n_; ++i) t.state.y(i) = lane(y[static_cast<size_t>(i)], l);
+        for (int i = 0; i < layout_.size(); ++i) t.state.y(i) = lane(y[static_cast<size_t>(i)], l);
         t.state.contacts = t.system->classify(t.state.instant(), t.state.y.data());
         if (!is_good) {
           const bool left = (inside & bit) == 0;
@@ -97,7 +98,7 @@ class Rk4Lanes {
     }
     for (size_t i = 0; i < films_.size(); ++i) films_[i]->load(s.films()[i], l);
     for (const auto& disk : disks_) disk->load(s.contacts()[disk->first], l, s.phase_rate());
-    for (int i = 0; i < 2 * n_; ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
+    for (int i = 0; i < layout_.size(); ++i) set_lane(y_[static_cast<size_t>(i)], l, t.state.y(i));
     set_lane(rate_, l, s.phase_rate());
     set_lane(period_, l, s.period());
     set_lane(time_, l, t.state.phase / s.phase_rate());
@@ -119,7 +120,7 @@ class Rk4Lanes {
 
   /// Moves active lanes to the end of their revolution.
   HWY_ATTR void turn(const Mask& active, long steps) {
-    const auto size = static_cast<size_t>(2 * n_);
+    const auto size = static_cast<size_t>(layout_.size());
     const P h = select(active, (period_ - time_) / P(static_cast<double>(steps)), P(0.0));
     const P half = P(0.5) * h, sixth = h * P(1.0 / 6.0);
     P sine, cosine;
@@ -158,12 +159,13 @@ class Rk4Lanes {
   /// k = (eta', eta'') of a state.
   HWY_ATTR void derivative(const P* y, const P& sine, const P& cosine) {
     const EquationLanes<P>& e = equations_;
-    P* a = k_.data() + n_;
+    P* a = layout_.rates_at(k_.data());
+    const P* rate = layout_.rates_at(y);
     for (int i = 0; i < n_; ++i) {
       const auto ui = static_cast<size_t>(i);
-      k_[ui] = y[n_ + i];
+      k_[ui] = rate[i];
       const P load = fma(e.fc[ui], cosine, fma(e.fs[ui], sine, e.f0[ui]));
-      a[i] = fnma(e.K[ui], y[i], fnma(e.D[ui], y[n_ + i], load));
+      a[i] = fnma(e.K[ui], y[i], fnma(e.D[ui], rate[i], load));
     }
     for (size_t o = 0; o < swings_.size(); ++o) {
       const OscillationLanes<P>& of = e.oscillations[o];
@@ -175,14 +177,14 @@ class Rk4Lanes {
     for (const Pattern::OffDiagonal& row : pattern_.off_diagonal) {
       const P* factor = e.A.data() + row.begin;
       for (const int j : row.of_x) a[row.i] = fnma(*factor++, y[j], a[row.i]);
-      for (const int j : row.of_rate) a[row.i] = fnma(*factor++, y[n_ + j], a[row.i]);
+      for (const int j : row.of_rate) a[row.i] = fnma(*factor++, rate[j], a[row.i]);
     }
     for (const auto& disk : disks_) {
       disk->sine[0] = disk->turns * sine;
       disk->cosine[0] = fma(disk->turns, cosine, P(1.0) - disk->turns);
     }
     for (const ContactLanes<P>& c : contacts_) push(c, y, a);
-    for (const auto& film : films_) film->add_force(y, n_, a, thinnest_);
+    for (const auto& film : films_) film->add_force(y, rate, a, thinnest_);
   }
 
   /// Adds the force of a contact where it touches and pushes.
@@ -203,7 +205,7 @@ class Rk4Lanes {
     const P s = fma(dx, dx, dy * dy);
     const Mask beyond = less(c.clearance2, s);
     if (!any(s, beyond)) return;
-    c.displacement(y + n_, vx, vy);
+    c.displacement(layout_.rates_at(y), vx, vy);
     if (c.disk) {
       const P spin = c.disk->turns * c.disk->rate;
       vx = fnma(spin, tip_y, vx);
@@ -224,7 +226,7 @@ class Rk4Lanes {
     const P &nx = c.dx[0], &ny = c.dy[0], depth = fma(nx, x, ny * yy) - c.plane_at, nothing(0.0);
     const Mask beyond = less(nothing, depth);
     if (!any(depth, beyond)) return;
-    c.displacement(y + n_, vx, vy);
+    c.displacement(layout_.rates_at(y), vx, vy);
     const P rate = fma(nx, vx, ny * vy);
     const P N = with_alternative(c.law, [&](const auto& law) HWY_ATTR {
       return law.normal(select(beyond, depth, nothing), rate);
@@ -240,7 +242,7 @@ class Rk4Lanes {
       c.push(a, q * dx, q * dy);
       return;
     }
-    if (c.rub) c.rub->lateral(y + n_, vx, vy);
+    if (c.rub) c.rub->lateral(layout_.rates_at(y), vx, vy);
     const P slip = fma(fma(dx, vy, -(dy * vx)), inverse_r, c.rim);
     P share = select(both(mask_of<P>(c.exact), less(slip, P(0.0))), P(-1.0), P(1.0));
     if (c.smooth != 0) share = select(mask_of<P>(c.smooth), tanh(slip * c.inverse_width), share);
@@ -266,6 +268,7 @@ class Rk4Lanes {
   };
 
   const Pattern& pattern_;
+  StateLayout layout_;
   int n_;
   EquationLanes<P> equations_;
   std::vector<Swing> swings_;

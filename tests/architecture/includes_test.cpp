@@ -180,6 +180,24 @@ TEST(Architecture, ALibraryDeclaresInItsNamespaceOrInOneBelow) {
   EXPECT_GT(found, 400u);
 }
 
+// What stands where in a state, StateLayout says. Orders of orbits and halves of periods are others' numbers.
+TEST(Architecture, OneFileKnowsTheOrderOfAState) {
+  const std::regex order(
+      R"(\b2 \* n_?\b|\b2 \* [a-z_.>-]*coordinates\(\)|\by(_\.data\(\))? \+ n_?\b|\by\.(head|tail)\(|\b(head|tail|topRows|bottomRows)\([a-z_.]*coordinates\(\)\))");
+  const auto spoken = [&](const char* folder) {
+    Lines found = lines_in(folder, order);
+    std::erase_if(found, [](const auto& at) { return at.first == "libdyn/system/layout.hpp"; });
+    return found;
+  };
+  for (const char* folder : {"libdyn", "libdata"}) {
+    for (const auto& [file, words] : spoken(folder)) {
+      ADD_FAILURE() << file << " splits a state by hand: " << words
+                    << ", expected StateLayout of libdyn/system/layout.hpp";
+    }
+  }
+  EXPECT_FALSE(lines_in("tests", order).empty());  // the pattern finds what it looks for
+}
+
 // They serve programs of any kind: what is wrong they say in words of the field, and the program adds
 // which of its options does it (OptionError).
 TEST(Architecture, LibrariesThatComputeDoNotSpeakCommandLine) {

@@ -29,9 +29,8 @@ int main() {
   const double I = std::numbers::pi * std::pow(diameter, 4) / 64.0;
   const double exact = std::sqrt(48.0 * 211e9 * I / (mass * std::pow(length, 3)));
   std::printf("%.6f rad/s, in closed form %.6f rad/s\n", found, exact);
-  const whirl::Simulation motion =
-      whirl::simulate(scene, {.y = whirl::Vec::Zero(2 * scene.contacts.coordinates())},
-                      {.revolutions = 10, .discard = 0});
+  const whirl::Simulation motion = whirl::simulate(
+      scene, {.y = whirl::Vec::Zero(scene.contacts.size())}, {.revolutions = 10, .discard = 0});
   const bool is_right = std::abs(found - exact) < 1e-6 * exact &&
                         motion.integration.outcome == whirl::Outcome::reached_end;
   return is_right ? 0 : 1;
