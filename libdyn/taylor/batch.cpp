@@ -25,8 +25,12 @@ const char* name_of_target() {
 }
 
 int two_registers() {  // of engine_two_packs.cpp
+#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
+  return 1;
+#else
   return 2 *
          static_cast<int>(hwy::HWY_NAMESPACE::Lanes(hwy::HWY_NAMESPACE::CappedTag<double, 8>()));
+#endif
 }
 
 }  // namespace HWY_NAMESPACE

@@ -69,7 +69,8 @@ class Engine {
     }
     trajectory_.assign(static_cast<size_t>(lanes_), nullptr);
     records_.resize(static_cast<size_t>(lanes_));
-    if (wants_tangents) {
+    if constexpr (knows_tangents) {
+      if (!wants_tangents) return;
       tangents_ = std::make_unique<Tangents<P>>();
       prepare_tangents();
     }
@@ -186,7 +187,8 @@ class Engine {
 
   // engine_tangents-inl.h
   /// Packs of several registers are for motions alone: their tangents would not fit the caches.
-  bool has_tangents() const { return P::blocks == 1 && tangents_ != nullptr; }
+  static constexpr bool knows_tangents = P::blocks == 1;
+  bool has_tangents() const { return knows_tangents && tangents_ != nullptr; }
   HWY_ATTR void prepare_tangents();
   HWY_ATTR void load_tangents(int l, const ContactSystem& s);
   HWY_ATTR void unload_tangents(int l, double time, Trajectory& to);
@@ -305,7 +307,9 @@ HWY_ATTR void Engine<P>::load(int l, Trajectory& t) {
   for (size_t p = 0; p < alike_.size(); ++p) {
     put(alike_[p], bit, s.slip_alike(pattern_.alike[p].first, pattern_.alike[p].second));
   }
-  if (has_tangents()) load_tangents(l, s);
+  if constexpr (knows_tangents) {
+    if (has_tangents()) load_tangents(l, s);
+  }
   if constexpr (carries_slopes<P>) load_slopes(t);
   active_ |= bit;
   if (t.revolutions <= 0) finished_ |= bit;
@@ -359,7 +363,7 @@ HWY_ATTR void Engine<P>::unload(int l) {
       m.max_tangential = std::max(m.max_tangential, lane(from.max_friction, l));
     }
   }
-  if constexpr (!carries_slopes<P>) {
+  if constexpr (knows_tangents && !carries_slopes<P>) {
     const double turns = static_cast<double>(record.revolution - record.first_revolution);
     const double start = record.first_phase / t.system->phase_rate();
     const double end = turns * t.system->period() + t.state.phase / t.system->phase_rate();

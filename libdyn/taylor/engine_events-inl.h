@@ -259,13 +259,14 @@ HWY_ATTR void Engine<P>::apply_rare_event(int l, size_t i) {
         t.system->set_group(states, index, {Touch::sticking, 1.0});
     }
   }
-  if (carries_slopes<P> || has_tangents()) {
+  if constexpr (carries_slopes<P>) {
     const auto jump = saltation(*t.system, event, at, y, before, states);
-    if constexpr (carries_slopes<P>) {
-      if (jump) has_tangents() ? note_jump(i, kind) : jump_slopes(i, kind, *jump);
-      tell_event(i, kind, jump.has_value());
-    } else if (jump) {
-      jump_tangents(l, *jump);
+    if (jump) has_tangents() ? note_jump(i, kind) : jump_slopes(i, kind, *jump);
+    tell_event(i, kind, jump.has_value());
+  } else if constexpr (knows_tangents) {
+    if (has_tangents()) {
+      const auto jump = saltation(*t.system, event, at, y, before, states);
+      if (jump) jump_tangents(l, *jump);
     }
   }
   t.system->remove_slip(y.data(), states);

@@ -112,7 +112,9 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   series();
   if constexpr (carries_slopes<P>) jump_deviations();
   P h = step_length();
-  if (has_tangents()) h = limit_for_tangents(h);
+  if constexpr (knows_tangents) {
+    if (has_tangents()) h = limit_for_tangents(h);
+  }
   if constexpr (carries_slopes<P>) h = limit_for_slopes(h);
   if (options_.fixed_step > 0.0) h = P(options_.fixed_step);
   for (const auto& film : films_) h = film->shortened(h, N);
@@ -138,7 +140,9 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
   bool goes_on = true;
   if (observer && instant == 0) goes_on = tell(*observer, lane(h, 0));
   if constexpr (carries_slopes<P>) h = end_of_step(h, fell, ends);
-  if (has_tangents()) move_tangents(h);
+  if constexpr (knows_tangents) {
+    if (has_tangents()) move_tangents(h);
+  }
   if (pattern_.bodies == 2) {
     evaluate<2>(terms_.data(), h, y_.data());
   } else {
@@ -162,9 +166,9 @@ HWY_ATTR void Engine<P>::step(const Observer* observer) {
       keep_deviations();
       finished_ |= 1;
     }
-  } else if (has_tangents()) {
-    if (options_.exponents) orthonormalize(due_lanes(ends));
-    if (options_.growths) keep_growths(ends);
+  } else if constexpr (knows_tangents) {
+    if (has_tangents() && options_.exponents) orthonormalize(due_lanes(ends));
+    if (has_tangents() && options_.growths) keep_growths(ends);
   }
   if (!goes_on) {
     trajectory_[0]->outcome = Outcome::stopped_by_observer;
